@@ -1,0 +1,97 @@
+//! A body: primitives, their user tags, and the tree over them.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::hierarchy::WrapperTree;
+use crate::pose::Vec3;
+use crate::primitive::Convex;
+
+/// A rigid union of convex primitives, in a frame of its own whose origin is `center` in the caller's frame: the middle
+/// of the primitives' box. Distances are computed around it, so that bodies modelled far from their origin lose nothing.
+#[derive(Debug)]
+pub struct Body {
+    serial: u64,
+    pub(super) dimension: u32,
+    pub(super) center: Vec3,
+    pub(super) radius: f64,
+    pub(super) primitives: Vec<Convex>,
+    pub(super) tags: Vec<u64>,
+    pub(super) tree: WrapperTree,
+    pub(super) statistics: BodyStatistics,
+}
+
+/// What became of the input, and what was built.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BodyStatistics {
+    pub primitives: u64,
+    /// Faces of meshes that were not convex or not planar and became several triangles.
+    pub faces_split: u64,
+    /// Faces of meshes that had no area and were left out.
+    pub faces_dropped: u64,
+    pub nodes: u64,
+    pub depth: u64,
+    /// The box of the body's vertices, in the caller's frame.
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+}
+
+impl Body {
+    pub(super) fn assemble(
+        dimension: u32,
+        center: Vec3,
+        primitives: Vec<Convex>,
+        tags: Vec<u64>,
+        tree: WrapperTree,
+        statistics: BodyStatistics,
+    ) -> Self {
+        static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
+        let vertices = primitives.iter().flat_map(|p| &p.vertices);
+        Self {
+            serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
+            dimension,
+            center,
+            radius: vertices.map(Vec3::norm).fold(0.0, f64::max),
+            primitives,
+            tags,
+            tree,
+            statistics,
+        }
+    }
+
+    /// A number no other body of this process has; caches key on it.
+    pub fn serial(&self) -> u64 {
+        self.serial
+    }
+
+    /// 2 for bodies of planar worlds, else 3.
+    pub fn dimension(&self) -> u32 {
+        self.dimension
+    }
+
+    /// The origin of the body's own frame, in the caller's frame.
+    pub fn center(&self) -> &Vec3 {
+        &self.center
+    }
+
+    /// The largest distance of a vertex from the centre.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The primitives, in the body's own (centred) frame.
+    pub fn primitives(&self) -> &[Convex] {
+        &self.primitives
+    }
+
+    pub fn tag(&self, primitive: u32) -> u64 {
+        self.tags[primitive as usize]
+    }
+
+    pub fn tree(&self) -> &WrapperTree {
+        &self.tree
+    }
+
+    pub fn statistics(&self) -> &BodyStatistics {
+        &self.statistics
+    }
+}

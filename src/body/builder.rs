@@ -1,0 +1,244 @@
+//! Collects primitives, checks each as it comes, and builds the body.
+
+use std::path::Path;
+
+use super::mesh_file::read_mesh_file;
+use super::{Body, BodyStatistics};
+use crate::error::{Error, ErrorKind, Result};
+use crate::hierarchy::{WrapperTree, split_by_median};
+use crate::pose::Vec3;
+use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
+
+/// How a hierarchy is built.
+#[derive(Clone, Copy, Debug)]
+pub struct HierarchyOptions {
+    /// Hulls with more vertices than this are replaced by oriented boxes (§2.3.4). At least 8.
+    pub hull_vertex_limit: u32,
+}
+
+impl Default for HierarchyOptions {
+    fn default() -> Self {
+        Self {
+            hull_vertex_limit: 32,
+        }
+    }
+}
+
+/// Primitives on their way to a body. A failed call adds nothing.
+#[derive(Debug)]
+pub struct BodyBuilder {
+    dimension: u32,
+    primitives: Vec<Convex>,
+    tags: Vec<u64>,
+    faces_split: u64,
+    faces_dropped: u64,
+}
+
+/// A mesh: vertices, and faces as runs of vertex indices.
+#[derive(Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub vertices: Vec<Vec3>,
+    pub face_sizes: Vec<u32>,
+    pub indices: Vec<u32>,
+}
+
+impl BodyBuilder {
+    /// For bodies of the plane (2) or of space (3).
+    pub fn new(dimension: u32) -> Result<Self> {
+        if dimension != 2 && dimension != 3 {
+            return Err(Error::invalid(format!(
+                "dimension must be 2 or 3, not {dimension}"
+            )));
+        }
+        Ok(Self {
+            dimension,
+            primitives: Vec::new(),
+            tags: Vec::new(),
+            faces_split: 0,
+            faces_dropped: 0,
+        })
+    }
+
+    /// Adds a convex polygon, vertices in cyclic order.
+    pub fn add_polygon(&mut self, vertices: &[Vec3], tag: u64) -> Result<()> {
+        self.require_planar(vertices)?;
+        self.push(convex_polygon(vertices)?, tag)
+    }
+
+    /// Adds the convex hull of points: a solid, or a flat polygon, segment or point where the points are no more.
+    pub fn add_polyhedron(&mut self, points: &[Vec3], tag: u64) -> Result<()> {
+        self.require_planar(points)?;
+        self.push(convex_polyhedron(points)?, tag)
+    }
+
+    /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles;
+    /// those without area are left out and counted.
+    pub fn add_mesh(&mut self, mesh: &Mesh) -> Result<()> {
+        self.require_planar(&mesh.vertices)?;
+        let mut added: Vec<(Convex, u64)> = Vec::new();
+        let (mut split, mut dropped) = (0, 0);
+        let mut rest = &mesh.indices[..];
+        for (f, &size) in mesh.face_sizes.iter().enumerate() {
+            let named = |error: Error| error.within(format_args!("face {f}"));
+            let (face, after) = rest.split_at_checked(size as usize).ok_or_else(|| {
+                Error::new(
+                    ErrorKind::WrongSize,
+                    format!(
+                        "face {f} needs {size} indices, but only {} are left",
+                        rest.len()
+                    ),
+                )
+            })?;
+            rest = after;
+            let corners = face
+                .iter()
+                .map(|&i| mesh.vertices.get(i as usize).copied())
+                .collect::<Option<Vec<Vec3>>>()
+                .ok_or_else(|| {
+                    Error::new(
+                        ErrorKind::NotFound,
+                        format!(
+                            "face {f} refers to a vertex that does not exist; there are {}",
+                            mesh.vertices.len()
+                        ),
+                    )
+                })?;
+            match split_face(&corners).map_err(named)? {
+                FaceSplit::Convex => added.push((convex_polygon(&corners)?, f as u64)),
+                FaceSplit::Degenerate => dropped += 1,
+                FaceSplit::Triangles(triangles) => {
+                    split += 1;
+                    for triangle in triangles {
+                        let corners = triangle.map(|i| corners[i as usize]);
+                        // A triangle without area covers nothing that its neighbours do not.
+                        if let Ok(polygon) = convex_polygon(&corners) {
+                            added.push((polygon, f as u64));
+                        }
+                    }
+                }
+            }
+        }
+        if !rest.is_empty() {
+            return Err(Error::new(
+                ErrorKind::WrongSize,
+                format!("{} indices are left after the last face", rest.len()),
+            ));
+        }
+        self.require_room(added.len())?;
+        for (primitive, tag) in added {
+            self.primitives.push(primitive);
+            self.tags.push(tag);
+        }
+        self.faces_split += split;
+        self.faces_dropped += dropped;
+        Ok(())
+    }
+
+    /// Adds the mesh in an OBJ or STL file.
+    pub fn add_mesh_file(&mut self, path: &Path) -> Result<()> {
+        let named = |error: Error| error.within(path.display());
+        let mesh = read_mesh_file(path).map_err(named)?;
+        self.add_mesh(&mesh).map_err(named)
+    }
+
+    pub fn len(&self) -> usize {
+        self.primitives.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.primitives.is_empty()
+    }
+
+    /// Builds the body from what was added so far; the builder stays as it is and may go on.
+    pub fn build(
+        &self,
+        options: &HierarchyOptions,
+        progress: &mut dyn FnMut(f64) -> Result<()>,
+    ) -> Result<Body> {
+        if self.primitives.is_empty() {
+            return Err(Error::new(
+                ErrorKind::Empty,
+                if self.faces_dropped > 0 {
+                    format!(
+                        "the body has no primitive: all {} faces had no area",
+                        self.faces_dropped
+                    )
+                } else {
+                    "the body has no primitive".to_string()
+                },
+            ));
+        }
+        if options.hull_vertex_limit < 8 {
+            return Err(Error::invalid(format!(
+                "hull_vertex_limit must be at least 8, not {}",
+                options.hull_vertex_limit
+            )));
+        }
+        progress(0.0)?;
+        let vertices = || self.primitives.iter().flat_map(|p| &p.vertices);
+        let first = self.primitives[0].vertices[0];
+        let low = vertices().fold(first, |low, v| low.inf(v));
+        let high = vertices().fold(first, |high, v| high.sup(v));
+        let center = low * 0.5 + high * 0.5;
+        let primitives: Vec<Convex> = self
+            .primitives
+            .iter()
+            .map(|primitive| primitive.clone().recentered(&center))
+            .collect();
+        let centers: Vec<Vec3> = primitives
+            .iter()
+            .map(|p| p.vertices.iter().sum::<Vec3>() / p.vertices.len() as f64)
+            .collect();
+        let tree = WrapperTree::build(
+            split_by_median(&centers),
+            &primitives,
+            options.hull_vertex_limit as usize,
+            progress,
+        )?;
+        let statistics = BodyStatistics {
+            primitives: primitives.len() as u64,
+            faces_split: self.faces_split,
+            faces_dropped: self.faces_dropped,
+            nodes: tree.subsets.nodes.len() as u64,
+            depth: tree.subsets.depth() as u64,
+            low: low.into(),
+            high: high.into(),
+        };
+        progress(1.0)?;
+        Ok(Body::assemble(
+            self.dimension,
+            center,
+            primitives,
+            self.tags.clone(),
+            tree,
+            statistics,
+        ))
+    }
+
+    fn push(&mut self, primitive: Convex, tag: u64) -> Result<()> {
+        self.require_room(1)?;
+        self.primitives.push(primitive);
+        self.tags.push(tag);
+        Ok(())
+    }
+
+    fn require_room(&self, more: usize) -> Result<()> {
+        if self.primitives.len() + more > u32::MAX as usize / 2 {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                "a body holds at most 2^31 primitives",
+            ));
+        }
+        Ok(())
+    }
+
+    fn require_planar(&self, points: &[Vec3]) -> Result<()> {
+        match points.iter().position(|p| p.z != 0.0) {
+            Some(i) if self.dimension == 2 => Err(Error::new(
+                ErrorKind::NotPlanar,
+                format!("vertex {i} of a planar body has z = {}, not 0", points[i].z),
+            )),
+            _ => Ok(()),
+        }
+    }
+}

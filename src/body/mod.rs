@@ -1,0 +1,9 @@
+//! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
+
+#[allow(clippy::module_inception)]
+mod body;
+mod builder;
+mod mesh_file;
+
+pub use body::{Body, BodyStatistics};
+pub use builder::{BodyBuilder, HierarchyOptions, Mesh};

@@ -1,0 +1,340 @@
+//! Contacts of a primitive pair: normal, contact mode, and the points that span parallel features (§4.4, Fig. 17).
+
+use nalgebra::Vector2;
+
+use super::closest::{Closest, Segment, closest_parameters};
+use super::distance::{feature_normal, gap_along};
+use super::placed::Placed;
+use crate::pose::Vec3;
+use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
+use crate::tolerance;
+
+/// The report's contact modes, r-feature first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactMode {
+    PointPoint,
+    PointEdge,
+    EdgePoint,
+    PointFace,
+    FacePoint,
+    EdgeEdge,
+}
+
+/// One contact of the r-primitive with the s-primitive: two points and the unit normal from s to r.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    pub points: [Vec3; 2],
+    pub normal: Vec3,
+    pub distance: f64,
+    pub mode: ContactMode,
+    pub features: [Feature; 2],
+}
+
+/// The contacts of the pair (r, s) whose closest points are `closest`, nearest first. `size` is L. In planar worlds
+/// normals lie in the plane. Empty when the interiors overlap deeper than [`tolerance::TOUCH_DEPTH`] L: containment has
+/// no contact.
+pub fn contacts(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    size: f64,
+    planar: bool,
+) -> Vec<Contact> {
+    let Some(normal) = contact_normal(r, s, closest, size, planar) else {
+        return Vec::new();
+    };
+    let slack = tolerance::PARALLEL * size;
+    let on_r = Supporting::new(r, &-normal, slack);
+    let on_s = Supporting::new(s, &normal, slack);
+    let mut found: Vec<Contact> = Vec::new();
+    let mut offer = |points: [Vec3; 2], features: [Feature; 2]| {
+        let gap = normal.dot(&(points[0] - points[1]));
+        let near = |other: &Contact| {
+            (other.points[0] - points[0]).norm() <= 1e-9 * size
+                && (other.points[1] - points[1]).norm() <= 1e-9 * size
+        };
+        if let (Some(mode), None) = (mode_of(features), found.iter().position(near)) {
+            found.push(Contact {
+                points,
+                normal,
+                distance: gap.max(0.0),
+                mode,
+                features,
+            });
+        }
+    };
+    if let Some(mode) = mode_of(closest.features)
+        && !(planar && mode == ContactMode::EdgeEdge)
+    {
+        offer(closest.points, closest.features);
+    }
+    // A corner of one supporting feature over the other one.
+    for (i, corner) in on_r.corners() {
+        if on_s.covers(&corner, slack) {
+            offer(
+                [corner, on_s.foot(&corner)],
+                [Feature::vertex(i), on_s.feature],
+            );
+        }
+    }
+    for (j, corner) in on_s.corners() {
+        if on_r.covers(&corner, slack) {
+            offer(
+                [on_r.foot(&corner), corner],
+                [on_r.feature, Feature::vertex(j)],
+            );
+        }
+    }
+    // Outlines that cross over one another.
+    if !planar {
+        for (edge_r, segment_r) in on_r.sides() {
+            for (edge_s, segment_s) in on_s.sides() {
+                let (t, u) = closest_parameters(&segment_r, &segment_s);
+                let inside = |x: f64| x > 0.0 && x < 1.0;
+                let points = [segment_r.at(t), segment_s.at(u)];
+                let between = points[0] - points[1];
+                let aside = between - normal * normal.dot(&between);
+                if inside(t) && inside(u) && aside.norm() <= slack {
+                    offer(points, [Feature::edge(edge_r), Feature::edge(edge_s)]);
+                }
+            }
+        }
+    }
+    found
+}
+
+fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
+    use FeatureKind::{Edge, Face, Vertex};
+    match (features[0].kind, features[1].kind) {
+        (Vertex, Vertex) => Some(ContactMode::PointPoint),
+        (Vertex, Edge) => Some(ContactMode::PointEdge),
+        (Edge, Vertex) => Some(ContactMode::EdgePoint),
+        (Vertex, Face) => Some(ContactMode::PointFace),
+        (Face, Vertex) => Some(ContactMode::FacePoint),
+        (Edge, Edge) => Some(ContactMode::EdgeEdge),
+        _ => None,
+    }
+}
+
+/// The unit normal from s to r: well apart, the direction between the points; nearer, where that direction loses its
+/// digits, the one along which the sets are farthest apart among those that the nearest features offer.
+fn contact_normal(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    size: f64,
+    planar: bool,
+) -> Option<Vec3> {
+    let between = closest.points[0] - closest.points[1];
+    if closest.distance > 1e-3 * size {
+        return between.try_normalize(0.0);
+    }
+    if closest
+        .features
+        .iter()
+        .any(|f| f.kind == FeatureKind::Interior)
+    {
+        return None;
+    }
+    let mut best: Option<(f64, Vec3)> = None;
+    let mut offer = |candidate: Vec3| {
+        let in_plane = if planar {
+            Vec3::new(candidate.x, candidate.y, 0.0)
+        } else {
+            candidate
+        };
+        let Some(n) = in_plane.try_normalize(1e-6) else {
+            return;
+        };
+        for n in [n, -n] {
+            let gap = gap_along(r, s, &n);
+            if best.is_none_or(|(most, _)| gap > most + 1e-13 * size) {
+                best = Some((gap, n));
+            }
+        }
+    };
+    if closest.distance > 0.0 {
+        if let Some(direction) = between.try_normalize(0.0) {
+            offer(direction);
+        }
+        if let Some(normal) = feature_normal(r, s, closest) {
+            offer(normal);
+        }
+    }
+    let near = 1e-8 * size + closest.distance;
+    let (local_r, local_s) = (
+        Local::around(r, &closest.points[0], near),
+        Local::around(s, &closest.points[1], near),
+    );
+    for normal in local_r.normals.iter().chain(&local_s.normals) {
+        offer(*normal);
+    }
+    for along_r in &local_r.directions {
+        for along_s in &local_s.directions {
+            offer(along_r.cross(along_s));
+        }
+    }
+    // Normals of a flat polygon's outline, within its plane.
+    for local in [&local_r, &local_s] {
+        if local.is_flat {
+            for along in &local.directions {
+                for normal in &local.normals {
+                    offer(along.cross(normal));
+                }
+            }
+        }
+    }
+    best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * size)
+        .map(|(_, normal)| normal)
+}
+
+/// The face normals and edge directions of the features that hold a point.
+struct Local {
+    normals: Vec<Vec3>,
+    directions: Vec<Vec3>,
+    is_flat: bool,
+}
+
+impl Local {
+    fn around(placed: &Placed, point: &Vec3, near: f64) -> Self {
+        let mut directions = Vec::new();
+        for &ends in &placed.shape.edges {
+            let (p, q) = placed.edge_ends(ends);
+            let segment = Segment::new((p, q));
+            let here = Segment::new((*point, *point));
+            let (_, t) = closest_parameters(&here, &segment);
+            if (segment.at(t) - point).norm() <= near {
+                directions.extend((q - p).try_normalize(0.0));
+            }
+        }
+        let normals = (0..placed.shape.faces.len())
+            .filter(|&f| placed.over_face(f, point).0.abs() <= near)
+            .map(|f| placed.normals[f])
+            .collect();
+        Self {
+            normals,
+            directions,
+            is_flat: placed.shape.faces.len() == 1,
+        }
+    }
+}
+
+/// The feature of a primitive that is farthest along a direction: its corners in order around the direction.
+struct Supporting<'a> {
+    placed: Placed<'a>,
+    ring: Vec<u32>,
+    normal: Vec3,
+    feature: Feature,
+}
+
+impl<'a> Supporting<'a> {
+    fn new(placed: &Placed<'a>, direction: &Vec3, slack: f64) -> Self {
+        let (_, farthest) = placed.extent_along(direction);
+        let level: Vec<u32> = (0..placed.vertices.len() as u32)
+            .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
+            .collect();
+        let (x, y) = plane_axes(direction);
+        let flat: Vec<_> = level
+            .iter()
+            .map(|&i| placed.vertex(i))
+            .map(|p| Vector2::new(x.dot(&p), y.dot(&p)))
+            .collect();
+        let ring: Vec<u32> = convex_hull_2d(&flat, slack)
+            .iter()
+            .map(|&i| level[i as usize])
+            .collect();
+        let feature = feature_of(placed, &ring);
+        Self {
+            placed: *placed,
+            ring,
+            normal: *direction,
+            feature,
+        }
+    }
+
+    fn corners(&self) -> impl Iterator<Item = (u32, Vec3)> + '_ {
+        self.ring.iter().map(|&i| (i, self.placed.vertex(i)))
+    }
+
+    /// The sides of the outline that are edges of the primitive.
+    fn sides(&self) -> Vec<(u32, Segment)> {
+        let n = self.ring.len();
+        let pairs = if n == 2 { 1 } else { n };
+        (0..pairs)
+            .filter(|_| n > 1)
+            .map(|i| [self.ring[i], self.ring[(i + 1) % n]])
+            .filter_map(|ends| {
+                edge_between(&self.placed, ends)
+                    .map(|e| (e, Segment::new(self.placed.edge_ends(ends))))
+            })
+            .collect()
+    }
+
+    /// Whether the feature, seen along its normal, covers the point. A lone corner covers only itself.
+    fn covers(&self, point: &Vec3, slack: f64) -> bool {
+        let to_foot = point - self.foot(point);
+        match self.ring.len() {
+            1 | 2 => (to_foot - self.normal * self.normal.dot(&to_foot)).norm() <= slack,
+            n => (0..n).all(|i| {
+                let a = self.placed.vertex(self.ring[i]);
+                let b = self.placed.vertex(self.ring[(i + 1) % n]);
+                let edge = b - a;
+                edge.cross(&(point - a)).dot(&self.normal) >= -slack * edge.norm()
+            }),
+        }
+    }
+
+    /// The point of the feature under (or over) `point`.
+    fn foot(&self, point: &Vec3) -> Vec3 {
+        match self.ring[..] {
+            [i] => self.placed.vertex(i),
+            [i, j] => {
+                let segment = Segment::new(self.placed.edge_ends([i, j]));
+                let here = Segment::new((*point, *point));
+                segment.at(closest_parameters(&here, &segment).1)
+            }
+            _ => {
+                let normal = match self.feature.kind {
+                    FeatureKind::Face => self.placed.normals[self.feature.index as usize],
+                    _ => self.normal,
+                };
+                point - normal * normal.dot(&(point - self.placed.vertex(self.ring[0])))
+            }
+        }
+    }
+}
+
+fn edge_between(placed: &Placed, ends: [u32; 2]) -> Option<u32> {
+    placed
+        .shape
+        .edges
+        .iter()
+        .position(|&[a, b]| [a, b] == ends || [b, a] == ends)
+        .map(|e| e as u32)
+}
+
+/// The feature with these corners: the edge that joins two, the face that holds most of more.
+fn feature_of(placed: &Placed, ring: &[u32]) -> Feature {
+    match ring {
+        [i] => Feature::vertex(*i),
+        [i, j] => {
+            // Along a straight outline the two ends may be joined by several edges; the first of them stands for all.
+            let edge = edge_between(placed, [*i, *j]).or_else(|| {
+                let starts = placed.shape.edges.iter();
+                starts.clone().position(|e| e.contains(i)).map(|e| e as u32)
+            });
+            edge.map_or(Feature::vertex(*i), Feature::edge)
+        }
+        _ => {
+            let shared = |f: usize| {
+                ring.iter()
+                    .filter(|i| placed.shape.faces[f].vertices.contains(i))
+                    .count()
+            };
+            (0..placed.shape.faces.len())
+                .rev()
+                .max_by_key(|&f| shared(f))
+                .map_or(Feature::interior(), |f| Feature::face(f as u32))
+        }
+    }
+}

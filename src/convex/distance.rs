@@ -1,0 +1,121 @@
+//! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
+
+use super::closest::{Closest, FeatureSet, closest_features};
+use super::placed::Placed;
+use crate::gjk::{PointCloud, gjk};
+use crate::pose::Vec3;
+use crate::primitive::Feature;
+use crate::tolerance;
+
+/// Memory of the distance computation, reused from pair to pair.
+#[derive(Default)]
+pub struct DistanceScratch {
+    a: FeatureSet,
+    b: FeatureSet,
+}
+
+/// The closest points of two primitives in a common frame. `size` is L, the largest coordinate of the pair of bodies
+/// they belong to: distances up to [`tolerance::TOUCH`] L are returned as 0.
+pub fn closest_points(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
+    let found = if a.shape.is_solid() || b.shape.is_solid() {
+        solid_closest(a, b, size, scratch)
+    } else {
+        all_features(a, b, scratch)
+    };
+    if found.distance <= tolerance::TOUCH * size {
+        return Closest {
+            distance: 0.0,
+            ..found
+        };
+    }
+    found
+}
+
+fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
+    scratch.a.set_all(a);
+    scratch.b.set_all(b);
+    closest_features(a, &scratch.a, b, &scratch.b, true)
+}
+
+fn solid_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
+    let bounds = gjk(
+        &PointCloud(a.vertices),
+        &PointCloud(b.vertices),
+        Vec3::zeros(),
+        f64::INFINITY,
+    );
+    if bounds.overlap > tolerance::TOUCH_DEPTH * size {
+        return Closest::meeting_at(bounds.common, [Feature::interior(); 2]);
+    }
+    if bounds.lower > 0.0 {
+        // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets
+        // nearly touch, and then the certificate fails and all features are searched.
+        let slack = 1e-6 * size;
+        scratch.a.set_supporting(a, &-bounds.direction, slack);
+        scratch.b.set_supporting(b, &bounds.direction, slack);
+        let found = closest_features(a, &scratch.a, b, &scratch.b, false);
+        let certified = certificate(a, b, &found, bounds.direction);
+        if found.distance - certified <= tolerance::CERTIFIED_GAP * size {
+            return found;
+        }
+    }
+    let contained = contained_vertex(a, b)
+        .map(|(i, point)| Closest::meeting_at(point, [Feature::vertex(i), Feature::interior()]));
+    contained
+        .or_else(|| {
+            contained_vertex(b, a).map(|(i, point)| {
+                Closest::meeting_at(point, [Feature::interior(), Feature::vertex(i)])
+            })
+        })
+        .unwrap_or_else(|| all_features(a, b, scratch))
+}
+
+/// A vertex of A inside the solid B.
+fn contained_vertex(a: &Placed, b: &Placed) -> Option<(u32, Vec3)> {
+    let vertices = a.vertices.iter().enumerate();
+    vertices
+        .filter(|(_, point)| b.contains(point))
+        .map(|(i, point)| (i as u32, *point))
+        .next()
+}
+
+/// The largest gap that a direction proves: those of the features that hold the points, and the two directions known.
+fn certificate(a: &Placed, b: &Placed, found: &Closest, direction: Vec3) -> f64 {
+    let mut best = gap_along(a, b, &direction);
+    let mut offer = |n: Vec3| {
+        if let Some(n) = n.try_normalize(0.0) {
+            let n = if n.dot(&direction) < 0.0 { -n } else { n };
+            best = best.max(gap_along(a, b, &n));
+        }
+    };
+    offer(found.points[0] - found.points[1]);
+    if let Some(normal) = feature_normal(a, b, found) {
+        offer(normal);
+    }
+    best
+}
+
+/// The signed gap of the projections along the unit vector `direction`, from B to A.
+pub fn gap_along(a: &Placed, b: &Placed, direction: &Vec3) -> f64 {
+    a.extent_along(direction).0 - b.extent_along(direction).1
+}
+
+/// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
+/// perpendicular of two edges. Exact however close the points are.
+pub fn feature_normal(a: &Placed, b: &Placed, found: &Closest) -> Option<Vec3> {
+    use crate::primitive::FeatureKind::{Edge, Face, Vertex};
+    let [on_a, on_b] = found.features;
+    match (on_a.kind, on_b.kind) {
+        (Vertex, Face) => Some(b.normals[on_b.index as usize]),
+        (Face, Vertex) => Some(a.normals[on_a.index as usize]),
+        (Edge, Edge) => {
+            let along = |placed: &Placed, edge: u32| {
+                let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
+                (q - p).normalize()
+            };
+            let cross = along(a, on_a.index).cross(&along(b, on_b.index));
+            (cross.norm() > 1e-6).then(|| cross.normalize())
+        }
+        _ => None,
+    }
+}

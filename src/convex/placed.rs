@@ -1,0 +1,80 @@
+//! A primitive's coordinates in the frame in which a pair is examined.
+
+use crate::pose::{Pose, Vec3};
+use crate::primitive::Convex;
+
+/// A primitive with its vertices and face normals expressed in some common frame.
+#[derive(Clone, Copy)]
+pub struct Placed<'a> {
+    pub shape: &'a Convex,
+    pub vertices: &'a [Vec3],
+    pub normals: &'a [Vec3],
+}
+
+/// Memory for one moved primitive, reused from pair to pair.
+#[derive(Default)]
+pub struct PlacedBuffer {
+    vertices: Vec<Vec3>,
+    normals: Vec<Vec3>,
+}
+
+impl PlacedBuffer {
+    /// `shape` moved by `pose`.
+    pub fn place<'a>(&'a mut self, shape: &'a Convex, pose: &Pose) -> Placed<'a> {
+        self.vertices.clear();
+        self.vertices
+            .extend(shape.vertices.iter().map(|v| pose.transform_point(v)));
+        self.normals.clear();
+        self.normals
+            .extend(shape.faces.iter().map(|f| pose.rotation * f.normal));
+        Placed {
+            shape,
+            vertices: &self.vertices,
+            normals: &self.normals,
+        }
+    }
+}
+
+impl Placed<'_> {
+    pub fn vertex(&self, index: u32) -> Vec3 {
+        self.vertices[index as usize]
+    }
+
+    pub fn edge_ends(&self, edge: [u32; 2]) -> (Vec3, Vec3) {
+        (self.vertex(edge[0]), self.vertex(edge[1]))
+    }
+
+    /// The height of `point` over face `face`, and whether its foot lies inside the face.
+    pub fn over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
+        let normal = &self.normals[face];
+        let ring = &self.shape.faces[face].vertices;
+        let height = normal.dot(&(point - self.vertex(ring[0])));
+        let inside = (0..ring.len()).all(|i| {
+            let a = self.vertex(ring[i]);
+            let b = self.vertex(ring[(i + 1) % ring.len()]);
+            (b - a).cross(&(point - a)).dot(normal) >= 0.0
+        });
+        (height, inside)
+    }
+
+    /// Whether a solid contains the point.
+    pub fn contains(&self, point: &Vec3) -> bool {
+        self.shape.is_solid()
+            && self
+                .shape
+                .faces
+                .iter()
+                .zip(self.normals)
+                .all(|(face, normal)| normal.dot(&(point - self.vertex(face.vertices[0]))) <= 0.0)
+    }
+
+    /// The extremes of `direction . x` over the primitive.
+    pub fn extent_along(&self, direction: &Vec3) -> (f64, f64) {
+        self.vertices
+            .iter()
+            .map(|v| direction.dot(v))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            })
+    }
+}

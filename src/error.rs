@@ -1,0 +1,85 @@
+//! Every failure of the library: a kind for programs, a message for people that names the culprit.
+
+use std::fmt;
+
+/// What went wrong. The C layer maps each kind to one status number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// An argument has a value outside its documented range.
+    InvalidArgument,
+    /// A number is NaN or infinite where a finite one is needed.
+    NotFinite,
+    /// An array or structure has the wrong number of entries.
+    WrongSize,
+    /// Nothing was given where at least one item is needed.
+    Empty,
+    /// Geometry without extent: a repeated vertex, a polygon without area.
+    Degenerate,
+    /// A polygon that turns inwards or winds more than once.
+    NotConvex,
+    /// A polygon whose vertices leave its plane.
+    NotPlanar,
+    /// A matrix that is not a rotation, or an axis that is not a direction.
+    NotARotation,
+    /// An id, index or name that does not exist.
+    NotFound,
+    /// A combination that the library does not compute.
+    Unsupported,
+    /// An operating-system failure while reading or writing a file.
+    Io,
+    /// A file whose contents cannot be understood.
+    Parse,
+    /// A computation that could not be certified.
+    NotConverged,
+    /// The caller's progress function asked to stop.
+    Cancelled,
+    /// The object is in use by another thread, or by the call this one is made from.
+    Busy,
+}
+
+/// A failure: its kind and the sentence that names the culprit.
+#[derive(Clone, Debug)]
+pub struct Error {
+    pub kind: ErrorKind,
+    pub message: String,
+}
+
+impl Error {
+    pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
+        Self {
+            kind,
+            message: message.into(),
+        }
+    }
+
+    pub fn invalid(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::InvalidArgument, message)
+    }
+
+    /// Puts the culprit's container in front: `polygon 3: vertex 2 is NaN`.
+    pub fn within(mut self, container: impl fmt::Display) -> Self {
+        self.message = format!("{container}: {}", self.message);
+        self
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Error {}
+
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Refuses a NaN or infinite coordinate, naming its place as `what index`.
+pub fn require_finite(values: &[f64], what: &str) -> Result<()> {
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(i) => Err(Error::new(
+            ErrorKind::NotFinite,
+            format!("{what} {i} is {}", values[i]),
+        )),
+    }
+}

@@ -1,0 +1,162 @@
+//! The distance of two convex sets given by support points, after Gilbert, Johnson and Keerthi (1988), §2.3.4.
+//!
+//! Used for bounds only: whatever the iteration does, `lower` comes from a direction whose support was evaluated, so it
+//! is safe; exact distances are finished on features (see `convex`).
+
+mod simplex;
+
+use self::simplex::{Corner, Nearest, Simplex};
+use crate::pose::{Pose, Vec3};
+use crate::tolerance;
+
+/// A convex set that can name its point farthest along a direction.
+pub trait Support {
+    fn support(&self, direction: &Vec3) -> Vec3;
+}
+
+/// The hull of points.
+pub struct PointCloud<'a>(pub &'a [Vec3]);
+
+impl Support for PointCloud<'_> {
+    fn support(&self, direction: &Vec3) -> Vec3 {
+        let mut best = self.0[0];
+        let mut value = direction.dot(&best);
+        for point in &self.0[1..] {
+            let here = direction.dot(point);
+            if here > value {
+                value = here;
+                best = *point;
+            }
+        }
+        best
+    }
+}
+
+/// The hull of points given in another frame; only the support points are transformed.
+pub struct MovedCloud<'a> {
+    pub points: &'a [Vec3],
+    pub pose: &'a Pose,
+}
+
+impl Support for MovedCloud<'_> {
+    fn support(&self, direction: &Vec3) -> Vec3 {
+        let local = self.pose.rotation.tr_mul(direction);
+        self.pose
+            .transform_point(&PointCloud(self.points).support(&local))
+    }
+}
+
+/// What the iteration found out about two sets A and B.
+#[derive(Clone, Copy, Debug)]
+pub struct Gjk {
+    /// The distance is at least this, up to the rounding of one support evaluation.
+    pub lower: f64,
+    /// The unit direction from B to A that proves `lower`; zero if there is none.
+    pub direction: Vec3,
+    /// The distance is at most this.
+    pub upper: f64,
+    /// The sets overlap at least this deep: a tetrahedron of the difference holds the origin with this margin.
+    pub overlap: f64,
+    /// A point of both sets, where `overlap` is positive.
+    pub common: Vec3,
+}
+
+/// Bounds the distance of A and B. Stops as soon as the distance is known to exceed `cutoff`. `start` is a guess of the
+/// direction from B to A, or zero.
+pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, cutoff: f64) -> Gjk {
+    let mut found = Gjk {
+        lower: 0.0,
+        direction: Vec3::zeros(),
+        upper: f64::INFINITY,
+        overlap: 0.0,
+        common: Vec3::zeros(),
+    };
+    let mut v = if start == Vec3::zeros() {
+        Vec3::x()
+    } else {
+        start
+    };
+    let mut simplex = Simplex::empty();
+    let mut scale = 0.0f64;
+    for _ in 0..128 {
+        let length = v.norm();
+        let on_a = a.support(&-v);
+        let w = on_a - b.support(&v);
+        scale = scale.max(w.norm());
+        let lower = v.dot(&w) / length;
+        if lower > found.lower {
+            found.lower = lower;
+            found.direction = v / length;
+            if lower > cutoff {
+                return found;
+            }
+        }
+        if found.upper - found.lower <= 4.0 * tolerance::EPSILON * scale || simplex.contains(&w) {
+            return found;
+        }
+        if simplex.is_full() {
+            return found;
+        }
+        simplex.push(Corner {
+            difference: w,
+            on_a,
+        });
+        match simplex.reduce() {
+            Nearest::Inside { margin, common } => {
+                found.overlap = margin;
+                found.common = common;
+                found.upper = 0.0;
+                return found;
+            }
+            Nearest::Outside(point) => {
+                let upper = point.norm();
+                if upper >= found.upper {
+                    return found;
+                }
+                found.upper = upper;
+                if upper <= 4.0 * tolerance::EPSILON * scale {
+                    return found;
+                }
+                v = point;
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube_at(x: f64) -> Vec<Vec3> {
+        (0..8)
+            .map(|i| Vec3::new(x + (i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64))
+            .collect()
+    }
+
+    #[test]
+    fn bounds_meet_for_cubes() {
+        let (a, b) = (cube_at(0.0), cube_at(3.0));
+        let found = gjk(
+            &PointCloud(&a),
+            &PointCloud(&b),
+            Vec3::zeros(),
+            f64::INFINITY,
+        );
+        assert!((found.lower - 2.0).abs() < 1e-14 && (found.upper - 2.0).abs() < 1e-14);
+        assert!((found.direction + Vec3::x()).amax() < 1e-14);
+    }
+
+    #[test]
+    fn overlap_is_seen() {
+        let (a, b) = (cube_at(0.0), cube_at(0.7));
+        let found = gjk(
+            &PointCloud(&a),
+            &PointCloud(&b),
+            Vec3::new(0.3, 0.2, 0.1),
+            f64::INFINITY,
+        );
+        assert_eq!(found.upper, 0.0);
+        assert_eq!(found.lower, 0.0);
+    }
+}

@@ -1,0 +1,158 @@
+//! The point of a simplex closest to the origin.
+
+use crate::pose::Vec3;
+
+/// A point of a Minkowski difference A - B, and the point of A it came from.
+#[derive(Clone, Copy)]
+pub struct Corner {
+    pub difference: Vec3,
+    pub on_a: Vec3,
+}
+
+/// Up to four corners, reduced in step with the search.
+#[derive(Clone, Copy)]
+pub struct Simplex {
+    corners: [Corner; 4],
+    len: usize,
+}
+
+/// Where the origin stands with respect to a simplex.
+pub enum Nearest {
+    /// Outside; the closest point.
+    Outside(Vec3),
+    /// Inside a tetrahedron, at least `margin` from its faces; `common` is the point of A, and of B, that meets there.
+    Inside { margin: f64, common: Vec3 },
+}
+
+impl Simplex {
+    pub fn empty() -> Self {
+        Self {
+            corners: [Corner {
+                difference: Vec3::zeros(),
+                on_a: Vec3::zeros(),
+            }; 4],
+            len: 0,
+        }
+    }
+
+    pub fn contains(&self, difference: &Vec3) -> bool {
+        self.corners[..self.len]
+            .iter()
+            .any(|corner| corner.difference == *difference)
+    }
+
+    pub fn push(&mut self, corner: Corner) {
+        self.corners[self.len] = corner;
+        self.len += 1;
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.len == 4
+    }
+
+    /// The closest point to the origin; the simplex shrinks to the face that holds it.
+    pub fn reduce(&mut self) -> Nearest {
+        let (point, kept) = match self.len {
+            1 => (self.corners[0].difference, Kept::new([0])),
+            2 => self.on_segment(0, 1),
+            3 => self.on_triangle(0, 1, 2),
+            _ => match self.on_tetrahedron() {
+                Ok(found) => found,
+                Err(inside) => return inside,
+            },
+        };
+        let corners = self.corners;
+        for (to, &from) in kept.corners[..kept.len].iter().enumerate() {
+            self.corners[to] = corners[from];
+        }
+        self.len = kept.len;
+        Nearest::Outside(point)
+    }
+
+    fn at(&self, i: usize) -> Vec3 {
+        self.corners[i].difference
+    }
+
+    fn on_segment(&self, i: usize, j: usize) -> (Vec3, Kept) {
+        let (a, b) = (self.at(i), self.at(j));
+        let ab = b - a;
+        let t = -a.dot(&ab);
+        let square = ab.norm_squared();
+        if t <= 0.0 {
+            (a, Kept::new([i]))
+        } else if t >= square {
+            (b, Kept::new([j]))
+        } else {
+            (a + ab * (t / square), Kept::new([i, j]))
+        }
+    }
+
+    fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, Kept) {
+        let (a, b, c) = (self.at(i), self.at(j), self.at(k));
+        let normal = (b - a).cross(&(c - a));
+        let square = normal.norm_squared();
+        if square > 0.0 {
+            // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
+            let weight = |p: Vec3, q: Vec3| normal.dot(&p.cross(&q));
+            if weight(b, c) > 0.0 && weight(c, a) > 0.0 && weight(a, b) > 0.0 {
+                return (normal * (a.dot(&normal) / square), Kept::new([i, j, k]));
+            }
+        }
+        let mut best = self.on_segment(i, j);
+        for other in [self.on_segment(j, k), self.on_segment(k, i)] {
+            if other.0.norm_squared() < best.0.norm_squared() {
+                best = other;
+            }
+        }
+        best
+    }
+
+    /// The nearest face, or `Err` with the standing inside.
+    fn on_tetrahedron(&self) -> Result<(Vec3, Kept), Nearest> {
+        let mut margin = f64::INFINITY;
+        let mut weights = [0.0; 4];
+        let mut best: Option<(Vec3, Kept)> = None;
+        for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 3, 1, 2), (0, 2, 3, 1), (1, 3, 2, 0)] {
+            let a = self.at(i);
+            let normal = (self.at(j) - a).cross(&(self.at(k) - a));
+            let towards = normal.dot(&(self.at(opposite) - a));
+            let origin = -normal.dot(&a);
+            // A flat tetrahedron has no inside; the origin is then outside of each face.
+            if towards * origin > 0.0 {
+                margin = margin.min(origin.abs() / normal.norm());
+                weights[opposite] = origin / towards;
+                continue;
+            }
+            let found = self.on_triangle(i, j, k);
+            if best
+                .as_ref()
+                .is_none_or(|(least, _)| found.0.norm_squared() < least.norm_squared())
+            {
+                best = Some(found);
+            }
+        }
+        best.ok_or_else(|| {
+            let total: f64 = weights.iter().sum();
+            Nearest::Inside {
+                margin,
+                common: (0..4)
+                    .map(|i| self.corners[i].on_a * (weights[i] / total))
+                    .sum(),
+            }
+        })
+    }
+}
+
+/// The one to three corners whose hull holds the closest point.
+struct Kept {
+    corners: [usize; 3],
+    len: usize,
+}
+
+impl Kept {
+    fn new<const N: usize>(given: [usize; N]) -> Self {
+        let mut corners = [0; 3];
+        corners[..N].copy_from_slice(&given);
+        Self { corners, len: N }
+    }
+}

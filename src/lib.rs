@@ -1,0 +1,22 @@
+//! The C-Space Toolkit: at a robot configuration q, is q free, in contact or inside; how far from contact and between
+//! which features; which way is out, in joint space; which step slides along the contact.
+//!
+//! Data flow one way, in the order of the modules below; each imports only from those above it.
+
+pub mod error;
+pub mod tolerance;
+
+pub mod pose;
+
+mod parry_adapter;
+
+pub mod gjk;
+pub mod primitive;
+
+pub mod convex;
+
+pub mod hierarchy;
+
+pub mod body;
+
+pub mod pair;

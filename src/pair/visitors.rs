@@ -1,0 +1,157 @@
+//! The queries as visitors of the one walk. Each may see several body pairs in turn; `pair` and `margin` say which.
+
+use std::ops::ControlFlow;
+
+use super::hit::{Hit, HitKey};
+use super::traversal::Visitor;
+use crate::convex::Closest;
+use crate::tolerance;
+
+/// A safe lower bound of a primitive pair's distance less its margin: 0 exactly when the distance is.
+fn lower_of(closest: &Closest, size: f64, margin: f64) -> f64 {
+    if closest.distance == 0.0 {
+        return 0.0;
+    }
+    (closest.distance - tolerance::TOUCH * size - margin).max(0.0)
+}
+
+/// The nearest primitive pair, up to a limit.
+pub struct Nearest {
+    pub pair: u32,
+    pub margin: f64,
+    pub best: Option<Hit>,
+    /// No primitive pair seen is nearer than this; safe against rounding.
+    pub lower: f64,
+    limit: f64,
+}
+
+impl Nearest {
+    /// Looks for pairs no farther than `limit`.
+    pub fn up_to(limit: f64) -> Self {
+        Self {
+            pair: 0,
+            margin: 0.0,
+            best: None,
+            lower: f64::INFINITY,
+            limit,
+        }
+    }
+}
+
+impl Visitor for Nearest {
+    fn bound(&self) -> f64 {
+        self.limit + self.margin
+    }
+
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, size: f64) -> ControlFlow<()> {
+        let hit = Hit {
+            distance: (closest.distance - self.margin).max(0.0),
+            key: HitKey {
+                pair: self.pair,
+                primitives,
+            },
+            closest: *closest,
+        };
+        if hit.distance <= self.limit {
+            self.lower = self.lower.min(lower_of(closest, size, self.margin));
+            if self
+                .best
+                .as_ref()
+                .is_none_or(|best| hit.order(best).is_lt())
+            {
+                self.limit = hit.distance;
+                self.best = Some(hit);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// Whether some primitive pair is within a threshold; stops at the first.
+pub struct Within {
+    pub margin: f64,
+    pub threshold: f64,
+    /// The first pair found, and the lower bound that decided.
+    pub found: Option<([u32; 2], f64)>,
+}
+
+impl Visitor for Within {
+    fn bound(&self) -> f64 {
+        self.threshold + self.margin
+    }
+
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, size: f64) -> ControlFlow<()> {
+        let lower = lower_of(closest, size, self.margin);
+        if lower <= self.threshold {
+            self.found = Some((primitives, lower));
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// All primitive pairs within a threshold; of more than `max_count`, the nearest.
+pub struct Collect {
+    pub pair: u32,
+    pub margin: f64,
+    pub hits: Vec<Hit>,
+    /// More pairs than `max_count` are within the threshold.
+    pub truncated: bool,
+    threshold: f64,
+    max_count: usize,
+}
+
+impl Collect {
+    pub fn new(threshold: f64, max_count: usize) -> Self {
+        Self {
+            pair: 0,
+            margin: 0.0,
+            hits: Vec::new(),
+            truncated: false,
+            threshold,
+            max_count,
+        }
+    }
+
+    /// The pairs, nearest first.
+    pub fn finish(mut self) -> (Vec<Hit>, bool) {
+        self.cut();
+        (self.hits, self.truncated)
+    }
+
+    fn cut(&mut self) {
+        self.hits.sort_unstable_by(Hit::order);
+        if self.hits.len() > self.max_count {
+            self.hits.truncate(self.max_count);
+            self.truncated = true;
+            // What is farther than the last kept pair is of no interest any more.
+            if let Some(last) = self.hits.last() {
+                self.threshold = last.distance;
+            }
+        }
+    }
+}
+
+impl Visitor for Collect {
+    fn bound(&self) -> f64 {
+        self.threshold + self.margin
+    }
+
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, _size: f64) -> ControlFlow<()> {
+        let distance = (closest.distance - self.margin).max(0.0);
+        if distance <= self.threshold {
+            self.hits.push(Hit {
+                distance,
+                key: HitKey {
+                    pair: self.pair,
+                    primitives,
+                },
+                closest: *closest,
+            });
+            if self.hits.len() > 2 * self.max_count.max(512) {
+                self.cut();
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}

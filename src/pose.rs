@@ -1,0 +1,300 @@
+//! Rigid poses, the report's Euler angles (§4.1), and the relative pose of two bodies.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::tolerance;
+
+pub type Vec3 = Vector3<f64>;
+pub type Mat3 = Matrix3<f64>;
+
+/// A rigid motion `x -> rotation x + translation`, from a child frame to its parent frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    pub rotation: Mat3,
+    pub translation: Vec3,
+}
+
+impl Pose {
+    pub fn identity() -> Self {
+        Self {
+            rotation: Mat3::identity(),
+            translation: Vec3::zeros(),
+        }
+    }
+
+    pub fn from_translation(translation: Vec3) -> Self {
+        Self {
+            rotation: Mat3::identity(),
+            translation,
+        }
+    }
+
+    /// From 12 numbers, row-major `[R | t]`. R may be off orthonormal by [`tolerance::ROTATION`]; it is then replaced by
+    /// the nearest rotation. Reflections are refused.
+    pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
+        require_finite(values, "pose entry")?;
+        let v = values;
+        if let Some(i) = v
+            .iter()
+            .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
+        {
+            return Err(Error::invalid(format!(
+                "pose entry {i} is too large: {}",
+                v[i]
+            )));
+        }
+        let rotation = Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]);
+        Ok(Self {
+            rotation: nearest_rotation(rotation)?,
+            translation: Vec3::new(v[3], v[7], v[11]),
+        })
+    }
+
+    pub fn to_row_major(&self) -> [f64; 12] {
+        let (r, t) = (&self.rotation, &self.translation);
+        [
+            r[(0, 0)],
+            r[(0, 1)],
+            r[(0, 2)],
+            t.x, //
+            r[(1, 0)],
+            r[(1, 1)],
+            r[(1, 2)],
+            t.y, //
+            r[(2, 0)],
+            r[(2, 1)],
+            r[(2, 2)],
+            t.z,
+        ]
+    }
+
+    /// From the report's `(x, y, z, yaw, pitch, roll)`: yaw about Y, then pitch about the new Z, then roll about the new
+    /// X, eq. (3)–(6).
+    pub fn from_euler(placement: &[f64; 6]) -> Self {
+        Self {
+            rotation: euler_to_rotation(placement[3], placement[4], placement[5]),
+            translation: Vec3::new(placement[0], placement[1], placement[2]),
+        }
+    }
+
+    /// The inverse of [`Pose::from_euler`], eq. (7) with two-argument arctangents. Where cos(pitch) = 0 only yaw ± roll
+    /// is determined; roll is then 0.
+    pub fn to_euler(&self) -> [f64; 6] {
+        let r = &self.rotation;
+        let cos_pitch = r[(0, 0)].hypot(r[(2, 0)]);
+        let pitch = r[(1, 0)].atan2(cos_pitch);
+        let (yaw, roll) = if cos_pitch > 1e-12 {
+            ((-r[(2, 0)]).atan2(r[(0, 0)]), (-r[(1, 2)]).atan2(r[(1, 1)]))
+        } else {
+            (r[(0, 2)].atan2(r[(2, 2)]), 0.0)
+        };
+        let t = &self.translation;
+        [t.x, t.y, t.z, yaw, pitch, roll]
+    }
+
+    pub fn transform_point(&self, point: &Vec3) -> Vec3 {
+        self.rotation * point + self.translation
+    }
+
+    pub fn compose(&self, child: &Pose) -> Pose {
+        Pose {
+            rotation: self.rotation * child.rotation,
+            translation: self.transform_point(&child.translation),
+        }
+    }
+
+    pub fn inverse(&self) -> Pose {
+        let rotation = self.rotation.transpose();
+        Pose {
+            rotation,
+            translation: -(rotation * self.translation),
+        }
+    }
+
+    /// Whether the pose keeps the plane z = 0 and its orientation, as planar worlds need.
+    pub fn is_planar(&self) -> bool {
+        let r = &self.rotation;
+        self.translation.z == 0.0
+            && r[(2, 2)] == 1.0
+            && [r[(0, 2)], r[(1, 2)], r[(2, 0)], r[(2, 1)]] == [0.0; 4]
+    }
+}
+
+/// The rotation of eq. (6) from yaw, pitch and roll in radians.
+pub fn euler_to_rotation(yaw: f64, pitch: f64, roll: f64) -> Mat3 {
+    let (sy, cy) = yaw.sin_cos();
+    let (sp, cp) = pitch.sin_cos();
+    let (sr, cr) = roll.sin_cos();
+    Mat3::new(
+        cp * cy,
+        -cr * sp * cy + sr * sy,
+        sr * sp * cy + cr * sy,
+        sp,
+        cr * cp,
+        -sr * cp,
+        -cp * sy,
+        cr * sp * sy + sr * cy,
+        -sr * sp * sy + cr * cy,
+    )
+}
+
+/// The rotation by `angle` radians about the unit vector `axis` (Rodrigues' formula).
+pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
+    let (s, c) = angle.sin_cos();
+    let k = axis.cross_matrix();
+    Mat3::identity() + k * s + k * k * (1.0 - c)
+}
+
+fn nearest_rotation(given: Mat3) -> Result<Mat3> {
+    let error = |r: &Mat3| (r.transpose() * r - Mat3::identity()).amax();
+    let off = error(&given);
+    if off > tolerance::ROTATION || given.determinant() <= 0.0 {
+        return Err(Error::new(
+            ErrorKind::NotARotation,
+            format!(
+                "the pose's 3x3 part is not a rotation: R^T R is off the identity by {off:.3e}, det R = {:.6}",
+                given.determinant()
+            ),
+        ));
+    }
+    // Newton's iteration for the orthogonal polar factor; quadratic, so two steps from 1e-6 reach round-off.
+    let mut r = given;
+    for _ in 0..3 {
+        if error(&r) <= 8.0 * tolerance::EPSILON {
+            break;
+        }
+        r = r * (Mat3::identity() * 1.5 - r.transpose() * r * 0.5);
+    }
+    Ok(r)
+}
+
+/// The pose of a frame centred at `center_b` in body B, seen from one centred at `center_a` in body A.
+///
+/// The centres' difference in the world is summed in double-double arithmetic: bodies far from the world's origin, or
+/// modelled far from their own, would otherwise lose the digits that matter.
+pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -> Pose {
+    let mut difference = Vec3::zeros();
+    for i in 0..3 {
+        let mut sum = TwoFold::new(b.translation[i]);
+        sum.add(-a.translation[i]);
+        for j in 0..3 {
+            sum.add_product(b.rotation[(i, j)], center_b[j]);
+            sum.add_product(-a.rotation[(i, j)], center_a[j]);
+        }
+        difference[i] = sum.value();
+    }
+    let inverse = a.rotation.transpose();
+    Pose {
+        rotation: inverse * b.rotation,
+        translation: inverse * difference,
+    }
+}
+
+/// A sum kept as an unevaluated pair, after Dekker (1971) and Knuth's TwoSum.
+struct TwoFold {
+    high: f64,
+    low: f64,
+}
+
+impl TwoFold {
+    fn new(value: f64) -> Self {
+        Self {
+            high: value,
+            low: 0.0,
+        }
+    }
+
+    fn add(&mut self, x: f64) {
+        let sum = self.high + x;
+        let part = sum - self.high;
+        self.low += (self.high - (sum - part)) + (x - part);
+        self.high = sum;
+    }
+
+    fn add_product(&mut self, x: f64, y: f64) {
+        if x == 0.0 || y == 0.0 {
+            return;
+        }
+        let product = x * y;
+        let split = |v: f64| {
+            let scaled = 134_217_729.0 * v; // 2^27 + 1
+            let high = scaled - (scaled - v);
+            (high, v - high)
+        };
+        let ((xh, xl), (yh, yl)) = (split(x), split(y));
+        let error = ((xh * yh - product) + xh * yl + xl * yh) + xl * yl;
+        self.add(product);
+        self.low += error;
+    }
+
+    fn value(&self) -> f64 {
+        self.high + self.low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn euler_angles_follow_the_report() {
+        // Equations (3)-(5), multiplied out here instead of taken from (6).
+        let (y, p, r) = (0.3, -0.7, 1.1);
+        let yaw = rotation_about(&Vec3::y(), y);
+        let pitch = rotation_about(&Vec3::z(), p);
+        let roll = rotation_about(&Vec3::x(), r);
+        assert!((yaw * pitch * roll - euler_to_rotation(y, p, r)).amax() < 1e-15);
+
+        let pose = Pose::from_euler(&[1.0, 2.0, 3.0, y, p, r]);
+        for (got, want) in pose.to_euler().iter().zip([1.0, 2.0, 3.0, y, p, r]) {
+            assert!((got - want).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn euler_angles_at_the_singularity_give_the_same_rotation() {
+        for pitch in [FRAC_PI_2, -FRAC_PI_2] {
+            let pose = Pose::from_euler(&[0.0, 0.0, 0.0, 0.4, pitch, 0.9]);
+            let again = Pose::from_euler(&pose.to_euler());
+            assert!((pose.rotation - again.rotation).amax() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn relative_pose_keeps_its_digits_far_from_the_origin() {
+        // Two bodies modelled around (1e9, 0, 0), turned alike, whose centres are 1e-6 apart.
+        let center = Vec3::new(1e9, 1e9, 0.0);
+        let rotation = rotation_about(&Vec3::new(0.6, 0.0, 0.8), 0.7);
+        let a = Pose {
+            rotation,
+            translation: Vec3::zeros(),
+        };
+        let b = Pose {
+            rotation,
+            translation: Vec3::new(1e-6, 0.0, 0.0),
+        };
+        let relative = relative_centered(&a, &center, &b, &center);
+        assert!((relative.translation.norm() - 1e-6).abs() < 1e-20);
+    }
+
+    #[test]
+    fn reflections_and_shears_are_refused() {
+        let mut values = Pose::identity().to_row_major();
+        values[0] = -1.0;
+        assert_eq!(
+            Pose::from_row_major(&values).unwrap_err().kind,
+            ErrorKind::NotARotation
+        );
+        let mut values = Pose::identity().to_row_major();
+        values[1] = 1e-3;
+        assert_eq!(
+            Pose::from_row_major(&values).unwrap_err().kind,
+            ErrorKind::NotARotation
+        );
+        values[1] = 1e-8;
+        let pose = Pose::from_row_major(&values).unwrap();
+        assert!((pose.rotation.transpose() * pose.rotation - Mat3::identity()).amax() < 1e-15);
+    }
+}

@@ -1,0 +1,142 @@
+//! The convex hull of points: parry's proposal, checked against every point, mended where it lost some.
+
+use std::collections::HashMap;
+
+use super::planar_hull::plane_axes;
+use crate::gjk::{PointCloud, gjk};
+use crate::parry_adapter::propose_hull;
+use crate::pose::{Mat3, Vec3, rotation_about};
+
+/// A proposed hull and how far it may be trusted.
+pub struct CheckedHull {
+    /// Indices of the corners into the given points.
+    pub vertices: Vec<u32>,
+    /// Outward triangles, indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+    /// How far the farthest given point lies outside the corners' hull, at most.
+    pub excess: f64,
+}
+
+/// The best of a few proposals: the first whose excess is at most `accepted`, else the one of least excess. A proposal
+/// that lost points is mended by proposing again from its corners and the lost points, then in a turned frame. `None`
+/// when a hull has more than `vertex_limit` corners, or when nothing was proposed.
+pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Option<CheckedHull> {
+    let mut best: Option<CheckedHull> = None;
+    let (center, stretch) = frame_of(points);
+    for attempt in 0..6 {
+        let turn = rotation_about(&Vec3::new(0.36, 0.48, 0.8), 0.7 * f64::from(attempt));
+        let map = turn * stretch;
+        let mut candidates: Vec<u32> = (0..points.len() as u32).collect();
+        for _ in 0..3 {
+            let Some((vertices, triangles)) = propose(points, &candidates, &center, &map) else {
+                break;
+            };
+            if vertices.len() > vertex_limit {
+                return None;
+            }
+            let (excess, lost) = excess_over(points, &vertices, accepted);
+            let mended: Vec<u32> = vertices.iter().chain(&lost).copied().collect();
+            if best.as_ref().is_none_or(|hull| excess < hull.excess) {
+                best = Some(CheckedHull {
+                    vertices,
+                    triangles,
+                    excess,
+                });
+            }
+            if excess <= accepted {
+                return best;
+            }
+            candidates = mended;
+        }
+    }
+    best
+}
+
+/// The largest distance of a point from the hull of the corners, and the points farther out than `accepted`.
+pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec<u32>) {
+    let hull: Vec<Vec3> = corners.iter().map(|&i| points[i as usize]).collect();
+    let mut is_corner = vec![false; points.len()];
+    for &i in corners {
+        is_corner[i as usize] = true;
+    }
+    let mut excess = 0.0f64;
+    let mut lost = Vec::new();
+    for (i, point) in points.iter().enumerate() {
+        if is_corner[i] {
+            continue;
+        }
+        let outside = gjk(
+            &PointCloud(&hull),
+            &PointCloud(&[*point]),
+            Vec3::zeros(),
+            f64::INFINITY,
+        );
+        excess = excess.max(outside.upper);
+        if outside.upper > accepted {
+            lost.push(i as u32);
+        }
+    }
+    (excess, lost)
+}
+
+/// The middle of the points' box, and a linear map that brings their three extents to unit size. Hulls go along with
+/// linear maps; flat and needle-like sets, on which proposals fail, become round ones.
+fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
+    let low = points.iter().fold(points[0], |low, p| low.inf(p));
+    let high = points.iter().fold(points[0], |high, p| high.sup(p));
+    let center = (low + high) * 0.5;
+    let farthest = |part: &dyn Fn(Vec3) -> Vec3| {
+        points
+            .iter()
+            .map(|p| part(p - center))
+            .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+            .unwrap_or_else(Vec3::zeros)
+    };
+    let size = (high - low).amax().max(f64::MIN_POSITIVE);
+    let mut rows = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| axis / size);
+    let first = farthest(&|p| p);
+    if let Some(e1) = first.try_normalize(0.0) {
+        let second = farthest(&|p| p - e1 * e1.dot(&p));
+        // Below this an extent is rounding; stretching it would only show noise.
+        let least = 1e-13 * first.norm();
+        let e2 = if second.norm() > least {
+            second.normalize()
+        } else {
+            plane_axes(&e1).0
+        };
+        let e3 = e1.cross(&e2).normalize();
+        let third = points
+            .iter()
+            .map(|p| e3.dot(&(p - center)).abs())
+            .fold(0.0, f64::max);
+        let stretch = |extent: f64| 1.0 / if extent > least { extent } else { first.norm() };
+        rows = [
+            e1 * stretch(first.norm()),
+            e2 * stretch(second.norm()),
+            e3 * stretch(third),
+        ];
+    }
+    (center, Mat3::from_rows(&rows.map(|row| row.transpose())))
+}
+
+type Proposal = (Vec<u32>, Vec<[u32; 3]>);
+
+/// One proposal of parry's, from the candidates brought to unit size and turned, as indices into `points`.
+fn propose(points: &[Vec3], candidates: &[u32], center: &Vec3, map: &Mat3) -> Option<Proposal> {
+    let moved: Vec<Vec3> = candidates
+        .iter()
+        .map(|&i| map * (points[i as usize] - center))
+        .collect();
+    let key = |p: &Vec3| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
+    let index: HashMap<_, u32> = moved
+        .iter()
+        .map(key)
+        .zip(candidates.iter().copied())
+        .collect();
+    let (vertices, triangles) = propose_hull(&moved)?;
+    let vertices = vertices
+        .iter()
+        .map(|p| index.get(&key(p)).copied())
+        .collect::<Option<Vec<u32>>>()?;
+    Some((vertices, triangles))
+}

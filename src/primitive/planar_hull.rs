@@ -1,0 +1,92 @@
+//! The convex hull of points in a plane, by Andrew's monotone chain; it keeps no collinear points.
+
+use nalgebra::Vector2;
+
+use crate::pose::Vec3;
+
+/// Two unit vectors that form a right-handed frame with the unit vector `normal`.
+pub fn plane_axes(normal: &Vec3) -> (Vec3, Vec3) {
+    let other = match normal.iamin() {
+        0 => Vec3::x(),
+        1 => Vec3::y(),
+        _ => Vec3::z(),
+    };
+    let first = normal.cross(&other).normalize();
+    (first, normal.cross(&first))
+}
+
+/// Indices of the hull's corners, counter-clockwise from the leftmost. Points within `tolerance` of an edge, or of each
+/// other, are dropped; so one index is a point, two a segment, more a polygon.
+pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let at = |i: u32| points[i as usize];
+    order.sort_by(|&i, &j| {
+        let (p, q) = (at(i), at(j));
+        p.x.total_cmp(&q.x)
+            .then(p.y.total_cmp(&q.y))
+            .then(i.cmp(&j))
+    });
+    let mut distinct: Vec<u32> = Vec::with_capacity(order.len());
+    for i in order {
+        if distinct
+            .iter()
+            .rev()
+            .take_while(|&&j| at(i).x - at(j).x <= tolerance)
+            .all(|&j| (at(i) - at(j)).norm() > tolerance)
+        {
+            distinct.push(i);
+        }
+    }
+    if distinct.len() < 3 {
+        return distinct;
+    }
+    let chain = |indices: &mut dyn Iterator<Item = u32>| {
+        let mut hull: Vec<u32> = Vec::new();
+        for i in indices {
+            while let [.., a, b] = hull[..] {
+                let (edge, next) = (at(b) - at(a), at(i) - at(a));
+                // Keep b only if it lies farther than the tolerance outside the line from a to i.
+                if edge.perp(&next) > tolerance * next.norm() {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(i);
+        }
+        hull.pop();
+        hull
+    };
+    let mut hull = chain(&mut distinct.iter().copied());
+    hull.extend(chain(&mut distinct.iter().rev().copied()));
+    hull
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keeps_corners_only() {
+        let points: Vec<_> = [
+            (0., 0.),
+            (1., 0.),
+            (2., 0.),
+            (2., 2.),
+            (0., 2.),
+            (1., 1.),
+            (0., 0.),
+        ]
+        .iter()
+        .map(|&(x, y)| Vector2::new(x, y))
+        .collect();
+        assert_eq!(convex_hull_2d(&points, 1e-12), vec![0, 2, 3, 4]);
+    }
+
+    #[test]
+    fn a_line_of_points_is_a_segment() {
+        let points: Vec<_> = (0..5)
+            .map(|i| Vector2::new(i as f64, 2.0 * i as f64))
+            .collect();
+        assert_eq!(convex_hull_2d(&points, 1e-12), vec![0, 4]);
+    }
+}

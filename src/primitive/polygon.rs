@@ -1,0 +1,195 @@
+//! A planar convex polygon, and the checks that it is one.
+
+use super::Convex;
+use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::pose::Vec3;
+use crate::tolerance;
+
+/// A polygon from its vertices in cyclic order, either way round. Vertices on a straight edge are kept. The work is
+/// linear in the number of vertices.
+pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
+    let normal = check_convex_polygon(vertices)?;
+    Ok(Convex::from_cycle(vertices.to_vec(), normal))
+}
+
+/// The lengths that decide whether a vertex is out of place: the polygon's diameter, and the tolerance that follows.
+pub(super) struct Extent {
+    pub diameter: f64,
+    pub tolerance: f64,
+}
+
+/// The extent of a set of points, whose coordinates must be finite and within the accepted range.
+pub(super) fn extent_of(points: &[Vec3]) -> Result<Extent> {
+    let mut low = points[0];
+    let mut high = points[0];
+    let mut largest = 0.0f64;
+    for (i, point) in points.iter().enumerate() {
+        require_finite(point.as_slice(), "coordinate")
+            .map_err(|e| e.within(format_args!("vertex {i}")))?;
+        low = low.inf(point);
+        high = high.sup(point);
+        largest = largest.max(point.amax());
+    }
+    if largest > tolerance::LARGEST_COORDINATE {
+        return Err(Error::invalid(format!(
+            "a coordinate is too large: {largest:e}; at most {:e}",
+            tolerance::LARGEST_COORDINATE
+        )));
+    }
+    let diameter = (high - low).norm();
+    Ok(Extent {
+        diameter,
+        tolerance: tolerance::PLANAR * diameter + 4.0 * tolerance::EPSILON * largest,
+    })
+}
+
+/// The unit normal by Newell's method: robust for any simple polygon. Zero for a polygon without area.
+pub(super) fn newell_normal(vertices: &[Vec3]) -> Vec3 {
+    let origin = vertices[0];
+    let mut sum = Vec3::zeros();
+    for i in 0..vertices.len() {
+        let a = vertices[i] - origin;
+        let b = vertices[(i + 1) % vertices.len()] - origin;
+        sum += a.cross(&b);
+    }
+    sum.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+}
+
+/// The unit normal of a convex planar polygon, or what keeps it from being one.
+pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
+    let n = vertices.len();
+    if n < 3 {
+        return Err(Error::new(
+            if n == 0 {
+                ErrorKind::Empty
+            } else {
+                ErrorKind::Degenerate
+            },
+            format!("a polygon needs at least 3 vertices, got {n}"),
+        ));
+    }
+    let extent = extent_of(vertices)?;
+    if extent.diameter < tolerance::SMALLEST_DIAMETER {
+        return Err(Error::new(
+            ErrorKind::Degenerate,
+            format!(
+                "the polygon has no extent: its diameter is {:e}",
+                extent.diameter
+            ),
+        ));
+    }
+    let edge = |i: usize| vertices[(i + 1) % n] - vertices[i % n];
+    for i in 0..n {
+        if edge(i).norm() <= extent.tolerance {
+            return Err(Error::new(
+                ErrorKind::Degenerate,
+                format!("vertices {i} and {} coincide", (i + 1) % n),
+            ));
+        }
+    }
+    let normal = newell_normal(vertices);
+    let width = width_along(vertices, &normal);
+    if width <= extent.tolerance {
+        return Err(Error::new(
+            ErrorKind::Degenerate,
+            format!("the polygon has no area: its width is {width:e}"),
+        ));
+    }
+    for (i, vertex) in vertices.iter().enumerate() {
+        let height = normal.dot(&(vertex - vertices[0])).abs();
+        if height > extent.tolerance {
+            return Err(Error::new(
+                ErrorKind::NotPlanar,
+                format!("vertex {i} is {height:.3e} off the plane of the polygon"),
+            ));
+        }
+    }
+    let mut turning = 0.0;
+    for i in 0..n {
+        let (before, after) = (edge(i + n - 1), edge(i));
+        let sine = normal.dot(&before.cross(&after));
+        if sine < -extent.tolerance * before.norm().max(after.norm()) {
+            return Err(Error::new(
+                ErrorKind::NotConvex,
+                format!("the polygon turns inwards at vertex {i}"),
+            ));
+        }
+        turning += sine.atan2(before.dot(&after));
+    }
+    if turning > 2.5 * std::f64::consts::PI {
+        return Err(Error::new(
+            ErrorKind::NotConvex,
+            "the polygon winds around more than once",
+        ));
+    }
+    Ok(normal)
+}
+
+/// The extent across the longest edge, in the plane of `normal`: zero for collinear vertices.
+fn width_along(vertices: &[Vec3], normal: &Vec3) -> f64 {
+    let n = vertices.len();
+    let longest = (0..n)
+        .map(|i| vertices[(i + 1) % n] - vertices[i])
+        .max_by(|a, b| a.norm().total_cmp(&b.norm()))
+        .unwrap_or_else(Vec3::zeros);
+    let across = normal
+        .cross(&longest)
+        .try_normalize(0.0)
+        .unwrap_or_else(Vec3::zeros);
+    let heights = vertices.iter().map(|v| across.dot(&(v - vertices[0])));
+    let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+    high - low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kind(points: &[(f64, f64, f64)]) -> ErrorKind {
+        let points: Vec<_> = points.iter().map(|&(x, y, z)| Vec3::new(x, y, z)).collect();
+        convex_polygon(&points).unwrap_err().kind
+    }
+
+    #[test]
+    fn says_what_is_wrong() {
+        assert_eq!(kind(&[]), ErrorKind::Empty);
+        assert_eq!(kind(&[(0., 0., 0.), (1., 0., 0.)]), ErrorKind::Degenerate);
+        assert_eq!(
+            kind(&[(0., 0., 0.), (1., 0., 0.), (2., 0., 0.)]),
+            ErrorKind::Degenerate
+        );
+        assert_eq!(
+            kind(&[(0., 0., 0.), (1., 0., 0.), (1., 0., 0.), (0., 1., 0.)]),
+            ErrorKind::Degenerate
+        );
+        assert_eq!(
+            kind(&[(0., 0., 0.), (1., f64::NAN, 0.), (0., 1., 0.)]),
+            ErrorKind::NotFinite
+        );
+        assert_eq!(
+            kind(&[(0., 0., 0.), (1., 0., 0.), (1., 1., 0.1), (0., 1., 0.)]),
+            ErrorKind::NotPlanar
+        );
+        assert_eq!(
+            kind(&[(0., 0., 0.), (2., 0., 0.), (0.5, 0.5, 0.), (0., 2., 0.)]),
+            ErrorKind::NotConvex
+        );
+        let star: Vec<_> = (0..5)
+            .map(|i| {
+                let angle = 4.0 * std::f64::consts::PI * i as f64 / 5.0;
+                (angle.cos(), angle.sin(), 0.0)
+            })
+            .collect();
+        assert_eq!(kind(&star), ErrorKind::NotConvex);
+    }
+
+    #[test]
+    fn accepts_all_scales_and_straight_vertices() {
+        for scale in [1e-23, 1e-6, 1.0, 1e6] {
+            let points = [(0., 0.), (1., 0.), (2., 0.), (2., 1.), (0., 1.)]
+                .map(|(x, y)| Vec3::new(x, y, 1.0) * scale);
+            let polygon = convex_polygon(&points).unwrap();
+            assert!((polygon.faces[0].normal - Vec3::z()).amax() < 1e-15);
+        }
+    }
+}
