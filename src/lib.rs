@@ -20,3 +20,12 @@ pub mod hierarchy;
 pub mod body;
 
 pub mod pair;
+
+pub mod robot;
+pub mod space;
+
+pub mod environment;
+
+pub mod cobject;
+
+pub mod query;

@@ -100,6 +100,18 @@ pub fn contacts(
             }
         }
     }
+    // Parallel edges of a planar pair that overlap by less than the slack.
+    if found.is_empty()
+        && let Some(mode) = mode_of(closest.features)
+    {
+        found.push(Contact {
+            points: closest.points,
+            normal,
+            distance: closest.distance,
+            mode,
+            features: closest.features,
+        });
+    }
     found
 }
 

@@ -1,0 +1,8 @@
+//! Environments: the s-objects, added, moved and deleted (§2.2.4, operation 2).
+
+#[allow(clippy::module_inception)]
+mod environment;
+mod snapshot;
+
+pub use environment::{Change, Environment};
+pub use snapshot::{SObject, Snapshot};

@@ -1,0 +1,80 @@
+//! The answers' types.
+
+use crate::convex::ContactMode;
+use crate::pose::Vec3;
+use crate::primitive::Feature;
+
+/// The s-side of a body pair. Objects sort before links, and both by number: the order in which ties are broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SSide {
+    Object(u64),
+    Link(usize),
+}
+
+/// What a distance says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DistanceKind {
+    /// The distance, to rounding.
+    Exact,
+    /// Only `lower` and `upper` are known.
+    LowerBound,
+    /// Nothing is within the maximal distance asked for.
+    BeyondMax,
+    /// There is nothing to measure to.
+    Empty,
+}
+
+/// A distance with safe bounds: `lower <= truth <= upper`.
+#[derive(Clone, Debug)]
+pub struct Distance {
+    pub kind: DistanceKind,
+    pub distance: f64,
+    pub lower: f64,
+    pub upper: f64,
+    /// The nearest primitive pair; ties go to the lowest ids.
+    pub witness: Option<Witness>,
+    /// The closest points of the witness, and its contact there if it has one.
+    pub points: [Vec3; 2],
+    pub contact: Option<ContactRecord>,
+    /// The version of the environment that was measured; 0 if there is none.
+    pub version: u64,
+}
+
+/// A primitive pair. Its contacts are `contact_count` entries of the list it comes in, from `first_contact`.
+#[derive(Clone, Copy, Debug)]
+pub struct Witness {
+    pub r_link: usize,
+    pub s_side: SSide,
+    pub primitives: [u32; 2],
+    pub tags: [u64; 2],
+    pub distance: f64,
+    pub first_contact: usize,
+    pub contact_count: usize,
+    /// The primitives' interiors overlap: there is no contact, and no gradient.
+    pub overlapping: bool,
+}
+
+/// One contact, in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactRecord {
+    pub points: [Vec3; 2],
+    /// Unit, from s to r.
+    pub normal: Vec3,
+    pub distance: f64,
+    pub mode: ContactMode,
+    pub features: [Feature; 2],
+}
+
+/// All primitive pairs within a threshold, nearest first, and their contacts.
+#[derive(Clone, Debug, Default)]
+pub struct WitnessList {
+    pub witnesses: Vec<Witness>,
+    pub contacts: Vec<ContactRecord>,
+    /// One row of nv numbers per contact; empty where no gradients were asked for.
+    pub gradients: Vec<f64>,
+    /// The length of a row.
+    pub nv: usize,
+    /// There are more witnesses than were asked for; these are the nearest.
+    pub truncated: bool,
+    pub version: u64,
+}

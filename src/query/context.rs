@@ -1,0 +1,60 @@
+//! A query context: one thread's caches and scratch memory.
+
+use std::collections::HashMap;
+
+use super::answer::SSide;
+use crate::pair::{Scratch, Statistics};
+
+/// Names a body pair across queries: a space and two of its parties, or two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum CacheKey {
+    Bodies(u64, u64),
+    Candidate {
+        space: u64,
+        r_link: usize,
+        s_side: SSide,
+        /// The s-object's body: an id keeps its body for good, but a key must not outlive what it names.
+        body: u64,
+    },
+}
+
+/// Scratch memory and the witnesses of earlier queries (§2.3.4). It changes how long an answer takes, never the answer.
+#[derive(Default)]
+pub struct QueryContext {
+    pub(super) scratch: Scratch,
+    witnesses: HashMap<CacheKey, [u32; 2]>,
+}
+
+impl QueryContext {
+    /// Beyond this many remembered witnesses the cache starts anew.
+    const CAPACITY: usize = 1 << 16;
+
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Work done since the context was made or last reset.
+    pub fn statistics(&self) -> Statistics {
+        self.scratch.statistics
+    }
+
+    pub fn reset_statistics(&mut self) {
+        self.scratch.statistics = Statistics::default();
+    }
+
+    /// Forgets the witnesses of earlier queries.
+    pub fn clear(&mut self) {
+        self.witnesses.clear();
+    }
+
+    pub(super) fn remembered(&self, key: &CacheKey) -> Option<[u32; 2]> {
+        self.witnesses.get(key).copied()
+    }
+
+    pub(super) fn remember(&mut self, key: CacheKey, primitives: [u32; 2]) {
+        if self.witnesses.len() >= Self::CAPACITY {
+            self.witnesses.clear();
+        }
+        self.witnesses.insert(key, primitives);
+    }
+}

@@ -1,0 +1,312 @@
+//! Queries at a configuration: operations 4 to 8 of §2.2.4 and `cstk-pseudo-normal` of Appendix A.
+
+use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
+use super::candidates::{Candidate, Configuration, Scene};
+use super::context::{CacheKey, QueryContext};
+use super::pair::{contact_at_witness, contact_records};
+use super::strategies::{Found, Target};
+use crate::cobject::{CObject, Class};
+use crate::error::{Error, ErrorKind, Result};
+use crate::pair::Hit;
+use crate::tolerance;
+
+/// Class, distance, witnesses and gradients at one configuration.
+#[derive(Clone, Debug)]
+pub struct PseudoNormal {
+    pub class: Class,
+    pub distance: Distance,
+    pub list: WitnessList,
+}
+
+/// Refuses thresholds that are NaN or negative; infinity is welcome.
+pub(super) fn check_threshold(value: f64, name: &str) -> Result<()> {
+    if value.is_nan() {
+        return Err(Error::new(ErrorKind::NotFinite, format!("{name} is NaN")));
+    }
+    if value < 0.0 {
+        return Err(Error::invalid(format!("{name} is negative: {value}")));
+    }
+    Ok(())
+}
+
+impl QueryContext {
+    /// Operation 4: whether the configuration is inside, in contact or outside.
+    pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
+        let scene = Scene::new(cobject, at)?;
+        let candidates = scene.candidates()?;
+        let targets = targets(&scene, &candidates);
+        let inside = targets.iter().map(|target| (target, 0.0));
+        if self.first_within(inside).is_some() {
+            return Ok(Class::Inside);
+        }
+        let in_contact = targets
+            .iter()
+            .zip(&candidates)
+            .map(|(target, candidate)| (target, candidate.options.contact_epsilon));
+        let contact = self.first_within(in_contact.filter(|(_, epsilon)| *epsilon > 0.0));
+        Ok(if contact.is_some() {
+            Class::Contact
+        } else {
+            Class::Outside
+        })
+    }
+
+    /// Whether the distance may be at most `threshold`: doubt within rounding counts as within.
+    pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
+        check_threshold(threshold, "threshold")?;
+        let scene = Scene::new(cobject, at)?;
+        let candidates = scene.candidates()?;
+        let targets = targets(&scene, &candidates);
+        Ok(self
+            .first_within(targets.iter().map(|target| (target, threshold)))
+            .is_some())
+    }
+
+    /// Operation 6: the distance from contact, up to `max_distance`, and the nearest primitive pair.
+    pub fn distance(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        check_threshold(max_distance, "max_distance")?;
+        let scene = Scene::new(cobject, at)?;
+        let candidates = scene.candidates()?;
+        self.distance_among(&scene, &candidates, max_distance)
+    }
+
+    fn distance_among(
+        &mut self,
+        scene: &Scene,
+        candidates: &[Candidate],
+        max_distance: f64,
+    ) -> Result<Distance> {
+        if candidates.is_empty() {
+            return Ok(Distance::empty(scene.version));
+        }
+        let found = self.nearest(&targets(scene, candidates), max_distance);
+        let size = candidates
+            .iter()
+            .map(|c| c.pairing.size)
+            .fold(0.0, f64::max);
+        Ok(Distance::from_found(
+            &found,
+            max_distance,
+            size,
+            scene.version,
+            |hit| {
+                let candidate = of_rank(candidates, hit.key.pair);
+                (
+                    witness(candidate, hit),
+                    &candidate.pairing,
+                    candidate.options.margin,
+                )
+            },
+        ))
+    }
+
+    /// Operation 7: all primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
+    pub fn witnesses(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        check_threshold(epsilon, "epsilon")?;
+        let scene = Scene::new(cobject, at)?;
+        let candidates = scene.candidates()?;
+        Ok(self.list(&scene, &candidates, epsilon, max_count, false))
+    }
+
+    /// Operation 8: the same, with the gradient of each contact's distance.
+    pub fn gradients(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        check_threshold(epsilon, "epsilon")?;
+        let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
+        let candidates = scene.candidates()?;
+        Ok(self.list(&scene, &candidates, epsilon, max_count, true))
+    }
+
+    /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within
+    /// `max_shell`. With `normalize`, gradients are scaled to unit length.
+    pub fn pseudo_normal(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        max_shell: f64,
+        max_count: usize,
+        normalize: bool,
+    ) -> Result<PseudoNormal> {
+        check_threshold(max_shell, "max_shell")?;
+        let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
+        let candidates = scene.candidates()?;
+        let distance = self.distance_among(&scene, &candidates, f64::INFINITY)?;
+        let mut list = self.list(&scene, &candidates, max_shell, max_count, true);
+        if normalize && list.nv > 0 {
+            for row in list.gradients.chunks_exact_mut(list.nv) {
+                let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+                if length > 0.0 {
+                    row.iter_mut().for_each(|x| *x /= length);
+                }
+            }
+        }
+        let class = if distance.lower == 0.0 {
+            Class::Inside
+        } else {
+            let targets = targets(&scene, &candidates);
+            let in_contact = targets
+                .iter()
+                .zip(&candidates)
+                .map(|(target, candidate)| (target, candidate.options.contact_epsilon))
+                .filter(|(_, epsilon)| *epsilon >= distance.lower);
+            if self.first_within(in_contact).is_some() {
+                Class::Contact
+            } else {
+                Class::Outside
+            }
+        };
+        Ok(PseudoNormal {
+            class,
+            distance,
+            list,
+        })
+    }
+
+    fn list(
+        &mut self,
+        scene: &Scene,
+        candidates: &[Candidate],
+        epsilon: f64,
+        max_count: usize,
+        with_gradients: bool,
+    ) -> WitnessList {
+        let (hits, truncated) = self.collect(&targets(scene, candidates), epsilon, max_count);
+        let space = scene.cobject().space();
+        let nv = space.coordinates().len();
+        let mut list = WitnessList {
+            truncated,
+            version: scene.version,
+            nv: if with_gradients { nv } else { 0 },
+            ..Default::default()
+        };
+        for hit in &hits {
+            let candidate = of_rank(candidates, hit.key.pair);
+            let contacts = contact_records(&candidate.pairing, hit, candidate.options.margin);
+            let mut entry = witness(candidate, hit);
+            entry.first_contact = list.contacts.len();
+            entry.contact_count = contacts.len();
+            entry.overlapping = contacts.is_empty() && hit.closest.distance == 0.0;
+            list.witnesses.push(entry);
+            if with_gradients {
+                for contact in &contacts {
+                    list.gradients.extend(gradient(scene, candidate, contact));
+                }
+            }
+            list.contacts.extend(contacts);
+        }
+        list
+    }
+}
+
+/// One row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
+fn gradient(scene: &Scene, candidate: &Candidate, contact: &ContactRecord) -> Vec<f64> {
+    let space = scene.cobject().space();
+    let mut row = vec![0.0; space.coordinates().len()];
+    let [on_r, on_s] = &contact.points;
+    space.add_gradient(
+        &scene.poses,
+        candidate.r_link,
+        on_r,
+        &contact.normal,
+        1.0,
+        &mut row,
+    );
+    if let SSide::Link(s) = candidate.s_side {
+        space.add_gradient(&scene.poses, s, on_s, &contact.normal, -1.0, &mut row);
+    }
+    row
+}
+
+fn targets<'a>(scene: &Scene, candidates: &'a [Candidate<'a>]) -> Vec<Target<'a>> {
+    let space = scene.cobject().space().serial();
+    candidates
+        .iter()
+        .map(|candidate| Target {
+            pairing: &candidate.pairing,
+            key: CacheKey::Candidate {
+                space,
+                r_link: candidate.r_link,
+                s_side: candidate.s_side,
+                body: candidate.pairing.b.serial(),
+            },
+            rank: candidate.rank,
+            margin: candidate.options.margin,
+            bound: candidate.bound,
+        })
+        .collect()
+}
+
+fn of_rank<'a, 'b>(candidates: &'b [Candidate<'a>], rank: u32) -> &'b Candidate<'a> {
+    // Every hit comes from one of these candidates.
+    candidates
+        .iter()
+        .find(|candidate| candidate.rank == rank)
+        .unwrap_or(&candidates[0])
+}
+
+fn witness(candidate: &Candidate, hit: &Hit) -> Witness {
+    Witness::of(candidate.r_link, candidate.s_side, &candidate.pairing, hit)
+}
+
+impl Distance {
+    pub(super) fn empty(version: u64) -> Self {
+        Self {
+            kind: DistanceKind::Empty,
+            distance: f64::INFINITY,
+            lower: f64::INFINITY,
+            upper: f64::INFINITY,
+            witness: None,
+            points: Default::default(),
+            contact: None,
+            version,
+        }
+    }
+
+    /// The answer to a search up to `max_distance` among pairs of size at most `size`.
+    pub(super) fn from_found<'a>(
+        found: &Found,
+        max_distance: f64,
+        size: f64,
+        version: u64,
+        describe: impl FnOnce(&Hit) -> (Witness, &'a crate::pair::Pairing<'a>, f64),
+    ) -> Self {
+        let error = tolerance::TOUCH * size;
+        let Some(hit) = &found.hit else {
+            return Self {
+                kind: DistanceKind::BeyondMax,
+                lower: (max_distance - error).max(0.0),
+                ..Self::empty(version)
+            };
+        };
+        let (mut witness, pairing, margin) = describe(hit);
+        let contact = contact_at_witness(pairing, hit, margin);
+        witness.contact_count = usize::from(contact.is_some());
+        witness.overlapping = contact.is_none() && hit.closest.distance == 0.0;
+        Self {
+            kind: DistanceKind::Exact,
+            distance: hit.distance,
+            lower: found.lower,
+            upper: hit.distance + error,
+            witness: Some(witness),
+            points: pairing.world_points(&hit.closest),
+            contact,
+            version,
+        }
+    }
+}

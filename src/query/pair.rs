@@ -1,0 +1,148 @@
+//! Queries of two bodies at two poses: the level of FCL and Coal.
+
+use super::answer::{ContactRecord, Distance, SSide, Witness, WitnessList};
+use super::context::{CacheKey, QueryContext};
+use super::enumerate::check_threshold;
+use super::strategies::Target;
+use crate::body::Body;
+use crate::error::{Error, Result};
+use crate::pair::{Hit, Pairing};
+use crate::pose::Pose;
+use crate::tolerance;
+
+/// A body at a pose.
+type Placement<'a> = (&'a Body, &'a Pose);
+
+fn pairing<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Pairing<'a>> {
+    if a.0.dimension() != b.0.dimension() {
+        return Err(Error::invalid(format!(
+            "the bodies differ in dimension: {} and {}",
+            a.0.dimension(),
+            b.0.dimension()
+        )));
+    }
+    for ((body, pose), name) in [(a, "a"), (b, "b")] {
+        if body.dimension() == 2 && !pose.is_planar() {
+            return Err(Error::invalid(format!(
+                "pose {name} leaves the plane z = 0 of its body"
+            )));
+        }
+    }
+    Ok(Pairing::new(a.0, a.1, b.0, b.1))
+}
+
+fn target<'a>(pairing: &'a Pairing<'a>) -> Target<'a> {
+    Target {
+        key: CacheKey::Bodies(pairing.a.serial(), pairing.b.serial()),
+        rank: 0,
+        margin: 0.0,
+        bound: pairing.sphere_bound() - tolerance::BOUND_SLACK * pairing.size,
+        pairing,
+    }
+}
+
+impl QueryContext {
+    /// The distance of two bodies, up to `max_distance`, and the nearest primitive pair.
+    pub fn pair_distance(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        check_threshold(max_distance, "max_distance")?;
+        let pairing = pairing(a, b)?;
+        let found = self.nearest(&[target(&pairing)], max_distance);
+        Ok(Distance::from_found(
+            &found,
+            max_distance,
+            pairing.size,
+            0,
+            |hit| {
+                (
+                    Witness::of(0, SSide::Object(0), &pairing, hit),
+                    &pairing,
+                    0.0,
+                )
+            },
+        ))
+    }
+
+    /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
+    pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
+        check_threshold(threshold, "threshold")?;
+        let pairing = pairing(a, b)?;
+        let target = target(&pairing);
+        Ok(self
+            .first_within(std::iter::once((&target, threshold)))
+            .is_some())
+    }
+
+    /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
+    pub fn pair_witnesses(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        check_threshold(epsilon, "epsilon")?;
+        let pairing = pairing(a, b)?;
+        let (hits, truncated) = self.collect(&[target(&pairing)], epsilon, max_count);
+        let mut list = WitnessList {
+            truncated,
+            ..Default::default()
+        };
+        for hit in &hits {
+            let contacts = contact_records(&pairing, hit, 0.0);
+            list.witnesses.push(Witness {
+                first_contact: list.contacts.len(),
+                contact_count: contacts.len(),
+                overlapping: contacts.is_empty() && hit.closest.distance == 0.0,
+                ..Witness::of(0, SSide::Object(0), &pairing, hit)
+            });
+            list.contacts.extend(contacts);
+        }
+        Ok(list)
+    }
+}
+
+impl Witness {
+    /// A witness whose contacts are not known yet.
+    pub(super) fn of(r_link: usize, s_side: SSide, pairing: &Pairing, hit: &Hit) -> Self {
+        let [on_a, on_b] = hit.key.primitives;
+        Self {
+            r_link,
+            s_side,
+            primitives: hit.key.primitives,
+            tags: [pairing.a.tag(on_a), pairing.b.tag(on_b)],
+            distance: hit.distance,
+            first_contact: 0,
+            contact_count: 0,
+            overlapping: false,
+        }
+    }
+}
+
+/// The contacts of a primitive pair, distances less the margin.
+pub(super) fn contact_records(pairing: &Pairing, hit: &Hit, margin: f64) -> Vec<ContactRecord> {
+    pairing
+        .world_contacts(hit.key.primitives, &hit.closest)
+        .into_iter()
+        .map(|found| ContactRecord {
+            points: found.points,
+            normal: found.normal,
+            distance: (found.contact.distance - margin).max(0.0),
+            mode: found.contact.mode,
+            features: found.contact.features,
+        })
+        .collect()
+}
+
+/// The contact at the closest points.
+pub(super) fn contact_at_witness(
+    pairing: &Pairing,
+    hit: &Hit,
+    margin: f64,
+) -> Option<ContactRecord> {
+    contact_records(pairing, hit, margin).into_iter().next()
+}
