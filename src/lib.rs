@@ -29,3 +29,7 @@ pub mod environment;
 pub mod cobject;
 
 pub mod query;
+
+pub mod show;
+
+pub mod capi;

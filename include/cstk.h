@@ -1,0 +1,1347 @@
+/* cstk.h: the C-Space Toolkit. Generated from the Rust sources; do not edit.
+ *
+ * At a configuration q of a robot: is q free, in contact, or inside (cstk_classify)? how far from contact and between
+ * which features (cstk_distance, cstk_witnesses)? which way is out, in joint space (cstk_gradients)? which step slides
+ * along the contact (cstk_slide)? The same for two bodies at two poses: cstk_pair_distance and its companions.
+ *
+ * CALLS. Every call that can fail returns a cstk_status; inputs come first, outputs last, and outputs are written only on
+ * CSTK_OK. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library
+ * never prints and never exits.
+ *
+ * OWNERSHIP. _create, _build and _snapshot give one reference, _retain adds one, _release drops one; releasing NULL is a
+ * no-op. Objects keep alive what they refer to, so parts may be released as soon as the whole is made. A handle that was
+ * released for good, or that is of another kind, is answered with CSTK_WRONG_HANDLE as far as that can be known; do not
+ * rely on it. Bodies, robots, spaces and C-objects never change once made. Strings and arrays passed in are copied.
+ *
+ * THREADS. All objects may be shared by threads, but for query contexts: a cstk_query (and a builder) serves one call at a
+ * time and answers CSTK_BUSY to another. Make one per thread.
+ *
+ * OPTIONS. Structures with size and cookie are written by their _default function before fields are set; others are
+ * refused with CSTK_NOT_INITIALISED. Where a parameter is called options, NULL stands for the defaults.
+ *
+ * UNITS AND FRAMES. Lengths are in the caller's unit, angles in radians. A pose is 12 doubles, row-major [R | t], from
+ * child to parent frame: x_parent = R x_child + t. R may be off orthonormal by 1e-6; the nearest rotation is then used.
+ * Points and normals in answers are in the world. Planar worlds use the same structures with z = 0.
+ *
+ * MEANING. A body is the union of its primitives as closed sets: in space a polygon is a surface and a polyhedron is solid;
+ * in the plane a polygon is solid. The distance is the least over all pairs of primitives, 0 when they meet; its error is
+ * at most 1e-12 of the largest coordinate of the pair (seen from the middle of one of them). Answers do not depend on the
+ * queries before them, nor on the number of threads, to the last bit.
+ */
+
+
+#ifndef CSTK_H
+#define CSTK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/**
+ * The version this header belongs to.
+ */
+#define CSTK_VERSION_MAJOR 0
+
+#define CSTK_VERSION_MINOR 1
+
+#define CSTK_VERSION_PATCH 0
+
+/**
+ * Stands for "no such number" in fields that hold a link's number.
+ */
+#define CSTK_NONE 4294967295
+
+/**
+ * How a call ended. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
+ * argument, which polygon, which line. A failed call has changed nothing and written no output.
+ */
+enum cstk_status
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The call did what was asked.
+   */
+  CSTK_OK = 0,
+  /**
+   * A pointer that must not be NULL is.
+   */
+  CSTK_NULL_ARGUMENT = 1,
+  /**
+   * A handle is of another kind, or was released.
+   */
+  CSTK_WRONG_HANDLE = 2,
+  /**
+   * An options structure was not written by its _default function, or is damaged.
+   */
+  CSTK_NOT_INITIALISED = 3,
+  /**
+   * An argument is outside its documented range.
+   */
+  CSTK_INVALID_ARGUMENT = 4,
+  /**
+   * A number is NaN or infinite where a finite one is needed.
+   */
+  CSTK_NOT_FINITE = 5,
+  /**
+   * An array or structure has the wrong size.
+   */
+  CSTK_WRONG_SIZE = 6,
+  /**
+   * Nothing was given where at least one item is needed: a body without primitives, a robot without links.
+   */
+  CSTK_EMPTY = 7,
+  /**
+   * Geometry without extent: a repeated vertex, a polygon without area, an axis of length 0.
+   */
+  CSTK_DEGENERATE = 8,
+  /**
+   * A polygon that turns inwards, winds more than once, or crosses itself.
+   */
+  CSTK_NOT_CONVEX = 9,
+  /**
+   * A polygon whose vertices leave its plane, or a planar body that leaves z = 0.
+   */
+  CSTK_NOT_PLANAR = 10,
+  /**
+   * The 3 x 3 part of a pose is not a rotation.
+   */
+  CSTK_NOT_A_ROTATION = 11,
+  /**
+   * An id, index or name that does not exist.
+   */
+  CSTK_NOT_FOUND = 12,
+  /**
+   * Something the library does not do: an unknown file format, a change to a snapshot.
+   */
+  CSTK_UNSUPPORTED = 13,
+  /**
+   * The operating system could not read or write a file.
+   */
+  CSTK_IO = 14,
+  /**
+   * A file's contents cannot be understood; it may be truncated.
+   */
+  CSTK_PARSE = 15,
+  /**
+   * A result could not be certified.
+   */
+  CSTK_NOT_CONVERGED = 16,
+  /**
+   * The caller's progress function asked to stop.
+   */
+  CSTK_CANCELLED = 17,
+  /**
+   * The object is in use by another thread, or by the call whose callback makes this one.
+   */
+  CSTK_BUSY = 18,
+  /**
+   * A fault of the library itself. It was contained; please report it with the message.
+   */
+  CSTK_INTERNAL = 19,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_status cstk_status;
+#else
+typedef int32_t cstk_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Where a configuration stands. The order is that of the set algebra: a union takes the largest.
+ */
+enum cstk_class
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Farther from contact than the contact epsilon.
+   */
+  CSTK_OUTSIDE = 0,
+  /**
+   * Apart, by at most the contact epsilon.
+   */
+  CSTK_CONTACT = 1,
+  /**
+   * The sets meet: distance 0.
+   */
+  CSTK_INSIDE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_class cstk_class;
+#else
+typedef int32_t cstk_class;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a distance says.
+ */
+enum cstk_distance_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The distance, to rounding.
+   */
+  CSTK_EXACT = 0,
+  /**
+   * Only `lower` and `upper` are known.
+   */
+  CSTK_LOWER_BOUND = 1,
+  /**
+   * Nothing is within max_distance: `lower` says so, `distance` and `upper` are infinite.
+   */
+  CSTK_BEYOND_MAX = 2,
+  /**
+   * There is nothing to measure to; all three are infinite.
+   */
+  CSTK_EMPTY_SET = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_distance_kind cstk_distance_kind;
+#else
+typedef int32_t cstk_distance_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The contact modes of §4.4: the r-feature, then the s-feature.
+ */
+enum cstk_contact_mode
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  CSTK_POINT_POINT = 0,
+  CSTK_POINT_EDGE = 1,
+  CSTK_EDGE_POINT = 2,
+  CSTK_POINT_FACE = 3,
+  CSTK_FACE_POINT = 4,
+  CSTK_EDGE_EDGE = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_contact_mode cstk_contact_mode;
+#else
+typedef int32_t cstk_contact_mode;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Kinds of features of a primitive.
+ */
+enum cstk_feature_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  CSTK_VERTEX = 0,
+  CSTK_EDGE = 1,
+  CSTK_FACE = 2,
+  /**
+   * The inside of a solid.
+   */
+  CSTK_INTERIOR = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_feature_kind cstk_feature_kind;
+#else
+typedef int32_t cstk_feature_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * How a slide ended.
+ */
+enum cstk_slide_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * A step was found, and it keeps clear of the C-object all the way.
+   */
+  CSTK_SLIDE_MOVED = 0,
+  /**
+   * The configuration is inside the C-object; nothing was moved.
+   */
+  CSTK_SLIDE_INSIDE = 1,
+  /**
+   * No step leads on: contacts, ranges or the world box are in the way; nothing was moved.
+   */
+  CSTK_SLIDE_BLOCKED = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_slide_outcome cstk_slide_outcome;
+#else
+typedef int32_t cstk_slide_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * How a joint moves its link.
+ */
+enum cstk_joint_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Not at all.
+   */
+  CSTK_JOINT_FIXED = 0,
+  /**
+   * Turns it about the axis; the coordinate is an angle in radians.
+   */
+  CSTK_JOINT_REVOLUTE = 1,
+  /**
+   * Shifts it along the axis; the coordinate is a length.
+   */
+  CSTK_JOINT_PRISMATIC = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_joint_kind cstk_joint_kind;
+#else
+typedef int32_t cstk_joint_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The topology of a coordinate.
+ */
+enum cstk_range_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The circle: angles in radians, equal modulo 2 pi. The limits are ignored.
+   */
+  CSTK_RANGE_CIRCLE = 0,
+  /**
+   * The closed interval from lower to upper; either may be infinite.
+   */
+  CSTK_RANGE_INTERVAL = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_range_kind cstk_range_kind;
+#else
+typedef int32_t cstk_range_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a change does.
+ */
+enum cstk_change_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
+   */
+  CSTK_CHANGE_ADD = 0,
+  /**
+   * Moves object `id` to `pose`.
+   */
+  CSTK_CHANGE_MOVE = 1,
+  /**
+   * Deletes object `id`.
+   */
+  CSTK_CHANGE_DELETE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_change_kind cstk_change_kind;
+#else
+typedef int32_t cstk_change_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
+ */
+typedef struct cstk_body cstk_body;
+
+/**
+ * Collects the primitives of a body.
+ */
+typedef struct cstk_body_builder cstk_body_builder;
+
+/**
+ * A set in C-space: induced by contact or interference of links with s-objects or links, or a union of such. Immutable
+ * (but for the environment it may refer to); threads may share it. It keeps its space and environment.
+ */
+typedef struct cstk_cobject cstk_cobject;
+
+/**
+ * The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
+ * bodies of its objects.
+ */
+typedef struct cstk_environment cstk_environment;
+
+/**
+ * One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
+ * time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
+ */
+typedef struct cstk_query cstk_query;
+
+/**
+ * A tree of links. Immutable; threads may share it. It keeps the bodies of its links.
+ */
+typedef struct cstk_robot cstk_robot;
+
+/**
+ * Collects the links of a robot.
+ */
+typedef struct cstk_robot_builder cstk_robot_builder;
+
+/**
+ * The C-space of one or more robots. Immutable; threads may share it. It keeps its robots.
+ */
+typedef struct cstk_space cstk_space;
+
+/**
+ * How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first.
+ */
+typedef struct cstk_hierarchy_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Wrappers are convex hulls of at most so many vertices; larger ones become oriented boxes. At least 8; default 32.
+   */
+  uint32_t hull_vertex_limit;
+  uint32_t reserved;
+} cstk_hierarchy_options;
+
+/**
+ * Hears how far a long call has come, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_CANCELLED. It is
+ * called on the thread that made the call; it must not throw.
+ */
+typedef int32_t (*cstk_progress_fn)(double fraction, void *user);
+
+/**
+ * What became of a body's input, and what was built.
+ */
+typedef struct cstk_body_statistics {
+  /**
+   * Convex primitives in the body.
+   */
+  uint64_t primitive_count;
+  /**
+   * Mesh faces that were not convex or not planar, and were split into triangles.
+   */
+  uint64_t faces_split;
+  /**
+   * Mesh faces without area, left out.
+   */
+  uint64_t faces_dropped;
+  /**
+   * Nodes of the hierarchy, and its levels.
+   */
+  uint64_t node_count;
+  uint64_t depth;
+  /**
+   * The box of all vertices, in the frame in which the body was given.
+   */
+  double low[3];
+  double high[3];
+  uint64_t reserved[8];
+} cstk_body_statistics;
+
+/**
+ * A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
+ */
+typedef struct cstk_link_def {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A name of its own within the robot, UTF-8; NULL for "link<number>". It is copied.
+   */
+  const char *name;
+  /**
+   * The link's geometry, or NULL for a frame without any. The robot keeps a reference.
+   */
+  const struct cstk_body *body;
+  /**
+   * The number of the link it is attached to, or -1 for the world.
+   */
+  int32_t parent;
+  /**
+   * A cstk_joint_kind.
+   */
+  int32_t joint;
+  /**
+   * The joint's frame in the parent's frame at coordinate 0: a pose of 12 doubles. For the report's (x, y, z, yaw,
+   * pitch, roll) see cstk_pose_from_euler.
+   */
+  double at[12];
+  /**
+   * The joint's axis in its own frame, of any length; default z.
+   */
+  double axis[3];
+  /**
+   * Which coordinate moves the joint, or -1 for the next unused one. Joints may share a coordinate.
+   */
+  int32_t coordinate;
+  uint32_t reserved;
+} cstk_link_def;
+
+/**
+ * The range of a coordinate.
+ */
+typedef struct cstk_range {
+  /**
+   * A cstk_range_kind.
+   */
+  int32_t kind;
+  uint32_t reserved;
+  double lower;
+  double upper;
+} cstk_range;
+
+/**
+ * One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
+ */
+typedef struct cstk_environment_change {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A cstk_change_kind.
+   */
+  int32_t kind;
+  uint32_t reserved;
+  /**
+   * The object to move or delete.
+   */
+  uint64_t id;
+  /**
+   * The body to add.
+   */
+  const struct cstk_body *body;
+  /**
+   * Where it stands: the body's frame in the world, 12 doubles.
+   */
+  double pose[12];
+} cstk_environment_change;
+
+/**
+ * How an induced C-object measures. Write it with cstk_cobject_options_default first.
+ */
+typedef struct cstk_cobject_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Distances above 0 and up to this classify as CSTK_CONTACT. Default 0.
+   */
+  double contact_epsilon;
+  /**
+   * Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
+   * than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
+   */
+  double margin;
+} cstk_cobject_options;
+
+/**
+ * The work a query context has done.
+ */
+typedef struct cstk_query_statistics {
+  /**
+   * Pairs of hierarchy nodes whose wrappers were tested.
+   */
+  uint64_t node_pairs;
+  /**
+   * Primitive pairs whose distance was computed.
+   */
+  uint64_t primitive_pairs;
+  /**
+   * Witnesses of earlier queries that were evaluated first.
+   */
+  uint64_t cache_hits;
+  uint64_t reserved[5];
+} cstk_query_statistics;
+
+/**
+ * One pair of primitives.
+ */
+typedef struct cstk_witness {
+  /**
+   * The link, numbered through the space; 0 for pairs of bodies.
+   */
+  uint32_t r_link;
+  /**
+   * The second link, or CSTK_NONE if the s-side is an s-object or a body.
+   */
+  uint32_t s_link;
+  /**
+   * The s-object's id, or 0.
+   */
+  uint64_t s_object;
+  /**
+   * The primitives' numbers in their bodies, and their tags.
+   */
+  uint32_t r_primitive;
+  uint32_t s_primitive;
+  uint64_t r_tag;
+  uint64_t s_tag;
+  /**
+   * The primitives' distance, less the C-object's margin and at least 0.
+   */
+  double distance;
+  /**
+   * Its contacts are `contact_count` entries of the list from `first_contact`. Parallel features have several, which
+   * span the common part.
+   */
+  uint32_t first_contact;
+  uint32_t contact_count;
+  /**
+   * The primitives overlap (rather than touch): there is no contact, and no gradient.
+   */
+  bool overlapping;
+  uint8_t reserved_bytes[7];
+  uint64_t reserved[4];
+} cstk_witness;
+
+/**
+ * One contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
+ */
+typedef struct cstk_contact {
+  /**
+   * The two points, in the world.
+   */
+  double r_point[3];
+  double s_point[3];
+  /**
+   * Unit, in the world, from the s-side to the r-side; right at exact touch too.
+   */
+  double normal[3];
+  /**
+   * The distance between the points, less the C-object's margin and at least 0.
+   */
+  double distance;
+  cstk_contact_mode mode;
+  /**
+   * The features that hold the points; for their vertices see cstk_body_feature_vertices.
+   */
+  cstk_feature_kind r_feature_kind;
+  uint32_t r_feature;
+  cstk_feature_kind s_feature_kind;
+  uint32_t s_feature;
+  uint32_t reserved[7];
+} cstk_contact;
+
+/**
+ * A distance with safe bounds: lower <= truth <= upper.
+ */
+typedef struct cstk_distance_result {
+  cstk_distance_kind kind;
+  /**
+   * `witness` and the points below hold the nearest primitive pair; ties go to the lowest ids.
+   */
+  bool has_witness;
+  /**
+   * `contact` holds the contact there. An overlap has none.
+   */
+  bool has_contact;
+  uint8_t reserved_bytes[2];
+  /**
+   * 0 exactly when the sets meet.
+   */
+  double distance;
+  /**
+   * Never above the truth; 0 exactly when `distance` is.
+   */
+  double lower;
+  /**
+   * Never below the truth.
+   */
+  double upper;
+  /**
+   * The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point.
+   */
+  double r_point[3];
+  double s_point[3];
+  struct cstk_witness witness;
+  struct cstk_contact contact;
+  /**
+   * The version of the environment that was measured; 0 where there is none.
+   */
+  uint64_t environment_version;
+  uint64_t reserved[8];
+} cstk_distance_result;
+
+/**
+ * Primitive pairs, nearest first, with their contacts. The arrays belong to the query context and stay valid until its
+ * next call or its release.
+ */
+typedef struct cstk_witness_list {
+  const struct cstk_witness *witnesses;
+  size_t witness_count;
+  const struct cstk_contact *contacts;
+  size_t contact_count;
+  /**
+   * One row of `nv` doubles per contact: the derivative of its distance by the coordinates. NULL where no gradients
+   * were asked for.
+   */
+  const double *gradients;
+  size_t nv;
+  /**
+   * There are more witnesses than max_count; these are the nearest.
+   */
+  bool truncated;
+  uint8_t reserved_bytes[7];
+  uint64_t environment_version;
+  uint64_t reserved[8];
+} cstk_witness_list;
+
+/**
+ * Everything about one configuration: Appendix A's cstk-pseudo-normal.
+ */
+typedef struct cstk_pseudo_normal_result {
+  cstk_class point_class;
+  uint32_t reserved;
+  struct cstk_distance_result distance;
+  /**
+   * Witnesses, contacts and gradients within the shell.
+   */
+  struct cstk_witness_list list;
+} cstk_pseudo_normal_result;
+
+/**
+ * How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
+ */
+typedef struct cstk_slide_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0.
+   */
+  double max_shell;
+  /**
+   * The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
+   * tenth of max_shell.
+   */
+  double desired_distance;
+  /**
+   * Lengthens the step along the contact to that of the step asked for, at most fourfold. Default off.
+   */
+  uint32_t keep_length;
+  /**
+   * At most so many witnesses are considered, the nearest first. Default 256.
+   */
+  uint32_t max_witnesses;
+} cstk_slide_options;
+
+/**
+ * What a slide did.
+ */
+typedef struct cstk_slide_result {
+  cstk_slide_outcome outcome;
+  /**
+   * How many contacts constrained the step.
+   */
+  uint32_t contact_count;
+  /**
+   * The distance at the configuration given, and at the one reached.
+   */
+  double distance_before;
+  double distance_after;
+  uint64_t reserved[8];
+} cstk_slide_result;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library that is linked, as "major.minor.patch"; static.
+ */
+const char *cstk_version(void);
+
+/**
+ * The name of a status, such as "CSTK_NOT_FINITE"; "unknown status" for a number that is none. Never NULL; static.
+ */
+const char *cstk_status_name(int32_t status);
+
+/**
+ * The message of this thread's last failed call; empty if none has failed. Valid until the next failure on this thread.
+ * Never NULL; UTF-8.
+ */
+const char *cstk_last_error_message(void);
+
+/**
+ * Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
+ * pitch (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
+ */
+cstk_status cstk_pose_from_euler(const double *xyz_ypr,
+                                 double *pose);
+
+/**
+ * The inverse of cstk_pose_from_euler (eq. 7). Where cos(pitch) = 0 only yaw + roll or yaw - roll is determined; roll is
+ * then given as 0.
+ */
+cstk_status cstk_pose_to_euler(const double *pose_12,
+                               double *xyz_ypr);
+
+/**
+ * The pose `a` then `b`: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in
+ * frame 0. All are 12 doubles; `out` may be `a` or `b`.
+ */
+cstk_status cstk_pose_compose(const double *a,
+                              const double *b,
+                              double *out);
+
+/**
+ * Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation of 9 doubles, row-major.
+ */
+cstk_status cstk_euler_to_rotation(const double *yaw_pitch_roll, double *rotation);
+
+/**
+ * The inverse of cstk_euler_to_rotation (eq. 7), with the same rule where cos(pitch) = 0 as cstk_pose_to_euler.
+ */
+cstk_status cstk_euler_from_rotation(const double *rotation,
+                                     double *yaw_pitch_roll);
+
+/**
+ * Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
+ * surfaces). Release it with cstk_body_builder_release.
+ */
+cstk_status cstk_body_builder_create(uint32_t dimension,
+                                     struct cstk_body_builder **out);
+
+/**
+ * Adds a reference. CSTK_WRONG_HANDLE if it is no builder.
+ */
+cstk_status cstk_body_builder_retain(struct cstk_body_builder *builder);
+
+/**
+ * Drops a reference; the last one frees the builder. NULL is a no-op.
+ */
+cstk_status cstk_body_builder_release(struct cstk_body_builder *builder);
+
+/**
+ * Adds a convex planar polygon: `count` vertices of three doubles in cyclic order, either way round. In space it is a
+ * surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
+ *
+ * CSTK_DEGENERATE, CSTK_NOT_CONVEX or CSTK_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
+ * by 1e-12 of the polygon's diameter; use cstk_body_builder_add_mesh to have other polygons split.
+ */
+cstk_status cstk_body_builder_add_polygon(struct cstk_body_builder *builder,
+                                          const double *xyz,
+                                          size_t count,
+                                          uint64_t tag);
+
+/**
+ * Adds the convex hull of `count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
+ * points are no more than that. Points inside the hull are ignored.
+ */
+cstk_status cstk_body_builder_add_polyhedron(struct cstk_body_builder *builder,
+                                             const double *xyz,
+                                             size_t count,
+                                             uint64_t tag);
+
+/**
+ * Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
+ * `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
+ * NULL for triangles. Faces are tagged with their index.
+ *
+ * Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
+ * cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
+ * match, CSTK_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
+ */
+cstk_status cstk_body_builder_add_mesh(struct cstk_body_builder *builder,
+                                       const double *vertices,
+                                       size_t vertex_count,
+                                       const uint32_t *face_sizes,
+                                       size_t face_count,
+                                       const uint32_t *indices,
+                                       size_t index_count);
+
+/**
+ * Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj or .stl (ASCII or binary).
+ * CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
+ */
+cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
+                                            const char *file);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_hierarchy_options).
+ */
+cstk_status cstk_hierarchy_options_default(struct cstk_hierarchy_options *out, size_t size);
+
+/**
+ * Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
+ * defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added.
+ */
+cstk_status cstk_body_build(struct cstk_body_builder *builder,
+                            const struct cstk_hierarchy_options *options,
+                            cstk_progress_fn progress,
+                            void *user,
+                            struct cstk_body **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_body_retain(struct cstk_body *body);
+
+/**
+ * Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
+ */
+cstk_status cstk_body_release(struct cstk_body *body);
+
+/**
+ * Writes counts and extents.
+ */
+cstk_status cstk_body_get_statistics(const struct cstk_body *body,
+                                     struct cstk_body_statistics *out);
+
+/**
+ * The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
+ * edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a cstk_feature_kind.
+ * At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to
+ * `count`.
+ */
+cstk_status cstk_body_feature_vertices(const struct cstk_body *body,
+                                       uint32_t primitive,
+                                       int32_t kind,
+                                       uint32_t feature,
+                                       size_t max_count,
+                                       double *xyz,
+                                       size_t *count);
+
+/**
+ * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
+ */
+cstk_status cstk_robot_builder_create(uint32_t dimension,
+                                      struct cstk_robot_builder **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_robot_builder_retain(struct cstk_robot_builder *builder);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_robot_builder_release(struct cstk_robot_builder *builder);
+
+/**
+ * Writes the default link. `size` is sizeof(cstk_link_def).
+ */
+cstk_status cstk_link_def_default(struct cstk_link_def *out, size_t size);
+
+/**
+ * Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
+ * which may be NULL. A free body is a chain of three prismatic and three revolute links.
+ */
+cstk_status cstk_robot_builder_add_link(struct cstk_robot_builder *builder,
+                                        const struct cstk_link_def *def,
+                                        uint32_t *out);
+
+/**
+ * Builds a robot from the links added so far; the builder is unchanged. CSTK_EMPTY if there are none.
+ */
+cstk_status cstk_robot_build(struct cstk_robot_builder *builder,
+                             struct cstk_robot **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_robot_retain(struct cstk_robot *robot);
+
+/**
+ * Drops a reference. NULL is a no-op. Spaces keep the robots they use.
+ */
+cstk_status cstk_robot_release(struct cstk_robot *robot);
+
+/**
+ * Writes the number of coordinates (nq, which equals nv) and of links; either may be NULL.
+ */
+cstk_status cstk_robot_size(const struct cstk_robot *robot, size_t *nq, size_t *link_count);
+
+/**
+ * Writes the number of the link with this name. CSTK_NOT_FOUND if there is none.
+ */
+cstk_status cstk_robot_find_link(const struct cstk_robot *robot, const char *name, uint32_t *out);
+
+/**
+ * The pose of a link in the world at configuration q (forward kinematics, §4.2), as 12 doubles.
+ */
+cstk_status cstk_robot_link_pose(const struct cstk_robot *robot,
+                                 const double *q,
+                                 size_t nq,
+                                 uint32_t link,
+                                 double *pose);
+
+/**
+ * The basic Jacobian (§4.3, eq. 33) at q of a point fixed to a link, given in the link's frame: 6 rows of nv doubles,
+ * row-major; three rows of linear velocity of the point, then three of angular velocity of the link, both in the world.
+ */
+cstk_status cstk_robot_jacobian(const struct cstk_robot *robot,
+                                const double *q,
+                                size_t nq,
+                                uint32_t link,
+                                const double *point,
+                                double *jacobian);
+
+/**
+ * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
+ *
+ * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for the defaults: circles for revolute
+ * joints, the whole line for prismatic ones. `world_box` holds low x, y, z, high x, y, z: where the links' origins may
+ * be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer anywhere.
+ */
+cstk_status cstk_space_create(const struct cstk_robot *const *robots,
+                              size_t robot_count,
+                              const struct cstk_range *ranges,
+                              size_t range_count,
+                              const double *world_box,
+                              struct cstk_space **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_space_retain(struct cstk_space *space);
+
+/**
+ * Drops a reference. NULL is a no-op. C-objects keep their space.
+ */
+cstk_status cstk_space_release(struct cstk_space *space);
+
+/**
+ * Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each may be NULL.
+ */
+cstk_status cstk_space_size(const struct cstk_space *space,
+                            size_t *nq,
+                            size_t *nv,
+                            size_t *link_count);
+
+/**
+ * Writes whether every coordinate of q is in its range and every link's origin in the world box.
+ */
+cstk_status cstk_space_contains(const struct cstk_space *space,
+                                const double *q,
+                                size_t nq,
+                                bool *out);
+
+/**
+ * Makes an empty environment.
+ */
+cstk_status cstk_environment_create(struct cstk_environment **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_environment_retain(struct cstk_environment *environment);
+
+/**
+ * Drops a reference. NULL is a no-op. C-objects keep the environments they refer to.
+ */
+cstk_status cstk_environment_release(struct cstk_environment *environment);
+
+/**
+ * Writes the default change. `size` is sizeof(cstk_environment_change).
+ */
+cstk_status cstk_environment_change_default(struct cstk_environment_change *out, size_t size);
+
+/**
+ * Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
+ * about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
+ * are unique in the process. All changes have the size of the first.
+ *
+ * CSTK_NOT_FOUND for an id that is not there (any more), CSTK_UNSUPPORTED for a snapshot.
+ */
+cstk_status cstk_environment_apply(struct cstk_environment *environment,
+                                   const struct cstk_environment_change *changes,
+                                   size_t count,
+                                   uint64_t *ids,
+                                   uint64_t *version);
+
+/**
+ * Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.
+ */
+cstk_status cstk_environment_snapshot(const struct cstk_environment *environment,
+                                      struct cstk_environment **out);
+
+/**
+ * Writes the number of objects and the version, which counts the changes applied; either may be NULL.
+ */
+cstk_status cstk_environment_state(const struct cstk_environment *environment,
+                                   size_t *object_count,
+                                   uint64_t *version);
+
+/**
+ * Writes the pose (12 doubles) of an s-object. CSTK_NOT_FOUND if there is none with this id.
+ */
+cstk_status cstk_environment_object_pose(const struct cstk_environment *environment,
+                                         uint64_t id,
+                                         double *pose);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_cobject_options).
+ */
+cstk_status cstk_cobject_options_default(struct cstk_cobject_options *out, size_t size);
+
+/**
+ * Makes the set of configurations at which a link meets an s-object.
+ *
+ * `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
+ * meant. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+ * added later too. An object that is deleted later contributes nothing. `options` may be NULL for the defaults.
+ */
+cstk_status cstk_cobject_induced(const struct cstk_space *space,
+                                 const uint32_t *links,
+                                 size_t link_count,
+                                 const struct cstk_environment *environment,
+                                 const uint64_t *ids,
+                                 size_t id_count,
+                                 const struct cstk_cobject_options *options,
+                                 struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
+ * other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
+ * joined touch at every configuration; leave such pairs out.
+ */
+cstk_status cstk_cobject_induced_links(const struct cstk_space *space,
+                                       const uint32_t *pairs,
+                                       size_t pair_count,
+                                       const struct cstk_cobject_options *options,
+                                       struct cstk_cobject **out);
+
+/**
+ * Makes the union of `count` C-objects of one space. It keeps what its parts refer to, not the parts themselves. A
+ * body pair that several parts hold counts once, with the largest margin and contact epsilon.
+ */
+cstk_status cstk_cobject_union(const struct cstk_cobject *const *parts,
+                               size_t count,
+                               struct cstk_cobject **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_cobject_retain(struct cstk_cobject *cobject);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_cobject_release(struct cstk_cobject *cobject);
+
+/**
+ * Makes a query context.
+ */
+cstk_status cstk_query_create(struct cstk_query **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_query_retain(struct cstk_query *query);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_query_release(struct cstk_query *query);
+
+/**
+ * Writes the work done since the context was made, or since the last call with `reset`.
+ */
+cstk_status cstk_query_get_statistics(struct cstk_query *query,
+                                      bool reset,
+                                      struct cstk_query_statistics *out);
+
+/**
+ * Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
+ * `nq` doubles, as many as the space has coordinates.
+ */
+cstk_status cstk_classify(struct cstk_query *query,
+                          const struct cstk_cobject *cobject,
+                          const double *q,
+                          size_t nq,
+                          cstk_class *out);
+
+/**
+ * cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
+ * world, `link_count` runs of 12 doubles.
+ */
+cstk_status cstk_classify_at(struct cstk_query *query,
+                             const struct cstk_cobject *cobject,
+                             const double *link_poses,
+                             size_t link_count,
+                             cstk_class *out);
+
+/**
+ * Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
+ * as within; with threshold 0 the answer is that of cstk_classify being CSTK_INSIDE. Cheaper than a distance.
+ */
+cstk_status cstk_within(struct cstk_query *query,
+                        const struct cstk_cobject *cobject,
+                        const double *q,
+                        size_t nq,
+                        double threshold,
+                        bool *out);
+
+/**
+ * cstk_within with the pose of every link, as in cstk_classify_at.
+ */
+cstk_status cstk_within_at(struct cstk_query *query,
+                           const struct cstk_cobject *cobject,
+                           const double *link_poses,
+                           size_t link_count,
+                           double threshold,
+                           bool *out);
+
+/**
+ * Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
+ * `max_distance` (INFINITY to have them all) are not computed, which saves time; the answer is then CSTK_BEYOND_MAX.
+ */
+cstk_status cstk_distance(struct cstk_query *query,
+                          const struct cstk_cobject *cobject,
+                          const double *q,
+                          size_t nq,
+                          double max_distance,
+                          struct cstk_distance_result *out);
+
+/**
+ * cstk_distance with the pose of every link, as in cstk_classify_at.
+ */
+cstk_status cstk_distance_at(struct cstk_query *query,
+                             const struct cstk_cobject *cobject,
+                             const double *link_poses,
+                             size_t link_count,
+                             double max_distance,
+                             struct cstk_distance_result *out);
+
+/**
+ * Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
+ * contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set.
+ */
+cstk_status cstk_witnesses(struct cstk_query *query,
+                           const struct cstk_cobject *cobject,
+                           const double *q,
+                           size_t nq,
+                           double epsilon,
+                           size_t max_count,
+                           struct cstk_witness_list *out);
+
+/**
+ * cstk_witnesses with the pose of every link, as in cstk_classify_at.
+ */
+cstk_status cstk_witnesses_at(struct cstk_query *query,
+                              const struct cstk_cobject *cobject,
+                              const double *link_poses,
+                              size_t link_count,
+                              double epsilon,
+                              size_t max_count,
+                              struct cstk_witness_list *out);
+
+/**
+ * cstk_witnesses, and for each contact the gradient of its distance by the coordinates (§2.2.4, operation 8; §4.4):
+ * the way out, in joint space.
+ */
+cstk_status cstk_gradients(struct cstk_query *query,
+                           const struct cstk_cobject *cobject,
+                           const double *q,
+                           size_t nq,
+                           double epsilon,
+                           size_t max_count,
+                           struct cstk_witness_list *out);
+
+/**
+ * Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
+ * length 1 (those of length 0 stay).
+ */
+cstk_status cstk_pseudo_normal(struct cstk_query *query,
+                               const struct cstk_cobject *cobject,
+                               const double *q,
+                               size_t nq,
+                               double max_shell,
+                               size_t max_count,
+                               bool normalize,
+                               struct cstk_pseudo_normal_result *out);
+
+/**
+ * Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
+ * doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
+ * all) are not computed; the answer is then CSTK_BEYOND_MAX.
+ */
+cstk_status cstk_pair_distance(struct cstk_query *query,
+                               const struct cstk_body *body_a,
+                               const double *pose_a,
+                               const struct cstk_body *body_b,
+                               const double *pose_b,
+                               double max_distance,
+                               struct cstk_distance_result *out);
+
+/**
+ * Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); 0 asks whether they meet.
+ * Doubt within rounding counts as within. Cheaper than a distance.
+ */
+cstk_status cstk_pair_within(struct cstk_query *query,
+                             const struct cstk_body *body_a,
+                             const double *pose_a,
+                             const struct cstk_body *body_b,
+                             const double *pose_b,
+                             double threshold,
+                             bool *out);
+
+/**
+ * Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
+ * `max_count` pairs, the nearest are given and `truncated` is set.
+ */
+cstk_status cstk_pair_witnesses(struct cstk_query *query,
+                                const struct cstk_body *body_a,
+                                const double *pose_a,
+                                const struct cstk_body *body_b,
+                                const double *pose_b,
+                                double epsilon,
+                                size_t max_count,
+                                struct cstk_witness_list *out);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_slide_options).
+ */
+cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t size);
+
+/**
+ * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
+ * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
+ * until the whole way is proved free. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
+ * outcome is CSTK_SLIDE_MOVED, `reached` receives q.
+ */
+cstk_status cstk_slide(struct cstk_query *query,
+                       const struct cstk_cobject *cobject,
+                       const double *q,
+                       const double *step,
+                       size_t nq,
+                       const struct cstk_slide_options *slide_options,
+                       double *reached,
+                       struct cstk_slide_result *out);
+
+/**
+ * Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
+ * pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
+ * along the gradient (blue). Distances and gradients stand in the nodes' extras. The file is written whole or not at
+ * all; CSTK_IO if that fails.
+ */
+cstk_status cstk_show(const struct cstk_cobject *cobject,
+                      const double *q,
+                      size_t nq,
+                      const char *file);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* CSTK_H */

@@ -1,0 +1,266 @@
+//! The structures in which answers are given, and their conversion.
+
+use super::body::cstk_feature_kind;
+use crate::cobject::Class;
+use crate::convex::ContactMode;
+use crate::query::{ContactRecord, Distance, DistanceKind, SSide, Witness};
+
+/// Stands for "no such number" in fields that hold a link's number.
+pub const CSTK_NONE: u32 = 0xFFFF_FFFF;
+
+/// Where a configuration stands. The order is that of the set algebra: a union takes the largest.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_class {
+    /// Farther from contact than the contact epsilon.
+    CSTK_OUTSIDE = 0,
+    /// Apart, by at most the contact epsilon.
+    CSTK_CONTACT = 1,
+    /// The sets meet: distance 0.
+    CSTK_INSIDE = 2,
+}
+
+impl From<Class> for cstk_class {
+    fn from(class: Class) -> Self {
+        match class {
+            Class::Outside => Self::CSTK_OUTSIDE,
+            Class::Contact => Self::CSTK_CONTACT,
+            Class::Inside => Self::CSTK_INSIDE,
+        }
+    }
+}
+
+/// The contact modes of §4.4: the r-feature, then the s-feature.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_contact_mode {
+    CSTK_POINT_POINT = 0,
+    CSTK_POINT_EDGE = 1,
+    CSTK_EDGE_POINT = 2,
+    CSTK_POINT_FACE = 3,
+    CSTK_FACE_POINT = 4,
+    CSTK_EDGE_EDGE = 5,
+}
+
+/// One contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_contact {
+    /// The two points, in the world.
+    pub r_point: [f64; 3],
+    pub s_point: [f64; 3],
+    /// Unit, in the world, from the s-side to the r-side; right at exact touch too.
+    pub normal: [f64; 3],
+    /// The distance between the points, less the C-object's margin and at least 0.
+    pub distance: f64,
+    pub mode: cstk_contact_mode,
+    /// The features that hold the points; for their vertices see cstk_body_feature_vertices.
+    pub r_feature_kind: cstk_feature_kind,
+    pub r_feature: u32,
+    pub s_feature_kind: cstk_feature_kind,
+    pub s_feature: u32,
+    pub reserved: [u32; 7],
+}
+
+/// One pair of primitives.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_witness {
+    /// The link, numbered through the space; 0 for pairs of bodies.
+    pub r_link: u32,
+    /// The second link, or CSTK_NONE if the s-side is an s-object or a body.
+    pub s_link: u32,
+    /// The s-object's id, or 0.
+    pub s_object: u64,
+    /// The primitives' numbers in their bodies, and their tags.
+    pub r_primitive: u32,
+    pub s_primitive: u32,
+    pub r_tag: u64,
+    pub s_tag: u64,
+    /// The primitives' distance, less the C-object's margin and at least 0.
+    pub distance: f64,
+    /// Its contacts are `contact_count` entries of the list from `first_contact`. Parallel features have several, which
+    /// span the common part.
+    pub first_contact: u32,
+    pub contact_count: u32,
+    /// The primitives overlap (rather than touch): there is no contact, and no gradient.
+    pub overlapping: bool,
+    pub reserved_bytes: [u8; 7],
+    pub reserved: [u64; 4],
+}
+
+/// What a distance says.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_distance_kind {
+    /// The distance, to rounding.
+    CSTK_EXACT = 0,
+    /// Only `lower` and `upper` are known.
+    CSTK_LOWER_BOUND = 1,
+    /// Nothing is within max_distance: `lower` says so, `distance` and `upper` are infinite.
+    CSTK_BEYOND_MAX = 2,
+    /// There is nothing to measure to; all three are infinite.
+    CSTK_EMPTY_SET = 3,
+}
+
+/// A distance with safe bounds: lower <= truth <= upper.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_distance_result {
+    pub kind: cstk_distance_kind,
+    /// `witness` and the points below hold the nearest primitive pair; ties go to the lowest ids.
+    pub has_witness: bool,
+    /// `contact` holds the contact there. An overlap has none.
+    pub has_contact: bool,
+    pub reserved_bytes: [u8; 2],
+    /// 0 exactly when the sets meet.
+    pub distance: f64,
+    /// Never above the truth; 0 exactly when `distance` is.
+    pub lower: f64,
+    /// Never below the truth.
+    pub upper: f64,
+    /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point.
+    pub r_point: [f64; 3],
+    pub s_point: [f64; 3],
+    pub witness: cstk_witness,
+    pub contact: cstk_contact,
+    /// The version of the environment that was measured; 0 where there is none.
+    pub environment_version: u64,
+    pub reserved: [u64; 8],
+}
+
+/// Primitive pairs, nearest first, with their contacts. The arrays belong to the query context and stay valid until its
+/// next call or its release.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_witness_list {
+    pub witnesses: *const cstk_witness,
+    pub witness_count: usize,
+    pub contacts: *const cstk_contact,
+    pub contact_count: usize,
+    /// One row of `nv` doubles per contact: the derivative of its distance by the coordinates. NULL where no gradients
+    /// were asked for.
+    pub gradients: *const f64,
+    pub nv: usize,
+    /// There are more witnesses than max_count; these are the nearest.
+    pub truncated: bool,
+    pub reserved_bytes: [u8; 7],
+    pub environment_version: u64,
+    pub reserved: [u64; 8],
+}
+
+impl From<&ContactRecord> for cstk_contact {
+    fn from(contact: &ContactRecord) -> Self {
+        Self {
+            r_point: contact.points[0].into(),
+            s_point: contact.points[1].into(),
+            normal: contact.normal.into(),
+            distance: contact.distance,
+            mode: match contact.mode {
+                ContactMode::PointPoint => cstk_contact_mode::CSTK_POINT_POINT,
+                ContactMode::PointEdge => cstk_contact_mode::CSTK_POINT_EDGE,
+                ContactMode::EdgePoint => cstk_contact_mode::CSTK_EDGE_POINT,
+                ContactMode::PointFace => cstk_contact_mode::CSTK_POINT_FACE,
+                ContactMode::FacePoint => cstk_contact_mode::CSTK_FACE_POINT,
+                ContactMode::EdgeEdge => cstk_contact_mode::CSTK_EDGE_EDGE,
+            },
+            r_feature_kind: contact.features[0].kind.into(),
+            r_feature: contact.features[0].index,
+            s_feature_kind: contact.features[1].kind.into(),
+            s_feature: contact.features[1].index,
+            reserved: [0; 7],
+        }
+    }
+}
+
+impl cstk_contact {
+    fn none() -> Self {
+        Self {
+            r_point: [0.0; 3],
+            s_point: [0.0; 3],
+            normal: [0.0; 3],
+            distance: 0.0,
+            mode: cstk_contact_mode::CSTK_POINT_POINT,
+            r_feature_kind: cstk_feature_kind::CSTK_VERTEX,
+            r_feature: 0,
+            s_feature_kind: cstk_feature_kind::CSTK_VERTEX,
+            s_feature: 0,
+            reserved: [0; 7],
+        }
+    }
+}
+
+impl From<&Witness> for cstk_witness {
+    fn from(witness: &Witness) -> Self {
+        let (s_object, s_link) = match witness.s_side {
+            SSide::Object(id) => (id, CSTK_NONE),
+            SSide::Link(link) => (0, link as u32),
+        };
+        Self {
+            r_link: witness.r_link as u32,
+            s_link,
+            s_object,
+            r_primitive: witness.primitives[0],
+            s_primitive: witness.primitives[1],
+            r_tag: witness.tags[0],
+            s_tag: witness.tags[1],
+            distance: witness.distance,
+            first_contact: witness.first_contact as u32,
+            contact_count: witness.contact_count as u32,
+            overlapping: witness.overlapping,
+            reserved_bytes: [0; 7],
+            reserved: [0; 4],
+        }
+    }
+}
+
+impl cstk_witness {
+    fn none() -> Self {
+        Self {
+            r_link: CSTK_NONE,
+            s_link: CSTK_NONE,
+            s_object: 0,
+            r_primitive: 0,
+            s_primitive: 0,
+            r_tag: 0,
+            s_tag: 0,
+            distance: 0.0,
+            first_contact: 0,
+            contact_count: 0,
+            overlapping: false,
+            reserved_bytes: [0; 7],
+            reserved: [0; 4],
+        }
+    }
+}
+
+impl From<&Distance> for cstk_distance_result {
+    fn from(distance: &Distance) -> Self {
+        Self {
+            kind: match distance.kind {
+                DistanceKind::Exact => cstk_distance_kind::CSTK_EXACT,
+                DistanceKind::LowerBound => cstk_distance_kind::CSTK_LOWER_BOUND,
+                DistanceKind::BeyondMax => cstk_distance_kind::CSTK_BEYOND_MAX,
+                DistanceKind::Empty => cstk_distance_kind::CSTK_EMPTY_SET,
+            },
+            has_witness: distance.witness.is_some(),
+            has_contact: distance.contact.is_some(),
+            reserved_bytes: [0; 2],
+            distance: distance.distance,
+            lower: distance.lower,
+            upper: distance.upper,
+            r_point: distance.points[0].into(),
+            s_point: distance.points[1].into(),
+            witness: distance
+                .witness
+                .as_ref()
+                .map_or_else(cstk_witness::none, From::from),
+            contact: distance
+                .contact
+                .as_ref()
+                .map_or_else(cstk_contact::none, From::from),
+            environment_version: distance.version,
+            reserved: [0; 8],
+        }
+    }
+}

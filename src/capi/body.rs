@@ -1,0 +1,392 @@
+//! Bodies and their builders.
+
+use std::ffi::{c_char, c_void};
+use std::sync::{Arc, Mutex, TryLockError};
+
+use super::boundary::{Failure, guard};
+use super::handle::{self, Noun};
+use super::input::{
+    OptionsStruct, Output, OutputSlice, options_or_default, path, points, slice, write_defaults,
+};
+use super::status::cstk_status;
+use crate::body::{Body, BodyBuilder, HierarchyOptions, Mesh};
+use crate::error::{Error, ErrorKind};
+use crate::primitive::{Feature, FeatureKind};
+
+/// Collects the primitives of a body.
+pub struct cstk_body_builder {
+    _opaque: [u8; 0],
+}
+
+/// A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
+pub struct cstk_body {
+    _opaque: [u8; 0],
+}
+
+pub(super) struct Builder(Mutex<BodyBuilder>);
+
+impl Noun for Builder {
+    type Handle = cstk_body_builder;
+    const KIND: u32 = 1;
+    const NAME: &'static str = "cstk_body_builder";
+}
+
+impl Noun for Body {
+    type Handle = cstk_body;
+    const KIND: u32 = 2;
+    const NAME: &'static str = "cstk_body";
+}
+
+/// How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_hierarchy_options {
+    pub size: u32,
+    pub cookie: u32,
+    /// Wrappers are convex hulls of at most so many vertices; larger ones become oriented boxes. At least 8; default 32.
+    pub hull_vertex_limit: u32,
+    pub reserved: u32,
+}
+
+// SAFETY: repr(C), four u32.
+unsafe impl OptionsStruct for cstk_hierarchy_options {
+    const COOKIE: u32 = 0x4353_0101;
+    const NAME: &'static str = "cstk_hierarchy_options";
+    const FIRST_SIZE: usize = 16;
+    fn defaults() -> Self {
+        Self {
+            size: 0,
+            cookie: 0,
+            hull_vertex_limit: HierarchyOptions::default().hull_vertex_limit,
+            reserved: 0,
+        }
+    }
+}
+
+/// Hears how far a long call has come, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_CANCELLED. It is
+/// called on the thread that made the call; it must not throw.
+pub type cstk_progress_fn = Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>;
+
+/// What became of a body's input, and what was built.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_body_statistics {
+    /// Convex primitives in the body.
+    pub primitive_count: u64,
+    /// Mesh faces that were not convex or not planar, and were split into triangles.
+    pub faces_split: u64,
+    /// Mesh faces without area, left out.
+    pub faces_dropped: u64,
+    /// Nodes of the hierarchy, and its levels.
+    pub node_count: u64,
+    pub depth: u64,
+    /// The box of all vertices, in the frame in which the body was given.
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+    pub reserved: [u64; 8],
+}
+
+/// Kinds of features of a primitive.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_feature_kind {
+    CSTK_VERTEX = 0,
+    CSTK_EDGE = 1,
+    CSTK_FACE = 2,
+    /// The inside of a solid.
+    CSTK_INTERIOR = 3,
+}
+
+impl From<FeatureKind> for cstk_feature_kind {
+    fn from(kind: FeatureKind) -> Self {
+        match kind {
+            FeatureKind::Vertex => Self::CSTK_VERTEX,
+            FeatureKind::Edge => Self::CSTK_EDGE,
+            FeatureKind::Face => Self::CSTK_FACE,
+            FeatureKind::Interior => Self::CSTK_INTERIOR,
+        }
+    }
+}
+
+fn with_builder(
+    builder: *mut cstk_body_builder,
+    action: impl FnOnce(&mut BodyBuilder) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let builder = handle::borrow::<Builder>(builder, "builder")?;
+    match builder.0.try_lock() {
+        Ok(mut builder) => action(&mut builder),
+        // Additions are made whole or not at all, so that a fault leaves the builder sound.
+        Err(TryLockError::Poisoned(poisoned)) => action(&mut poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            Err(Error::new(ErrorKind::Busy, "the builder is in use").into())
+        }
+    }
+}
+
+/// Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
+/// surfaces). Release it with cstk_body_builder_release.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_create(
+    dimension: u32,
+    out: *mut *mut cstk_body_builder,
+) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        let builder = Builder(Mutex::new(BodyBuilder::new(dimension)?));
+        out.write(handle::create(Arc::new(builder)));
+        Ok(())
+    })
+}
+
+/// Adds a reference. CSTK_WRONG_HANDLE if it is no builder.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_retain(builder: *mut cstk_body_builder) -> cstk_status {
+    guard(|| handle::retain::<Builder>(builder, "builder"))
+}
+
+/// Drops a reference; the last one frees the builder. NULL is a no-op.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_release(builder: *mut cstk_body_builder) -> cstk_status {
+    guard(|| handle::release::<Builder>(builder, "builder"))
+}
+
+/// Adds a convex planar polygon: `count` vertices of three doubles in cyclic order, either way round. In space it is a
+/// surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
+///
+/// CSTK_DEGENERATE, CSTK_NOT_CONVEX or CSTK_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
+/// by 1e-12 of the polygon's diameter; use cstk_body_builder_add_mesh to have other polygons split.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_polygon(
+    builder: *mut cstk_body_builder,
+    xyz: *const f64,
+    count: usize,
+    tag: u64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states the length.
+            let vertices = unsafe { points(xyz, count, "xyz")? };
+            let index = builder.len();
+            Ok(builder
+                .add_polygon(&vertices, tag)
+                .map_err(|e| e.within(format_args!("polygon (primitive {index})")))?)
+        })
+    })
+}
+
+/// Adds the convex hull of `count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
+/// points are no more than that. Points inside the hull are ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
+    builder: *mut cstk_body_builder,
+    xyz: *const f64,
+    count: usize,
+    tag: u64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states the length.
+            let vertices = unsafe { points(xyz, count, "xyz")? };
+            let index = builder.len();
+            Ok(builder
+                .add_polyhedron(&vertices, tag)
+                .map_err(|e| e.within(format_args!("polyhedron (primitive {index})")))?)
+        })
+    })
+}
+
+/// Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
+/// `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
+/// NULL for triangles. Faces are tagged with their index.
+///
+/// Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
+/// cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
+/// match, CSTK_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_mesh(
+    builder: *mut cstk_body_builder,
+    vertices: *const f64,
+    vertex_count: usize,
+    face_sizes: *const u32,
+    face_count: usize,
+    indices: *const u32,
+    index_count: usize,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states the lengths.
+            let mesh = unsafe {
+                Mesh {
+                    vertices: points(vertices, vertex_count, "vertices")?,
+                    face_sizes: if face_sizes.is_null() {
+                        if face_count > index_count {
+                            return Err(Failure::new(
+                                cstk_status::CSTK_WRONG_SIZE,
+                                format!(
+                                    "{face_count} triangles need {} indices, not {index_count}",
+                                    face_count.saturating_mul(3)
+                                ),
+                            ));
+                        }
+                        vec![3; face_count]
+                    } else {
+                        slice(face_sizes, face_count, "face_sizes")?.to_vec()
+                    },
+                    indices: slice(indices, index_count, "indices")?.to_vec(),
+                }
+            };
+            Ok(builder.add_mesh(&mesh)?)
+        })
+    })
+}
+
+/// Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj or .stl (ASCII or binary).
+/// CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
+    builder: *mut cstk_body_builder,
+    file: *const c_char,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states that it is terminated.
+            let file = unsafe { path(file, "file")? };
+            Ok(builder.add_mesh_file(file)?)
+        })
+    })
+}
+
+/// Writes the default options. `size` is sizeof(cstk_hierarchy_options).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_hierarchy_options_default(
+    out: *mut cstk_hierarchy_options,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
+/// defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_build(
+    builder: *mut cstk_body_builder,
+    options: *const cstk_hierarchy_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    out: *mut *mut cstk_body,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let out = Output::checked(out, "out")?;
+            // SAFETY: checked for size and cookie.
+            let options = unsafe { options_or_default(options, "options")? };
+            let options = HierarchyOptions {
+                hull_vertex_limit: options.hull_vertex_limit,
+            };
+            let mut report = |fraction: f64| match progress {
+                // SAFETY: the caller gives a function of this type.
+                Some(progress) if unsafe { progress(fraction, user) } != 0 => Err(Error::new(
+                    ErrorKind::Cancelled,
+                    "the progress function ended the build",
+                )),
+                _ => Ok(()),
+            };
+            let body = builder.build(&options, &mut report)?;
+            out.write(handle::create(Arc::new(body)));
+            Ok(())
+        })
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_retain(body: *mut cstk_body) -> cstk_status {
+    guard(|| handle::retain::<Body>(body, "body"))
+}
+
+/// Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_release(body: *mut cstk_body) -> cstk_status {
+    guard(|| handle::release::<Body>(body, "body"))
+}
+
+/// Writes counts and extents.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_statistics(
+    body: *const cstk_body,
+    out: *mut cstk_body_statistics,
+) -> cstk_status {
+    guard(|| {
+        let body = handle::borrow::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        let s = body.statistics();
+        out.write(cstk_body_statistics {
+            primitive_count: s.primitives,
+            faces_split: s.faces_split,
+            faces_dropped: s.faces_dropped,
+            node_count: s.nodes,
+            depth: s.depth,
+            low: s.low,
+            high: s.high,
+            reserved: [0; 8],
+        });
+        Ok(())
+    })
+}
+
+/// The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
+/// edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a cstk_feature_kind.
+/// At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to
+/// `count`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_feature_vertices(
+    body: *const cstk_body,
+    primitive: u32,
+    kind: i32,
+    feature: u32,
+    max_count: usize,
+    xyz: *mut f64,
+    count: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let body = handle::borrow::<Body>(body, "body")?;
+        let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
+        let count = Output::checked(count, "count")?;
+        let kind = match kind {
+            0 => FeatureKind::Vertex,
+            1 => FeatureKind::Edge,
+            2 => FeatureKind::Face,
+            3 => FeatureKind::Interior,
+            _ => return Err(Error::invalid(format!("kind {kind} is no cstk_feature_kind")).into()),
+        };
+        let shape = body.primitives().get(primitive as usize).ok_or_else(|| {
+            Error::new(
+                ErrorKind::NotFound,
+                format!(
+                    "primitive {primitive} does not exist; the body has {}",
+                    body.primitives().len()
+                ),
+            )
+        })?;
+        let indices = shape
+            .feature_vertices(Feature {
+                kind,
+                index: feature,
+            })
+            .ok_or_else(|| {
+                Error::new(
+                    ErrorKind::NotFound,
+                    format!("primitive {primitive} has no {kind:?} {feature}"),
+                )
+            })?;
+        let coordinates: Vec<f64> = indices
+            .iter()
+            .map(|&i| shape.vertices[i as usize] + body.center())
+            .flat_map(<[f64; 3]>::from)
+            .collect();
+        room.write(&coordinates);
+        count.write(indices.len());
+        Ok(())
+    })
+}

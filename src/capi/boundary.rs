@@ -1,0 +1,100 @@
+//! The guard every exported function runs in: errors become a status and this thread's message, panics too.
+
+use std::cell::{Cell, RefCell};
+use std::ffi::{CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+use super::status::cstk_status;
+use crate::error::Error;
+
+/// A failure at the boundary: the status and the message.
+#[derive(Debug)]
+pub struct Failure {
+    pub status: cstk_status,
+    pub message: String,
+}
+
+impl Failure {
+    pub fn new(status: cstk_status, message: impl Into<String>) -> Self {
+        Self {
+            status,
+            message: message.into(),
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::new(error.kind.into(), error.message)
+    }
+}
+
+thread_local! {
+    static MESSAGE: RefCell<CString> = RefCell::default();
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs a call. A failure, or a panic, is recorded as this thread's last error.
+pub fn guard(call: impl FnOnce() -> Result<(), Failure>) -> cstk_status {
+    silence_guarded_panics();
+    let outer = GUARDED.replace(true);
+    let outcome = catch_unwind(AssertUnwindSafe(call));
+    GUARDED.set(outer);
+    let failure = match outcome {
+        Ok(Ok(())) => return cstk_status::CSTK_OK,
+        Ok(Err(failure)) => failure,
+        Err(payload) => {
+            let text = payload
+                .downcast_ref::<&str>()
+                .map(|text| text.to_string())
+                .or_else(|| payload.downcast_ref::<String>().cloned())
+                .unwrap_or_default();
+            Failure::new(
+                cstk_status::CSTK_INTERNAL,
+                format!("internal fault: {text}"),
+            )
+        }
+    };
+    let text = CString::new(failure.message.replace('\0', " ")).unwrap_or_default();
+    // During a thread's end the message may be gone already; the status still tells.
+    let _ = MESSAGE.try_with(|message| message.replace(text));
+    failure.status
+}
+
+/// The library never prints: a panic inside the guard reaches the caller as a status and needs no report on stderr.
+fn silence_guarded_panics() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let previous = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if !GUARDED.try_with(Cell::get).unwrap_or(false) {
+                previous(info);
+            }
+        }));
+    });
+}
+
+/// The message of this thread's last failed call; empty if none has failed. Valid until the next failure on this thread.
+/// Never NULL; UTF-8.
+#[unsafe(no_mangle)]
+pub extern "C" fn cstk_last_error_message() -> *const c_char {
+    MESSAGE
+        .try_with(|message| message.borrow().as_ptr())
+        .unwrap_or(c"".as_ptr())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::CStr;
+
+    #[test]
+    fn a_panic_comes_back_as_a_status() {
+        let status = guard(|| panic!("deliberate {}", 7));
+        assert_eq!(status, cstk_status::CSTK_INTERNAL);
+        // SAFETY: the message is a C string owned by this thread.
+        let message = unsafe { CStr::from_ptr(cstk_last_error_message()) };
+        assert_eq!(message.to_str().unwrap(), "internal fault: deliberate 7");
+    }
+}

@@ -1,0 +1,224 @@
+//! Environments.
+
+use std::sync::Arc;
+
+use super::body::cstk_body;
+use super::boundary::guard;
+use super::handle::{self, Noun};
+use super::input::{OptionsStruct, Output, OutputSlice, options, write_defaults};
+use super::status::cstk_status;
+use crate::body::Body;
+use crate::environment::{Change, Environment};
+use crate::error::{Error, ErrorKind};
+use crate::pose::Pose;
+
+/// The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
+/// bodies of its objects.
+pub struct cstk_environment {
+    _opaque: [u8; 0],
+}
+
+impl Noun for Environment {
+    type Handle = cstk_environment;
+    const KIND: u32 = 6;
+    const NAME: &'static str = "cstk_environment";
+}
+
+/// What a change does.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_change_kind {
+    /// Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
+    CSTK_CHANGE_ADD = 0,
+    /// Moves object `id` to `pose`.
+    CSTK_CHANGE_MOVE = 1,
+    /// Deletes object `id`.
+    CSTK_CHANGE_DELETE = 2,
+}
+
+/// One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_environment_change {
+    pub size: u32,
+    pub cookie: u32,
+    /// A cstk_change_kind.
+    pub kind: i32,
+    pub reserved: u32,
+    /// The object to move or delete.
+    pub id: u64,
+    /// The body to add.
+    pub body: *const cstk_body,
+    /// Where it stands: the body's frame in the world, 12 doubles.
+    pub pose: [f64; 12],
+}
+
+// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 bytes on 64-bit machines), the pointer is only read after checks.
+unsafe impl OptionsStruct for cstk_environment_change {
+    const COOKIE: u32 = 0x4353_0301;
+    const NAME: &'static str = "cstk_environment_change";
+    const FIRST_SIZE: usize = size_of::<Self>();
+    fn defaults() -> Self {
+        Self {
+            size: 0,
+            cookie: 0,
+            kind: 0,
+            reserved: 0,
+            id: 0,
+            body: std::ptr::null(),
+            pose: Pose::identity().to_row_major(),
+        }
+    }
+}
+
+/// Makes an empty environment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_create(out: *mut *mut cstk_environment) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(Arc::<Environment>::default()));
+        Ok(())
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_retain(
+    environment: *mut cstk_environment,
+) -> cstk_status {
+    guard(|| handle::retain::<Environment>(environment, "environment"))
+}
+
+/// Drops a reference. NULL is a no-op. C-objects keep the environments they refer to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_release(
+    environment: *mut cstk_environment,
+) -> cstk_status {
+    guard(|| handle::release::<Environment>(environment, "environment"))
+}
+
+/// Writes the default change. `size` is sizeof(cstk_environment_change).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_change_default(
+    out: *mut cstk_environment_change,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
+/// about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
+/// are unique in the process. All changes have the size of the first.
+///
+/// CSTK_NOT_FOUND for an id that is not there (any more), CSTK_UNSUPPORTED for a snapshot.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_apply(
+    environment: *mut cstk_environment,
+    changes: *const cstk_environment_change,
+    count: usize,
+    ids: *mut u64,
+    version: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
+        let version = (!version.is_null())
+            .then(|| Output::checked(version, "version"))
+            .transpose()?;
+        let mut read = Vec::new();
+        let mut next = changes;
+        for i in 0..count {
+            // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
+            let change = unsafe { options(next, &format!("changes[{i}]"))? };
+            read.push(change_from(&change, i)?);
+            next = next.wrapping_byte_add(change.size as usize);
+        }
+        let (applied, now) = environment.apply(&read)?;
+        ids.write(&applied);
+        if let Some(version) = version {
+            version.write(now);
+        }
+        Ok(())
+    })
+}
+
+fn change_from(
+    change: &cstk_environment_change,
+    i: usize,
+) -> Result<Change, super::boundary::Failure> {
+    let pose = || {
+        Pose::from_row_major(&change.pose).map_err(|e| e.within(format_args!("changes[{i}].pose")))
+    };
+    Ok(match change.kind {
+        0 => Change::Add {
+            body: handle::share::<Body>(change.body, &format!("changes[{i}].body"))?,
+            pose: pose()?,
+        },
+        1 => Change::Move {
+            id: change.id,
+            pose: pose()?,
+        },
+        2 => Change::Delete { id: change.id },
+        kind => {
+            let message = format!("changes[{i}].kind {kind} is no cstk_change_kind");
+            return Err(Error::invalid(message).into());
+        }
+    })
+}
+
+/// Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_snapshot(
+    environment: *const cstk_environment,
+    out: *mut *mut cstk_environment,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(Arc::new(environment.freeze())));
+        Ok(())
+    })
+}
+
+/// Writes the number of objects and the version, which counts the changes applied; either may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_state(
+    environment: *const cstk_environment,
+    object_count: *mut usize,
+    version: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let now = environment.snapshot();
+        if !object_count.is_null() {
+            Output::checked(object_count, "object_count")?.write(now.objects.len());
+        }
+        if !version.is_null() {
+            Output::checked(version, "version")?.write(now.version);
+        }
+        Ok(())
+    })
+}
+
+/// Writes the pose (12 doubles) of an s-object. CSTK_NOT_FOUND if there is none with this id.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_object_pose(
+    environment: *const cstk_environment,
+    id: u64,
+    pose: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let out = OutputSlice::checked(pose, 12, "pose")?;
+        let now = environment.snapshot();
+        let object = now.find(id).ok_or_else(|| {
+            Error::new(
+                ErrorKind::NotFound,
+                format!("there is no s-object with id {id}"),
+            )
+        })?;
+        out.write(&object.pose.to_row_major());
+        Ok(())
+    })
+}

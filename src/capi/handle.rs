@@ -1,0 +1,134 @@
+//! Handles: what C holds instead of an `Arc`.
+//!
+//! A handle points to a slot that names the kind of object and counts the references C holds. Slots of released objects
+//! are kept and marked for a long while before they are used again, so that a released handle, like one of another
+//! kind, is found out instead of followed.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::boundary::Failure;
+use super::status::cstk_status;
+
+/// A type that C holds by handle.
+pub trait Noun: Send + Sync + 'static {
+    /// The opaque type of the header.
+    type Handle;
+    /// A number of its own.
+    const KIND: u32;
+    /// What messages call it.
+    const NAME: &'static str;
+}
+
+/// Marks a slot whose object was released.
+const RELEASED: u32 = 0x4445_4144;
+/// Begins every kind number, so that foreign memory is unlikely to look like a slot.
+const KIND_BASE: u32 = 0x4353_5400;
+/// So many released slots wait before one is used again.
+const QUARANTINE: usize = 4096;
+
+struct Slot {
+    kind: AtomicU32,
+    references: AtomicU32,
+    value: AtomicPtr<()>,
+}
+
+struct Waiting(VecDeque<*mut Slot>);
+// SAFETY: slots in the queue belong to the queue alone, and all their fields are atomic.
+unsafe impl Send for Waiting {}
+
+static WAITING: Mutex<Waiting> = Mutex::new(Waiting(VecDeque::new()));
+
+/// A new handle with one reference.
+pub fn create<T: Noun>(value: Arc<T>) -> *mut T::Handle {
+    let value = Arc::into_raw(value).cast_mut().cast();
+    let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);
+    let reused = (waiting.0.len() > QUARANTINE)
+        .then(|| waiting.0.pop_front())
+        .flatten();
+    let slot = reused.unwrap_or_else(|| {
+        Box::into_raw(Box::new(Slot {
+            kind: AtomicU32::new(RELEASED),
+            references: AtomicU32::new(0),
+            value: AtomicPtr::default(),
+        }))
+    });
+    // SAFETY: the slot is a leaked box that nobody else uses.
+    let fields = unsafe { &*slot };
+    fields.value.store(value, Ordering::Relaxed);
+    fields.references.store(1, Ordering::Relaxed);
+    fields.kind.store(KIND_BASE + T::KIND, Ordering::Release);
+    slot.cast()
+}
+
+fn slot_of<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a Slot, Failure> {
+    let slot: *const Slot = handle.cast();
+    if slot.is_null() {
+        return Err(Failure::new(
+            cstk_status::CSTK_NULL_ARGUMENT,
+            format!("{argument} is NULL"),
+        ));
+    }
+    let wrong = |what: &str| {
+        Failure::new(
+            cstk_status::CSTK_WRONG_HANDLE,
+            format!("{argument} is not a {}: {what}", T::NAME),
+        )
+    };
+    if !slot.is_aligned() {
+        return Err(wrong("not a handle of this library"));
+    }
+    // SAFETY: the caller passes a handle of this library; slots are never freed.
+    let slot = unsafe { &*slot };
+    match slot.kind.load(Ordering::Acquire) {
+        kind if kind == KIND_BASE + T::KIND => Ok(slot),
+        RELEASED => Err(wrong("it was released")),
+        _ => Err(wrong("a handle of another kind")),
+    }
+}
+
+/// The object behind a handle, for the time of a call: the caller holds a reference meanwhile.
+pub fn borrow<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a T, Failure> {
+    let slot = slot_of::<T>(handle, argument)?;
+    // SAFETY: a slot of this kind holds a live Arc<T>, kept by the reference the caller holds.
+    Ok(unsafe { &*slot.value.load(Ordering::Relaxed).cast::<T>() })
+}
+
+/// A share of the object behind a handle, to be kept.
+pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>, Failure> {
+    let value: *const T = borrow::<T>(handle, argument)?;
+    // SAFETY: the pointer came from Arc::into_raw, and the Arc is alive.
+    unsafe {
+        Arc::increment_strong_count(value);
+        Ok(Arc::from_raw(value))
+    }
+}
+
+/// One more reference.
+pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), Failure> {
+    slot_of::<T>(handle, argument)?
+        .references
+        .fetch_add(1, Ordering::Relaxed);
+    Ok(())
+}
+
+/// One reference less; the last one lets go of the object. NULL is a no-op.
+pub fn release<T: Noun>(handle: *mut T::Handle, argument: &str) -> Result<(), Failure> {
+    if handle.is_null() {
+        return Ok(());
+    }
+    let slot = slot_of::<T>(handle, argument)?;
+    if slot.references.fetch_sub(1, Ordering::AcqRel) > 1 {
+        return Ok(());
+    }
+    slot.kind.store(RELEASED, Ordering::Release);
+    let value = slot.value.swap(std::ptr::null_mut(), Ordering::AcqRel);
+    if !value.is_null() {
+        // SAFETY: the slot held this Arc, and the last reference to the slot is gone.
+        drop(unsafe { Arc::from_raw(value.cast::<T>()) });
+    }
+    let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);
+    waiting.0.push_back(handle.cast());
+    Ok(())
+}

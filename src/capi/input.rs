@@ -1,0 +1,272 @@
+//! Checked input: slices, strings, outputs, and options structures.
+
+use std::ffi::{CStr, c_char};
+
+use super::boundary::Failure;
+use super::status::cstk_status;
+use crate::pose::{Pose, Vec3};
+
+fn null(argument: &str) -> Failure {
+    Failure::new(
+        cstk_status::CSTK_NULL_ARGUMENT,
+        format!("{argument} is NULL"),
+    )
+}
+
+fn misaligned(argument: &str) -> Failure {
+    Failure::new(
+        cstk_status::CSTK_INVALID_ARGUMENT,
+        format!("{argument} is not aligned for its type"),
+    )
+}
+
+/// `count` items; NULL is welcome where the count is 0.
+pub unsafe fn slice<'a, T>(
+    items: *const T,
+    count: usize,
+    argument: &str,
+) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    if items.is_null() {
+        return Err(null(argument));
+    }
+    if !items.is_aligned() {
+        return Err(misaligned(argument));
+    }
+    if count > isize::MAX as usize / size_of::<T>().max(1) {
+        return Err(Failure::new(
+            cstk_status::CSTK_WRONG_SIZE,
+            format!("{argument} cannot have {count} entries"),
+        ));
+    }
+    // SAFETY: not null, aligned, and the caller states that it holds `count` items.
+    Ok(unsafe { std::slice::from_raw_parts(items, count) })
+}
+
+/// `count` points of three numbers each.
+pub unsafe fn points(xyz: *const f64, count: usize, argument: &str) -> Result<Vec<Vec3>, Failure> {
+    let numbers = count.checked_mul(3).unwrap_or(usize::MAX);
+    // SAFETY: as the caller states.
+    let numbers = unsafe { slice(xyz, numbers, argument)? };
+    Ok(numbers
+        .chunks_exact(3)
+        .map(Vec3::from_column_slice)
+        .collect())
+}
+
+/// A pose of 12 numbers.
+pub unsafe fn pose(values: *const f64, argument: &str) -> Result<Pose, Failure> {
+    // SAFETY: as the caller states.
+    let values = unsafe { array::<12>(values, argument)? };
+    Ok(Pose::from_row_major(values).map_err(|e| e.within(argument))?)
+}
+
+/// Exactly N numbers.
+pub unsafe fn array<'a, const N: usize>(
+    values: *const f64,
+    argument: &str,
+) -> Result<&'a [f64; N], Failure> {
+    // SAFETY: as the caller states.
+    let values = unsafe { slice(values, N, argument)? };
+    values.try_into().map_err(|_| null(argument))
+}
+
+/// A C string as text; must be UTF-8.
+pub unsafe fn text<'a>(string: *const c_char, argument: &str) -> Result<&'a str, Failure> {
+    // SAFETY: as the caller states.
+    let string = unsafe { c_string(string, argument)? };
+    string.to_str().map_err(|_| {
+        Failure::new(
+            cstk_status::CSTK_INVALID_ARGUMENT,
+            format!("{argument} is not UTF-8"),
+        )
+    })
+}
+
+/// A file's path; any bytes.
+pub unsafe fn path<'a>(
+    string: *const c_char,
+    argument: &str,
+) -> Result<&'a std::path::Path, Failure> {
+    // SAFETY: as the caller states.
+    let string = unsafe { c_string(string, argument)? };
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        Ok(std::path::Path::new(std::ffi::OsStr::from_bytes(
+            string.to_bytes(),
+        )))
+    }
+    #[cfg(not(unix))]
+    {
+        let text = string.to_str().map_err(|_| {
+            Failure::new(
+                cstk_status::CSTK_INVALID_ARGUMENT,
+                format!("{argument} is not UTF-8"),
+            )
+        })?;
+        Ok(std::path::Path::new(text))
+    }
+}
+
+unsafe fn c_string<'a>(string: *const c_char, argument: &str) -> Result<&'a CStr, Failure> {
+    if string.is_null() {
+        return Err(null(argument));
+    }
+    // SAFETY: not null, and the caller states that it is a terminated string.
+    Ok(unsafe { CStr::from_ptr(string) })
+}
+
+/// A place for one result. It is checked first and written last.
+pub struct Output<T>(*mut T);
+
+impl<T> Output<T> {
+    pub fn checked(out: *mut T, argument: &str) -> Result<Self, Failure> {
+        if out.is_null() {
+            return Err(null(argument));
+        }
+        if !out.is_aligned() {
+            return Err(misaligned(argument));
+        }
+        Ok(Self(out))
+    }
+
+    pub fn write(self, value: T) {
+        // SAFETY: checked at construction; the caller states that it is writable.
+        unsafe { self.0.write(value) }
+    }
+}
+
+/// A place for `count` results.
+pub struct OutputSlice<T> {
+    items: *mut T,
+    count: usize,
+}
+
+impl<T: Copy> OutputSlice<T> {
+    pub fn checked(items: *mut T, count: usize, argument: &str) -> Result<Self, Failure> {
+        if count > 0 {
+            Output::checked(items, argument)?;
+        }
+        Ok(Self { items, count })
+    }
+
+    /// Writes as many values as there is room for.
+    pub fn write(self, values: &[T]) {
+        let count = values.len().min(self.count);
+        if count > 0 {
+            // SAFETY: checked at construction; the caller states that `count` items are writable.
+            unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.items, count) }
+        }
+    }
+}
+
+/// A structure that C fills with options. It begins with `size` and `cookie`; fields are only ever appended, and a zero
+/// in a field the caller does not know means its default.
+///
+/// # Safety
+/// `repr(C)`, beginning with two `u32`, without padding, valid for every bit pattern.
+pub unsafe trait OptionsStruct: Copy {
+    /// A number of its own.
+    const COOKIE: u32;
+    /// The C name.
+    const NAME: &'static str;
+    /// The size of its first version.
+    const FIRST_SIZE: usize;
+    /// The defaults, but for size and cookie.
+    fn defaults() -> Self;
+}
+
+/// Sizes beyond this are taken for damage.
+const LARGEST_OPTIONS: usize = 1 << 16;
+
+/// Writes the defaults into the caller's structure, which is `size` bytes long.
+pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Result<(), Failure> {
+    Output::checked(out, "out")?;
+    if size < T::FIRST_SIZE || size > LARGEST_OPTIONS {
+        return Err(Failure::new(
+            cstk_status::CSTK_WRONG_SIZE,
+            format!("size is {size}; pass sizeof({})", T::NAME),
+        ));
+    }
+    let defaults = T::defaults();
+    let known = size.min(size_of::<T>());
+    // SAFETY: the caller states that `size` bytes are writable; the structure begins with two u32.
+    unsafe {
+        out.cast::<u8>().write_bytes(0, size);
+        std::ptr::copy_nonoverlapping((&raw const defaults).cast::<u8>(), out.cast(), known);
+        out.cast::<u32>().write(size as u32);
+        out.cast::<u32>().add(1).write(T::COOKIE);
+    }
+    Ok(())
+}
+
+/// The caller's structure in this library's layout.
+pub unsafe fn options<T: OptionsStruct>(given: *const T, argument: &str) -> Result<T, Failure> {
+    if given.is_null() {
+        return Err(null(argument));
+    }
+    if !given.is_aligned() {
+        return Err(misaligned(argument));
+    }
+    let not_initialised = |what: String| {
+        Failure::new(
+            cstk_status::CSTK_NOT_INITIALISED,
+            format!("{argument} was not written by {}_default: {what}", T::NAME),
+        )
+    };
+    // SAFETY: every options structure begins with two u32.
+    let (size, cookie) = unsafe {
+        (
+            given.cast::<u32>().read(),
+            given.cast::<u32>().add(1).read(),
+        )
+    };
+    let size = size as usize;
+    if cookie != T::COOKIE {
+        return Err(not_initialised(format!("its cookie is {cookie:#x}")));
+    }
+    if size < T::FIRST_SIZE || size > LARGEST_OPTIONS {
+        return Err(not_initialised(format!("its size is {size}")));
+    }
+    let mut read = T::defaults();
+    let known = size.min(size_of::<T>());
+    // SAFETY: the cookie and size were written together by the _default function, so `size` bytes are readable.
+    unsafe {
+        std::ptr::copy_nonoverlapping(given.cast::<u8>(), (&raw mut read).cast(), known);
+        let beyond = std::slice::from_raw_parts(given.cast::<u8>().add(known), size - known);
+        if beyond.iter().any(|&byte| byte != 0) {
+            return Err(Failure::new(
+                cstk_status::CSTK_UNSUPPORTED,
+                format!("{argument} sets a field this version of the library does not know"),
+            ));
+        }
+    }
+    Ok(read)
+}
+
+/// The same, where NULL stands for the defaults.
+pub unsafe fn options_or_default<T: OptionsStruct>(
+    given: *const T,
+    argument: &str,
+) -> Result<T, Failure> {
+    if given.is_null() {
+        return Ok(T::defaults());
+    }
+    // SAFETY: as the caller states.
+    unsafe { options(given, argument) }
+}
+
+/// A count or index from a signed field where -1 means none.
+pub fn index_or_none(value: i32, argument: &str) -> Result<Option<usize>, Failure> {
+    match value {
+        -1 => Ok(None),
+        0.. => Ok(Some(value as usize)),
+        _ => Err(Failure::new(
+            cstk_status::CSTK_INVALID_ARGUMENT,
+            format!("{argument} is {value}; it must be -1 or an index"),
+        )),
+    }
+}

@@ -1,0 +1,39 @@
+//! The C API: converts, checks, calls. It holds no geometry.
+//!
+//! Every exported function that can fail runs inside [`boundary::guard`]; all pointers are checked before use. The
+//! modules stand in the order in which the header presents them.
+
+#![allow(non_camel_case_types)]
+#![allow(clippy::missing_safety_doc)] // The header states once, for all functions, what callers owe.
+#![allow(clippy::too_many_arguments)]
+
+mod handle;
+mod input;
+
+pub mod version;
+
+pub mod status;
+
+pub mod boundary;
+
+pub mod pose;
+
+pub mod body;
+
+pub mod robot;
+
+pub mod space;
+
+pub mod environment;
+
+pub mod cobject;
+
+pub mod answers;
+
+pub mod query;
+
+pub mod pair;
+
+pub mod slide;
+
+pub mod show;

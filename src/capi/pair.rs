@@ -1,0 +1,99 @@
+//! Queries of two bodies at two poses.
+
+use super::answers::{cstk_distance_result, cstk_witness_list};
+use super::body::cstk_body;
+use super::boundary::{Failure, guard};
+use super::handle;
+use super::input::{Output, pose};
+use super::query::{State, cstk_query, with_query};
+use super::status::cstk_status;
+use crate::body::Body;
+use crate::pose::Pose;
+
+type Placement<'a> = (&'a Body, &'a Pose);
+
+/// Checks the arguments all pair queries share, and runs one.
+unsafe fn run<T>(
+    query: *mut cstk_query,
+    body_a: *const cstk_body,
+    pose_a: *const f64,
+    body_b: *const cstk_body,
+    pose_b: *const f64,
+    out: *mut T,
+    ask: impl FnOnce(&mut State, Placement, Placement) -> Result<T, Failure>,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let a = handle::borrow::<Body>(body_a, "body_a")?;
+            let b = handle::borrow::<Body>(body_b, "body_b")?;
+            let out = Output::checked(out, "out")?;
+            // SAFETY: checked for NULL; the header states the lengths.
+            let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };
+            out.write(ask(state, (a, &pose_a), (b, &pose_b))?);
+            Ok(())
+        })
+    })
+}
+
+/// Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
+/// doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
+/// all) are not computed; the answer is then CSTK_BEYOND_MAX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pair_distance(
+    query: *mut cstk_query,
+    body_a: *const cstk_body,
+    pose_a: *const f64,
+    body_b: *const cstk_body,
+    pose_b: *const f64,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+) -> cstk_status {
+    // SAFETY: the caller states the lengths.
+    unsafe {
+        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
+            Ok((&state.context.pair_distance(a, b, max_distance)?).into())
+        })
+    }
+}
+
+/// Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); 0 asks whether they meet.
+/// Doubt within rounding counts as within. Cheaper than a distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pair_within(
+    query: *mut cstk_query,
+    body_a: *const cstk_body,
+    pose_a: *const f64,
+    body_b: *const cstk_body,
+    pose_b: *const f64,
+    threshold: f64,
+    out: *mut bool,
+) -> cstk_status {
+    // SAFETY: the caller states the lengths.
+    unsafe {
+        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
+            Ok(state.context.pair_within(a, b, threshold)?)
+        })
+    }
+}
+
+/// Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
+/// `max_count` pairs, the nearest are given and `truncated` is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pair_witnesses(
+    query: *mut cstk_query,
+    body_a: *const cstk_body,
+    pose_a: *const f64,
+    body_b: *const cstk_body,
+    pose_b: *const f64,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: the caller states the lengths.
+    unsafe {
+        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
+            let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
+            Ok(state.keep(list))
+        })
+    }
+}

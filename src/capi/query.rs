@@ -1,0 +1,453 @@
+//! Query contexts, and the queries of a C-object at a configuration.
+
+use std::sync::{Arc, Mutex, TryLockError};
+
+use super::answers::{
+    cstk_class, cstk_contact, cstk_distance_result, cstk_witness, cstk_witness_list,
+};
+use super::boundary::{Failure, guard};
+use super::cobject::cstk_cobject;
+use super::handle::{self, Noun};
+use super::input::{Output, slice};
+use super::robot::link_poses;
+use super::status::cstk_status;
+use crate::cobject::CObject;
+use crate::error::{Error, ErrorKind};
+use crate::query::{Configuration, QueryContext, WitnessList};
+
+/// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
+/// time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
+pub struct cstk_query {
+    _opaque: [u8; 0],
+}
+
+/// A context and the arrays of its last answer.
+#[derive(Default)]
+pub(super) struct State {
+    pub context: QueryContext,
+    witnesses: Vec<cstk_witness>,
+    contacts: Vec<cstk_contact>,
+    gradients: Vec<f64>,
+}
+
+pub(super) struct Query(Mutex<State>);
+
+impl Noun for Query {
+    type Handle = cstk_query;
+    const KIND: u32 = 8;
+    const NAME: &'static str = "cstk_query";
+}
+
+impl State {
+    /// Takes over a list and says where its arrays now are.
+    pub fn keep(&mut self, list: WitnessList) -> cstk_witness_list {
+        self.witnesses = list.witnesses.iter().map(From::from).collect();
+        self.contacts = list.contacts.iter().map(From::from).collect();
+        self.gradients = list.gradients;
+        cstk_witness_list {
+            witnesses: self.witnesses.as_ptr(),
+            witness_count: self.witnesses.len(),
+            contacts: self.contacts.as_ptr(),
+            contact_count: self.contacts.len(),
+            gradients: if list.nv > 0 {
+                self.gradients.as_ptr()
+            } else {
+                std::ptr::null()
+            },
+            nv: list.nv,
+            truncated: list.truncated,
+            reserved_bytes: [0; 7],
+            environment_version: list.version,
+            reserved: [0; 8],
+        }
+    }
+}
+
+/// Runs a query with the context to itself.
+pub(super) fn with_query(
+    query: *mut cstk_query,
+    action: impl FnOnce(&mut State) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let query = handle::borrow::<Query>(query, "query")?;
+    match query.0.try_lock() {
+        Ok(mut state) => action(&mut state),
+        Err(TryLockError::Poisoned(poisoned)) => {
+            // A fault may have left the scratch memory in disorder; caches are dispensable.
+            let mut state = poisoned.into_inner();
+            *state = State::default();
+            query.0.clear_poison();
+            action(&mut state)
+        }
+        Err(TryLockError::WouldBlock) => Err(Error::new(
+            ErrorKind::Busy,
+            "the query context is in use by another call; make one per thread",
+        )
+        .into()),
+    }
+}
+
+/// Where the robot is, as C gave it.
+enum Given<'a> {
+    Coordinates(&'a [f64]),
+    LinkPoses(Vec<crate::pose::Pose>),
+}
+
+impl Given<'_> {
+    fn configuration(&self) -> Configuration<'_> {
+        match self {
+            Given::Coordinates(q) => Configuration::Coordinates(q),
+            Given::LinkPoses(poses) => Configuration::LinkPoses(poses),
+        }
+    }
+}
+
+unsafe fn coordinates<'a>(q: *const f64, nq: usize) -> Result<Given<'a>, Failure> {
+    // SAFETY: as the caller states.
+    Ok(Given::Coordinates(unsafe { slice(q, nq, "q")? }))
+}
+
+unsafe fn poses<'a>(values: *const f64, count: usize) -> Result<Given<'a>, Failure> {
+    // SAFETY: as the caller states.
+    Ok(Given::LinkPoses(unsafe {
+        link_poses(values, count, "link_poses")?
+    }))
+}
+
+/// Checks the arguments all queries share, and runs one.
+fn run<'a, T>(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    at: impl FnOnce() -> Result<Given<'a>, Failure>,
+    out: *mut T,
+    ask: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+            let out = Output::checked(out, "out")?;
+            let given = at()?;
+            out.write(ask(state, cobject, given.configuration())?);
+            Ok(())
+        })
+    })
+}
+
+fn classify(
+    state: &mut State,
+    cobject: &CObject,
+    at: Configuration,
+) -> Result<cstk_class, Failure> {
+    Ok(state.context.classify(cobject, at)?.into())
+}
+
+/// Makes a query context.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_create(out: *mut *mut cstk_query) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(Arc::new(Query(Mutex::default()))));
+        Ok(())
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_retain(query: *mut cstk_query) -> cstk_status {
+    guard(|| handle::retain::<Query>(query, "query"))
+}
+
+/// Drops a reference. NULL is a no-op.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_release(query: *mut cstk_query) -> cstk_status {
+    guard(|| handle::release::<Query>(query, "query"))
+}
+
+/// The work a query context has done.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_query_statistics {
+    /// Pairs of hierarchy nodes whose wrappers were tested.
+    pub node_pairs: u64,
+    /// Primitive pairs whose distance was computed.
+    pub primitive_pairs: u64,
+    /// Witnesses of earlier queries that were evaluated first.
+    pub cache_hits: u64,
+    pub reserved: [u64; 5],
+}
+
+/// Writes the work done since the context was made, or since the last call with `reset`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_get_statistics(
+    query: *mut cstk_query,
+    reset: bool,
+    out: *mut cstk_query_statistics,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let out = Output::checked(out, "out")?;
+            let done = state.context.statistics();
+            if reset {
+                state.context.reset_statistics();
+            }
+            out.write(cstk_query_statistics {
+                node_pairs: done.node_pairs,
+                primitive_pairs: done.primitive_pairs,
+                cache_hits: done.cache_hits,
+                reserved: [0; 5],
+            });
+            Ok(())
+        })
+    })
+}
+
+/// Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
+/// `nq` doubles, as many as the space has coordinates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_classify(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    out: *mut cstk_class,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        classify,
+    )
+}
+
+/// cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
+/// world, `link_count` runs of 12 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_classify_at(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    out: *mut cstk_class,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { poses(link_poses, link_count) },
+        out,
+        classify,
+    )
+}
+
+/// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
+/// as within; with threshold 0 the answer is that of cstk_classify being CSTK_INSIDE. Cheaper than a distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_within(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    threshold: f64,
+    out: *mut bool,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+    )
+}
+
+/// cstk_within with the pose of every link, as in cstk_classify_at.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_within_at(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    threshold: f64,
+    out: *mut bool,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { poses(link_poses, link_count) },
+        out,
+        |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+    )
+}
+
+/// Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
+/// `max_distance` (INFINITY to have them all) are not computed, which saves time; the answer is then CSTK_BEYOND_MAX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+    )
+}
+
+/// cstk_distance with the pose of every link, as in cstk_classify_at.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance_at(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { poses(link_poses, link_count) },
+        out,
+        |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+    )
+}
+
+/// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
+/// contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_witnesses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        |state, cobject, at| {
+            let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+            Ok(state.keep(list))
+        },
+    )
+}
+
+/// cstk_witnesses with the pose of every link, as in cstk_classify_at.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_witnesses_at(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { poses(link_poses, link_count) },
+        out,
+        |state, cobject, at| {
+            let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+            Ok(state.keep(list))
+        },
+    )
+}
+
+/// cstk_witnesses, and for each contact the gradient of its distance by the coordinates (§2.2.4, operation 8; §4.4):
+/// the way out, in joint space.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_gradients(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        |state, cobject, at| {
+            let Configuration::Coordinates(q) = at else {
+                return Err(Failure::new(
+                    cstk_status::CSTK_INTERNAL,
+                    "gradients need coordinates",
+                ));
+            };
+            let list = state.context.gradients(cobject, q, epsilon, max_count)?;
+            Ok(state.keep(list))
+        },
+    )
+}
+
+/// Everything about one configuration: Appendix A's cstk-pseudo-normal.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_pseudo_normal_result {
+    pub point_class: cstk_class,
+    pub reserved: u32,
+    pub distance: cstk_distance_result,
+    /// Witnesses, contacts and gradients within the shell.
+    pub list: cstk_witness_list,
+}
+
+/// Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
+/// length 1 (those of length 0 stay).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pseudo_normal(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_shell: f64,
+    max_count: usize,
+    normalize: bool,
+    out: *mut cstk_pseudo_normal_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { coordinates(q, nq) },
+        out,
+        |state, cobject, at| {
+            let Configuration::Coordinates(q) = at else {
+                return Err(Failure::new(
+                    cstk_status::CSTK_INTERNAL,
+                    "gradients need coordinates",
+                ));
+            };
+            let found = state
+                .context
+                .pseudo_normal(cobject, q, max_shell, max_count, normalize)?;
+            Ok(cstk_pseudo_normal_result {
+                point_class: found.class.into(),
+                reserved: 0,
+                distance: (&found.distance).into(),
+                list: state.keep(found.list),
+            })
+        },
+    )
+}

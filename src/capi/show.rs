@@ -1,0 +1,30 @@
+//! Pictures.
+
+use std::ffi::c_char;
+
+use super::boundary::guard;
+use super::cobject::cstk_cobject;
+use super::handle;
+use super::input::{path, slice};
+use super::status::cstk_status;
+use crate::cobject::CObject;
+use crate::show::show;
+
+/// Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
+/// pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
+/// along the gradient (blue). Distances and gradients stand in the nodes' extras. The file is written whole or not at
+/// all; CSTK_IO if that fails.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_show(
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    file: *const c_char,
+) -> cstk_status {
+    guard(|| {
+        let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+        // SAFETY: checked for NULL; the caller states the length and the terminator.
+        let (q, file) = unsafe { (slice(q, nq, "q")?, path(file, "file")?) };
+        Ok(show(cobject, q, file)?)
+    })
+}

@@ -1,0 +1,157 @@
+//! Spaces.
+
+use std::sync::Arc;
+
+use super::boundary::guard;
+use super::handle::{self, Noun};
+use super::input::{Output, array, slice};
+use super::robot::cstk_robot;
+use super::status::cstk_status;
+use crate::error::Error;
+use crate::robot::Robot;
+use crate::space::{Coordinate, Space, WorldBox};
+
+/// The C-space of one or more robots. Immutable; threads may share it. It keeps its robots.
+pub struct cstk_space {
+    _opaque: [u8; 0],
+}
+
+impl Noun for Space {
+    type Handle = cstk_space;
+    const KIND: u32 = 5;
+    const NAME: &'static str = "cstk_space";
+}
+
+/// The topology of a coordinate.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_range_kind {
+    /// The circle: angles in radians, equal modulo 2 pi. The limits are ignored.
+    CSTK_RANGE_CIRCLE = 0,
+    /// The closed interval from lower to upper; either may be infinite.
+    CSTK_RANGE_INTERVAL = 1,
+}
+
+/// The range of a coordinate.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_range {
+    /// A cstk_range_kind.
+    pub kind: i32,
+    pub reserved: u32,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
+///
+/// `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for the defaults: circles for revolute
+/// joints, the whole line for prismatic ones. `world_box` holds low x, y, z, high x, y, z: where the links' origins may
+/// be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer anywhere.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_create(
+    robots: *const *const cstk_robot,
+    robot_count: usize,
+    ranges: *const cstk_range,
+    range_count: usize,
+    world_box: *const f64,
+    out: *mut *mut cstk_space,
+) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states the lengths.
+        let (robots, ranges) = unsafe {
+            (
+                slice(robots, robot_count, "robots")?,
+                slice(ranges, range_count, "ranges")?,
+            )
+        };
+        let robots = robots
+            .iter()
+            .enumerate()
+            .map(|(i, &robot)| handle::share::<Robot>(robot, &format!("robots[{i}]")))
+            .collect::<Result<Vec<_>, _>>()?;
+        let ranges = ranges
+            .iter()
+            .enumerate()
+            .map(|(i, range)| match range.kind {
+                0 => Ok(Coordinate::Circle),
+                1 => Ok(Coordinate::Interval {
+                    lower: range.lower,
+                    upper: range.upper,
+                }),
+                kind => Err(Error::invalid(format!(
+                    "ranges[{i}].kind {kind} is no cstk_range_kind"
+                ))),
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let world = if world_box.is_null() {
+            WorldBox::unbounded()
+        } else {
+            // SAFETY: not NULL; the header states the length.
+            let b = unsafe { array::<6>(world_box, "world_box")? };
+            WorldBox {
+                low: [b[0], b[1], b[2]],
+                high: [b[3], b[4], b[5]],
+            }
+        };
+        let space = Space::new(robots, &ranges, world)?;
+        out.write(handle::create(Arc::new(space)));
+        Ok(())
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_retain(space: *mut cstk_space) -> cstk_status {
+    guard(|| handle::retain::<Space>(space, "space"))
+}
+
+/// Drops a reference. NULL is a no-op. C-objects keep their space.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_release(space: *mut cstk_space) -> cstk_status {
+    guard(|| handle::release::<Space>(space, "space"))
+}
+
+/// Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_size(
+    space: *const cstk_space,
+    nq: *mut usize,
+    nv: *mut usize,
+    link_count: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::borrow::<Space>(space, "space")?;
+        let coordinates = space.coordinates().len();
+        for (out, value, name) in [
+            (nq, coordinates, "nq"),
+            (nv, coordinates, "nv"),
+            (link_count, space.link_count(), "link_count"),
+        ] {
+            if !out.is_null() {
+                Output::checked(out, name)?.write(value);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Writes whether every coordinate of q is in its range and every link's origin in the world box.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_contains(
+    space: *const cstk_space,
+    q: *const f64,
+    nq: usize,
+    out: *mut bool,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::borrow::<Space>(space, "space")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states the length.
+        let q = unsafe { slice(q, nq, "q")? };
+        space.check_configuration(q)?;
+        out.write(space.contains(q));
+        Ok(())
+    })
+}

@@ -1,0 +1,103 @@
+//! Status codes: numbers that never change meaning.
+
+use std::ffi::c_char;
+
+use crate::error::ErrorKind;
+
+/// How a call ended. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
+/// argument, which polygon, which line. A failed call has changed nothing and written no output.
+#[repr(i32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum cstk_status {
+    /// The call did what was asked.
+    CSTK_OK = 0,
+    /// A pointer that must not be NULL is.
+    CSTK_NULL_ARGUMENT = 1,
+    /// A handle is of another kind, or was released.
+    CSTK_WRONG_HANDLE = 2,
+    /// An options structure was not written by its _default function, or is damaged.
+    CSTK_NOT_INITIALISED = 3,
+    /// An argument is outside its documented range.
+    CSTK_INVALID_ARGUMENT = 4,
+    /// A number is NaN or infinite where a finite one is needed.
+    CSTK_NOT_FINITE = 5,
+    /// An array or structure has the wrong size.
+    CSTK_WRONG_SIZE = 6,
+    /// Nothing was given where at least one item is needed: a body without primitives, a robot without links.
+    CSTK_EMPTY = 7,
+    /// Geometry without extent: a repeated vertex, a polygon without area, an axis of length 0.
+    CSTK_DEGENERATE = 8,
+    /// A polygon that turns inwards, winds more than once, or crosses itself.
+    CSTK_NOT_CONVEX = 9,
+    /// A polygon whose vertices leave its plane, or a planar body that leaves z = 0.
+    CSTK_NOT_PLANAR = 10,
+    /// The 3 x 3 part of a pose is not a rotation.
+    CSTK_NOT_A_ROTATION = 11,
+    /// An id, index or name that does not exist.
+    CSTK_NOT_FOUND = 12,
+    /// Something the library does not do: an unknown file format, a change to a snapshot.
+    CSTK_UNSUPPORTED = 13,
+    /// The operating system could not read or write a file.
+    CSTK_IO = 14,
+    /// A file's contents cannot be understood; it may be truncated.
+    CSTK_PARSE = 15,
+    /// A result could not be certified.
+    CSTK_NOT_CONVERGED = 16,
+    /// The caller's progress function asked to stop.
+    CSTK_CANCELLED = 17,
+    /// The object is in use by another thread, or by the call whose callback makes this one.
+    CSTK_BUSY = 18,
+    /// A fault of the library itself. It was contained; please report it with the message.
+    CSTK_INTERNAL = 19,
+}
+
+impl From<ErrorKind> for cstk_status {
+    fn from(kind: ErrorKind) -> Self {
+        match kind {
+            ErrorKind::InvalidArgument => Self::CSTK_INVALID_ARGUMENT,
+            ErrorKind::NotFinite => Self::CSTK_NOT_FINITE,
+            ErrorKind::WrongSize => Self::CSTK_WRONG_SIZE,
+            ErrorKind::Empty => Self::CSTK_EMPTY,
+            ErrorKind::Degenerate => Self::CSTK_DEGENERATE,
+            ErrorKind::NotConvex => Self::CSTK_NOT_CONVEX,
+            ErrorKind::NotPlanar => Self::CSTK_NOT_PLANAR,
+            ErrorKind::NotARotation => Self::CSTK_NOT_A_ROTATION,
+            ErrorKind::NotFound => Self::CSTK_NOT_FOUND,
+            ErrorKind::Unsupported => Self::CSTK_UNSUPPORTED,
+            ErrorKind::Io => Self::CSTK_IO,
+            ErrorKind::Parse => Self::CSTK_PARSE,
+            ErrorKind::NotConverged => Self::CSTK_NOT_CONVERGED,
+            ErrorKind::Cancelled => Self::CSTK_CANCELLED,
+            ErrorKind::Busy => Self::CSTK_BUSY,
+        }
+    }
+}
+
+/// The name of a status, such as "CSTK_NOT_FINITE"; "unknown status" for a number that is none. Never NULL; static.
+#[unsafe(no_mangle)]
+pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
+    let name = match status {
+        0 => c"CSTK_OK",
+        1 => c"CSTK_NULL_ARGUMENT",
+        2 => c"CSTK_WRONG_HANDLE",
+        3 => c"CSTK_NOT_INITIALISED",
+        4 => c"CSTK_INVALID_ARGUMENT",
+        5 => c"CSTK_NOT_FINITE",
+        6 => c"CSTK_WRONG_SIZE",
+        7 => c"CSTK_EMPTY",
+        8 => c"CSTK_DEGENERATE",
+        9 => c"CSTK_NOT_CONVEX",
+        10 => c"CSTK_NOT_PLANAR",
+        11 => c"CSTK_NOT_A_ROTATION",
+        12 => c"CSTK_NOT_FOUND",
+        13 => c"CSTK_UNSUPPORTED",
+        14 => c"CSTK_IO",
+        15 => c"CSTK_PARSE",
+        16 => c"CSTK_NOT_CONVERGED",
+        17 => c"CSTK_CANCELLED",
+        18 => c"CSTK_BUSY",
+        19 => c"CSTK_INTERNAL",
+        _ => c"unknown status",
+    };
+    name.as_ptr()
+}

@@ -1,0 +1,25 @@
+//! The version of the library.
+
+use std::ffi::c_char;
+
+/// The version this header belongs to.
+pub const CSTK_VERSION_MAJOR: u32 = 0;
+pub const CSTK_VERSION_MINOR: u32 = 1;
+pub const CSTK_VERSION_PATCH: u32 = 0;
+
+/// The version of the library that is linked, as "major.minor.patch"; static.
+#[unsafe(no_mangle)]
+pub extern "C" fn cstk_version() -> *const c_char {
+    concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_are_those_of_the_package() {
+        let parts = format!("{CSTK_VERSION_MAJOR}.{CSTK_VERSION_MINOR}.{CSTK_VERSION_PATCH}");
+        assert_eq!(parts, env!("CARGO_PKG_VERSION"));
+    }
+}

@@ -1,0 +1,232 @@
+//! The scene of a C-object at a configuration.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::glb::{Document, Triangles};
+use super::shapes::{add_arrow, add_ball, add_rod, of_body};
+use crate::body::Body;
+use crate::cobject::{CObject, SObjects, Term};
+use crate::error::{Error, ErrorKind, Result};
+use crate::pose::{Pose, Vec3};
+use crate::query::{PseudoNormal, QueryContext, SSide};
+
+/// At most so many witnesses are drawn.
+const MOST_WITNESSES: usize = 64;
+
+/// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
+pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
+    let epsilon = cobject
+        .terms()
+        .iter()
+        .map(|term| match &**term {
+            Term::Objects { options, .. } | Term::Links { options, .. } => options.contact_epsilon,
+        })
+        .fold(0.0, f64::max);
+    let found = QueryContext::new().pseudo_normal(cobject, q, epsilon, MOST_WITNESSES, false)?;
+    let mut drawing = Drawing::new(cobject, q);
+    drawing.draw_bodies();
+    drawing.draw_witnesses(&found);
+    let extras = json!({
+        "configuration": q,
+        "class": format!("{:?}", found.class),
+        "distance": finite(found.distance.distance),
+    });
+    write_whole(path, &drawing.document.into_bytes(extras))
+}
+
+/// JSON has no infinities.
+fn finite(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { Value::Null }
+}
+
+struct Drawing<'a> {
+    cobject: &'a CObject,
+    poses: Vec<Pose>,
+    document: Document,
+    meshes: HashMap<(u64, usize), Option<usize>>,
+    /// A length by which marks are scaled.
+    size: f64,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(cobject: &'a CObject, q: &[f64]) -> Self {
+        let space = cobject.space();
+        let sizes = (0..space.link_count())
+            .filter_map(|link| space.link(link)?.body.as_ref())
+            .map(|body| body.radius());
+        Self {
+            cobject,
+            poses: space.link_poses(q),
+            document: Document::default(),
+            meshes: HashMap::new(),
+            size: sizes.fold(1e-9, f64::max),
+        }
+    }
+
+    fn draw_bodies(&mut self) {
+        let space = self.cobject.space().clone();
+        let link_material = self
+            .document
+            .add_material("link", [0.45, 0.55, 0.70, 1.0], true);
+        let object_material = self
+            .document
+            .add_material("s-object", [0.80, 0.62, 0.35, 1.0], true);
+        for link in 0..space.link_count() {
+            if let Some(found) = space.link(link)
+                && let Some(body) = &found.body
+            {
+                let pose = self.poses[link];
+                self.draw_body(
+                    &found.name,
+                    body,
+                    &pose,
+                    link_material,
+                    json!({ "link": link }),
+                );
+            }
+        }
+        let mut drawn = Vec::new();
+        for term in self.cobject.terms() {
+            let Term::Objects { objects, .. } = &**term else {
+                continue;
+            };
+            let (SObjects::All(environment) | SObjects::Some(environment, _)) = objects;
+            for object in &environment.snapshot().objects {
+                let chosen = match objects {
+                    SObjects::All(_) => true,
+                    SObjects::Some(_, ids) => ids.contains(&object.id),
+                };
+                if chosen && !drawn.contains(&object.id) {
+                    drawn.push(object.id);
+                    let name = format!("s-object {}", object.id);
+                    let extras = json!({ "id": object.id });
+                    self.draw_body(&name, &object.body, &object.pose, object_material, extras);
+                }
+            }
+        }
+    }
+
+    fn draw_body(&mut self, name: &str, body: &Body, pose: &Pose, material: usize, extras: Value) {
+        let document = &mut self.document;
+        let mesh = self
+            .meshes
+            .entry((body.serial(), material))
+            .or_insert_with(|| document.add_mesh(&of_body(body), material));
+        if let Some(mesh) = *mesh {
+            let centered = pose.compose(&Pose::from_translation(*body.center()));
+            document.add_node(name, mesh, &centered, extras);
+        }
+    }
+
+    fn draw_witnesses(&mut self, found: &PseudoNormal) {
+        let red = self
+            .document
+            .add_material("witness", [0.85, 0.10, 0.10, 1.0], true);
+        let green = self
+            .document
+            .add_material("normal", [0.10, 0.65, 0.20, 1.0], true);
+        let blue = self
+            .document
+            .add_material("gradient", [0.15, 0.25, 0.90, 1.0], true);
+        let thick = 0.008 * self.size;
+        if found.distance.witness.is_some() {
+            let mut marks = Triangles::default();
+            let [on_r, on_s] = &found.distance.points;
+            add_ball(&mut marks, on_r, 2.0 * thick);
+            add_ball(&mut marks, on_s, 2.0 * thick);
+            add_rod(&mut marks, on_r, on_s, 0.6 * thick, 0.6 * thick);
+            let extras = json!({ "distance": finite(found.distance.distance) });
+            self.draw_marks("nearest", &marks, red, extras);
+        }
+        let nv = found.list.nv.max(1);
+        for (w, witness) in found.list.witnesses.iter().enumerate() {
+            let contacts = witness.first_contact..witness.first_contact + witness.contact_count;
+            for c in contacts {
+                let contact = &found.list.contacts[c];
+                let row = found
+                    .list
+                    .gradients
+                    .chunks_exact(nv)
+                    .nth(c)
+                    .unwrap_or_default();
+                let extras = json!({
+                    "witness": w,
+                    "mode": format!("{:?}", contact.mode),
+                    "distance": finite(contact.distance),
+                    "gradient": row,
+                });
+                let [on_r, on_s] = &contact.points;
+                let mut marks = Triangles::default();
+                add_ball(&mut marks, on_r, 1.5 * thick);
+                add_ball(&mut marks, on_s, 1.5 * thick);
+                add_rod(&mut marks, on_r, on_s, 0.5 * thick, 0.5 * thick);
+                self.draw_marks("contact", &marks, red, extras.clone());
+
+                let mut arrow = Triangles::default();
+                add_arrow(
+                    &mut arrow,
+                    on_r,
+                    &(contact.normal * (0.12 * self.size)),
+                    0.7 * thick,
+                );
+                self.draw_marks("normal", &arrow, green, extras.clone());
+
+                let way = self.way_along(witness.r_link, on_r, row);
+                if let Some(way) = way.try_normalize(0.0) {
+                    let mut arrow = Triangles::default();
+                    add_arrow(&mut arrow, on_r, &(way * (0.18 * self.size)), 0.5 * thick);
+                    self.draw_marks("gradient", &arrow, blue, extras);
+                }
+                if let SSide::Link(link) = witness.s_side {
+                    let way = self.way_along(link, on_s, row);
+                    if let Some(way) = way.try_normalize(0.0) {
+                        let mut arrow = Triangles::default();
+                        add_arrow(&mut arrow, on_s, &(way * (0.18 * self.size)), 0.5 * thick);
+                        self.draw_marks("gradient", &arrow, blue, Value::Null);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The velocity of a link's point when the robot moves along the gradient.
+    fn way_along(&self, link: usize, point: &Vec3, gradient: &[f64]) -> Vec3 {
+        let space = self.cobject.space();
+        let along = |axis: Vec3| {
+            let mut row = vec![0.0; gradient.len()];
+            space.add_gradient(&self.poses, link, point, &axis, 1.0, &mut row);
+            row.iter().zip(gradient).map(|(a, b)| a * b).sum()
+        };
+        Vec3::new(along(Vec3::x()), along(Vec3::y()), along(Vec3::z()))
+    }
+
+    fn draw_marks(&mut self, name: &str, marks: &Triangles, material: usize, extras: Value) {
+        if let Some(mesh) = self.document.add_mesh(marks, material) {
+            self.document
+                .add_node(name, mesh, &Pose::identity(), extras);
+        }
+    }
+}
+
+/// Writes beside the file and renames, so that no reader ever sees half of it.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let failed =
+        |error: std::io::Error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display()));
+    if path.is_dir() {
+        return Err(Error::new(
+            ErrorKind::Io,
+            format!("{} is a folder", path.display()),
+        ));
+    }
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(format!(".{}.part", std::process::id()));
+    std::fs::write(&beside, bytes)
+        .and_then(|()| std::fs::rename(&beside, path))
+        .map_err(|error| {
+            let _ = std::fs::remove_file(&beside);
+            failed(error)
+        })
+}
