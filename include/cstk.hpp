@@ -1,1 +1,647 @@
-// placeholder
+/* cstk.hpp: a thin C++17 layer over cstk.h: handles that release themselves, statuses as exceptions.
+ *
+ * Every class holds one reference; copying shares the object (another reference), as in C. Functions throw cstk::Error
+ * where the C call returns a status other than CSTK_OK. What a call does, its units, frames and thread safety are said
+ * in cstk.h at the function of the same name. Answers are the C structures; lists belong to the Query until its next
+ * call.
+ */
+#ifndef CSTK_HPP
+#define CSTK_HPP
+
+#include <cstk.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace cstk {
+
+/// A failed call: its status, and the library's message that names the culprit.
+class Error : public std::runtime_error {
+public:
+    explicit Error(cstk_status status)
+        : std::runtime_error(std::string(cstk_status_name(status)) + ": " +
+                             cstk_last_error_message()),
+          status_(status) {}
+
+    cstk_status status() const noexcept { return status_; }
+
+private:
+    cstk_status status_;
+};
+
+/// Throws unless the status is CSTK_OK.
+inline void check(cstk_status status) {
+    if (status != CSTK_OK) {
+        throw Error(status);
+    }
+}
+
+/// A view of contiguous items: from std::vector, std::array, a C array, or a pointer and a count.
+template <typename T> class Span {
+public:
+    Span() = default;
+    Span(const T *data, std::size_t size) : data_(data), size_(size) {}
+    template <std::size_t N> Span(const T (&items)[N]) : data_(items), size_(N) {}
+    template <typename Container,
+              typename = std::enable_if_t<std::is_convertible_v<
+                  decltype(std::declval<const Container &>().data()), const T *>>>
+    Span(const Container &items) : data_(items.data()), size_(items.size()) {}
+
+    const T *data() const noexcept { return data_; }
+    std::size_t size() const noexcept { return size_; }
+
+private:
+    const T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// 12 doubles, row-major [R | t], from child to parent frame.
+using Pose = std::array<double, 12>;
+
+inline Pose identity() { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; }
+
+inline Pose translation(double x, double y, double z) { return {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}; }
+
+/// The report's placement: x, y, z, yaw, pitch, roll.
+inline Pose pose_from_euler(const std::array<double, 6> &xyz_ypr) {
+    Pose pose;
+    check(cstk_pose_from_euler(xyz_ypr.data(), pose.data()));
+    return pose;
+}
+
+inline std::array<double, 6> pose_to_euler(const Pose &pose) {
+    std::array<double, 6> xyz_ypr;
+    check(cstk_pose_to_euler(pose.data(), xyz_ypr.data()));
+    return xyz_ypr;
+}
+
+inline Pose compose(const Pose &a, const Pose &b) {
+    Pose out;
+    check(cstk_pose_compose(a.data(), b.data(), out.data()));
+    return out;
+}
+
+/// An options structure with its defaults; set its fields as in C.
+inline cstk_hierarchy_options hierarchy_options() {
+    cstk_hierarchy_options options;
+    check(cstk_hierarchy_options_default(&options, sizeof options));
+    return options;
+}
+
+inline cstk_cobject_options cobject_options(double contact_epsilon = 0, double margin = 0) {
+    cstk_cobject_options options;
+    check(cstk_cobject_options_default(&options, sizeof options));
+    options.contact_epsilon = contact_epsilon;
+    options.margin = margin;
+    return options;
+}
+
+inline cstk_slide_options slide_options(double max_shell) {
+    cstk_slide_options options;
+    check(cstk_slide_options_default(&options, sizeof options));
+    options.max_shell = max_shell;
+    return options;
+}
+
+/// One reference to an object of the library; empty when default-constructed or moved from.
+template <typename T, cstk_status (*Retain)(T *), cstk_status (*Release)(T *)> class Handle {
+public:
+    Handle() = default;
+    /// Takes over the reference that a _create or _build call gave.
+    explicit Handle(T *owned) noexcept : object_(owned) {}
+    Handle(const Handle &other) : object_(other.object_) {
+        if (object_ != nullptr) {
+            check(Retain(object_));
+        }
+    }
+    Handle(Handle &&other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    Handle &operator=(Handle other) noexcept {
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~Handle() { Release(object_); }
+
+    T *get() const noexcept { return object_; }
+    explicit operator bool() const noexcept { return object_ != nullptr; }
+
+private:
+    T *object_ = nullptr;
+};
+
+/// A rigid union of convex primitives.
+class Body : public Handle<cstk_body, cstk_body_retain, cstk_body_release> {
+public:
+    using Handle::Handle;
+
+    cstk_body_statistics statistics() const {
+        cstk_body_statistics out;
+        check(cstk_body_get_statistics(get(), &out));
+        return out;
+    }
+
+    /// The vertices of a feature, three doubles each.
+    std::vector<double> feature_vertices(std::uint32_t primitive, cstk_feature_kind kind,
+                                         std::uint32_t feature) const {
+        std::size_t count = 0;
+        check(cstk_body_feature_vertices(get(), primitive, kind, feature, 0, nullptr, &count));
+        std::vector<double> xyz(3 * count);
+        check(cstk_body_feature_vertices(get(), primitive, kind, feature, count, xyz.data(), &count));
+        return xyz;
+    }
+};
+
+class BodyBuilder
+    : public Handle<cstk_body_builder, cstk_body_builder_retain, cstk_body_builder_release> {
+public:
+    /// Return false to end the build with CSTK_CANCELLED. Exceptions pass through to the caller of build().
+    using Progress = std::function<bool(double fraction)>;
+
+    explicit BodyBuilder(std::uint32_t dimension = 3) : Handle(create(dimension)) {}
+
+    BodyBuilder &add_polygon(Span<double> xyz, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_polygon(get(), xyz.data(), points(xyz), tag));
+        return *this;
+    }
+
+    BodyBuilder &add_polyhedron(Span<double> xyz, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_polyhedron(get(), xyz.data(), points(xyz), tag));
+        return *this;
+    }
+
+    /// Triangles: three indices each.
+    BodyBuilder &add_triangles(Span<double> vertices, Span<std::uint32_t> indices) {
+        check(cstk_body_builder_add_mesh(get(), vertices.data(), points(vertices), nullptr,
+                                         indices.size() / 3, indices.data(), indices.size()));
+        return *this;
+    }
+
+    BodyBuilder &add_mesh(Span<double> vertices, Span<std::uint32_t> face_sizes,
+                          Span<std::uint32_t> indices) {
+        /* NULL would stand for triangles. */
+        static const std::uint32_t none = 0;
+        const std::uint32_t *sizes = face_sizes.data() != nullptr ? face_sizes.data() : &none;
+        check(cstk_body_builder_add_mesh(get(), vertices.data(), points(vertices), sizes,
+                                         face_sizes.size(), indices.data(), indices.size()));
+        return *this;
+    }
+
+    BodyBuilder &add_mesh_file(const std::string &file) {
+        check(cstk_body_builder_add_mesh_file(get(), file.c_str()));
+        return *this;
+    }
+
+    Body build() const {
+        cstk_body *out = nullptr;
+        check(cstk_body_build(get(), nullptr, nullptr, nullptr, &out));
+        return Body(out);
+    }
+
+    Body build(const cstk_hierarchy_options &options, Progress progress = {}) const {
+        Report report{std::move(progress), nullptr};
+        cstk_body *out = nullptr;
+        cstk_status status =
+            cstk_body_build(get(), &options, report.progress ? &Report::call : nullptr, &report, &out);
+        if (report.thrown) {
+            std::rethrow_exception(report.thrown);
+        }
+        check(status);
+        return Body(out);
+    }
+
+private:
+    /* No exception may pass through C: it is kept, and thrown again after the call. */
+    struct Report {
+        Progress progress;
+        std::exception_ptr thrown;
+
+        static std::int32_t call(double fraction, void *user) noexcept {
+            Report &report = *static_cast<Report *>(user);
+            try {
+                return report.progress(fraction) ? 0 : 1;
+            } catch (...) {
+                report.thrown = std::current_exception();
+                return 1;
+            }
+        }
+    };
+
+    static std::size_t points(Span<double> xyz) {
+        if (xyz.size() % 3 != 0) {
+            throw std::invalid_argument("cstk: coordinates must come in threes");
+        }
+        return xyz.size() / 3;
+    }
+
+    static cstk_body_builder *create(std::uint32_t dimension) {
+        cstk_body_builder *out = nullptr;
+        check(cstk_body_builder_create(dimension, &out));
+        return out;
+    }
+};
+
+/// A link to be added: the defaults of cstk_link_def.
+struct Link {
+    std::string name;
+    Body body;
+    std::int32_t parent = -1;
+    cstk_joint_kind joint = CSTK_JOINT_FIXED;
+    Pose at = identity();
+    std::array<double, 3> axis = {0, 0, 1};
+    std::int32_t coordinate = -1;
+};
+
+class Robot : public Handle<cstk_robot, cstk_robot_retain, cstk_robot_release> {
+public:
+    using Handle::Handle;
+
+    std::size_t nq() const {
+        std::size_t nq = 0;
+        check(cstk_robot_size(get(), &nq, nullptr));
+        return nq;
+    }
+
+    std::size_t link_count() const {
+        std::size_t count = 0;
+        check(cstk_robot_size(get(), nullptr, &count));
+        return count;
+    }
+
+    std::uint32_t find_link(const std::string &name) const {
+        std::uint32_t link = 0;
+        check(cstk_robot_find_link(get(), name.c_str(), &link));
+        return link;
+    }
+
+    Pose link_pose(Span<double> q, std::uint32_t link) const {
+        Pose pose;
+        check(cstk_robot_link_pose(get(), q.data(), q.size(), link, pose.data()));
+        return pose;
+    }
+
+    /// 6 rows of nv doubles.
+    std::vector<double> jacobian(Span<double> q, std::uint32_t link,
+                                 const std::array<double, 3> &point) const {
+        std::vector<double> out(6 * nq());
+        check(cstk_robot_jacobian(get(), q.data(), q.size(), link, point.data(), out.data()));
+        return out;
+    }
+};
+
+class RobotBuilder
+    : public Handle<cstk_robot_builder, cstk_robot_builder_retain, cstk_robot_builder_release> {
+public:
+    explicit RobotBuilder(std::uint32_t dimension = 3) : Handle(create(dimension)) {}
+
+    std::uint32_t add_link(const Link &link) {
+        cstk_link_def def;
+        check(cstk_link_def_default(&def, sizeof def));
+        def.name = link.name.empty() ? nullptr : link.name.c_str();
+        def.body = link.body.get();
+        def.parent = link.parent;
+        def.joint = link.joint;
+        for (std::size_t i = 0; i < 12; ++i) {
+            def.at[i] = link.at[i];
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            def.axis[i] = link.axis[i];
+        }
+        def.coordinate = link.coordinate;
+        std::uint32_t number = 0;
+        check(cstk_robot_builder_add_link(get(), &def, &number));
+        return number;
+    }
+
+    Robot build() const {
+        cstk_robot *out = nullptr;
+        check(cstk_robot_build(get(), &out));
+        return Robot(out);
+    }
+
+private:
+    static cstk_robot_builder *create(std::uint32_t dimension) {
+        cstk_robot_builder *out = nullptr;
+        check(cstk_robot_builder_create(dimension, &out));
+        return out;
+    }
+};
+
+inline cstk_range circle() { return {CSTK_RANGE_CIRCLE, 0, 0, 0}; }
+
+inline cstk_range interval(double lower, double upper) {
+    return {CSTK_RANGE_INTERVAL, 0, lower, upper};
+}
+
+class Space : public Handle<cstk_space, cstk_space_retain, cstk_space_release> {
+public:
+    /// `world_box` is empty for everywhere, or low x, y, z, high x, y, z.
+    explicit Space(const std::vector<Robot> &robots, Span<cstk_range> ranges = {},
+                   Span<double> world_box = {})
+        : Handle(create(robots, ranges, world_box)) {}
+    explicit Space(const Robot &robot) : Space(std::vector<Robot>{robot}) {}
+
+    std::size_t nq() const {
+        std::size_t nq = 0;
+        check(cstk_space_size(get(), &nq, nullptr, nullptr));
+        return nq;
+    }
+
+    std::size_t nv() const {
+        std::size_t nv = 0;
+        check(cstk_space_size(get(), nullptr, &nv, nullptr));
+        return nv;
+    }
+
+    std::size_t link_count() const {
+        std::size_t count = 0;
+        check(cstk_space_size(get(), nullptr, nullptr, &count));
+        return count;
+    }
+
+    bool contains(Span<double> q) const {
+        bool out = false;
+        check(cstk_space_contains(get(), q.data(), q.size(), &out));
+        return out;
+    }
+
+private:
+    static cstk_space *create(const std::vector<Robot> &robots, Span<cstk_range> ranges,
+                              Span<double> world_box) {
+        if (world_box.size() != 0 && world_box.size() != 6) {
+            throw std::invalid_argument("cstk: a world box has 6 numbers");
+        }
+        std::vector<const cstk_robot *> handles;
+        for (const Robot &robot : robots) {
+            handles.push_back(robot.get());
+        }
+        cstk_space *out = nullptr;
+        check(cstk_space_create(handles.data(), handles.size(), ranges.data(), ranges.size(),
+                                world_box.data(), &out));
+        return out;
+    }
+};
+
+class Environment
+    : public Handle<cstk_environment, cstk_environment_retain, cstk_environment_release> {
+public:
+    Environment() : Handle(create()) {}
+
+    /// Adds an s-object; returns its id.
+    std::uint64_t add(const Body &body, const Pose &pose) {
+        return apply_one(change(CSTK_CHANGE_ADD, 0, body.get(), pose));
+    }
+
+    void move(std::uint64_t id, const Pose &pose) {
+        apply_one(change(CSTK_CHANGE_MOVE, id, nullptr, pose));
+    }
+
+    void remove(std::uint64_t id) {
+        apply_one(change(CSTK_CHANGE_DELETE, id, nullptr, identity()));
+    }
+
+    /// Applies all changes as one; returns the ids they are about.
+    std::vector<std::uint64_t> apply(Span<cstk_environment_change> changes) {
+        std::vector<std::uint64_t> ids(changes.size());
+        check(cstk_environment_apply(get(), changes.data(), changes.size(), ids.data(), nullptr));
+        return ids;
+    }
+
+    /// One change, for apply().
+    static cstk_environment_change change(cstk_change_kind kind, std::uint64_t id,
+                                          const cstk_body *body, const Pose &pose) {
+        cstk_environment_change change;
+        check(cstk_environment_change_default(&change, sizeof change));
+        change.kind = kind;
+        change.id = id;
+        change.body = body;
+        for (std::size_t i = 0; i < 12; ++i) {
+            change.pose[i] = pose[i];
+        }
+        return change;
+    }
+
+    Environment snapshot() const {
+        cstk_environment *out = nullptr;
+        check(cstk_environment_snapshot(get(), &out));
+        return Environment(out);
+    }
+
+    std::size_t object_count() const {
+        std::size_t count = 0;
+        check(cstk_environment_state(get(), &count, nullptr));
+        return count;
+    }
+
+    std::uint64_t version() const {
+        std::uint64_t version = 0;
+        check(cstk_environment_state(get(), nullptr, &version));
+        return version;
+    }
+
+    Pose object_pose(std::uint64_t id) const {
+        Pose pose;
+        check(cstk_environment_object_pose(get(), id, pose.data()));
+        return pose;
+    }
+
+private:
+    explicit Environment(cstk_environment *owned) : Handle(owned) {}
+
+    std::uint64_t apply_one(const cstk_environment_change &change) {
+        std::uint64_t id = 0;
+        check(cstk_environment_apply(get(), &change, 1, &id, nullptr));
+        return id;
+    }
+
+    static cstk_environment *create() {
+        cstk_environment *out = nullptr;
+        check(cstk_environment_create(&out));
+        return out;
+    }
+};
+
+class CObject : public Handle<cstk_cobject, cstk_cobject_retain, cstk_cobject_release> {
+public:
+    using Handle::Handle;
+
+    /// No links: all that have a body. No ids: all objects of the environment.
+    static CObject induced(const Space &space, const Environment &environment,
+                           const cstk_cobject_options &options = cobject_options(),
+                           Span<std::uint32_t> links = {}, Span<std::uint64_t> ids = {}) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_induced(space.get(), links.data(), links.size(), environment.get(),
+                                   ids.data(), ids.size(), &options, &out));
+        return CObject(out);
+    }
+
+    static CObject induced_links(const Space &space,
+                                 const std::vector<std::array<std::uint32_t, 2>> &pairs,
+                                 const cstk_cobject_options &options = cobject_options()) {
+        std::vector<std::uint32_t> flat;
+        for (const auto &pair : pairs) {
+            flat.insert(flat.end(), pair.begin(), pair.end());
+        }
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_induced_links(space.get(), flat.data(), pairs.size(), &options, &out));
+        return CObject(out);
+    }
+
+    static CObject union_of(const std::vector<CObject> &parts) {
+        std::vector<const cstk_cobject *> handles;
+        for (const CObject &part : parts) {
+            handles.push_back(part.get());
+        }
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_union(handles.data(), handles.size(), &out));
+        return CObject(out);
+    }
+
+    void show(Span<double> q, const std::string &file) const {
+        check(cstk_show(get(), q.data(), q.size(), file.c_str()));
+    }
+};
+
+/// A query context; one per thread. Copies share the context.
+class Query : public Handle<cstk_query, cstk_query_retain, cstk_query_release> {
+public:
+    Query() : Handle(create()) {}
+
+    cstk_class classify(const CObject &cobject, Span<double> q) const {
+        cstk_class out = CSTK_OUTSIDE;
+        check(cstk_classify(get(), cobject.get(), q.data(), q.size(), &out));
+        return out;
+    }
+
+    bool within(const CObject &cobject, Span<double> q, double threshold) const {
+        bool out = false;
+        check(cstk_within(get(), cobject.get(), q.data(), q.size(), threshold, &out));
+        return out;
+    }
+
+    cstk_distance_result
+    distance(const CObject &cobject, Span<double> q,
+             double max_distance = std::numeric_limits<double>::infinity()) const {
+        cstk_distance_result out;
+        check(cstk_distance(get(), cobject.get(), q.data(), q.size(), max_distance, &out));
+        return out;
+    }
+
+    cstk_witness_list witnesses(const CObject &cobject, Span<double> q, double epsilon,
+                                std::size_t max_count = 4096) const {
+        cstk_witness_list out;
+        check(cstk_witnesses(get(), cobject.get(), q.data(), q.size(), epsilon, max_count, &out));
+        return out;
+    }
+
+    cstk_witness_list gradients(const CObject &cobject, Span<double> q, double epsilon,
+                                std::size_t max_count = 4096) const {
+        cstk_witness_list out;
+        check(cstk_gradients(get(), cobject.get(), q.data(), q.size(), epsilon, max_count, &out));
+        return out;
+    }
+
+    cstk_pseudo_normal_result pseudo_normal(const CObject &cobject, Span<double> q,
+                                            double max_shell, std::size_t max_count = 4096,
+                                            bool normalize = false) const {
+        cstk_pseudo_normal_result out;
+        check(cstk_pseudo_normal(get(), cobject.get(), q.data(), q.size(), max_shell, max_count,
+                                 normalize, &out));
+        return out;
+    }
+
+    /// The same queries at given link poses: 12 doubles for every link of the space.
+    cstk_class classify_at(const CObject &cobject, Span<Pose> links) const {
+        cstk_class out = CSTK_OUTSIDE;
+        check(cstk_classify_at(get(), cobject.get(), flat(links), links.size(), &out));
+        return out;
+    }
+
+    bool within_at(const CObject &cobject, Span<Pose> links, double threshold) const {
+        bool out = false;
+        check(cstk_within_at(get(), cobject.get(), flat(links), links.size(), threshold, &out));
+        return out;
+    }
+
+    cstk_distance_result
+    distance_at(const CObject &cobject, Span<Pose> links,
+                double max_distance = std::numeric_limits<double>::infinity()) const {
+        cstk_distance_result out;
+        check(cstk_distance_at(get(), cobject.get(), flat(links), links.size(), max_distance, &out));
+        return out;
+    }
+
+    cstk_witness_list witnesses_at(const CObject &cobject, Span<Pose> links, double epsilon,
+                                   std::size_t max_count = 4096) const {
+        cstk_witness_list out;
+        check(cstk_witnesses_at(get(), cobject.get(), flat(links), links.size(), epsilon, max_count,
+                                &out));
+        return out;
+    }
+
+    /// Moves q by one sliding step; says how it ended.
+    cstk_slide_result slide(const CObject &cobject, std::vector<double> &q, Span<double> step,
+                            const cstk_slide_options &options) const {
+        if (step.size() != q.size()) {
+            throw std::invalid_argument("cstk: step and configuration differ in size");
+        }
+        cstk_slide_result out;
+        check(cstk_slide(get(), cobject.get(), q.data(), step.data(), q.size(), &options, q.data(),
+                         &out));
+        return out;
+    }
+
+    cstk_distance_result
+    pair_distance(const Body &a, const Pose &pose_a, const Body &b, const Pose &pose_b,
+                  double max_distance = std::numeric_limits<double>::infinity()) const {
+        cstk_distance_result out;
+        check(cstk_pair_distance(get(), a.get(), pose_a.data(), b.get(), pose_b.data(), max_distance,
+                                 &out));
+        return out;
+    }
+
+    bool pair_within(const Body &a, const Pose &pose_a, const Body &b, const Pose &pose_b,
+                     double threshold) const {
+        bool out = false;
+        check(cstk_pair_within(get(), a.get(), pose_a.data(), b.get(), pose_b.data(), threshold,
+                               &out));
+        return out;
+    }
+
+    cstk_witness_list pair_witnesses(const Body &a, const Pose &pose_a, const Body &b,
+                                     const Pose &pose_b, double epsilon,
+                                     std::size_t max_count = 4096) const {
+        cstk_witness_list out;
+        check(cstk_pair_witnesses(get(), a.get(), pose_a.data(), b.get(), pose_b.data(), epsilon,
+                                  max_count, &out));
+        return out;
+    }
+
+    cstk_query_statistics statistics(bool reset = false) const {
+        cstk_query_statistics out;
+        check(cstk_query_get_statistics(get(), reset, &out));
+        return out;
+    }
+
+private:
+    static const double *flat(Span<Pose> links) {
+        return links.size() == 0 ? nullptr : links.data()->data();
+    }
+
+    static cstk_query *create() {
+        cstk_query *out = nullptr;
+        check(cstk_query_create(&out));
+        return out;
+    }
+};
+
+} // namespace cstk
+
+#endif

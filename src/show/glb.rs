@@ -41,8 +41,8 @@ impl Document {
             "doubleSided": both_sides,
             "pbrMetallicRoughness": {
                 "baseColorFactor": colour,
-                "metallicFactor": 0.1,
-                "roughnessFactor": 0.7,
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.6,
             },
         }));
         self.materials.len() - 1

@@ -70,10 +70,10 @@ impl<'a> Drawing<'a> {
         let space = self.cobject.space().clone();
         let link_material = self
             .document
-            .add_material("link", [0.45, 0.55, 0.70, 1.0], true);
+            .add_material("link", [0.62, 0.74, 0.90, 1.0], true);
         let object_material = self
             .document
-            .add_material("s-object", [0.80, 0.62, 0.35, 1.0], true);
+            .add_material("s-object", [0.95, 0.80, 0.50, 1.0], true);
         for link in 0..space.link_count() {
             if let Some(found) = space.link(link)
                 && let Some(body) = &found.body

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves one
+# picture: demo/slider.png, frames 10, 20, 30 and 40 of both.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh demo
+scripts/install.sh
+
+cmake -S examples-c -B build/examples -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+cmake --build build/examples
+mkdir -p demo
+rm -f demo/*.glb demo/*.png demo/*.csv
+echo
+build/examples/puma_slider appendix models demo
+echo
+meshes=$(scripts/fetch_puma560.sh)
+build/examples/puma_slider puma560 "$meshes" demo
+
+# Renders one frame: name, camera position, focal point.
+render() {
+  xvfb-run -a -s "-screen 0 1024x768x24" f3d --quiet "demo/$1.glb" --output "demo/$1.png" \
+    --resolution 640,480 --up +Z --bg-color 1,1,1 --camera-position "$2" --camera-focal-point "$3" \
+    --camera-view-up 0,0,1 >/dev/null 2>&1
+  [ -s "demo/$1.png" ] || { echo "demo/$1.glb could not be rendered" >&2; exit 1; }
+}
+tiles=()
+for frame in 10 20 30 40; do
+  render "appendix_$frame" 24,-12,19 5.5,4.5,0.2
+  tiles+=(-label "Appendix A, step $frame" "demo/appendix_$frame.png")
+done
+for frame in 10 20 30 40; do
+  render "puma560_$frame" 2.6,-1.7,1.9 0.25,0.05,0.62
+  tiles+=(-label "Puma 560, step $frame" "demo/puma560_$frame.png")
+done
+montage "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
+echo
+echo "picture: $PWD/demo/slider.png"

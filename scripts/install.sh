@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Builds the library and installs it into the prefix local/ (or the one given).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+prefix=${1:-$PWD/local}
+cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build build
+cmake --install build --prefix "$prefix" >/dev/null
+echo "installed into $prefix"
