@@ -25,13 +25,13 @@ render() {
 }
 tiles=()
 for frame in 10 20 30 40; do
-  render "appendix_$frame" 24,-12,19 5.5,4.5,0.2
+  render "appendix_$frame" 22,-10,17 6.2,4.8,0.2
   tiles+=(-label "Appendix A, step $frame" "demo/appendix_$frame.png")
 done
 for frame in 10 20 30 40; do
-  render "puma560_$frame" 2.6,-1.7,1.9 0.25,0.05,0.62
+  render "puma560_$frame" 3.0,-1.9,2.0 0.25,0.1,0.65
   tiles+=(-label "Puma 560, step $frame" "demo/puma560_$frame.png")
 done
-montage "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
+montage -font /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
 echo
 echo "picture: $PWD/demo/slider.png"

@@ -4,7 +4,7 @@ set -euo pipefail
 
 common=(cmake g++ make pkg-config)
 case "${1:-}" in
-  demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick) ;;
+  demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick fonts-dejavu-core) ;;
   test) packages=("${common[@]}" python3-pip clang valgrind binutils libfcl-dev) ;;
   *) echo "usage: setup.sh demo|test" >&2; exit 2 ;;
 esac

@@ -108,6 +108,19 @@ impl From<FeatureKind> for cstk_feature_kind {
     }
 }
 
+impl cstk_feature_kind {
+    fn decode(value: i32) -> Option<FeatureKind> {
+        [
+            FeatureKind::Vertex,
+            FeatureKind::Edge,
+            FeatureKind::Face,
+            FeatureKind::Interior,
+        ]
+        .into_iter()
+        .find(|&kind| Self::from(kind) as i32 == value)
+    }
+}
+
 fn with_builder(
     builder: *mut cstk_body_builder,
     action: impl FnOnce(&mut BodyBuilder) -> Result<(), Failure>,
@@ -353,13 +366,8 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
         let body = handle::borrow::<Body>(body, "body")?;
         let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
         let count = Output::checked(count, "count")?;
-        let kind = match kind {
-            0 => FeatureKind::Vertex,
-            1 => FeatureKind::Edge,
-            2 => FeatureKind::Face,
-            3 => FeatureKind::Interior,
-            _ => return Err(Error::invalid(format!("kind {kind} is no cstk_feature_kind")).into()),
-        };
+        let kind = cstk_feature_kind::decode(kind)
+            .ok_or_else(|| Error::invalid(format!("kind {kind} is no cstk_feature_kind")))?;
         let shape = body.primitives().get(primitive as usize).ok_or_else(|| {
             Error::new(
                 ErrorKind::NotFound,

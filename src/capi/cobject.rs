@@ -132,7 +132,7 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
     guard(|| {
         let space = handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
-        let numbers = pair_count.checked_mul(2).unwrap_or(usize::MAX);
+        let numbers = pair_count.saturating_mul(2);
         // SAFETY: checked for NULL, size and cookie; the caller states the length.
         let (pairs, options) =
             unsafe { (slice(pairs, numbers, "pairs")?, induced_options(options)?) };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::body::cstk_body;
-use super::boundary::guard;
+use super::boundary::{Failure, guard};
 use super::handle::{self, Noun};
 use super::input::{OptionsStruct, Output, OutputSlice, options, write_defaults};
 use super::status::cstk_status;
@@ -143,28 +143,28 @@ pub unsafe extern "C" fn cstk_environment_apply(
     })
 }
 
-fn change_from(
-    change: &cstk_environment_change,
-    i: usize,
-) -> Result<Change, super::boundary::Failure> {
+fn change_from(change: &cstk_environment_change, i: usize) -> Result<Change, Failure> {
     let pose = || {
         Pose::from_row_major(&change.pose).map_err(|e| e.within(format_args!("changes[{i}].pose")))
     };
-    Ok(match change.kind {
-        0 => Change::Add {
-            body: handle::share::<Body>(change.body, &format!("changes[{i}].body"))?,
+    let is = |kind: cstk_change_kind| change.kind == kind as i32;
+    if is(cstk_change_kind::CSTK_CHANGE_ADD) {
+        let body = handle::share::<Body>(change.body, &format!("changes[{i}].body"))?;
+        Ok(Change::Add {
+            body,
             pose: pose()?,
-        },
-        1 => Change::Move {
+        })
+    } else if is(cstk_change_kind::CSTK_CHANGE_MOVE) {
+        Ok(Change::Move {
             id: change.id,
             pose: pose()?,
-        },
-        2 => Change::Delete { id: change.id },
-        kind => {
-            let message = format!("changes[{i}].kind {kind} is no cstk_change_kind");
-            return Err(Error::invalid(message).into());
-        }
-    })
+        })
+    } else if is(cstk_change_kind::CSTK_CHANGE_DELETE) {
+        Ok(Change::Delete { id: change.id })
+    } else {
+        let kind = change.kind;
+        Err(Error::invalid(format!("changes[{i}].kind {kind} is no cstk_change_kind")).into())
+    }
 }
 
 /// Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.

@@ -47,7 +47,7 @@ pub unsafe fn slice<'a, T>(
 
 /// `count` points of three numbers each.
 pub unsafe fn points(xyz: *const f64, count: usize, argument: &str) -> Result<Vec<Vec3>, Failure> {
-    let numbers = count.checked_mul(3).unwrap_or(usize::MAX);
+    let numbers = count.saturating_mul(3);
     // SAFETY: as the caller states.
     let numbers = unsafe { slice(xyz, numbers, argument)? };
     Ok(numbers

@@ -14,8 +14,7 @@ use super::status::cstk_status;
 use crate::body::Body;
 use crate::error::{Error, ErrorKind};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{JointKind, LinkDefinition, Robot, RobotBuilder};
-use crate::space::Space;
+use crate::robot::{JointKind, LinkDefinition, Robot, RobotBuilder, check_configuration};
 
 /// Collects the links of a robot.
 pub struct cstk_robot_builder {
@@ -51,6 +50,18 @@ pub enum cstk_joint_kind {
     CSTK_JOINT_REVOLUTE = 1,
     /// Shifts it along the axis; the coordinate is a length.
     CSTK_JOINT_PRISMATIC = 2,
+}
+
+impl cstk_joint_kind {
+    fn decode(value: i32) -> Option<JointKind> {
+        [
+            (Self::CSTK_JOINT_FIXED, JointKind::Fixed),
+            (Self::CSTK_JOINT_REVOLUTE, JointKind::Revolute),
+            (Self::CSTK_JOINT_PRISMATIC, JointKind::Prismatic),
+        ]
+        .into_iter()
+        .find_map(|(code, kind)| (code as i32 == value).then_some(kind))
+    }
 }
 
 /// A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
@@ -167,15 +178,9 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
                 .transpose()?;
             // SAFETY: checked for size and cookie.
             let def = unsafe { options(def, "def")? };
-            let kind = match def.joint {
-                0 => JointKind::Fixed,
-                1 => JointKind::Revolute,
-                2 => JointKind::Prismatic,
-                other => {
-                    let message = format!("def->joint {other} is no cstk_joint_kind");
-                    return Err(Error::invalid(message).into());
-                }
-            };
+            let kind = cstk_joint_kind::decode(def.joint).ok_or_else(|| {
+                Error::invalid(format!("def->joint {} is no cstk_joint_kind", def.joint))
+            })?;
             let name = if def.name.is_null() {
                 ""
             } else {
@@ -275,14 +280,9 @@ pub unsafe extern "C" fn cstk_robot_find_link(
     })
 }
 
-/// The link poses of one robot at q, checked.
-fn poses_at(robot: &Arc<Robot>, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
-    let space = Space::new(
-        vec![robot.clone()],
-        &[],
-        crate::space::WorldBox::unbounded(),
-    )?;
-    space.check_configuration(q)?;
+/// The link poses of a robot at q, checked.
+fn poses_at(robot: &Robot, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
+    check_configuration(q, robot.coordinates())?;
     if link as usize >= robot.links().len() {
         return Err(Error::new(
             ErrorKind::NotFound,
@@ -293,7 +293,9 @@ fn poses_at(robot: &Arc<Robot>, q: &[f64], link: u32) -> Result<Vec<Pose>, Failu
         )
         .into());
     }
-    Ok(space.link_poses(q))
+    let mut poses = Vec::new();
+    robot.link_poses(q, &mut poses);
+    Ok(poses)
 }
 
 /// The pose of a link in the world at configuration q (forward kinematics, §4.2), as 12 doubles.
@@ -306,11 +308,11 @@ pub unsafe extern "C" fn cstk_robot_link_pose(
     pose: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::share::<Robot>(robot, "robot")?;
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
         let out = OutputSlice::checked(pose, 12, "pose")?;
         // SAFETY: checked for NULL; the caller states the length.
         let q = unsafe { slice(q, nq, "q")? };
-        let poses = poses_at(&robot, q, link)?;
+        let poses = poses_at(robot, q, link)?;
         out.write(&poses[link as usize].to_row_major());
         Ok(())
     })
@@ -328,12 +330,12 @@ pub unsafe extern "C" fn cstk_robot_jacobian(
     jacobian: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::share::<Robot>(robot, "robot")?;
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
         let out = OutputSlice::checked(jacobian, 6 * robot.coordinates(), "jacobian")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, point) = unsafe { (slice(q, nq, "q")?, array::<3>(point, "point")?) };
         crate::error::require_finite(point, "point entry")?;
-        let poses = poses_at(&robot, q, link)?;
+        let poses = poses_at(robot, q, link)?;
         let world = poses[link as usize].transform_point(&Vec3::from(*point));
         out.write(&robot.jacobian(&poses, link as usize, &world));
         Ok(())
@@ -346,7 +348,7 @@ pub(super) unsafe fn link_poses(
     count: usize,
     argument: &str,
 ) -> Result<Vec<Pose>, Failure> {
-    let numbers = count.checked_mul(12).unwrap_or(usize::MAX);
+    let numbers = count.saturating_mul(12);
     // SAFETY: as the caller states.
     let numbers = unsafe { slice(values, numbers, argument)? };
     numbers

@@ -110,7 +110,7 @@ pub unsafe extern "C" fn cstk_slide(
             options.keep_length = given.keep_length != 0;
             options.max_contacts = given.max_witnesses as usize;
             // NaN must reach the check.
-            if !(given.desired_distance < 0.0) {
+            if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
                 options.desired_distance = given.desired_distance;
             }
             let taken = state.context.slide(cobject, q, step, &options)?;

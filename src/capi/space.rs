@@ -43,6 +43,23 @@ pub struct cstk_range {
     pub upper: f64,
 }
 
+impl cstk_range {
+    fn decode(&self) -> Option<Coordinate> {
+        [
+            (cstk_range_kind::CSTK_RANGE_CIRCLE, Coordinate::Circle),
+            (
+                cstk_range_kind::CSTK_RANGE_INTERVAL,
+                Coordinate::Interval {
+                    lower: self.lower,
+                    upper: self.upper,
+                },
+            ),
+        ]
+        .into_iter()
+        .find_map(|(code, range)| (code as i32 == self.kind).then_some(range))
+    }
+}
+
 /// Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
 ///
 /// `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for the defaults: circles for revolute
@@ -74,15 +91,11 @@ pub unsafe extern "C" fn cstk_space_create(
         let ranges = ranges
             .iter()
             .enumerate()
-            .map(|(i, range)| match range.kind {
-                0 => Ok(Coordinate::Circle),
-                1 => Ok(Coordinate::Interval {
-                    lower: range.lower,
-                    upper: range.upper,
-                }),
-                kind => Err(Error::invalid(format!(
-                    "ranges[{i}].kind {kind} is no cstk_range_kind"
-                ))),
+            .map(|(i, range)| {
+                range.decode().ok_or_else(|| {
+                    let kind = range.kind;
+                    Error::invalid(format!("ranges[{i}].kind {kind} is no cstk_range_kind"))
+                })
             })
             .collect::<Result<Vec<_>, _>>()?;
         let world = if world_box.is_null() {

@@ -117,7 +117,7 @@ impl QueryContext {
             return Ok(ended(SlideOutcome::Inside));
         }
         let length = dot(step, step).sqrt();
-        if length == 0.0 {
+        if length == 0.0 || !cobject.space().contains(q) {
             return Ok(ended(SlideOutcome::Blocked));
         }
         let half_spaces: Vec<HalfSpace> = here

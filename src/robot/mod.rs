@@ -11,4 +11,4 @@ mod robot;
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use jacobian::Ancestry;
 pub use joint::{Joint, JointKind};
-pub use robot::{Link, Robot};
+pub use robot::{Link, Robot, check_configuration};

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Joint;
 use crate::body::Body;
+use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Pose;
+use crate::tolerance;
 
 /// A link: where it is attached, how it moves, and its geometry if it has any.
 #[derive(Clone, Debug)]
@@ -59,5 +61,29 @@ impl Robot {
 
     pub fn find_link(&self, name: &str) -> Option<usize> {
         self.links.iter().position(|link| link.name == name)
+    }
+}
+
+/// Refuses a configuration with the wrong number of entries, or with one that is not a usable number.
+pub fn check_configuration(q: &[f64], coordinates: usize) -> Result<()> {
+    if q.len() != coordinates {
+        return Err(Error::new(
+            ErrorKind::WrongSize,
+            format!(
+                "the configuration has {} entries, but there are {coordinates} coordinates",
+                q.len()
+            ),
+        ));
+    }
+    require_finite(q, "configuration entry")?;
+    match q
+        .iter()
+        .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
+    {
+        Some(i) => Err(Error::invalid(format!(
+            "configuration entry {i} is too large: {}",
+            q[i]
+        ))),
+        None => Ok(()),
     }
 }

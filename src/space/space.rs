@@ -4,10 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Coordinate;
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{JointKind, Link, Robot};
-use crate::tolerance;
+use crate::robot::{JointKind, Link, Robot, check_configuration};
 
 /// The box within which the links' origins may move.
 #[derive(Clone, Copy, Debug)]
@@ -168,27 +167,7 @@ impl Space {
 
     /// Refuses a configuration with the wrong number of entries, or with one that is not a usable number.
     pub fn check_configuration(&self, q: &[f64]) -> Result<()> {
-        if q.len() != self.coordinates.len() {
-            return Err(Error::new(
-                ErrorKind::WrongSize,
-                format!(
-                    "the configuration has {} entries, the space {} coordinates",
-                    q.len(),
-                    self.coordinates.len()
-                ),
-            ));
-        }
-        require_finite(q, "configuration entry")?;
-        match q
-            .iter()
-            .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
-        {
-            Some(i) => Err(Error::invalid(format!(
-                "configuration entry {i} is too large: {}",
-                q[i]
-            ))),
-            None => Ok(()),
-        }
+        check_configuration(q, self.coordinates.len())
     }
 
     /// Adds `sign` times the derivative of `normal . point` to `row`, for a point fixed to a link; eq. (39).

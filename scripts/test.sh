@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Runs all tests: formatting and lints, Rust, the models, then the C, C++ and FCL tests (with valgrind) and the examples
+# against the library as installed into a prefix.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh test
+
+echo "== formatting and lints"
+cargo fmt --all -- --check
+cargo clippy --quiet --locked --all-targets -- -D warnings
+
+echo "== Rust tests"
+cargo test --locked
+cargo run --quiet --locked --example generate_models -- --check
+
+echo "== the installed library"
+scripts/install.sh
+scripts/fetch_puma560.sh || echo "SKIPPED: the Puma 560 meshes could not be fetched" >&2
+build_and_test() {
+  cmake -S "$1" -B "$2" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  cmake --build "$2" -j "$(nproc)"
+  ctest --test-dir "$2" --output-on-failure --no-tests=error -j "$(nproc)"
+}
+build_and_test examples-c build/examples
+build_and_test capi-tests build/capi-tests
