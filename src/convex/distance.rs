@@ -59,15 +59,18 @@ fn solid_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratc
             return found;
         }
     }
-    let contained = contained_vertex(a, b)
-        .map(|(i, point)| Closest::meeting_at(point, [Feature::vertex(i), Feature::interior()]));
-    contained
-        .or_else(|| {
-            contained_vertex(b, a).map(|(i, point)| {
-                Closest::meeting_at(point, [Feature::interior(), Feature::vertex(i)])
-            })
-        })
-        .unwrap_or_else(|| all_features(a, b, scratch))
+    // Surfaces that touch or cross say more, by their features, than that one set holds a vertex of the other.
+    let found = all_features(a, b, scratch);
+    if found.distance <= tolerance::TOUCH * size {
+        return found;
+    }
+    if let Some((i, point)) = contained_vertex(a, b) {
+        return Closest::meeting_at(point, [Feature::vertex(i), Feature::interior()]);
+    }
+    if let Some((i, point)) = contained_vertex(b, a) {
+        return Closest::meeting_at(point, [Feature::interior(), Feature::vertex(i)]);
+    }
+    found
 }
 
 /// A vertex of A inside the solid B.
