@@ -2,17 +2,17 @@
 //! for two bodies, and the step that slides (Appendix A).
 
 mod answer;
+mod at_configuration;
+mod at_poses;
 mod candidates;
 mod context;
-mod enumerate;
 mod half_spaces;
-mod pair;
+mod search;
 mod segment;
 mod slide;
-mod strategies;
 
 pub use answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
+pub use at_configuration::PseudoNormal;
 pub use candidates::Configuration;
 pub use context::QueryContext;
-pub use enumerate::PseudoNormal;
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};

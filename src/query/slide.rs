@@ -1,9 +1,9 @@
 //! The step that slides along contacts instead of running into them (Appendix A: `slide`, `slide-step` and
 //! `compute-spring-step` in one).
 
+use super::at_configuration::check_threshold;
 use super::candidates::Configuration;
 use super::context::QueryContext;
-use super::enumerate::check_threshold;
 use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};

@@ -1,9 +1,9 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
 use super::answer::{ContactRecord, Distance, SSide, Witness, WitnessList};
+use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
-use super::enumerate::check_threshold;
-use super::strategies::Target;
+use super::search::Target;
 use crate::body::Body;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};

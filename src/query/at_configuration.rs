@@ -1,10 +1,10 @@
 //! Queries at a configuration: operations 4 to 8 of §2.2.4 and `cstk-pseudo-normal` of Appendix A.
 
 use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
+use super::at_poses::{contact_at_witness, contact_records};
 use super::candidates::{Candidate, Configuration, Scene};
 use super::context::{CacheKey, QueryContext};
-use super::pair::{contact_at_witness, contact_records};
-use super::strategies::{Found, Target};
+use super::search::{Found, Target};
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Hit;
