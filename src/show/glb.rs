@@ -39,8 +39,6 @@ impl Document {
         self.materials.push(json!({
             "name": name,
             "doubleSided": both_sides,
-            // A little light of its own keeps shaded sides readable in plain viewers.
-            "emissiveFactor": [0.3 * colour[0], 0.3 * colour[1], 0.3 * colour[2]],
             "pbrMetallicRoughness": {
                 "baseColorFactor": colour,
                 "metallicFactor": 0.0,
