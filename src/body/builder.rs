@@ -233,7 +233,8 @@ impl BodyBuilder {
     }
 
     fn require_planar(&self, points: &[Vec3]) -> Result<()> {
-        match points.iter().position(|p| p.z != 0.0) {
+        // What is not finite is refused as such later.
+        match points.iter().position(|p| p.z != 0.0 && p.z.is_finite()) {
             Some(i) if self.dimension == 2 => Err(Error::new(
                 ErrorKind::NotPlanar,
                 format!("vertex {i} of a planar body has z = {}, not 0", points[i].z),

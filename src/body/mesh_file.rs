@@ -31,18 +31,45 @@ pub fn read_mesh_file(path: &Path) -> Result<Mesh> {
     Ok(mesh)
 }
 
+/// Names the line at which reading stopped: the readers do not tell, so the shortest beginning of the file that fails in
+/// the same way is looked for.
+fn naming_the_line(bytes: &[u8], read: impl Fn(&[u8]) -> std::result::Result<(), String>) -> Error {
+    let message = read(bytes).err().unwrap_or_default();
+    let ends: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i] == b'\n').collect();
+    let fails = |&end: &usize| read(&bytes[..=end]).is_err_and(|m| m == message);
+    let line = ends.partition_point(|end| !fails(end));
+    let from = if line == 0 { 0 } else { ends[line - 1] + 1 };
+    let to = ends.get(line).copied().unwrap_or(bytes.len());
+    let text = String::from_utf8_lossy(&bytes[from.min(to)..to]);
+    let not_finite = text
+        .split_whitespace()
+        .find(|word| word.parse::<f64>().is_ok_and(|x| !x.is_finite()));
+    let line = line + 1;
+    match not_finite {
+        Some(word) => Error::new(
+            ErrorKind::NotFinite,
+            format!(
+                "line {line}: a coordinate is {}",
+                word.parse::<f64>().unwrap_or(f64::NAN)
+            ),
+        ),
+        None => Error::new(ErrorKind::Parse, format!("line {line}: {message}")),
+    }
+}
+
 fn parse_obj(bytes: &[u8]) -> Result<Mesh> {
-    let unreadable = |e: tobj::LoadError| Error::new(ErrorKind::Parse, e.to_string());
-    let options = tobj::LoadOptions {
-        ignore_points: true,
-        ignore_lines: true,
-        ..Default::default()
+    // Points and lines are kept as faces without area, so that the numbers of the faces stay those of the file.
+    let options = tobj::LoadOptions::default();
+    let load = |bytes: &[u8]| {
+        // Materials do not matter here: whatever file is named, an empty one is read.
+        tobj::load_obj_buf(&mut BufReader::new(bytes), &options, |_| {
+            tobj::load_mtl_buf(&mut BufReader::new(&b""[..]))
+        })
+        .map_err(|e| e.to_string())
     };
-    // Materials do not matter here: whatever file is named, an empty one is read.
-    let (models, _) = tobj::load_obj_buf(&mut BufReader::new(bytes), &options, |_| {
-        tobj::load_mtl_buf(&mut BufReader::new(&b""[..]))
-    })
-    .map_err(unreadable)?;
+    let Ok((models, _)) = load(bytes) else {
+        return Err(naming_the_line(bytes, |part| load(part).map(|_| ())));
+    };
     let mut mesh = Mesh::default();
     for model in models {
         let base = mesh.vertices.len() as u32;
@@ -66,7 +93,6 @@ fn parse_obj(bytes: &[u8]) -> Result<Mesh> {
 }
 
 fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
-    let unreadable = |e: std::io::Error| Error::new(ErrorKind::Parse, e.to_string());
     let mut bytes = bytes.to_vec();
     // A binary file is known by its length; its free header may begin like an ASCII file.
     let is_binary = bytes.get(80..84).is_some_and(|count| {
@@ -94,7 +120,14 @@ fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
             "the ASCII STL file has no closing \"endsolid\"; it is truncated",
         ));
     }
-    let stl = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(unreadable)?;
+    let load = |bytes: &[u8]| stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| e.to_string());
+    let stl = load(&bytes).map_err(|message| {
+        if is_binary {
+            Error::new(ErrorKind::Parse, message)
+        } else {
+            naming_the_line(&bytes, |part| load(part).map(|_| ()))
+        }
+    })?;
     Ok(Mesh {
         vertices: stl
             .vertices

@@ -125,7 +125,8 @@ fn with_builder(
     builder: *mut cstk_body_builder,
     action: impl FnOnce(&mut BodyBuilder) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let builder = handle::borrow::<Builder>(builder, "builder")?;
+    // A callback may release the caller's last reference meanwhile.
+    let builder = handle::share::<Builder>(builder, "builder")?;
     match builder.0.try_lock() {
         Ok(mut builder) => action(&mut builder),
         // Additions are made whole or not at all, so that a fault leaves the builder sound.
@@ -232,13 +233,10 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
                 Mesh {
                     vertices: points(vertices, vertex_count, "vertices")?,
                     face_sizes: if face_sizes.is_null() {
-                        if face_count > index_count {
+                        if face_count.checked_mul(3) != Some(index_count) {
                             return Err(Failure::new(
                                 cstk_status::CSTK_WRONG_SIZE,
-                                format!(
-                                    "{face_count} triangles need {} indices, not {index_count}",
-                                    face_count.saturating_mul(3)
-                                ),
+                                format!("{face_count} triangles do not have {index_count} indices"),
                             ));
                         }
                         vec![3; face_count]

@@ -123,9 +123,7 @@ pub unsafe extern "C" fn cstk_environment_apply(
     guard(|| {
         let environment = handle::borrow::<Environment>(environment, "environment")?;
         let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
-        let version = (!version.is_null())
-            .then(|| Output::checked(version, "version"))
-            .transpose()?;
+        let version = Output::optional(version, "version")?;
         let mut read = Vec::new();
         let mut next = changes;
         for i in 0..count {
@@ -136,9 +134,7 @@ pub unsafe extern "C" fn cstk_environment_apply(
         }
         let (applied, now) = environment.apply(&read)?;
         ids.write(&applied);
-        if let Some(version) = version {
-            version.write(now);
-        }
+        version.write(now);
         Ok(())
     })
 }
@@ -181,7 +177,8 @@ pub unsafe extern "C" fn cstk_environment_snapshot(
     })
 }
 
-/// Writes the number of objects and the version, which counts the changes applied; either may be NULL.
+/// Writes the number of objects and the version, which counts the calls of cstk_environment_apply that succeeded; either
+/// may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_state(
     environment: *const cstk_environment,
@@ -190,13 +187,11 @@ pub unsafe extern "C" fn cstk_environment_state(
 ) -> cstk_status {
     guard(|| {
         let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let object_count = Output::optional(object_count, "object_count")?;
+        let version = Output::optional(version, "version")?;
         let now = environment.snapshot();
-        if !object_count.is_null() {
-            Output::checked(object_count, "object_count")?.write(now.objects.len());
-        }
-        if !version.is_null() {
-            Output::checked(version, "version")?.write(now.version);
-        }
+        object_count.write(now.objects.len());
+        version.write(now.version);
         Ok(())
     })
 }

@@ -133,9 +133,28 @@ impl<T> Output<T> {
         Ok(Self(out))
     }
 
+    /// NULL is welcome: nothing is written then.
+    pub fn optional(out: *mut T, argument: &str) -> Result<OptionalOutput<T>, Failure> {
+        if out.is_null() {
+            return Ok(OptionalOutput(None));
+        }
+        Ok(OptionalOutput(Some(Self::checked(out, argument)?)))
+    }
+
     pub fn write(self, value: T) {
         // SAFETY: checked at construction; the caller states that it is writable.
         unsafe { self.0.write(value) }
+    }
+}
+
+/// A place for a result the caller may not want.
+pub struct OptionalOutput<T>(Option<Output<T>>);
+
+impl<T> OptionalOutput<T> {
+    pub fn write(self, value: T) {
+        if let Some(out) = self.0 {
+            out.write(value);
+        }
     }
 }
 

@@ -44,16 +44,19 @@ impl State {
         self.witnesses = list.witnesses.iter().map(From::from).collect();
         self.contacts = list.contacts.iter().map(From::from).collect();
         self.gradients = list.gradients;
-        cstk_witness_list {
-            witnesses: self.witnesses.as_ptr(),
-            witness_count: self.witnesses.len(),
-            contacts: self.contacts.as_ptr(),
-            contact_count: self.contacts.len(),
-            gradients: if list.nv > 0 {
-                self.gradients.as_ptr()
-            } else {
+        fn start<T>(items: &[T]) -> *const T {
+            if items.is_empty() {
                 std::ptr::null()
-            },
+            } else {
+                items.as_ptr()
+            }
+        }
+        cstk_witness_list {
+            witnesses: start(&self.witnesses),
+            witness_count: self.witnesses.len(),
+            contacts: start(&self.contacts),
+            contact_count: self.contacts.len(),
+            gradients: start(&self.gradients),
             nv: list.nv,
             truncated: list.truncated,
             reserved_bytes: [0; 7],
@@ -68,7 +71,7 @@ pub(super) fn with_query(
     query: *mut cstk_query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let query = handle::borrow::<Query>(query, "query")?;
+    let query = handle::share::<Query>(query, "query")?;
     match query.0.try_lock() {
         Ok(mut state) => action(&mut state),
         Err(TryLockError::Poisoned(poisoned)) => {

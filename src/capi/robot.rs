@@ -113,7 +113,8 @@ fn with_builder(
     builder: *mut cstk_robot_builder,
     action: impl FnOnce(&mut RobotBuilder) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let builder = handle::borrow::<Builder>(builder, "builder")?;
+    // Held for the time of the call, whatever other threads release.
+    let builder = handle::share::<Builder>(builder, "builder")?;
     match builder.0.try_lock() {
         Ok(mut builder) => action(&mut builder),
         Err(TryLockError::Poisoned(poisoned)) => action(&mut poisoned.into_inner()),
@@ -173,9 +174,7 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
 ) -> cstk_status {
     guard(|| {
         with_builder(builder, |builder| {
-            let out = (!out.is_null())
-                .then(|| Output::checked(out, "out"))
-                .transpose()?;
+            let out = Output::optional(out, "out")?;
             // SAFETY: checked for size and cookie.
             let def = unsafe { options(def, "def")? };
             let kind = cstk_joint_kind::decode(def.joint).ok_or_else(|| {
@@ -201,9 +200,7 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
                 axis: Vec3::from(def.axis),
                 coordinate: index_or_none(def.coordinate, "def->coordinate")?,
             })?;
-            if let Some(out) = out {
-                out.write(link as u32);
-            }
+            out.write(link as u32);
             Ok(())
         })
     })
@@ -245,14 +242,10 @@ pub unsafe extern "C" fn cstk_robot_size(
 ) -> cstk_status {
     guard(|| {
         let robot = handle::borrow::<Robot>(robot, "robot")?;
-        for (out, value, name) in [
-            (nq, robot.coordinates(), "nq"),
-            (link_count, robot.links().len(), "link_count"),
-        ] {
-            if !out.is_null() {
-                Output::checked(out, name)?.write(value);
-            }
-        }
+        let nq = Output::optional(nq, "nq")?;
+        let link_count = Output::optional(link_count, "link_count")?;
+        nq.write(robot.coordinates());
+        link_count.write(robot.links().len());
         Ok(())
     })
 }

@@ -108,7 +108,7 @@ pub unsafe extern "C" fn cstk_slide(
             };
             let mut options = SlideOptions::with_shell(given.max_shell);
             options.keep_length = given.keep_length != 0;
-            options.max_contacts = given.max_witnesses as usize;
+            options.max_witnesses = given.max_witnesses as usize;
             // NaN must reach the check.
             if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
                 options.desired_distance = given.desired_distance;

@@ -136,16 +136,12 @@ pub unsafe extern "C" fn cstk_space_size(
 ) -> cstk_status {
     guard(|| {
         let space = handle::borrow::<Space>(space, "space")?;
-        let coordinates = space.coordinates().len();
-        for (out, value, name) in [
-            (nq, coordinates, "nq"),
-            (nv, coordinates, "nv"),
-            (link_count, space.link_count(), "link_count"),
-        ] {
-            if !out.is_null() {
-                Output::checked(out, name)?.write(value);
-            }
-        }
+        let nq = Output::optional(nq, "nq")?;
+        let nv = Output::optional(nv, "nv")?;
+        let link_count = Output::optional(link_count, "link_count")?;
+        nq.write(space.coordinates().len());
+        nv.write(space.coordinates().len());
+        link_count.write(space.link_count());
         Ok(())
     })
 }

@@ -62,6 +62,12 @@ impl FeatureSet {
         self.faces.extend(0..placed.shape.faces.len() as u32);
     }
 
+    /// All edges; a planar primitive's outline.
+    pub fn set_outline(&mut self, placed: &Placed) {
+        self.clear();
+        self.edges.extend(0..placed.shape.edges.len() as u32);
+    }
+
     /// The features all of whose vertices lie within `tolerance` of the farthest along `direction`.
     pub fn set_supporting(&mut self, placed: &Placed, direction: &Vec3, tolerance: f64) {
         let (_, farthest) = placed.extent_along(direction);

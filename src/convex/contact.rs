@@ -57,7 +57,11 @@ pub fn contacts(
             found.push(Contact {
                 points,
                 normal,
-                distance: gap.max(0.0),
+                distance: if gap > tolerance::TOUCH * size {
+                    gap
+                } else {
+                    0.0
+                },
                 mode,
                 features,
             });

@@ -4,7 +4,7 @@ use super::closest::{Closest, FeatureSet, closest_features};
 use super::placed::Placed;
 use crate::gjk::{PointCloud, gjk};
 use crate::pose::Vec3;
-use crate::primitive::Feature;
+use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
 
 /// Memory of the distance computation, reused from pair to pair.
@@ -15,26 +15,68 @@ pub struct DistanceScratch {
 }
 
 /// The closest points of two primitives in a common frame. `size` is L, the largest coordinate of the pair of bodies
-/// they belong to: distances up to [`tolerance::TOUCH`] L are returned as 0.
-pub fn closest_points(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
-    let found = if a.shape.is_solid() || b.shape.is_solid() {
+/// they belong to: distances up to [`tolerance::TOUCH`] L are returned as 0. In planar worlds polygons are solid.
+pub fn closest_points(
+    a: &Placed,
+    b: &Placed,
+    size: f64,
+    planar: bool,
+    scratch: &mut DistanceScratch,
+) -> Closest {
+    let mut found = if planar {
+        planar_closest(a, b, size, scratch)
+    } else if a.shape.is_solid() || b.shape.is_solid() {
         solid_closest(a, b, size, scratch)
     } else {
         all_features(a, b, scratch)
     };
+    for (placed, side) in [(a, 0), (b, 1)] {
+        snap_to_vertex(placed, &mut found, side, tolerance::TOUCH * size);
+    }
     if found.distance <= tolerance::TOUCH * size {
-        return Closest {
-            distance: 0.0,
-            ..found
-        };
+        found.distance = 0.0;
     }
     found
+}
+
+/// A point at the end of an edge, but for rounding, is held by the vertex there.
+fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64) {
+    let feature = found.features[side];
+    if feature.kind == FeatureKind::Edge {
+        let ends = placed.shape.edges[feature.index as usize];
+        let near = |&i: &u32| (placed.vertex(i) - found.points[side]).norm() <= slack;
+        if let Some(i) = ends.into_iter().find(near) {
+            found.features[side] = Feature::vertex(i);
+        }
+    }
 }
 
 fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
     scratch.a.set_all(a);
     scratch.b.set_all(b);
     closest_features(a, &scratch.a, b, &scratch.b, true)
+}
+
+/// Of polygons in one plane the outlines are compared, then the insides.
+fn planar_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
+    scratch.a.set_outline(a);
+    scratch.b.set_outline(b);
+    let found = closest_features(a, &scratch.a, b, &scratch.b, false);
+    let holds = |outer: &Placed, inner: &Placed| {
+        let point = inner.vertex(0);
+        let inside = !outer.shape.faces.is_empty() && outer.over_face(0, &point).1;
+        inside.then_some(point)
+    };
+    let (inner, outer) = (Feature::vertex(0), Feature::interior());
+    if found.distance <= tolerance::TOUCH * size {
+        found
+    } else if let Some(point) = holds(b, a) {
+        Closest::meeting_at(point, [inner, outer])
+    } else if let Some(point) = holds(a, b) {
+        Closest::meeting_at(point, [outer, inner])
+    } else {
+        found
+    }
 }
 
 fn solid_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
@@ -106,7 +148,7 @@ pub fn gap_along(a: &Placed, b: &Placed, direction: &Vec3) -> f64 {
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
 /// perpendicular of two edges. Exact however close the points are.
 pub fn feature_normal(a: &Placed, b: &Placed, found: &Closest) -> Option<Vec3> {
-    use crate::primitive::FeatureKind::{Edge, Face, Vertex};
+    use FeatureKind::{Edge, Face, Vertex};
     let [on_a, on_b] = found.features;
     match (on_a.kind, on_b.kind) {
         (Vertex, Face) => Some(b.normals[on_b.index as usize]),

@@ -17,7 +17,7 @@ pub struct SObject {
 /// One state of an environment.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Counts the changes applied: 0 for a new environment.
+    /// Counts the changes applied, each whole set as one: 0 for a new environment.
     pub version: u64,
     /// In order of ids.
     pub objects: Vec<SObject>,

@@ -39,6 +39,10 @@ impl<'a> Pairing<'a> {
         }
     }
 
+    fn is_planar(&self) -> bool {
+        self.a.dimension() == 2
+    }
+
     /// A lower bound of the distance, by the spheres around the bodies.
     pub fn sphere_bound(&self) -> f64 {
         let (wrapper_a, wrapper_b) = (&self.a.tree().wrappers[0], &self.b.tree().wrappers[0]);
@@ -58,7 +62,7 @@ impl<'a> Pairing<'a> {
             &Pose::identity(),
         );
         let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
-        closest_points(&a, &b, self.size, scratch)
+        closest_points(&a, &b, self.size, self.is_planar(), scratch)
     }
 
     /// The contacts of one primitive pair, in the world.
@@ -70,8 +74,7 @@ impl<'a> Pairing<'a> {
             &Pose::identity(),
         );
         let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
-        let planar = self.a.dimension() == 2;
-        contacts(&a, &b, closest, self.size, planar)
+        contacts(&a, &b, closest, self.size, self.is_planar())
             .into_iter()
             .map(|contact| WorldContact {
                 points: contact.points.map(|p| self.frame.transform_point(&p)),

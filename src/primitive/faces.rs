@@ -55,10 +55,13 @@ pub fn split_face(vertices: &[Vec3]) -> Result<FaceSplit> {
         }
         _ => return Err(trouble),
     }
-    let normal = newell_normal(vertices);
-    if normal == Vec3::zeros() {
-        return Ok(FaceSplit::Degenerate);
-    }
+    let crosses = || {
+        Error::new(
+            ErrorKind::NotConvex,
+            "the outline crosses itself and cannot be split into triangles",
+        )
+    };
+    let normal = newell_normal(vertices).ok_or_else(crosses)?;
     let (x, y) = plane_axes(&normal);
     let origin = vertices[0];
     let size = extent_of(vertices)?.diameter;
@@ -67,12 +70,6 @@ pub fn split_face(vertices: &[Vec3]) -> Result<FaceSplit> {
         .map(|v| (v - origin) / size)
         .map(|v| Vector2::new(x.dot(&v), y.dot(&v)))
         .collect();
-    let crosses = || {
-        Error::new(
-            ErrorKind::NotConvex,
-            "the outline crosses itself and cannot be split into triangles",
-        )
-    };
     let triangles = triangulate_simple_polygon(&flat).ok_or_else(crosses)?;
     let at = |i: u32| flat[i as usize];
     let area: f64 = (0..flat.len())

@@ -12,9 +12,11 @@ pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
     Ok(Convex::from_cycle(vertices.to_vec(), normal))
 }
 
-/// The lengths that decide whether a vertex is out of place: the polygon's diameter, and the tolerance that follows.
+/// The lengths that decide whether a vertex is out of place: the diameter and longest side of the points' box, and the
+/// tolerance that follows.
 pub(super) struct Extent {
     pub diameter: f64,
+    pub spread: f64,
     pub tolerance: f64,
 }
 
@@ -39,20 +41,48 @@ pub(super) fn extent_of(points: &[Vec3]) -> Result<Extent> {
     let diameter = (high - low).norm();
     Ok(Extent {
         diameter,
+        spread: (high - low).amax(),
         tolerance: tolerance::PLANAR * diameter + 4.0 * tolerance::EPSILON * largest,
     })
 }
 
-/// The unit normal by Newell's method: robust for any simple polygon. Zero for a polygon without area.
-pub(super) fn newell_normal(vertices: &[Vec3]) -> Vec3 {
+/// Twice the area vector, by Newell's method: robust for any simple polygon.
+fn newell_sum(vertices: &[Vec3]) -> Vec3 {
     let origin = vertices[0];
-    let mut sum = Vec3::zeros();
-    for i in 0..vertices.len() {
-        let a = vertices[i] - origin;
-        let b = vertices[(i + 1) % vertices.len()] - origin;
-        sum += a.cross(&b);
-    }
-    sum.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+    (0..vertices.len())
+        .map(|i| {
+            let a = vertices[i] - origin;
+            let b = vertices[(i + 1) % vertices.len()] - origin;
+            a.cross(&b)
+        })
+        .sum()
+}
+
+/// The unit normal of a simple polygon; `None` for an outline whose parts cancel: it crosses itself, or has no area.
+pub(super) fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
+    let sum = newell_sum(vertices);
+    let (length, width) = length_and_width(vertices);
+    (sum.norm() > 1e-9 * length * width)
+        .then(|| sum.try_normalize(0.0))
+        .flatten()
+}
+
+/// The largest distance of a vertex from the first one, and of a vertex from the line through these two.
+fn length_and_width(vertices: &[Vec3]) -> (f64, f64) {
+    let from_first = |v: &Vec3| v - vertices[0];
+    let farthest = vertices
+        .iter()
+        .map(from_first)
+        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        .unwrap_or_else(Vec3::zeros);
+    let Some(along) = farthest.try_normalize(0.0) else {
+        return (0.0, 0.0);
+    };
+    let width = vertices
+        .iter()
+        .map(|v| along.cross(&from_first(v)).norm())
+        .fold(0.0, f64::max);
+    (farthest.norm(), width)
 }
 
 /// The unit normal of a convex planar polygon, or what keeps it from being one.
@@ -87,14 +117,22 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
             ));
         }
     }
-    let normal = newell_normal(vertices);
-    let width = width_along(vertices, &normal);
+    let (length, width) = length_and_width(vertices);
     if width <= extent.tolerance {
         return Err(Error::new(
             ErrorKind::Degenerate,
             format!("the polygon has no area: its width is {width:e}"),
         ));
     }
+    // A convex outline spans at least the triangle of this length and width; one that crosses itself may cancel.
+    let sum = newell_sum(vertices);
+    if sum.norm() < 0.5 * length * width {
+        return Err(Error::new(
+            ErrorKind::NotConvex,
+            "the outline turns inwards or crosses itself",
+        ));
+    }
+    let normal = sum.normalize();
     for (i, vertex) in vertices.iter().enumerate() {
         let height = normal.dot(&(vertex - vertices[0])).abs();
         if height > extent.tolerance {
@@ -123,22 +161,6 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
         ));
     }
     Ok(normal)
-}
-
-/// The extent across the longest edge, in the plane of `normal`: zero for collinear vertices.
-fn width_along(vertices: &[Vec3], normal: &Vec3) -> f64 {
-    let n = vertices.len();
-    let longest = (0..n)
-        .map(|i| vertices[(i + 1) % n] - vertices[i])
-        .max_by(|a, b| a.norm().total_cmp(&b.norm()))
-        .unwrap_or_else(Vec3::zeros);
-    let across = normal
-        .cross(&longest)
-        .try_normalize(0.0)
-        .unwrap_or_else(Vec3::zeros);
-    let heights = vertices.iter().map(|v| across.dot(&(v - vertices[0])));
-    let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-    high - low
 }
 
 #[cfg(test)]

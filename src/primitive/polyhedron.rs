@@ -22,6 +22,16 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
         ));
     }
     let extent = extent_of(points)?;
+    if extent.spread > 0.0 && extent.spread < tolerance::SMALLEST_DIAMETER {
+        return Err(Error::new(
+            ErrorKind::Degenerate,
+            format!(
+                "the points are {:e} apart, but at least {:e} is needed",
+                extent.spread,
+                tolerance::SMALLEST_DIAMETER
+            ),
+        ));
+    }
     let tolerance = extent.tolerance;
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
         points
@@ -31,7 +41,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             .unwrap_or((0.0, points[0]))
     };
     let (length, second) = farthest(&|p| (p - points[0]).norm());
-    if length <= tolerance || length < tolerance::SMALLEST_DIAMETER {
+    if length <= tolerance {
         return Ok(Convex {
             vertices: vec![points[0]],
             edges: vec![[0, 0]],

@@ -7,6 +7,7 @@ use super::context::QueryContext;
 use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::tolerance;
 
 /// How to slide.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +18,8 @@ pub struct SlideOptions {
     pub desired_distance: f64,
     /// Lengthens the step along the contact to that of the step asked for, at most fourfold.
     pub keep_length: bool,
-    /// At most so many contacts are considered, the nearest first.
-    pub max_contacts: usize,
+    /// At most so many witnesses are considered, the nearest first.
+    pub max_witnesses: usize,
 }
 
 impl SlideOptions {
@@ -28,7 +29,7 @@ impl SlideOptions {
             max_shell,
             desired_distance: max_shell / 10.0,
             keep_length: false,
-            max_contacts: 256,
+            max_witnesses: 256,
         }
     }
 
@@ -47,8 +48,8 @@ impl SlideOptions {
                 self.desired_distance, self.max_shell
             )));
         }
-        if self.max_contacts == 0 {
-            return Err(Error::invalid("max_contacts is 0"));
+        if self.max_witnesses == 0 {
+            return Err(Error::invalid("max_witnesses is 0"));
         }
         Ok(())
     }
@@ -99,8 +100,17 @@ impl QueryContext {
             ));
         }
         require_finite(step, "step entry")?;
+        if let Some(i) = step
+            .iter()
+            .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
+        {
+            return Err(Error::invalid(format!(
+                "step entry {i} is too large: {}",
+                step[i]
+            )));
+        }
         let here =
-            self.pseudo_normal(cobject, q, options.max_shell, options.max_contacts, false)?;
+            self.pseudo_normal(cobject, q, options.max_shell, options.max_witnesses, false)?;
         let ended = |outcome| SlideStep {
             outcome,
             configuration: q.to_vec(),
@@ -149,6 +159,7 @@ impl QueryContext {
             let wish: Vec<f64> = q.iter().zip(&along).map(|(x, s)| x + s).collect();
             let reached = cobject.space().clamp(&wish);
             if reached != q
+                && cobject.space().check_configuration(&reached).is_ok()
                 && cobject.space().contains(&reached)
                 && self.may_move(cobject, q, &reached, here.distance.distance)?
             {
