@@ -68,6 +68,7 @@ static void poses() {
     for (int i = 0; i < 6; ++i) {
         REQUIRE(std::fabs(placement[i] - again[i]) < 1e-14);
     }
+    REQUIRE(cstk::pose_from_quaternion({1, 2, 3, 0, 0, 0, 1}) == cstk::translation(1, 2, 3));
     REQUIRE(cstk::compose(cstk::translation(1, 2, 3), cstk::translation(1, 0, 0)) ==
             cstk::translation(2, 2, 3));
 }
@@ -113,6 +114,7 @@ static void queries() {
     REQUIRE(query.distance(obstacles, q).distance == 2.5);
     REQUIRE(query.distance(self, q).distance == 2.0);
     REQUIRE(query.distance(all, q).distance == 2.0);
+    REQUIRE(query.distance(all, {0, 0}).distance == 2.0);
     REQUIRE(query.distance(all, q, 1.0).kind == CSTK_BEYOND_MAX);
     REQUIRE(query.classify(all, q) == CSTK_CONTACT);
     REQUIRE(query.within(all, q, 2.0) && !query.within(all, q, 1.9));

@@ -4,6 +4,12 @@
  * which features (cstk_distance, cstk_witnesses)? which way is out, in joint space (cstk_gradients)? which step slides
  * along the contact (cstk_slide)? The same for two bodies at two poses: cstk_pair_distance and its companions.
  *
+ * WORDS. Numbers like (§4.4) refer to the report the library succeeds: Xavier and LaFarge, A Configuration Space Toolkit for
+ * Automated Spatial Reasoning, SAND97-0366, Sandia National Laboratories 1997. The r-side of an answer is the robot's link
+ * (or body a); the s-side is an s-object, that is an obstacle, or a second link (or body b). A C-object is a set in the
+ * robot's configuration space, such as all q at which some link meets some obstacle. A primitive is one convex polygon or
+ * polyhedron of a body. The shell, or stand-off, is the distance within which contacts are considered.
+ *
  * CALLS. Every call that can fail returns a cstk_status; inputs come first, outputs last, and outputs are written only on
  * CSTK_OK. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library
  * never prints and never exits.
@@ -21,7 +27,9 @@
  *
  * UNITS AND FRAMES. Lengths are in the caller's unit, angles in radians. A pose is 12 doubles, row-major [R | t], from
  * child to parent frame: x_parent = R x_child + t. R may be off orthonormal by 1e-6; the nearest rotation is then used.
- * Points and normals in answers are in the world. Planar worlds use the same structures with z = 0.
+ * Matrices of Eigen, FCL or OpenGL are column-major: transpose them, and drop the last row. Points and normals in answers
+ * are in the world. Planar worlds use the same structures with z = 0. Coordinates are at most 1e50, and the extent of a
+ * polygon or polyhedron at least 1e-50.
  *
  * MEANING. A body is the union of its primitives as closed sets: in space a polygon is a surface and a polyhedron is solid;
  * in the plane a polygon is solid. The distance is the least over all pairs of primitives, 0 when they meet; its error is
@@ -195,7 +203,7 @@ enum cstk_distance_kind
    */
   CSTK_LOWER_BOUND = 1,
   /**
-   * Nothing is within max_distance: `lower` says so, `distance` and `upper` are infinite.
+   * Nothing is within max_distance: `lower` is max_distance, less rounding; `distance` and `upper` are infinite.
    */
   CSTK_BEYOND_MAX = 2,
   /**
@@ -484,8 +492,9 @@ typedef struct cstk_link_def {
    */
   int32_t joint;
   /**
-   * The joint's frame in the parent's frame at coordinate 0: a pose of 12 doubles. For the report's (x, y, z, yaw,
-   * pitch, roll) see cstk_pose_from_euler.
+   * The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body stands, is
+   * pose(link) = pose(parent) at motion(coordinate), and coincides with the joint's frame at coordinate 0. For the
+   * report's (x, y, z, yaw, pitch, roll) see cstk_pose_from_euler.
    */
   double at[12];
   /**
@@ -648,11 +657,12 @@ typedef struct cstk_contact {
 typedef struct cstk_distance_result {
   cstk_distance_kind kind;
   /**
-   * `witness` and the points below hold the nearest primitive pair; ties go to the lowest ids.
+   * `witness` and the points below hold the nearest primitive pair; ties (equal to the last bit) go to the lowest ids.
    */
   bool has_witness;
   /**
-   * `contact` holds the contact there. An overlap has none.
+   * `contact` holds the contact at these points. An overlap has none. Parallel features have more; see
+   * cstk_witnesses.
    */
   bool has_contact;
   uint8_t reserved_bytes[2];
@@ -692,8 +702,8 @@ typedef struct cstk_witness_list {
   const struct cstk_contact *contacts;
   size_t contact_count;
   /**
-   * One row of `nv` doubles per contact: the derivative of its distance by the coordinates. NULL where no gradients
-   * were asked for.
+   * One row of `nv` doubles per contact (not per witness): the derivative of its distance by the coordinates. NULL where
+   * there is none.
    */
   const double *gradients;
   size_t nv;
@@ -731,11 +741,12 @@ typedef struct cstk_slide_options {
   double max_shell;
   /**
    * The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-   * tenth of max_shell.
+   * tenth of max_shell. Independent of the C-object's contact epsilon.
    */
   double desired_distance;
   /**
-   * Lengthens the step along the contact to that of the step asked for, at most fourfold. Default off.
+   * 1 lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
+   * is left of the step.
    */
   uint32_t keep_length;
   /**
@@ -796,6 +807,13 @@ cstk_status cstk_pose_to_euler(const double *pose_12,
                                double *xyz_ypr);
 
 /**
+ * Converts a translation and a unit quaternion to a pose: `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
+ * of the quaternion, whose norm may be off 1 by 1e-6; `pose` receives 12 doubles.
+ */
+cstk_status cstk_pose_from_quaternion(const double *xyz_quaternion,
+                                      double *pose);
+
+/**
  * The pose `a` then `b`: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in
  * frame 0. All are 12 doubles; `out` may be `a` or `b`.
  */
@@ -832,7 +850,7 @@ cstk_status cstk_body_builder_retain(struct cstk_body_builder *builder);
 cstk_status cstk_body_builder_release(struct cstk_body_builder *builder);
 
 /**
- * Adds a convex planar polygon: `count` vertices of three doubles in cyclic order, either way round. In space it is a
+ * Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, either way round. In space it is a
  * surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
  *
  * CSTK_DEGENERATE, CSTK_NOT_CONVEX or CSTK_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
@@ -840,22 +858,22 @@ cstk_status cstk_body_builder_release(struct cstk_body_builder *builder);
  */
 cstk_status cstk_body_builder_add_polygon(struct cstk_body_builder *builder,
                                           const double *xyz,
-                                          size_t count,
+                                          size_t point_count,
                                           uint64_t tag);
 
 /**
- * Adds the convex hull of `count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
+ * Adds the convex hull of `point_count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
  * points are no more than that. Points inside the hull are ignored.
  */
 cstk_status cstk_body_builder_add_polyhedron(struct cstk_body_builder *builder,
                                              const double *xyz,
-                                             size_t count,
+                                             size_t point_count,
                                              uint64_t tag);
 
 /**
  * Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
  * `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
- * NULL for triangles. Faces are tagged with their index.
+ * NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
  *
  * Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
  * cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
@@ -1076,7 +1094,8 @@ cstk_status cstk_environment_snapshot(const struct cstk_environment *environment
                                       struct cstk_environment **out);
 
 /**
- * Writes the number of objects and the version, which counts the changes applied; either may be NULL.
+ * Writes the number of objects and the version, which counts the calls of cstk_environment_apply that succeeded; either
+ * may be NULL.
  */
 cstk_status cstk_environment_state(const struct cstk_environment *environment,
                                    size_t *object_count,
@@ -1098,7 +1117,7 @@ cstk_status cstk_cobject_options_default(struct cstk_cobject_options *out, size_
  * Makes the set of configurations at which a link meets an s-object.
  *
  * `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
- * meant. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+ * meant (CSTK_EMPTY if there is none). `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
  * added later too. An object that is deleted later contributes nothing. `options` may be NULL for the defaults.
  */
 cstk_status cstk_cobject_induced(const struct cstk_space *space,
@@ -1173,7 +1192,8 @@ cstk_status cstk_classify(struct cstk_query *query,
 
 /**
  * cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
- * world, `link_count` runs of 12 doubles.
+ * world, `link_count` runs of 12 doubles. Such callers get a contact's gradient as n^T (J_r - J_s), with their Jacobians of
+ * the links' points r_point and s_point.
  */
 cstk_status cstk_classify_at(struct cstk_query *query,
                              const struct cstk_cobject *cobject,
@@ -1225,7 +1245,9 @@ cstk_status cstk_distance_at(struct cstk_query *query,
 
 /**
  * Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
- * contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set.
+ * contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set. Neighbouring faces of a mesh share
+ * edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
+ * with this query context.
  */
 cstk_status cstk_witnesses(struct cstk_query *query,
                            const struct cstk_cobject *cobject,
@@ -1248,7 +1270,8 @@ cstk_status cstk_witnesses_at(struct cstk_query *query,
 
 /**
  * cstk_witnesses, and for each contact the gradient of its distance by the coordinates (§2.2.4, operation 8; §4.4):
- * the way out, in joint space.
+ * the way out, in joint space. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
+ * and no row. The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_gradients(struct cstk_query *query,
                            const struct cstk_cobject *cobject,
@@ -1260,7 +1283,7 @@ cstk_status cstk_gradients(struct cstk_query *query,
 
 /**
  * Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
- * length 1 (those of length 0 stay).
+ * length 1 (those of length 0 stay). The list's arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_pseudo_normal(struct cstk_query *query,
                                const struct cstk_cobject *cobject,
@@ -1298,7 +1321,8 @@ cstk_status cstk_pair_within(struct cstk_query *query,
 
 /**
  * Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
- * `max_count` pairs, the nearest are given and `truncated` is set.
+ * `max_count` pairs, the nearest are given and `truncated` is set. The arrays stay valid until the next call with this query
+ * context.
  */
 cstk_status cstk_pair_witnesses(struct cstk_query *query,
                                 const struct cstk_body *body_a,
@@ -1317,7 +1341,8 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
 /**
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
  * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
- * until the whole way is proved free. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
+ * until the whole way is proved free. Along a contact only part of the step is left; see keep_length. `slide_options` must
+ * not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
  * outcome is CSTK_SLIDE_MOVED, `reached` receives q.
  */
 cstk_status cstk_slide(struct cstk_query *query,
@@ -1332,8 +1357,8 @@ cstk_status cstk_slide(struct cstk_query *query,
 /**
  * Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
  * pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
- * along the gradient (blue). Distances and gradients stand in the nodes' extras. The file is written whole or not at
- * all; CSTK_IO if that fails.
+ * along the gradient (blue). Distances and gradients stand in the nodes' extras. The name must end in .glb
+ * (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO if that fails.
  */
 cstk_status cstk_show(const struct cstk_cobject *cobject,
                       const double *q,

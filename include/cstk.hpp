@@ -1,5 +1,7 @@
 /* cstk.hpp: a thin C++17 layer over cstk.h: handles that release themselves, statuses as exceptions.
  *
+ * Lists are cut at max_count (4096 where it is not given); look at `truncated`.
+ *
  * Every class holds one reference; copying shares the object (another reference), as in C. Functions throw cstk::Error
  * where the C call returns a status other than CSTK_OK. What a call does, its units, frames and thread safety are said
  * in cstk.h at the function of the same name. Answers are the C structures; lists belong to the Query until its next
@@ -8,6 +10,10 @@
 #ifndef CSTK_HPP
 #define CSTK_HPP
 
+#if __cplusplus < 201703L && (!defined(_MSVC_LANG) || _MSVC_LANG < 201703L)
+#error "cstk.hpp needs C++17: compile with -std=c++17 or later"
+#endif
+
 #include <cstk.h>
 
 #include <array>
@@ -15,6 +21,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -50,6 +57,8 @@ template <typename T> class Span {
 public:
     Span() = default;
     Span(const T *data, std::size_t size) : data_(data), size_(size) {}
+    /// A list in braces lives until the end of the call it is written in.
+    Span(std::initializer_list<T> items) : data_(items.begin()), size_(items.size()) {}
     template <std::size_t N> Span(const T (&items)[N]) : data_(items), size_(N) {}
     template <typename Container,
               typename = std::enable_if_t<std::is_convertible_v<
@@ -75,6 +84,13 @@ inline Pose translation(double x, double y, double z) { return {1, 0, 0, x, 0, 1
 inline Pose pose_from_euler(const std::array<double, 6> &xyz_ypr) {
     Pose pose;
     check(cstk_pose_from_euler(xyz_ypr.data(), pose.data()));
+    return pose;
+}
+
+/// x, y, z, and the unit quaternion x, y, z, w.
+inline Pose pose_from_quaternion(const std::array<double, 7> &xyz_quaternion) {
+    Pose pose;
+    check(cstk_pose_from_quaternion(xyz_quaternion.data(), pose.data()));
     return pose;
 }
 

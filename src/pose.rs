@@ -1,6 +1,6 @@
 //! Rigid poses, the report's Euler angles (§4.1), and the relative pose of two bodies.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::tolerance;
@@ -48,6 +48,24 @@ impl Pose {
         Ok(Self {
             rotation: nearest_rotation(rotation)?,
             translation: Vec3::new(v[3], v[7], v[11]),
+        })
+    }
+
+    /// From a translation and a unit quaternion x, y, z, w, refused when its norm is off 1 by more than 1e-6.
+    pub fn from_quaternion(translation: Vec3, xyzw: [f64; 4]) -> Result<Self> {
+        let norm = xyzw.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // A norm that is NaN or infinite is refused here too.
+        if norm.is_nan() || (norm - 1.0).abs() > tolerance::ROTATION {
+            return Err(Error::new(
+                ErrorKind::NotARotation,
+                format!("the quaternion's norm is {norm}, not 1"),
+            ));
+        }
+        let [x, y, z, w] = xyzw;
+        let quaternion = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
+        Ok(Self {
+            rotation: quaternion.to_rotation_matrix().into_inner(),
+            translation,
         })
     }
 
@@ -153,7 +171,8 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
         return Err(Error::new(
             ErrorKind::NotARotation,
             format!(
-                "the pose's 3x3 part is not a rotation: R^T R is off the identity by {off:.3e}, det R = {:.6}",
+                "the 3x3 part is not a rotation: R^T R is off the identity by {off:.3e} (allowed {:e}), det R = {:.6}",
+                tolerance::ROTATION,
                 given.determinant()
             ),
         ));
@@ -251,6 +270,18 @@ mod tests {
         for (got, want) in pose.to_euler().iter().zip([1.0, 2.0, 3.0, y, p, r]) {
             assert!((got - want).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn quaternions_turn_as_axes_do() {
+        let (axis, angle) = (Vec3::new(0.36, 0.48, 0.8), 1.3f64);
+        let v = axis * (angle / 2.0).sin();
+        let xyzw = [v.x, v.y, v.z, (angle / 2.0).cos()];
+        let pose = Pose::from_quaternion(Vec3::x(), xyzw).unwrap();
+        assert!((pose.rotation - rotation_about(&axis, angle)).amax() < 1e-15);
+        let long = xyzw.map(|x| x * 1.00001);
+        let error = Pose::from_quaternion(Vec3::x(), long).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::NotARotation);
     }
 
     #[test]

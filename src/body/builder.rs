@@ -95,11 +95,13 @@ impl BodyBuilder {
                 .map(|&i| mesh.vertices.get(i as usize).copied())
                 .collect::<Option<Vec<Vec3>>>()
                 .ok_or_else(|| {
+                    let count = mesh.vertices.len();
+                    let missing = face.iter().find(|&&i| i as usize >= count);
                     Error::new(
                         ErrorKind::NotFound,
                         format!(
-                            "face {f} refers to a vertex that does not exist; there are {}",
-                            mesh.vertices.len()
+                            "face {f} refers to vertex {}; there are {count}, counted from 0",
+                            missing.copied().unwrap_or_default()
                         ),
                     )
                 })?;

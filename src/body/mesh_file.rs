@@ -1,10 +1,11 @@
-//! Meshes from OBJ and STL files, through the crates tobj and stl_io.
+//! Meshes from OBJ files, through the crate tobj, and from STL files.
 
-use std::io::{BufReader, Cursor};
+use std::collections::HashMap;
+use std::io::BufReader;
 use std::path::Path;
 
 use super::builder::Mesh;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 
 /// Reads a mesh; the ending of the file's name tells its format. The file is read whole or refused.
@@ -16,6 +17,12 @@ pub fn read_mesh_file(path: &Path) -> Result<Mesh> {
     let read = match ending.as_str() {
         "obj" => parse_obj,
         "stl" => parse_stl,
+        "" => {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                "mesh files end in .obj or .stl; this name has no ending",
+            ));
+        }
         other => {
             return Err(Error::new(
                 ErrorKind::Unsupported,
@@ -92,16 +99,18 @@ fn parse_obj(bytes: &[u8]) -> Result<Mesh> {
     Ok(mesh)
 }
 
+/// STL, read here rather than by a crate: those at hand round the numbers of ASCII files to single precision and do not
+/// say at which line they stopped.
 fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
-    let mut bytes = bytes.to_vec();
     // A binary file is known by its length; its free header may begin like an ASCII file.
     let is_binary = bytes.get(80..84).is_some_and(|count| {
         let count = u32::from_le_bytes([count[0], count[1], count[2], count[3]]);
         bytes.len() as u64 == 84 + 50 * u64::from(count)
     });
     if is_binary {
-        bytes[..80].fill(0);
-    } else if !bytes.trim_ascii_start().starts_with(b"solid") {
+        return Ok(binary_stl(&bytes[84..]));
+    }
+    if !bytes.trim_ascii_start().starts_with(b"solid") {
         return Err(Error::new(
             ErrorKind::Parse,
             format!(
@@ -109,38 +118,105 @@ fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
                 bytes.len()
             ),
         ));
-    } else if !bytes
-        .trim_ascii_end()
-        .rsplit(|&b| b == b'\n' || b == b'\r')
-        .next()
-        .is_some_and(|line| line.trim_ascii().starts_with(b"endsolid"))
-    {
-        return Err(Error::new(
-            ErrorKind::Parse,
-            "the ASCII STL file has no closing \"endsolid\"; it is truncated",
+    }
+    ascii_stl(&String::from_utf8_lossy(bytes))
+}
+
+/// Triangles, each vertex once.
+#[derive(Default)]
+struct TriangleSoup {
+    mesh: Mesh,
+    known: HashMap<[u64; 3], u32>,
+}
+
+impl TriangleSoup {
+    fn add_vertex(&mut self, [x, y, z]: [f64; 3]) {
+        let fresh = self.mesh.vertices.len() as u32;
+        // Adding zero makes -0 and 0 one number.
+        let key = [x, y, z].map(|c| (c + 0.0).to_bits());
+        let index = *self.known.entry(key).or_insert(fresh);
+        if index == fresh {
+            self.mesh.vertices.push(Vec3::new(x, y, z));
+        }
+        self.mesh.indices.push(index);
+    }
+
+    fn finish(mut self) -> Mesh {
+        self.mesh.face_sizes = vec![3; self.mesh.indices.len() / 3];
+        self.mesh
+    }
+}
+
+/// Records of 50 bytes: normal, three vertices, attribute.
+fn binary_stl(records: &[u8]) -> Mesh {
+    let mut soup = TriangleSoup::default();
+    for record in records.chunks_exact(50) {
+        for vertex in record[12..48].chunks_exact(12) {
+            let at = |i: usize| {
+                f64::from(f32::from_le_bytes([
+                    vertex[i],
+                    vertex[i + 1],
+                    vertex[i + 2],
+                    vertex[i + 3],
+                ]))
+            };
+            soup.add_vertex([at(0), at(4), at(8)]);
+        }
+    }
+    soup.finish()
+}
+
+fn ascii_stl(text: &str) -> Result<Mesh> {
+    let stopped = |line: usize, what: &str| {
+        Error::new(ErrorKind::Parse, format!("line {}: {what}", line + 1))
+    };
+    let mut soup = TriangleSoup::default();
+    let mut corners = None;
+    let mut closed = false;
+    let mut last = 0;
+    for (number, line) in text.split(['\n', '\r']).enumerate() {
+        let mut words = line.split_ascii_whitespace();
+        let Some(keyword) = words.next() else {
+            continue;
+        };
+        last = number;
+        match (keyword.to_ascii_lowercase().as_str(), corners) {
+            ("solid", None) => closed = false,
+            ("endsolid", None) => closed = true,
+            ("facet", None) => corners = Some(0),
+            ("outer" | "endloop", Some(_)) => {}
+            ("vertex", Some(count)) => {
+                let numbers: Vec<f64> = words.map_while(|word| word.parse().ok()).collect();
+                let vertex: [f64; 3] = numbers
+                    .try_into()
+                    .map_err(|_| stopped(number, "a vertex needs three numbers"))?;
+                require_finite(&vertex, "coordinate")
+                    .map_err(|e| e.within(format_args!("line {}", number + 1)))?;
+                soup.add_vertex(vertex);
+                corners = Some(count + 1);
+            }
+            ("endfacet", Some(3)) => corners = None,
+            ("endfacet", Some(count)) => {
+                return Err(stopped(
+                    number,
+                    &format!("a facet has 3 vertices, not {count}"),
+                ));
+            }
+            _ => {
+                return Err(stopped(
+                    number,
+                    &format!("\"{keyword}\" does not belong here"),
+                ));
+            }
+        }
+    }
+    if !closed {
+        return Err(stopped(
+            last,
+            "the file ends without \"endsolid\"; it is truncated",
         ));
     }
-    let load = |bytes: &[u8]| stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| e.to_string());
-    let stl = load(&bytes).map_err(|message| {
-        if is_binary {
-            Error::new(ErrorKind::Parse, message)
-        } else {
-            naming_the_line(&bytes, |part| load(part).map(|_| ()))
-        }
-    })?;
-    Ok(Mesh {
-        vertices: stl
-            .vertices
-            .iter()
-            .map(|v| Vec3::new(f64::from(v.0[0]), f64::from(v.0[1]), f64::from(v.0[2])))
-            .collect(),
-        face_sizes: vec![3; stl.faces.len()],
-        indices: stl
-            .faces
-            .iter()
-            .flat_map(|face| face.vertices.map(|i| i as u32))
-            .collect(),
-    })
+    Ok(soup.finish())
 }
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ pub enum cstk_distance_kind {
     CSTK_EXACT = 0,
     /// Only `lower` and `upper` are known.
     CSTK_LOWER_BOUND = 1,
-    /// Nothing is within max_distance: `lower` says so, `distance` and `upper` are infinite.
+    /// Nothing is within max_distance: `lower` is max_distance, less rounding; `distance` and `upper` are infinite.
     CSTK_BEYOND_MAX = 2,
     /// There is nothing to measure to; all three are infinite.
     CSTK_EMPTY_SET = 3,
@@ -108,9 +108,10 @@ pub enum cstk_distance_kind {
 #[derive(Clone, Copy)]
 pub struct cstk_distance_result {
     pub kind: cstk_distance_kind,
-    /// `witness` and the points below hold the nearest primitive pair; ties go to the lowest ids.
+    /// `witness` and the points below hold the nearest primitive pair; ties (equal to the last bit) go to the lowest ids.
     pub has_witness: bool,
-    /// `contact` holds the contact there. An overlap has none.
+    /// `contact` holds the contact at these points. An overlap has none. Parallel features have more; see
+    /// cstk_witnesses.
     pub has_contact: bool,
     pub reserved_bytes: [u8; 2],
     /// 0 exactly when the sets meet.
@@ -138,8 +139,8 @@ pub struct cstk_witness_list {
     pub witness_count: usize,
     pub contacts: *const cstk_contact,
     pub contact_count: usize,
-    /// One row of `nv` doubles per contact: the derivative of its distance by the coordinates. NULL where no gradients
-    /// were asked for.
+    /// One row of `nv` doubles per contact (not per witness): the derivative of its distance by the coordinates. NULL where
+    /// there is none.
     pub gradients: *const f64,
     pub nv: usize,
     /// There are more witnesses than max_count; these are the nearest.

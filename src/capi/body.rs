@@ -164,7 +164,7 @@ pub unsafe extern "C" fn cstk_body_builder_release(builder: *mut cstk_body_build
     guard(|| handle::release::<Builder>(builder, "builder"))
 }
 
-/// Adds a convex planar polygon: `count` vertices of three doubles in cyclic order, either way round. In space it is a
+/// Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, either way round. In space it is a
 /// surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
 ///
 /// CSTK_DEGENERATE, CSTK_NOT_CONVEX or CSTK_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
@@ -173,13 +173,13 @@ pub unsafe extern "C" fn cstk_body_builder_release(builder: *mut cstk_body_build
 pub unsafe extern "C" fn cstk_body_builder_add_polygon(
     builder: *mut cstk_body_builder,
     xyz: *const f64,
-    count: usize,
+    point_count: usize,
     tag: u64,
 ) -> cstk_status {
     guard(|| {
         with_builder(builder, |builder| {
             // SAFETY: checked for NULL; the caller states the length.
-            let vertices = unsafe { points(xyz, count, "xyz")? };
+            let vertices = unsafe { points(xyz, point_count, "xyz")? };
             let index = builder.len();
             Ok(builder
                 .add_polygon(&vertices, tag)
@@ -188,19 +188,19 @@ pub unsafe extern "C" fn cstk_body_builder_add_polygon(
     })
 }
 
-/// Adds the convex hull of `count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
+/// Adds the convex hull of `point_count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
 /// points are no more than that. Points inside the hull are ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
     builder: *mut cstk_body_builder,
     xyz: *const f64,
-    count: usize,
+    point_count: usize,
     tag: u64,
 ) -> cstk_status {
     guard(|| {
         with_builder(builder, |builder| {
             // SAFETY: checked for NULL; the caller states the length.
-            let vertices = unsafe { points(xyz, count, "xyz")? };
+            let vertices = unsafe { points(xyz, point_count, "xyz")? };
             let index = builder.len();
             Ok(builder
                 .add_polyhedron(&vertices, tag)
@@ -211,7 +211,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
 
 /// Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
 /// `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
-/// NULL for triangles. Faces are tagged with their index.
+/// NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
 ///
 /// Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
 /// cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
@@ -229,22 +229,23 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
     guard(|| {
         with_builder(builder, |builder| {
             // SAFETY: checked for NULL; the caller states the lengths.
-            let mesh = unsafe {
-                Mesh {
-                    vertices: points(vertices, vertex_count, "vertices")?,
-                    face_sizes: if face_sizes.is_null() {
-                        if face_count.checked_mul(3) != Some(index_count) {
-                            return Err(Failure::new(
-                                cstk_status::CSTK_WRONG_SIZE,
-                                format!("{face_count} triangles do not have {index_count} indices"),
-                            ));
-                        }
-                        vec![3; face_count]
-                    } else {
-                        slice(face_sizes, face_count, "face_sizes")?.to_vec()
-                    },
-                    indices: slice(indices, index_count, "indices")?.to_vec(),
-                }
+            let (vertices, indices) = unsafe {
+                (
+                    points(vertices, vertex_count, "vertices")?,
+                    slice(indices, index_count, "indices")?,
+                )
+            };
+            let face_sizes = if face_sizes.is_null() {
+                // One more than there are indices for is enough to name the face that lacks them.
+                vec![3; face_count.min(index_count / 3 + 1)]
+            } else {
+                // SAFETY: as above.
+                unsafe { slice(face_sizes, face_count, "face_sizes")? }.to_vec()
+            };
+            let mesh = Mesh {
+                vertices,
+                face_sizes,
+                indices: indices.to_vec(),
             };
             Ok(builder.add_mesh(&mesh)?)
         })

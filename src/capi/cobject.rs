@@ -76,7 +76,7 @@ pub unsafe extern "C" fn cstk_cobject_options_default(
 /// Makes the set of configurations at which a link meets an s-object.
 ///
 /// `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
-/// meant. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+/// meant (CSTK_EMPTY if there is none). `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
 /// added later too. An object that is deleted later contributes nothing. `options` may be NULL for the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced(

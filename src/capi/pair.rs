@@ -77,7 +77,8 @@ pub unsafe extern "C" fn cstk_pair_within(
 }
 
 /// Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
-/// `max_count` pairs, the nearest are given and `truncated` is set.
+/// `max_count` pairs, the nearest are given and `truncated` is set. The arrays stay valid until the next call with this query
+/// context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_witnesses(
     query: *mut cstk_query,

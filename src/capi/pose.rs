@@ -4,7 +4,7 @@ use super::boundary::guard;
 use super::input::{OutputSlice, array, pose};
 use super::status::cstk_status;
 use crate::error::require_finite;
-use crate::pose::{Mat3, Pose, euler_to_rotation};
+use crate::pose::{Mat3, Pose, Vec3, euler_to_rotation};
 
 /// Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
 /// pitch (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
@@ -29,6 +29,26 @@ pub unsafe extern "C" fn cstk_pose_to_euler(pose_12: *const f64, xyz_ypr: *mut f
         let given = unsafe { pose(pose_12, "pose_12")? };
         let out = OutputSlice::checked(xyz_ypr, 6, "xyz_ypr")?;
         out.write(&given.to_euler());
+        Ok(())
+    })
+}
+
+/// Converts a translation and a unit quaternion to a pose: `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
+/// of the quaternion, whose norm may be off 1 by 1e-6; `pose` receives 12 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pose_from_quaternion(
+    xyz_quaternion: *const f64,
+    pose: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the length.
+        let given = unsafe { array::<7>(xyz_quaternion, "xyz_quaternion")? };
+        let out = OutputSlice::checked(pose, 12, "pose")?;
+        require_finite(given, "xyz_quaternion entry")?;
+        let [x, y, z, quaternion @ ..] = *given;
+        let made = Pose::from_quaternion(Vec3::new(x, y, z), quaternion)
+            .map_err(|e| e.within("xyz_quaternion"))?;
+        out.write(&made.to_row_major());
         Ok(())
     })
 }

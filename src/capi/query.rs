@@ -224,7 +224,8 @@ pub unsafe extern "C" fn cstk_classify(
 }
 
 /// cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
-/// world, `link_count` runs of 12 doubles.
+/// world, `link_count` runs of 12 doubles. Such callers get a contact's gradient as n^T (J_r - J_s), with their Jacobians of
+/// the links' points r_point and s_point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_classify_at(
     query: *mut cstk_query,
@@ -326,7 +327,9 @@ pub unsafe extern "C" fn cstk_distance_at(
 }
 
 /// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
-/// contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set.
+/// contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set. Neighbouring faces of a mesh share
+/// edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
+/// with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_witnesses(
     query: *mut cstk_query,
@@ -375,7 +378,8 @@ pub unsafe extern "C" fn cstk_witnesses_at(
 }
 
 /// cstk_witnesses, and for each contact the gradient of its distance by the coordinates (§2.2.4, operation 8; §4.4):
-/// the way out, in joint space.
+/// the way out, in joint space. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
+/// and no row. The arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_gradients(
     query: *mut cstk_query,
@@ -417,7 +421,7 @@ pub struct cstk_pseudo_normal_result {
 }
 
 /// Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
-/// length 1 (those of length 0 stay).
+/// length 1 (those of length 0 stay). The list's arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pseudo_normal(
     query: *mut cstk_query,

@@ -78,8 +78,9 @@ pub struct cstk_link_def {
     pub parent: i32,
     /// A cstk_joint_kind.
     pub joint: i32,
-    /// The joint's frame in the parent's frame at coordinate 0: a pose of 12 doubles. For the report's (x, y, z, yaw,
-    /// pitch, roll) see cstk_pose_from_euler.
+    /// The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body stands, is
+    /// pose(link) = pose(parent) at motion(coordinate), and coincides with the joint's frame at coordinate 0. For the
+    /// report's (x, y, z, yaw, pitch, roll) see cstk_pose_from_euler.
     pub at: [f64; 12],
     /// The joint's axis in its own frame, of any length; default z.
     pub axis: [f64; 3],

@@ -12,8 +12,8 @@ use crate::show::show;
 
 /// Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
 /// pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
-/// along the gradient (blue). Distances and gradients stand in the nodes' extras. The file is written whole or not at
-/// all; CSTK_IO if that fails.
+/// along the gradient (blue). Distances and gradients stand in the nodes' extras. The name must end in .glb
+/// (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO if that fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_show(
     cobject: *const cstk_cobject,

@@ -18,9 +18,10 @@ pub struct cstk_slide_options {
     /// The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0.
     pub max_shell: f64,
     /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-    /// tenth of max_shell.
+    /// tenth of max_shell. Independent of the C-object's contact epsilon.
     pub desired_distance: f64,
-    /// Lengthens the step along the contact to that of the step asked for, at most fourfold. Default off.
+    /// 1 lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
+    /// is left of the step.
     pub keep_length: u32,
     /// At most so many witnesses are considered, the nearest first. Default 256.
     pub max_witnesses: u32,
@@ -80,7 +81,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
 /// nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
-/// until the whole way is proved free. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
+/// until the whole way is proved free. Along a contact only part of the step is left; see keep_length. `slide_options` must
+/// not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
 /// outcome is CSTK_SLIDE_MOVED, `reached` receives q.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(

@@ -67,7 +67,14 @@ impl CObject {
         check_options(&options)?;
         let links = if links.is_empty() {
             let with_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
-            (0..space.link_count()).filter(with_body).collect()
+            let found: Vec<usize> = (0..space.link_count()).filter(with_body).collect();
+            if found.is_empty() {
+                return Err(Error::new(
+                    ErrorKind::Empty,
+                    "no link of the space has a body",
+                ));
+            }
+            found
         } else {
             for &link in links {
                 require_body(&space, link)?;

@@ -132,8 +132,7 @@ fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
     }
 }
 
-/// The unit normal from s to r: well apart, the direction between the points; nearer, where that direction loses its
-/// digits, the one along which the sets are farthest apart among those that the nearest features offer.
+/// The unit normal from s to r, or `None` where the interiors overlap.
 fn contact_normal(
     r: &Placed,
     s: &Placed,
@@ -141,9 +140,8 @@ fn contact_normal(
     size: f64,
     planar: bool,
 ) -> Option<Vec3> {
-    let between = closest.points[0] - closest.points[1];
-    if closest.distance > 1e-3 * size {
-        return between.try_normalize(0.0);
+    if closest.distance > DIRECTION_KNOWN * size {
+        return normal_apart(r, s, closest, size, planar);
     }
     if closest
         .features
@@ -152,36 +150,90 @@ fn contact_normal(
     {
         return None;
     }
+    normal_at_touch(r, s, closest, size, planar)
+}
+
+/// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
+const DIRECTION_KNOWN: f64 = 1e-12;
+
+/// Apart, the normal is that of the features where they define it alone; else the direction between the points, less
+/// what rounding can have put along an edge. Where a face's or two edges' normal agrees with it within rounding, the
+/// features are parallel and that one is exact.
+fn normal_apart(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    size: f64,
+    planar: bool,
+) -> Option<Vec3> {
+    let between = closest.points[0] - closest.points[1];
+    let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
+    if !planar && let Some(normal) = feature_normal(r, s, closest) {
+        return Some(oriented(normal));
+    }
+    let mut direct = between;
+    for (placed, feature) in [(r, closest.features[0]), (s, closest.features[1])] {
+        if feature.kind == FeatureKind::Edge {
+            let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
+            let along = (q - p).normalize();
+            direct -= along * along.dot(&direct);
+        }
+    }
+    let direct = direct.try_normalize(0.0)?;
+    let doubt = 64.0 * tolerance::EPSILON * size / closest.distance;
+    if doubt < PARALLEL_SEEN {
+        return Some(direct);
+    }
+    let mut best = (doubt, direct);
+    for candidate in local_normals(r, s, closest, size, planar) {
+        let off = (oriented(candidate) - direct).norm();
+        if off <= best.0 {
+            best = (off, oriented(candidate));
+        }
+    }
+    Some(best.1)
+}
+
+/// A normal with less doubt than this shows parallel features as parallel by itself (see [`tolerance::PARALLEL`]).
+const PARALLEL_SEEN: f64 = 1e-12;
+
+/// Touching, the normal is the direction, among those that the touching features offer, along which the sets overlap
+/// least.
+fn normal_at_touch(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    size: f64,
+    planar: bool,
+) -> Option<Vec3> {
     let mut best: Option<(f64, Vec3)> = None;
+    for candidate in local_normals(r, s, closest, size, planar) {
+        for n in [candidate, -candidate] {
+            let gap = gap_along(r, s, &n);
+            if best.is_none_or(|(most, _)| gap > most + 1e-13 * size) {
+                best = Some((gap, n));
+            }
+        }
+    }
+    best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * size)
+        .map(|(_, normal)| normal)
+}
+
+/// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
+/// polygon's outline within its plane.
+fn local_normals(r: &Placed, s: &Placed, closest: &Closest, size: f64, planar: bool) -> Vec<Vec3> {
+    let near = 1e-8 * size;
+    let local_r = Local::around(r, &closest.points[0], near);
+    let local_s = Local::around(s, &closest.points[1], near);
+    let mut found = Vec::new();
     let mut offer = |candidate: Vec3| {
         let in_plane = if planar {
             Vec3::new(candidate.x, candidate.y, 0.0)
         } else {
             candidate
         };
-        let Some(n) = in_plane.try_normalize(1e-6) else {
-            return;
-        };
-        for n in [n, -n] {
-            let gap = gap_along(r, s, &n);
-            if best.is_none_or(|(most, _)| gap > most + 1e-13 * size) {
-                best = Some((gap, n));
-            }
-        }
+        found.extend(in_plane.try_normalize(1e-6));
     };
-    if closest.distance > 0.0 {
-        if let Some(direction) = between.try_normalize(0.0) {
-            offer(direction);
-        }
-        if let Some(normal) = feature_normal(r, s, closest) {
-            offer(normal);
-        }
-    }
-    let near = 1e-8 * size + closest.distance;
-    let (local_r, local_s) = (
-        Local::around(r, &closest.points[0], near),
-        Local::around(s, &closest.points[1], near),
-    );
     for normal in local_r.normals.iter().chain(&local_s.normals) {
         offer(*normal);
     }
@@ -190,7 +242,6 @@ fn contact_normal(
             offer(along_r.cross(along_s));
         }
     }
-    // Normals of a flat polygon's outline, within its plane.
     for local in [&local_r, &local_s] {
         if local.is_flat {
             for along in &local.directions {
@@ -200,8 +251,7 @@ fn contact_normal(
             }
         }
     }
-    best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * size)
-        .map(|(_, normal)| normal)
+    found
 }
 
 /// The face normals and edge directions of the features that hold a point.

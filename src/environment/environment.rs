@@ -76,7 +76,7 @@ impl Environment {
         for (i, change) in changes.iter().enumerate() {
             let id = next
                 .change(change)
-                .map_err(|error| error.within(format_args!("change {i}")))?;
+                .map_err(|error| error.within(format_args!("changes[{i}]")))?;
             ids.push(id);
         }
         next.version += 1;

@@ -138,7 +138,10 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
         if height > extent.tolerance {
             return Err(Error::new(
                 ErrorKind::NotPlanar,
-                format!("vertex {i} is {height:.3e} off the plane of the polygon"),
+                format!(
+                    "vertex {i} is {height:.3e} off the plane of the polygon (allowed {:.1e}); add it as a mesh to have it split",
+                    extent.tolerance
+                ),
             ));
         }
     }

@@ -21,10 +21,10 @@ fn pairing<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Pairing<'a>> {
             b.0.dimension()
         )));
     }
-    for ((body, pose), name) in [(a, "a"), (b, "b")] {
+    for ((body, pose), name) in [(a, "pose_a"), (b, "pose_b")] {
         if body.dimension() == 2 && !pose.is_planar() {
             return Err(Error::invalid(format!(
-                "pose {name} leaves the plane z = 0 of its body"
+                "{name} leaves the plane z = 0 of its body"
             )));
         }
     }

@@ -18,6 +18,12 @@ const MOST_WITNESSES: usize = 64;
 
 /// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
 pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
+    if path.extension().is_none_or(|ending| ending != "glb") {
+        return Err(Error::new(
+            ErrorKind::Unsupported,
+            format!("{}: the name of a picture ends in .glb", path.display()),
+        ));
+    }
     let epsilon = cobject
         .terms()
         .iter()

@@ -106,6 +106,18 @@ impl Space {
                 }
             }
         }
+        let prismatic = robots.iter().zip(&offsets).flat_map(|(robot, offset)| {
+            let joints = robot.links().iter().map(|link| link.joint);
+            let moved = joints.filter(|joint| joint.kind == JointKind::Prismatic);
+            moved.map(|joint| offset.coordinate + joint.coordinate)
+        });
+        for i in prismatic {
+            if coordinates[i] == Coordinate::Circle {
+                return Err(Error::invalid(format!(
+                    "range {i} is a circle, but coordinate {i} moves a prismatic joint"
+                )));
+            }
+        }
         for i in 0..3 {
             if world.low[i].is_nan() || world.high[i].is_nan() {
                 return Err(Error::new(

@@ -1,0 +1,28 @@
+# Fails with the names of functions that HEADER declares and no file of SOURCES calls.
+file(READ ${HEADER} header)
+# Comments mention functions too; a declaration begins a line with its type.
+string(REGEX MATCHALL "\n[a-z][a-z_ ]*[ *]+cstk_[a-z0-9_]+\\(" declarations "${header}")
+set(text "")
+foreach(source ${SOURCES})
+  file(READ ${source} part)
+  string(APPEND text "${part}")
+endforeach()
+
+set(missing "")
+set(count 0)
+foreach(declaration ${declarations})
+  string(REGEX MATCH "cstk_[a-z0-9_]+\\(" call "${declaration}")
+  string(REPLACE "(" "" name "${call}")
+  math(EXPR count "${count} + 1")
+  # Called, or handed to the macro that calls it.
+  if(NOT text MATCHES "[ (]${name}[()]")
+    list(APPEND missing ${name})
+  endif()
+endforeach()
+if(count LESS 60)
+  message(FATAL_ERROR "only ${count} functions found in ${HEADER}")
+endif()
+if(missing)
+  message(FATAL_ERROR "not called by any hostile test: ${missing}")
+endif()
+message(STATUS "${count} functions, all called")

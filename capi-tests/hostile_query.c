@@ -1,0 +1,361 @@
+/* Hostile input to query contexts and to the queries of a C-object. */
+#include <math.h>
+
+#include "check.h"
+#include "fixture.h"
+
+static void query_create(const fixture *f) {
+    CHECK_FAILS(cstk_query_create(NULL), CSTK_NULL_ARGUMENT, "out");
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_FAILS(cstk_query_retain(bad->handle), bad->status, "query");
+        if (bad->handle != NULL) {
+            CHECK_FAILS(cstk_query_release(bad->handle), bad->status, "query");
+        }
+    }
+    fixture_unchanged(f);
+}
+
+static void get_statistics(const fixture *f) {
+    cstk_query_statistics out;
+    cstk_query_statistics before;
+    CHECK_OK(cstk_query_get_statistics(f->query, false, &before));
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(out, cstk_query_get_statistics(bad->handle, true, &out), bad->status,
+                      "query");
+    }
+    CHECK_FAILS(cstk_query_get_statistics(f->query, true, NULL), CSTK_NULL_ARGUMENT, "out");
+    /* The call that failed has not reset them either. */
+    CHECK_OK(cstk_query_get_statistics(f->query, false, &out));
+    CHECK(before.primitive_pairs > 0 && memcmp(&before, &out, sizeof out) == 0);
+    fixture_unchanged(f);
+}
+
+/* The arguments of a query: by coordinates or by link poses, with the number some queries take (a
+ * threshold, a largest distance, a shell) and the largest count. */
+typedef struct question {
+    cstk_query *query;
+    const cstk_cobject *cobject;
+    const double *at;
+    size_t count;
+    double number;
+    size_t max_count;
+} question;
+
+/* Room for the output of any query. */
+typedef union answer {
+    cstk_class point_class;
+    bool within;
+    cstk_distance_result distance;
+    cstk_witness_list list;
+    cstk_pseudo_normal_result pseudo_normal;
+} answer;
+
+typedef cstk_status (*ask_fn)(const question *, answer *);
+
+/* With no answer at all, `out` is NULL; its members then are as well, for all begin where the union
+ * begins. */
+static cstk_status classify(const question *a, answer *out) {
+    return cstk_classify(a->query, a->cobject, a->at, a->count, out ? &out->point_class : NULL);
+}
+
+static cstk_status classify_at(const question *a, answer *out) {
+    return cstk_classify_at(a->query, a->cobject, a->at, a->count, out ? &out->point_class : NULL);
+}
+
+static cstk_status within(const question *a, answer *out) {
+    return cstk_within(a->query, a->cobject, a->at, a->count, a->number, out ? &out->within : NULL);
+}
+
+static cstk_status within_at(const question *a, answer *out) {
+    return cstk_within_at(a->query, a->cobject, a->at, a->count, a->number,
+                          out ? &out->within : NULL);
+}
+
+static cstk_status distance(const question *a, answer *out) {
+    return cstk_distance(a->query, a->cobject, a->at, a->count, a->number,
+                         out ? &out->distance : NULL);
+}
+
+static cstk_status distance_at(const question *a, answer *out) {
+    return cstk_distance_at(a->query, a->cobject, a->at, a->count, a->number,
+                            out ? &out->distance : NULL);
+}
+
+static cstk_status witnesses(const question *a, answer *out) {
+    return cstk_witnesses(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
+                          out ? &out->list : NULL);
+}
+
+static cstk_status witnesses_at(const question *a, answer *out) {
+    return cstk_witnesses_at(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
+                             out ? &out->list : NULL);
+}
+
+static cstk_status gradients(const question *a, answer *out) {
+    return cstk_gradients(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
+                          out ? &out->list : NULL);
+}
+
+static cstk_status pseudo_normal(const question *a, answer *out) {
+    return cstk_pseudo_normal(a->query, a->cobject, a->at, a->count, a->number, a->max_count, true,
+                              out ? &out->pseudo_normal : NULL);
+}
+
+typedef struct form {
+    const char *name;
+    ask_fn ask;
+    /* Takes link poses instead of q. */
+    bool by_poses;
+    /* What the number is called, or NULL if the query takes none. */
+    const char *number;
+} form;
+
+static const form forms[] = {
+    {"classify", classify, false, NULL},
+    {"classify_at", classify_at, true, NULL},
+    {"within", within, false, "threshold"},
+    {"within_at", within_at, true, "threshold"},
+    {"distance", distance, false, "max_distance"},
+    {"distance_at", distance_at, true, "max_distance"},
+    {"witnesses", witnesses, false, "epsilon"},
+    {"witnesses_at", witnesses_at, true, "epsilon"},
+    {"gradients", gradients, false, "epsilon"},
+    {"pseudo_normal", pseudo_normal, false, "max_shell"},
+};
+
+static question good_question(const fixture *f, const form *of) {
+    question a = {f->query,
+                  f->cobject,
+                  of->by_poses ? f->link_poses : f->q,
+                  of->by_poses ? FIXTURE_LINKS : FIXTURE_NQ,
+                  10.0,
+                  16};
+    return a;
+}
+
+static void refuse(const form *of, const question *a, cstk_status status, const char *culprit) {
+    answer out;
+    const int before = check_failures;
+    CHECK_REFUSED(out, of->ask(a, &out), status, culprit);
+    if (check_failures > before) {
+        fprintf(stderr, "  (cstk_%s)\n", of->name);
+    }
+}
+
+static void query_handles(const fixture *f, const form *of) {
+    question a = good_question(f, of);
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        a.query = bad->handle;
+        refuse(of, &a, bad->status, "query");
+    }
+    a.query = f->query;
+    EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
+        a.cobject = bad->handle;
+        refuse(of, &a, bad->status, "cobject");
+    }
+    a.cobject = f->cobject;
+    CHECK_FAILS(of->ask(&a, NULL), CSTK_NULL_ARGUMENT, "out");
+    a.at = NULL;
+    refuse(of, &a, CSTK_NULL_ARGUMENT, of->by_poses ? "link_poses" : "q is NULL");
+}
+
+static void query_counts(const fixture *f, const form *of) {
+    question a = good_question(f, of);
+    const size_t good = a.count;
+    const size_t counts[] = {0, 1, good - 1, SIZE_MAX, SIZE_MAX / 8 + 2};
+    for (int i = 0; i < 5; ++i) {
+        a.count = counts[i];
+        refuse(of, &a, CSTK_WRONG_SIZE, "");
+    }
+}
+
+static void query_numbers(const fixture *f, const form *of) {
+    question a = good_question(f, of);
+    if (of->number != NULL) {
+        const double numbers[] = {NAN, -INFINITY, -1e-300};
+        for (int i = 0; i < 3; ++i) {
+            a.number = numbers[i];
+            refuse(of, &a, i == 0 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT, of->number);
+        }
+        /* The largest count there is asks for all, and takes no memory for those that are not
+         * there. */
+        answer out;
+        a.number = INFINITY;
+        a.max_count = SIZE_MAX;
+        CHECK_OK(of->ask(&a, &out));
+    }
+}
+
+static void query_coordinates(const fixture *f, const form *of) {
+    question a = good_question(f, of);
+    double q[FIXTURE_NQ];
+    a.at = q;
+    for (int entry = 0; entry < FIXTURE_NQ; ++entry) {
+        EACH_NOT_FINITE(i) {
+            memcpy(q, f->q, sizeof q);
+            q[entry] = not_finite[i];
+            refuse(of, &a, CSTK_NOT_FINITE, "configuration");
+        }
+    }
+    q[FIXTURE_NQ - 1] = 1e300;
+    refuse(of, &a, CSTK_INVALID_ARGUMENT, "configuration");
+}
+
+static void query_poses(const fixture *f, const form *of) {
+    question a = good_question(f, of);
+    double poses[12 * FIXTURE_LINKS];
+    a.at = poses;
+    EACH_BAD_POSE(bad) {
+        memcpy(poses, f->link_poses, sizeof poses);
+        memcpy(poses + 12 * FIXTURE_TIP, bad->pose, sizeof bad->pose);
+        refuse(of, &a, bad->status, "link_poses[3]");
+    }
+}
+
+static void slide_arguments(const fixture *f, const cstk_slide_options *options) {
+    struct {
+        double reached[FIXTURE_NQ];
+        cstk_slide_result result;
+    } out;
+    const double *q = f->q;
+    const double step[FIXTURE_NQ] = {0.01, 0, 0};
+    const size_t nq = FIXTURE_NQ;
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(
+            out,
+            cstk_slide(bad->handle, f->cobject, q, step, nq, options, out.reached, &out.result),
+            bad->status, "query");
+    }
+    EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(
+            out, cstk_slide(f->query, bad->handle, q, step, nq, options, out.reached, &out.result),
+            bad->status, "cobject");
+    }
+    const struct {
+        const double *q;
+        const double *step;
+        const cstk_slide_options *options;
+        double *reached;
+        cstk_slide_result *result;
+        const char *culprit;
+    } null[] = {
+        {NULL, step, options, out.reached, &out.result, "q"},
+        {q, NULL, options, out.reached, &out.result, "step"},
+        {q, step, NULL, out.reached, &out.result, "slide_options"},
+        {q, step, options, NULL, &out.result, "reached"},
+        {q, step, options, out.reached, NULL, "out"},
+    };
+    for (int i = 0; i < 5; ++i) {
+        CHECK_REFUSED(out,
+                      cstk_slide(f->query, f->cobject, null[i].q, null[i].step, nq, null[i].options,
+                                 null[i].reached, null[i].result),
+                      CSTK_NULL_ARGUMENT, null[i].culprit);
+    }
+    const size_t counts[] = {0, 1, FIXTURE_NQ - 1, SIZE_MAX};
+    for (int i = 0; i < 4; ++i) {
+        CHECK_REFUSED(
+            out,
+            cstk_slide(f->query, f->cobject, q, step, counts[i], options, out.reached, &out.result),
+            CSTK_WRONG_SIZE, "");
+    }
+}
+
+static void slide_numbers(const fixture *f, const cstk_slide_options *good) {
+    struct {
+        double reached[FIXTURE_NQ];
+        cstk_slide_result result;
+    } out;
+    const double step[FIXTURE_NQ] = {0.01, 0, 0};
+    for (int entry = 0; entry < FIXTURE_NQ; ++entry) {
+        EACH_NOT_FINITE(i) {
+            double bad[FIXTURE_NQ] = {0};
+            bad[entry] = not_finite[i];
+            CHECK_REFUSED(out,
+                          cstk_slide(f->query, f->cobject, bad, step, FIXTURE_NQ, good, out.reached,
+                                     &out.result),
+                          CSTK_NOT_FINITE, "configuration");
+            CHECK_REFUSED(out,
+                          cstk_slide(f->query, f->cobject, f->q, bad, FIXTURE_NQ, good, out.reached,
+                                     &out.result),
+                          CSTK_NOT_FINITE, "step");
+        }
+    }
+    const double far[] = {1e60, 1e200, 1e300};
+    for (int i = 0; i < 3; ++i) {
+        const double too_far[FIXTURE_NQ] = {far[i], 0, 0};
+        CHECK_REFUSED(out,
+                      cstk_slide(f->query, f->cobject, f->q, too_far, FIXTURE_NQ, good, out.reached,
+                                 &out.result),
+                      CSTK_INVALID_ARGUMENT, "step");
+    }
+}
+
+static void slide_options(const fixture *f, const cstk_slide_options *good) {
+    struct {
+        double reached[FIXTURE_NQ];
+        cstk_slide_result result;
+    } out;
+    const double step[FIXTURE_NQ] = {0.01, 0, 0};
+    EACH_BAD_OPTIONS(*good, bad) {
+        CHECK_REFUSED(out,
+                      cstk_slide(f->query, f->cobject, f->q, step, FIXTURE_NQ, bad->options,
+                                 out.reached, &out.result),
+                      bad->status, "slide_options");
+    }
+    const struct {
+        double max_shell;
+        double desired_distance;
+        uint32_t max_witnesses;
+        cstk_status status;
+        const char *culprit;
+    } wrong[] = {
+        {NAN, -1, 256, CSTK_NOT_FINITE, "max_shell"},
+        {INFINITY, -1, 256, CSTK_NOT_FINITE, "max_shell"},
+        {0, -1, 256, CSTK_INVALID_ARGUMENT, "max_shell"},
+        {-1, -1, 256, CSTK_INVALID_ARGUMENT, "max_shell"},
+        {0.1, NAN, 256, CSTK_NOT_FINITE, "desired_distance"},
+        {0.1, 0.2, 256, CSTK_INVALID_ARGUMENT, "desired_distance"},
+        {0.1, -1, 0, CSTK_INVALID_ARGUMENT, "max_witnesses"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        cstk_slide_options options = *good;
+        options.max_shell = wrong[i].max_shell;
+        options.desired_distance = wrong[i].desired_distance;
+        options.max_witnesses = wrong[i].max_witnesses;
+        CHECK_REFUSED(out,
+                      cstk_slide(f->query, f->cobject, f->q, step, FIXTURE_NQ, &options,
+                                 out.reached, &out.result),
+                      wrong[i].status, wrong[i].culprit);
+    }
+}
+
+static void slide(const fixture *f) {
+    cstk_slide_options options;
+    CHECK_OK(cstk_slide_options_default(&options, sizeof options));
+    options.max_shell = 0.1;
+    slide_arguments(f, &options);
+    slide_numbers(f, &options);
+    slide_options(f, &options);
+    fixture_unchanged(f);
+}
+
+int main(void) {
+    fixture f;
+    fixture_create(&f);
+    query_create(&f);
+    get_statistics(&f);
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
+        query_handles(&f, &forms[i]);
+        query_counts(&f, &forms[i]);
+        query_numbers(&f, &forms[i]);
+        if (forms[i].by_poses) {
+            query_poses(&f, &forms[i]);
+        } else {
+            query_coordinates(&f, &forms[i]);
+        }
+        fixture_unchanged(&f);
+    }
+    slide(&f);
+    fixture_release(&f);
+    return check_result();
+}

@@ -1,0 +1,9 @@
+//! What the integration tests share: seeded random numbers, shapes, robots, and an oracle that uses nothing of the
+//! library but its vector types.
+
+#![allow(dead_code)] // every test file uses a part of this module
+
+pub mod oracle;
+pub mod random;
+pub mod robots;
+pub mod shapes;

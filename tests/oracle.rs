@@ -1,0 +1,780 @@
+//! Distances against brute force that proves itself, and the laws every answer keeps: symmetry, invariance under common
+//! motions, warm as cold, class and thresholds in agreement, no witness missing, unions as minima, margins as shifts.
+
+mod common;
+
+use std::sync::Arc;
+
+use cstk::body::{Body, BodyBuilder, Mesh};
+use cstk::cobject::{CObject, Class, InducedOptions};
+use cstk::pose::{Pose, Vec3, rotation_about};
+use cstk::query::{Configuration, Distance, DistanceKind, QueryContext, SSide};
+
+use common::oracle::{Bounds, gap_along, hull_distance, moved_exactly};
+use common::random::Random;
+use common::robots::{against_with, environment, free_body, link, robot, space};
+use common::shapes::{Shape, box_corners, dented_ball, hull, hulls, mesh, pair_size, planar};
+
+/// A body at a pose.
+#[derive(Clone)]
+struct Placed {
+    shape: Shape,
+    pose: Pose,
+}
+
+impl Placed {
+    fn new(shape: Shape, pose: Pose) -> Self {
+        Self { shape, pose }
+    }
+
+    fn side(&self) -> (&Body, &Pose) {
+        (&self.shape.body, &self.pose)
+    }
+
+    fn moved(&self, common: &Pose) -> Self {
+        Self::new(self.shape.clone(), common.compose(&self.pose))
+    }
+}
+
+fn size_of(a: &Placed, b: &Placed) -> f64 {
+    pair_size(&a.shape, &a.pose, &b.shape, &b.pose)
+}
+
+fn cold(a: &Placed, b: &Placed) -> Distance {
+    QueryContext::new()
+        .pair_distance(a.side(), b.side(), f64::INFINITY)
+        .unwrap()
+}
+
+/// Bounds of the distance of two unions, by brute force over their parts.
+fn brute_force(a: &Placed, b: &Placed) -> Bounds {
+    let origin = a.pose.transform_point(a.shape.body.center());
+    let parts_a = a.shape.placed(&a.pose, &origin);
+    let parts_b = b.shape.placed(&b.pose, &origin);
+    let mut all = Bounds {
+        gap: f64::INFINITY,
+        upper: f64::INFINITY,
+    };
+    for part_a in &parts_a {
+        for part_b in &parts_b {
+            let bounds = hull_distance(part_a, part_b);
+            all.gap = all.gap.min(bounds.gap);
+            all.upper = all.upper.min(bounds.upper);
+        }
+    }
+    all
+}
+
+/// The distance lies within the brute-force bounds, which leave no room; its points are as far apart and lie in the
+/// bodies; the contact's normal proves it.
+fn certified(a: &Placed, b: &Placed) -> Distance {
+    let found = cold(a, b);
+    let size = size_of(a, b);
+    let accepted = 1e-12 * size;
+    let truth = brute_force(a, b);
+    assert!(
+        truth.upper - truth.lower() <= accepted,
+        "the oracle is not sure: {truth:?}, L = {size}"
+    );
+    let d = found.distance;
+    assert_eq!(found.kind, DistanceKind::Exact);
+    assert!(
+        d >= truth.lower() - accepted && d <= truth.upper + accepted,
+        "got {d:e}, brute force {truth:?}, L = {size}"
+    );
+    assert!(found.lower <= d && d <= found.upper);
+    // The bounds hold the truth, but for the rounding of the oracle's own.
+    let oracle = 16.0 * f64::EPSILON * size;
+    assert!(
+        found.lower <= truth.upper + oracle && found.upper >= truth.lower() - oracle,
+        "{truth:?} is not within {:e} to {:e}",
+        found.lower,
+        found.upper
+    );
+    let witness = found.witness.expect("a distance has a witness");
+    let [p, q] = found.points;
+    // A point in the world is rounded to its own coordinates, which L does not count.
+    let slack = accepted + 4.0 * f64::EPSILON * p.amax().max(q.amax());
+    assert!(((p - q).norm() - d).abs() <= slack);
+    let origin = a.pose.transform_point(a.shape.body.center());
+    let part = |placed: &Placed, k: usize| {
+        placed.shape.placed(&placed.pose, &origin)[witness.primitives[k] as usize].clone()
+    };
+    let parts = [part(a, 0), part(b, 1)];
+    for (part, point) in parts.iter().zip([p, q]) {
+        let off = hull_distance(part, &[point - origin]).upper;
+        assert!(off <= slack, "a point is {off:e} off its body, L = {size}");
+    }
+    match &found.contact {
+        Some(contact) => {
+            assert!((contact.normal.norm() - 1.0).abs() <= 1e-14);
+            let gap = gap_along(&parts[0], &parts[1], &contact.normal);
+            // The normal is promised through the gradient, to 1e-6; the brute-force bounds prove the distance itself. A
+            // touching pair may overlap by 1e-10 L and still have a contact.
+            let least = if d == 0.0 {
+                -1e-10 * size
+            } else {
+                d - 1e-9 * size
+            };
+            assert!(
+                gap >= least,
+                "the normal proves {gap:e} of {d:e}, L = {size}"
+            );
+            assert!(!witness.overlapping);
+        }
+        None => assert!(d == 0.0 && witness.overlapping, "no contact at {d:e}"),
+    }
+    found
+}
+
+/// [`certified`], and the same in either order and after a common rigid motion.
+fn lawful(a: &Placed, b: &Placed, random: &mut Random) -> Distance {
+    let found = certified(a, b);
+    let size = size_of(a, b);
+    let accepted = 1e-12 * size;
+    let back = cold(b, a);
+    assert!(
+        (back.distance - found.distance).abs() <= accepted,
+        "{:e} one way, {:e} the other",
+        found.distance,
+        back.distance
+    );
+    // The motion's own rounding is that of coordinates no larger than L.
+    let common = Pose {
+        rotation: random.rotation(),
+        translation: random.point(1.0) * size,
+    };
+    let reach = a.pose.translation.amax().max(b.pose.translation.amax());
+    let apart = cold(&a.moved(&common), &b.moved(&common)).distance;
+    assert!(
+        (apart - found.distance).abs() <= accepted + 8.0 * f64::EPSILON * reach,
+        "{:e} here, {apart:e} after a motion",
+        found.distance
+    );
+    found
+}
+
+fn hull_at(points: &[Vec3], pose: Pose) -> Placed {
+    Placed::new(hull(points), pose)
+}
+
+fn shifted(points: &[Vec3], by: Vec3) -> Vec<Vec3> {
+    points.iter().map(|p| p + by).collect()
+}
+
+fn scaled(points: &[Vec3], by: f64) -> Vec<Vec3> {
+    points.iter().map(|p| p * by).collect()
+}
+
+/// Random hulls of four to nine points: far, near, overlapping, and brought to touch along their own normal.
+#[test]
+fn hulls_far_near_overlapping_and_touching() {
+    let mut random = Random::new(1);
+    let (mut apart, mut overlapping) = (0, 0);
+    for i in 0..300 {
+        let (n, m) = (4 + random.below(6), 4 + random.below(6));
+        let a = hull_at(&random.points(n, 1.0), random.pose(0.5));
+        let reach = [10.0, 2.0, 1.0][i % 3];
+        let mut b = hull_at(&random.points(m, 1.0), random.pose(reach));
+        let found = lawful(&a, &b, &mut random);
+        if found.distance == 0.0 {
+            overlapping += 1;
+            continue;
+        }
+        apart += 1;
+        let away = found.contact.unwrap().normal * found.distance;
+        for share in [
+            1.0 - 1e-3,
+            1.0 - 1e-8,
+            1.0 - 1e-12,
+            1.0,
+            1.0 + 1e-12,
+            1.0 + 1e-8,
+        ] {
+            let start = b.pose.translation;
+            b.pose.translation += away * share;
+            lawful(&a, &b, &mut random);
+            b.pose.translation = start;
+        }
+    }
+    assert!(apart > 100 && overlapping > 30, "{apart} {overlapping}");
+}
+
+/// Triangles as long as 1 and as wide as 1e-3 to 1e-9: slivers with a corner near the middle, needles with one near an
+/// end.
+fn thin_triangle(random: &mut Random) -> Vec<Vec3> {
+    let width = 10f64.powf(random.within(-9.0, -3.0));
+    let share = if random.below(2) == 0 {
+        random.within(0.3, 0.7)
+    } else {
+        random.within(0.0, 1e-6)
+    };
+    let turn = random.rotation();
+    [Vec3::zeros(), Vec3::x(), Vec3::new(share, width, 0.0)]
+        .map(|p| turn * p)
+        .into()
+}
+
+#[test]
+fn needles_and_slivers() {
+    let mut random = Random::new(2);
+    for i in 0..400 {
+        let one = thin_triangle(&mut random);
+        let other = if i % 2 == 0 {
+            thin_triangle(&mut random)
+        } else {
+            random.points(3, 1.0)
+        };
+        let reach = [2.0, 0.3, 1e-3][i % 3];
+        let (pose_a, pose_b) = (random.pose(0.2), random.pose(reach));
+        let a = Placed::new(mesh(&one, &[[0, 1, 2]]), pose_a);
+        let b = Placed::new(mesh(&other, &[[0, 1, 2]]), pose_b);
+        lawful(&a, &b, &mut random);
+        let (a, b) = (
+            hull_at(&one, pose_a),
+            hull_at(&random.points(6, 0.5), pose_b),
+        );
+        lawful(&a, &b, &mut random);
+    }
+}
+
+/// Thin solids: a needle or sliver and one or two points off its plane, so that their faces are thin, too.
+#[test]
+fn thin_solids() {
+    let mut random = Random::new(16);
+    for i in 0..200 {
+        let mut corners = thin_triangle(&mut random);
+        let off = 10f64.powf(random.within(-8.0, 0.0));
+        for _ in 0..1 + random.below(2) {
+            let foot = (corners[0] + corners[1]) * 0.5;
+            corners.push(foot + random.point(off));
+        }
+        let a = hull_at(&corners, random.pose(0.2));
+        let b = hull_at(&random.points(6, 0.5), random.pose([2.0, 0.3][i % 2]));
+        lawful(&a, &b, &mut random);
+    }
+}
+
+/// No thin face of a mesh is lost: what is not kept is counted.
+#[test]
+fn thin_faces_are_kept() {
+    let mut random = Random::new(17);
+    for _ in 0..400 {
+        let corners = thin_triangle(&mut random);
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder
+            .add_mesh(&Mesh {
+                vertices: corners.clone(),
+                face_sizes: vec![3],
+                indices: vec![0, 1, 2],
+            })
+            .unwrap();
+        assert_eq!(builder.len(), 1, "{corners:?} is gone");
+        builder.add_polygon(&corners, 0).unwrap();
+        builder.add_polyhedron(&corners, 0).unwrap();
+    }
+}
+
+const TILTS: [f64; 12] = [
+    1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14,
+];
+
+/// Edges that cross at small angles: of wedges, of triangles, and as bare segments.
+#[test]
+fn nearly_parallel_edges() {
+    let mut random = Random::new(3);
+    let wedge = [
+        (-1.0, 0.0, 0.0),
+        (1.0, 0.0, 0.0),
+        (0.3, -0.5, -1.0),
+        (-0.2, 0.6, -1.0),
+    ]
+    .map(|(x, y, z)| Vec3::new(x, y, z));
+    for tilt in TILTS {
+        for gap in [0.3, 1e-3, 1e-6, 1e-9, 0.0] {
+            for corners in [2, 3, 4] {
+                let across = rotation_about(&Vec3::z(), tilt) * rotation_about(&Vec3::x(), 3.1);
+                let common = random.pose(1.0);
+                let above = Pose {
+                    rotation: across,
+                    translation: Vec3::new(random.within(-0.5, 0.5), 0.0, gap),
+                };
+                let a = hull_at(&wedge[..corners], common.compose(&above));
+                let b = hull_at(&wedge[..corners], common);
+                lawful(&a, &b, &mut random);
+            }
+        }
+    }
+}
+
+#[test]
+fn nearly_parallel_faces() {
+    let mut random = Random::new(4);
+    let (small, large) = (box_corners([1.0, 0.8, 0.6]), box_corners([1.7, 1.3, 0.9]));
+    for tilt in TILTS {
+        for gap in [0.3, 1e-3, 1e-6, 1e-9, 0.0] {
+            let common = random.pose(1.0);
+            let lean =
+                Vec3::new(random.within(-1.0, 1.0), random.within(-1.0, 1.0), 0.0).normalize();
+            let spin = rotation_about(&Vec3::z(), random.within(-3.0, 3.0));
+            let above = Pose {
+                rotation: rotation_about(&lean, tilt) * spin,
+                translation: Vec3::new(
+                    random.within(-0.6, 0.6),
+                    random.within(-0.6, 0.6),
+                    0.75 + gap,
+                ),
+            };
+            let a = hull_at(&small, common.compose(&above));
+            let b = hull_at(&large, common);
+            lawful(&a, &b, &mut random);
+            lawful(&b, &a, &mut random);
+        }
+    }
+}
+
+#[test]
+fn coplanar_triangles() {
+    let mut random = Random::new(5);
+    let mut overlapping = 0;
+    for i in 0..300 {
+        let flat = |random: &mut Random, reach: f64| -> Vec<Vec3> {
+            let away = Vec3::new(
+                random.within(-reach, reach),
+                random.within(-reach, reach),
+                0.0,
+            );
+            shifted(&random.polygon(3, 1.0), away)
+        };
+        let (one, other) = (
+            flat(&mut random, 0.0),
+            flat(&mut random, [0.8, 2.0, 4.0][i % 3]),
+        );
+        let common = if i % 2 == 0 {
+            Pose::identity()
+        } else {
+            random.pose(1.0)
+        };
+        let a = Placed::new(mesh(&one, &[[0, 1, 2]]), common);
+        let b = Placed::new(mesh(&other, &[[0, 1, 2]]), common);
+        let found = lawful(&a, &b, &mut random);
+        overlapping += usize::from(found.distance == 0.0);
+        // The same triangles as solids of the plane.
+        if i % 2 == 0 {
+            let a = Placed::new(planar(&[one]), common);
+            let b = Placed::new(planar(&[other]), common);
+            assert_eq!(certified(&a, &b).distance == 0.0, found.distance == 0.0);
+        }
+    }
+    assert!(overlapping > 50, "{overlapping}");
+}
+
+#[test]
+fn planar_unions() {
+    let mut random = Random::new(6);
+    for i in 0..200 {
+        let mut union = |corners: usize| -> Shape {
+            let parts: Vec<Vec<Vec3>> = (0..3)
+                .map(|_| {
+                    let away = Vec3::new(random.within(-1.0, 1.0), random.within(-1.0, 1.0), 0.0);
+                    shifted(&random.polygon(corners, 0.6), away)
+                })
+                .collect();
+            planar(&parts)
+        };
+        let (one, other) = (union(3), union(6));
+        let a = Placed::new(one, random.planar_pose(0.5));
+        let b = Placed::new(other, random.planar_pose([1.0, 3.0, 10.0][i % 3]));
+        certified(&a, &b);
+        let common = random.planar_pose(1.0);
+        let apart = cold(&a.moved(&common), &b.moved(&common)).distance;
+        let slack = 1e-12 * size_of(&a, &b);
+        assert!((apart - cold(&a, &b).distance).abs() <= slack);
+        assert!((cold(&b, &a).distance - cold(&a, &b).distance).abs() <= slack);
+    }
+}
+
+#[test]
+fn all_scales() {
+    let mut random = Random::new(7);
+    for exponent in -6..=6 {
+        let scale = 10f64.powi(exponent);
+        for i in 0..40 {
+            let (n, m) = (3 + random.below(6), 3 + random.below(6));
+            let (one, other) = (random.points(n, 1.0), random.points(m, 1.0));
+            let (mut pose_a, mut pose_b) = (random.pose(1.0), random.pose([4.0, 2.0][i % 2]));
+            pose_a.translation *= scale;
+            pose_b.translation *= scale;
+            // Every fourth pair is of very unlike sizes.
+            let unlike = if i % 4 == 0 { 1e-4 } else { 1.0 };
+            let a = hull_at(&scaled(&one, scale), pose_a);
+            let b = hull_at(&scaled(&other, scale * unlike), pose_b);
+            lawful(&a, &b, &mut random);
+        }
+    }
+}
+
+/// Modelled 1e6 away from their own origins and placed as far from the world's, bodies measure as anywhere: L is what
+/// they are after re-centring.
+#[test]
+fn bodies_far_from_their_origins() {
+    let mut random = Random::new(8);
+    for i in 0..120 {
+        let mut far = |reach: f64| {
+            let away = random.unit() * 1e6;
+            let n = 4 + random.below(5);
+            let points = shifted(&random.points(n, 1.0), away);
+            let rotation = random.rotation();
+            let world = Vec3::new(1e6, -2e6, 5e5) + random.point(reach);
+            let pose = Pose {
+                rotation,
+                translation: world - rotation * away,
+            };
+            hull_at(&points, pose)
+        };
+        let (a, b) = (far(0.1), far([4.0, 1.5][i % 2]));
+        assert!(size_of(&a, &b) < 20.0);
+        certified(&a, &b);
+        let slack = 1e-12 * size_of(&a, &b);
+        assert!((cold(&a, &b).distance - cold(&b, &a).distance).abs() <= slack);
+    }
+}
+
+fn dented(random: &mut Random) -> Shape {
+    dented_ball(|| random.within(0.6, 1.0))
+}
+
+#[test]
+fn dented_meshes() {
+    let mut random = Random::new(9);
+    for i in 0..12 {
+        let (one, other) = (dented(&mut random), dented(&mut random));
+        let a = Placed::new(one, random.pose(0.5));
+        let b = Placed::new(other, random.pose([6.0, 2.5, 1.0][i % 3]));
+        lawful(&a, &b, &mut random);
+    }
+}
+
+/// One context through a long walk answers as a fresh one does, bit for bit.
+#[test]
+fn warm_answers_are_cold_answers() {
+    let mut random = Random::new(10);
+    let shapes = [
+        dented(&mut random),
+        dented(&mut random),
+        hulls(&[
+            random.points(6, 0.5),
+            random.points(6, 0.5),
+            random.points(9, 1.0),
+        ]),
+    ];
+    let mut warm = QueryContext::new();
+    let mut poses: Vec<Pose> = (0..3).map(|_| random.pose(1.5)).collect();
+    for step in 0..400 {
+        let (i, j) = (random.below(3), random.below(3));
+        poses[i].translation += random.point(0.05);
+        if step % 50 == 49 {
+            poses[i] = random.pose(1.5);
+        }
+        let a = Placed::new(shapes[i].clone(), poses[i]);
+        let b = Placed::new(shapes[j].clone(), poses[j]);
+        let limit = [f64::INFINITY, 0.4][step % 2];
+        // Other questions in between leave other memories.
+        warm.pair_within(a.side(), b.side(), random.within(0.0, 1.0))
+            .unwrap();
+        warm.pair_witnesses(a.side(), b.side(), 0.1, 3).unwrap();
+        let again = warm.pair_distance(a.side(), b.side(), limit).unwrap();
+        let fresh = QueryContext::new()
+            .pair_distance(a.side(), b.side(), limit)
+            .unwrap();
+        assert_eq!(said(&again), said(&fresh), "step {step}");
+    }
+    assert!(warm.statistics().cache_hits > 100);
+}
+
+/// All that a distance says, bit for bit.
+fn said(found: &Distance) -> (DistanceKind, Vec<u64>, Option<[u32; 2]>, bool) {
+    let mut numbers = vec![found.distance, found.lower, found.upper];
+    numbers.extend(found.points.iter().flatten());
+    if let Some(contact) = &found.contact {
+        numbers.extend(contact.normal.iter());
+        numbers.extend(contact.points.iter().flatten());
+    }
+    (
+        found.kind,
+        numbers.iter().map(|x| x.to_bits()).collect(),
+        found.witness.map(|witness| witness.primitives),
+        found.witness.is_some_and(|witness| witness.overlapping),
+    )
+}
+
+/// A robot of one link, and the C-object it makes with some objects.
+fn one_link(body: &Arc<Body>, objects: &[&Placed], options: InducedOptions) -> (CObject, Vec<u64>) {
+    let mut links = vec![link(None, cstk::robot::JointKind::Prismatic, Vec3::x())];
+    links[0].body = Some(body.clone());
+    let placed: Vec<(&Arc<Body>, Pose)> = objects.iter().map(|o| (&o.shape.body, o.pose)).collect();
+    let (environment, ids) = environment(&placed);
+    (
+        against_with(&space(vec![robot(3, links)]), &environment, options),
+        ids,
+    )
+}
+
+#[test]
+fn class_threshold_and_distance_agree() {
+    let mut random = Random::new(11);
+    let mut seen = [0; 3];
+    for i in 0..300 {
+        let a = hull_at(&random.points(6, 1.0), random.pose(0.2));
+        let mut b = hull_at(&random.points(6, 1.0), random.pose(2.5));
+        let first = cold(&a, &b);
+        if i % 3 == 0 && first.distance > 0.0 {
+            // Brought to within a few roundings of contact.
+            let away = first.contact.unwrap().normal * first.distance;
+            b.pose.translation += away * (1.0 + random.within(-1e-15, 1e-15));
+        }
+        let found = cold(&a, &b);
+        let epsilon = [0.0, 0.5, found.distance][random.below(3)];
+        let options = InducedOptions {
+            contact_epsilon: epsilon,
+            margin: 0.0,
+        };
+        let (cobject, _) = one_link(&a.shape.body, &[&b], options);
+        let mut context = QueryContext::new();
+        let at = Configuration::LinkPoses(std::slice::from_ref(&a.pose));
+        let same = context.distance(&cobject, at, f64::INFINITY).unwrap();
+        assert_eq!(said(&same), said(&found));
+        let class = context.classify(&cobject, at).unwrap();
+        let want = if found.lower == 0.0 {
+            Class::Inside
+        } else if found.lower <= epsilon {
+            // Doubt within rounding counts as contact, as it counts as within.
+            Class::Contact
+        } else {
+            Class::Outside
+        };
+        assert_eq!(class, want, "{found:?} {epsilon}");
+        seen[class as usize] += 1;
+        assert_eq!(found.distance == 0.0, found.lower == 0.0, "{found:?}");
+        let below = f64::from_bits(found.lower.to_bits().saturating_sub(1));
+        for t in [
+            0.0,
+            found.lower,
+            below,
+            found.distance,
+            found.upper,
+            0.5 * found.distance,
+            1.0,
+        ] {
+            let says = context.within(&cobject, at, t).unwrap();
+            assert_eq!(says, found.lower <= t, "{t:e} {found:?}");
+            assert_eq!(context.pair_within(a.side(), b.side(), t).unwrap(), says);
+        }
+    }
+    assert!(seen.iter().all(|&n| n > 20), "{seen:?}");
+}
+
+/// Bodies made of single primitives of two bodies answer one by one what the bodies' witnesses say at once.
+#[test]
+fn no_witness_is_missing_and_none_is_there_twice() {
+    let mut random = Random::new(12);
+    for i in 0..8 {
+        let a = Placed::new(dented(&mut random), random.pose(0.3));
+        let parts: Vec<Vec<Vec3>> = (0..8)
+            .map(|_| shifted(&random.points(5, 0.4), random.point(1.0)))
+            .collect();
+        let b = Placed::new(hulls(&parts), random.pose([2.5, 1.2][i % 2]));
+        let size = size_of(&a, &b);
+        let single = |placed: &Placed| -> Vec<Placed> {
+            let alone = |part: &Vec<Vec3>| match part.len() {
+                3 => mesh(part, &[[0, 1, 2]]),
+                _ => hull(part),
+            };
+            placed
+                .shape
+                .parts
+                .iter()
+                .map(|part| Placed::new(alone(part), placed.pose))
+                .collect()
+        };
+        let (singles_a, singles_b) = (single(&a), single(&b));
+        let mut each = Vec::new();
+        for (k, one) in singles_a.iter().enumerate() {
+            for (l, other) in singles_b.iter().enumerate() {
+                each.push(([k as u32, l as u32], cold(one, other).distance));
+            }
+        }
+        for epsilon in [0.0, 0.05, 0.5] {
+            let list = QueryContext::new()
+                .pair_witnesses(a.side(), b.side(), epsilon, usize::MAX)
+                .unwrap();
+            assert!(!list.truncated);
+            let mut keys: Vec<[u32; 2]> = list.witnesses.iter().map(|w| w.primitives).collect();
+            keys.sort_unstable();
+            assert!(
+                keys.windows(2).all(|two| two[0] != two[1]),
+                "a witness is there twice"
+            );
+            assert!(list.witnesses.is_sorted_by(|p, q| p.distance <= q.distance));
+            for (key, distance) in &each {
+                // Alone, a primitive is centred elsewhere, and so rounded elsewhere.
+                if (distance - epsilon).abs() > 1e-12 * size || epsilon == 0.0 && *distance == 0.0 {
+                    let listed = keys.binary_search(key).is_ok();
+                    assert_eq!(
+                        listed,
+                        *distance <= epsilon,
+                        "{key:?} at {distance:e}, {epsilon}"
+                    );
+                }
+            }
+            for witness in &list.witnesses {
+                let (_, distance) =
+                    each[witness.primitives[0] as usize * 8 + witness.primitives[1] as usize];
+                assert!((witness.distance - distance).abs() <= 1e-12 * size);
+            }
+            truncates(&a, &b, epsilon);
+        }
+    }
+}
+
+/// Of more witnesses than asked for, the nearest are kept, and it says so.
+fn truncates(a: &Placed, b: &Placed, epsilon: f64) {
+    let ask = |count: usize| {
+        QueryContext::new()
+            .pair_witnesses(a.side(), b.side(), epsilon, count)
+            .unwrap()
+    };
+    let all = ask(usize::MAX);
+    for count in [1, 2, 7, all.witnesses.len(), all.witnesses.len() + 1] {
+        let some = ask(count);
+        assert_eq!(some.truncated, count < all.witnesses.len());
+        let key = |w: &cstk::query::Witness| (w.distance.to_bits(), w.primitives, w.contact_count);
+        let want = all.witnesses.iter().take(count).map(key);
+        assert!(
+            some.witnesses.iter().map(key).eq(want),
+            "{count} of {}",
+            all.witnesses.len()
+        );
+        let contacts: usize = some.witnesses.iter().map(|w| w.contact_count).sum();
+        assert_eq!(some.contacts.len(), contacts);
+    }
+}
+
+/// More witnesses than the list is cut at on the way: the nearest must survive the cuts.
+#[test]
+fn truncation_keeps_the_nearest_of_many() {
+    let mut random = Random::new(13);
+    let a = Placed::new(dented(&mut random), random.pose(0.1));
+    let b = Placed::new(dented(&mut random), random.pose(3.0));
+    truncates(&a, &b, 10.0);
+}
+
+#[test]
+fn a_union_is_the_minimum_of_its_parts() {
+    let mut random = Random::new(14);
+    for _ in 0..40 {
+        let objects: Vec<Placed> = (0..6)
+            .map(|_| hull_at(&random.points(6, 0.8), random.pose(4.0)))
+            .collect();
+        let refs: Vec<&Placed> = objects.iter().collect();
+        let body = hull(&random.points(8, 0.6)).body;
+        let robot_space = space(vec![free_body(&body)]);
+        let placed: Vec<(&Arc<Body>, Pose)> =
+            refs.iter().map(|o| (&o.shape.body, o.pose)).collect();
+        let (environment, ids) = environment(&placed);
+        let options = InducedOptions::default();
+        let whole = against_with(&robot_space, &environment, options);
+        let parts: Vec<Arc<CObject>> = ids
+            .iter()
+            .map(|&id| Arc::new(common::robots::against_one(&robot_space, &environment, id)))
+            .collect();
+        let union = CObject::union(&parts).unwrap();
+        let q: Vec<f64> = (0..6).map(|_| random.within(-2.0, 2.0)).collect();
+        let at = Configuration::Coordinates(&q);
+        let mut context = QueryContext::new();
+        let mut ask = |c: &CObject| context.distance(c, at, f64::INFINITY).unwrap();
+        let each: Vec<Distance> = parts.iter().map(|part| ask(part)).collect();
+        let least = each
+            .iter()
+            .map(|d| d.distance)
+            .fold(f64::INFINITY, f64::min);
+        for c in [&whole, &union] {
+            let found = ask(c);
+            assert_eq!(found.distance, least);
+            let nearest = each.iter().position(|d| d.distance == least).unwrap();
+            assert_eq!(found.witness.unwrap().s_side, SSide::Object(ids[nearest]));
+            let class = QueryContext::new().classify(c, at).unwrap();
+            let classes = parts
+                .iter()
+                .map(|part| QueryContext::new().classify(part, at).unwrap());
+            assert_eq!(Some(class), classes.max());
+        }
+    }
+}
+
+/// A margin is taken off every distance, of witnesses and contacts too, but not below 0.
+#[test]
+fn a_margin_shifts_distances() {
+    let mut random = Random::new(15);
+    for _ in 0..60 {
+        let objects: Vec<Placed> = (0..3)
+            .map(|_| hull_at(&random.points(6, 0.8), random.pose(3.0)))
+            .collect();
+        let refs: Vec<&Placed> = objects.iter().collect();
+        let body = hull(&random.points(8, 0.6)).body;
+        let margin = random.within(0.0, 2.0);
+        let with = |margin: f64| InducedOptions {
+            contact_epsilon: 0.0,
+            margin,
+        };
+        let (plain, _) = one_link(&body, &refs, with(0.0));
+        let (grown, _) = one_link(&body, &refs, with(margin));
+        let pose = random.pose(2.0);
+        let at = Configuration::LinkPoses(std::slice::from_ref(&pose));
+        let mut context = QueryContext::new();
+        let bare = context.distance(&plain, at, f64::INFINITY).unwrap();
+        let less = context.distance(&grown, at, f64::INFINITY).unwrap();
+        assert_eq!(less.distance, (bare.distance - margin).max(0.0));
+        assert!(less.lower <= less.distance && less.distance <= less.upper);
+        let inside = context.classify(&grown, at).unwrap() == Class::Inside;
+        assert_eq!(inside, less.lower == 0.0);
+        let epsilon = 1.0;
+        let listed = context.witnesses(&grown, at, epsilon, 100).unwrap();
+        let wider = context
+            .witnesses(&plain, at, epsilon + margin, 100)
+            .unwrap();
+        assert_eq!(listed.witnesses.len(), wider.witnesses.len());
+        let mut shifted: Vec<f64> = wider
+            .witnesses
+            .iter()
+            .map(|w| (w.distance - margin).max(0.0))
+            .collect();
+        shifted.sort_by(f64::total_cmp);
+        let got: Vec<f64> = listed.witnesses.iter().map(|w| w.distance).collect();
+        assert_eq!(got, shifted);
+        for witness in &listed.witnesses {
+            let contacts = &listed.contacts[witness.first_contact..][..witness.contact_count];
+            assert!(
+                contacts
+                    .iter()
+                    .all(|c| (c.distance - witness.distance).abs() <= 1e-12)
+            );
+        }
+    }
+}
+
+/// The oracle itself, on distances known in closed form.
+#[test]
+fn the_oracle_knows_the_known() {
+    let unit = box_corners([1.0; 3]);
+    let apart = hull_distance(&unit, &shifted(&unit, Vec3::new(3.0, 4.0, 0.0)));
+    let want = 2f64.hypot(3.0);
+    assert!((apart.gap - want).abs() <= 1e-15 && (apart.upper - want).abs() <= 1e-15);
+    let deep = hull_distance(&unit, &shifted(&unit, Vec3::new(0.75, 0.1, 0.2)));
+    assert!((deep.gap + 0.25).abs() <= 1e-15 && deep.upper == 0.0);
+    let far = Pose::from_translation(Vec3::new(1e6 + 0.25, 0.0, 0.0));
+    assert_eq!(
+        moved_exactly(&Vec3::x(), &far, &(Vec3::x() * 1e6)),
+        Vec3::x() * 1.25
+    );
+}
