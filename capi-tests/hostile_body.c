@@ -158,7 +158,7 @@ static void add_mesh_arguments(const fixture *f) {
         {4, sizes, 2, 5, "face 1"},          {4, sizes, 1, 6, "indices"},
         {4, too_long, 2, 6, "face 1"},       {4, too_short, 2, 6, "indices"},
         {4, huge, 2, 6, "face 1"},           {4, NULL, 2, 5, "face 1"},
-        {4, NULL, 1, 6, "indices"},          {4, NULL, 7, 6, "7"},
+        {4, NULL, 1, 6, "indices"},          {4, NULL, 7, 6, "face 2"},
         {SIZE_MAX, sizes, 2, 6, "vertices"}, {4, sizes, SIZE_MAX, 6, "face_sizes"},
         {4, sizes, 2, SIZE_MAX, "indices"},  {4, NULL, 2, SIZE_MAX, "indices"},
     };

@@ -384,8 +384,8 @@ static void show(const fixture *f) {
         refuse_show(f->cobject, q, FIXTURE_NQ, file, CSTK_NOT_FINITE, "configuration");
     }
     refuse_show(f->cobject, f->q, FIXTURE_NQ, "no_such_folder/a.glb", CSTK_IO, "no_such_folder");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, ".", CSTK_IO, ".");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, "", CSTK_IO, "");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, ".", CSTK_UNSUPPORTED, ".");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, "", CSTK_UNSUPPORTED, "");
     /* A file that is there stays as it is. */
     char kept[16] = "";
     FILE *other = fopen(file, "wb");

@@ -170,7 +170,7 @@ enum cstk_class
    */
   CSTK_OUTSIDE = 0,
   /**
-   * Apart, by at most the contact epsilon.
+   * Apart, by at most the contact epsilon; doubt within rounding counts as contact.
    */
   CSTK_CONTACT = 1,
   /**

@@ -275,6 +275,31 @@ fn thin_faces_are_kept() {
     }
 }
 
+/// Four points, or eight, within a slab or a rod of a millionth of its length are a solid like any other.
+#[test]
+fn flat_and_long_solids_are_built() {
+    let mut random = Random::new(18);
+    for exponent in 1..=6 {
+        let thin = 10f64.powi(-exponent);
+        for i in 0..60 {
+            let (width, pose) = ([1.0, thin][i % 2], random.pose(1.0));
+            let n = [4, 5, 8][i % 3];
+            let mut points = random.points(n, 1.0);
+            if i % 4 == 0 {
+                points = box_corners([1.0; 3]);
+            }
+            let squeezed = Vec3::new(1.0, width, thin);
+            let placed = |p: &Vec3| pose.transform_point(&p.component_mul(&squeezed));
+            let points: Vec<Vec3> = points.iter().map(placed).collect();
+            let built = BodyBuilder::new(3).unwrap().add_polyhedron(&points, 0);
+            assert!(
+                built.is_ok(),
+                "{thin:e}, {width:e}: {built:?} of {points:?}"
+            );
+        }
+    }
+}
+
 const TILTS: [f64; 12] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14,
 ];

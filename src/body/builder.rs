@@ -112,9 +112,11 @@ impl BodyBuilder {
                     split += 1;
                     for triangle in triangles {
                         let corners = triangle.map(|i| corners[i as usize]);
-                        // A triangle without area covers nothing that its neighbours do not.
-                        if let Ok(polygon) = convex_polygon(&corners) {
-                            added.push((polygon, f as u64));
+                        match convex_polygon(&corners) {
+                            Ok(polygon) => added.push((polygon, f as u64)),
+                            // A triangle without area covers nothing that its neighbours do not.
+                            Err(error) if error.kind == ErrorKind::Degenerate => {}
+                            Err(error) => return Err(named(error)),
                         }
                     }
                 }

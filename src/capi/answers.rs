@@ -14,7 +14,7 @@ pub const CSTK_NONE: u32 = 0xFFFF_FFFF;
 pub enum cstk_class {
     /// Farther from contact than the contact epsilon.
     CSTK_OUTSIDE = 0,
-    /// Apart, by at most the contact epsilon.
+    /// Apart, by at most the contact epsilon; doubt within rounding counts as contact.
     CSTK_CONTACT = 1,
     /// The sets meet: distance 0.
     CSTK_INSIDE = 2,

@@ -148,7 +148,7 @@ impl Visitor for Collect {
                 },
                 closest: *closest,
             });
-            if self.hits.len() > 2 * self.max_count.max(512) {
+            if self.hits.len() > self.max_count.max(512).saturating_mul(2) {
                 self.cut();
             }
         }

@@ -84,7 +84,8 @@ pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec
 fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
-    let center = (low + high) * 0.5;
+    // A point of the hull: the box's middle may lie far off the plane of a thin set.
+    let center = points.iter().map(|p| p - low).sum::<Vec3>() / points.len() as f64 + low;
     let farthest = |part: &dyn Fn(Vec3) -> Vec3| {
         points
             .iter()
@@ -100,7 +101,9 @@ fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
         // Below this an extent is rounding; stretching it would only show noise.
         let least = 1e-13 * first.norm();
         let e2 = if second.norm() > least {
-            second.normalize()
+            // Made upright once more: what is left of a thin set's width has an EPSILON of its length in it.
+            let e2 = second.normalize();
+            (e2 - e1 * e1.dot(&e2)).normalize()
         } else {
             plane_axes(&e1).0
         };

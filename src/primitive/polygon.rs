@@ -67,6 +67,17 @@ pub(super) fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
         .flatten()
 }
 
+/// A normal without its part along the polygon's longest edge. The cross products of a needle leave a tilt of some
+/// EPSILON length / width along the needle, which would lift its far end off its own plane.
+pub(super) fn upright(normal: &Vec3, vertices: &[Vec3]) -> Vec3 {
+    let along = (0..vertices.len())
+        .map(|i| vertices[(i + 1) % vertices.len()] - vertices[i])
+        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        .and_then(|edge| edge.try_normalize(0.0))
+        .unwrap_or_else(Vec3::zeros);
+    (normal - along * along.dot(normal)).normalize()
+}
+
 /// The largest distance of a vertex from the first one, and of a vertex from the line through these two.
 fn length_and_width(vertices: &[Vec3]) -> (f64, f64) {
     let from_first = |v: &Vec3| v - vertices[0];
@@ -132,7 +143,7 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
             "the outline turns inwards or crosses itself",
         ));
     }
-    let normal = sum.normalize();
+    let normal = upright(&sum.normalize(), vertices);
     for (i, vertex) in vertices.iter().enumerate() {
         let height = normal.dot(&(vertex - vertices[0])).abs();
         if height > extent.tolerance {

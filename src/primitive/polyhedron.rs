@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::hull::checked_hull;
 use super::planar_hull::{convex_hull_2d, plane_axes};
-use super::polygon::extent_of;
+use super::polygon::{extent_of, upright};
 use super::{Convex, Face};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
@@ -59,6 +59,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
         });
     }
     let normal = along.cross(&(third - first)).normalize();
+    let normal = (normal - along * along.dot(&normal)).normalize();
     let (thickness, _) = farthest(&|p| normal.dot(&(p - first)).abs());
     if thickness <= tolerance {
         let ring = planar_ring(points, &normal, tolerance);
@@ -141,6 +142,10 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
         let Some(normal) = area_vector(seed).try_normalize(0.0) else {
             continue;
         };
+        let normal = upright(
+            &normal,
+            &[corner(seed, 0), corner(seed, 1), corner(seed, 2)],
+        );
         let origin = corner(seed, 0);
         let mut members: Vec<u32> = triangles[seed].to_vec();
         let mut front = vec![seed];
