@@ -139,6 +139,16 @@ impl Pose {
     }
 }
 
+/// Worlds are planar (2) or spatial (3).
+pub fn check_dimension(dimension: u32) -> Result<()> {
+    if dimension != 2 && dimension != 3 {
+        return Err(Error::invalid(format!(
+            "dimension must be 2 or 3, not {dimension}"
+        )));
+    }
+    Ok(())
+}
+
 /// The rotation of eq. (6) from yaw, pitch and roll in radians.
 pub fn euler_to_rotation(yaw: f64, pitch: f64, roll: f64) -> Mat3 {
     let (sy, cy) = yaw.sin_cos();

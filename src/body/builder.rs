@@ -6,7 +6,7 @@ use super::mesh_file::read_mesh_file;
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{WrapperTree, split_by_median};
-use crate::pose::Vec3;
+use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
 
 /// How a hierarchy is built.
@@ -45,11 +45,7 @@ pub struct Mesh {
 impl BodyBuilder {
     /// For bodies of the plane (2) or of space (3).
     pub fn new(dimension: u32) -> Result<Self> {
-        if dimension != 2 && dimension != 3 {
-            return Err(Error::invalid(format!(
-                "dimension must be 2 or 3, not {dimension}"
-            )));
-        }
+        check_dimension(dimension)?;
         Ok(Self {
             dimension,
             primitives: Vec::new(),

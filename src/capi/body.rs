@@ -1,9 +1,10 @@
 //! Bodies and their builders.
 
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Mutex};
 
 use super::boundary::{Failure, guard};
+use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::input::{
     OptionsStruct, Output, OutputSlice, options_or_default, path, points, slice, write_defaults,
@@ -127,14 +128,8 @@ fn with_builder(
 ) -> Result<(), Failure> {
     // A callback may release the caller's last reference meanwhile.
     let builder = handle::share::<Builder>(builder, "builder")?;
-    match builder.0.try_lock() {
-        Ok(mut builder) => action(&mut builder),
-        // Additions are made whole or not at all, so that a fault leaves the builder sound.
-        Err(TryLockError::Poisoned(poisoned)) => action(&mut poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => {
-            Err(Error::new(ErrorKind::Busy, "the builder is in use").into())
-        }
-    }
+    // Additions are made whole or not at all, so that a fault leaves the builder sound.
+    exclusively(&builder.0, "the builder", |_| {}, action)
 }
 
 /// Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are

@@ -7,6 +7,7 @@
 #![allow(clippy::missing_safety_doc)] // The header states once, for all functions, what callers owe.
 #![allow(clippy::too_many_arguments)]
 
+mod exclusive;
 mod handle;
 mod input;
 

@@ -1,18 +1,18 @@
 //! Query contexts, and the queries of a C-object at a configuration.
 
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Mutex};
 
 use super::answers::{
     cstk_class, cstk_contact, cstk_distance_result, cstk_witness, cstk_witness_list,
 };
 use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
+use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::input::{Output, slice};
 use super::robot::link_poses;
 use super::status::cstk_status;
 use crate::cobject::CObject;
-use crate::error::{Error, ErrorKind};
 use crate::query::{Configuration, QueryContext, WitnessList};
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
@@ -72,21 +72,9 @@ pub(super) fn with_query(
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let query = handle::share::<Query>(query, "query")?;
-    match query.0.try_lock() {
-        Ok(mut state) => action(&mut state),
-        Err(TryLockError::Poisoned(poisoned)) => {
-            // A fault may have left the scratch memory in disorder; caches are dispensable.
-            let mut state = poisoned.into_inner();
-            *state = State::default();
-            query.0.clear_poison();
-            action(&mut state)
-        }
-        Err(TryLockError::WouldBlock) => Err(Error::new(
-            ErrorKind::Busy,
-            "the query context is in use by another call; make one per thread",
-        )
-        .into()),
-    }
+    // Caches are dispensable, and scratch memory is only as good as the call that left it.
+    let renew = |state: &mut State| *state = State::default();
+    exclusively(&query.0, "the query context", renew, action)
 }
 
 /// Where the robot is, as C gave it.

@@ -1,10 +1,11 @@
 //! Robots and their builders.
 
 use std::ffi::c_char;
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Mutex};
 
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
+use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::input::{
     OptionsStruct, Output, OutputSlice, array, index_or_none, options, pose, slice, text,
@@ -116,13 +117,8 @@ fn with_builder(
 ) -> Result<(), Failure> {
     // Held for the time of the call, whatever other threads release.
     let builder = handle::share::<Builder>(builder, "builder")?;
-    match builder.0.try_lock() {
-        Ok(mut builder) => action(&mut builder),
-        Err(TryLockError::Poisoned(poisoned)) => action(&mut poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => {
-            Err(Error::new(ErrorKind::Busy, "the builder is in use").into())
-        }
-    }
+    // Additions are made whole or not at all, so that a fault leaves the builder sound.
+    exclusively(&builder.0, "the builder", |_| {}, action)
 }
 
 /// Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.

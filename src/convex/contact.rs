@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::closest::{Closest, Segment, closest_parameters};
-use super::distance::{feature_normal, gap_along};
+use super::contact_normal::ContactPair;
 use super::placed::Placed;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
@@ -40,7 +40,14 @@ pub fn contacts(
     size: f64,
     planar: bool,
 ) -> Vec<Contact> {
-    let Some(normal) = contact_normal(r, s, closest, size, planar) else {
+    let pair = ContactPair {
+        r,
+        s,
+        closest,
+        size,
+        planar,
+    };
+    let Some(normal) = pair.normal() else {
         return Vec::new();
     };
     let slack = tolerance::PARALLEL * size;
@@ -129,159 +136,6 @@ fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
         (Face, Vertex) => Some(ContactMode::FacePoint),
         (Edge, Edge) => Some(ContactMode::EdgeEdge),
         _ => None,
-    }
-}
-
-/// The unit normal from s to r, or `None` where the interiors overlap.
-fn contact_normal(
-    r: &Placed,
-    s: &Placed,
-    closest: &Closest,
-    size: f64,
-    planar: bool,
-) -> Option<Vec3> {
-    if closest.distance > DIRECTION_KNOWN * size {
-        return normal_apart(r, s, closest, size, planar);
-    }
-    if closest
-        .features
-        .iter()
-        .any(|f| f.kind == FeatureKind::Interior)
-    {
-        return None;
-    }
-    normal_at_touch(r, s, closest, size, planar)
-}
-
-/// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
-const DIRECTION_KNOWN: f64 = 1e-12;
-
-/// Apart, the normal is that of the features where they define it alone; else the direction between the points, less
-/// what rounding can have put along an edge. Where a face's or two edges' normal agrees with it within rounding, the
-/// features are parallel and that one is exact.
-fn normal_apart(
-    r: &Placed,
-    s: &Placed,
-    closest: &Closest,
-    size: f64,
-    planar: bool,
-) -> Option<Vec3> {
-    let between = closest.points[0] - closest.points[1];
-    let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
-    if !planar && let Some(normal) = feature_normal(r, s, closest) {
-        return Some(oriented(normal));
-    }
-    let mut direct = between;
-    for (placed, feature) in [(r, closest.features[0]), (s, closest.features[1])] {
-        if feature.kind == FeatureKind::Edge {
-            let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
-            let along = (q - p).normalize();
-            direct -= along * along.dot(&direct);
-        }
-    }
-    let direct = direct.try_normalize(0.0)?;
-    let doubt = 64.0 * tolerance::EPSILON * size / closest.distance;
-    if doubt < PARALLEL_SEEN {
-        return Some(direct);
-    }
-    let mut best = (doubt, direct);
-    for candidate in local_normals(r, s, closest, size, planar) {
-        let off = (oriented(candidate) - direct).norm();
-        if off <= best.0 {
-            best = (off, oriented(candidate));
-        }
-    }
-    Some(best.1)
-}
-
-/// A normal with less doubt than this shows parallel features as parallel by itself (see [`tolerance::PARALLEL`]).
-const PARALLEL_SEEN: f64 = 1e-12;
-
-/// Touching, the normal is the direction, among those that the touching features offer, along which the sets overlap
-/// least.
-fn normal_at_touch(
-    r: &Placed,
-    s: &Placed,
-    closest: &Closest,
-    size: f64,
-    planar: bool,
-) -> Option<Vec3> {
-    let mut best: Option<(f64, Vec3)> = None;
-    for candidate in local_normals(r, s, closest, size, planar) {
-        for n in [candidate, -candidate] {
-            let gap = gap_along(r, s, &n);
-            if best.is_none_or(|(most, _)| gap > most + 1e-13 * size) {
-                best = Some((gap, n));
-            }
-        }
-    }
-    best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * size)
-        .map(|(_, normal)| normal)
-}
-
-/// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
-/// polygon's outline within its plane.
-fn local_normals(r: &Placed, s: &Placed, closest: &Closest, size: f64, planar: bool) -> Vec<Vec3> {
-    let near = 1e-8 * size;
-    let local_r = Local::around(r, &closest.points[0], near);
-    let local_s = Local::around(s, &closest.points[1], near);
-    let mut found = Vec::new();
-    let mut offer = |candidate: Vec3| {
-        let in_plane = if planar {
-            Vec3::new(candidate.x, candidate.y, 0.0)
-        } else {
-            candidate
-        };
-        found.extend(in_plane.try_normalize(1e-6));
-    };
-    for normal in local_r.normals.iter().chain(&local_s.normals) {
-        offer(*normal);
-    }
-    for along_r in &local_r.directions {
-        for along_s in &local_s.directions {
-            offer(along_r.cross(along_s));
-        }
-    }
-    for local in [&local_r, &local_s] {
-        if local.is_flat {
-            for along in &local.directions {
-                for normal in &local.normals {
-                    offer(along.cross(normal));
-                }
-            }
-        }
-    }
-    found
-}
-
-/// The face normals and edge directions of the features that hold a point.
-struct Local {
-    normals: Vec<Vec3>,
-    directions: Vec<Vec3>,
-    is_flat: bool,
-}
-
-impl Local {
-    fn around(placed: &Placed, point: &Vec3, near: f64) -> Self {
-        let mut directions = Vec::new();
-        for &ends in &placed.shape.edges {
-            let (p, q) = placed.edge_ends(ends);
-            let segment = Segment::new((p, q));
-            let here = Segment::new((*point, *point));
-            let (_, t) = closest_parameters(&here, &segment);
-            if (segment.at(t) - point).norm() <= near {
-                directions.extend((q - p).try_normalize(0.0));
-            }
-        }
-        let normals = (0..placed.shape.faces.len())
-            .filter(|&f| placed.over_face(f, point).0.abs() <= near)
-            .map(|f| placed.normals[f])
-            .collect();
-        Self {
-            normals,
-            directions,
-            is_flat: placed.shape.faces.len() == 1,
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod closest;
 mod contact;
+mod contact_normal;
 mod distance;
 mod placed;
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Joint, JointKind, Link, Robot};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_finite};
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, check_dimension};
 
 /// A link to be added.
 #[derive(Clone, Debug)]
@@ -31,11 +31,7 @@ pub struct RobotBuilder {
 impl RobotBuilder {
     /// For robots of the plane (2) or of space (3).
     pub fn new(dimension: u32) -> Result<Self> {
-        if dimension != 2 && dimension != 3 {
-            return Err(Error::invalid(format!(
-                "dimension must be 2 or 3, not {dimension}"
-            )));
-        }
+        check_dimension(dimension)?;
         Ok(Self {
             dimension,
             links: Vec::new(),

@@ -1,0 +1,168 @@
+//! The normal of a contact: exact where features define it, however near the points; the least overlap at touch.
+
+use super::closest::{Closest, Segment, closest_parameters};
+use super::distance::{feature_normal, gap_along};
+use super::placed::Placed;
+use crate::pose::Vec3;
+use crate::primitive::FeatureKind;
+use crate::tolerance;
+
+/// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
+const DIRECTION_KNOWN: f64 = 1e-12;
+
+/// A normal with less doubt than this shows parallel features as parallel by itself (see [`tolerance::PARALLEL`]).
+const PARALLEL_SEEN: f64 = 1e-12;
+
+/// Of fans of very many edges that meet at two touching vertices, so many pairs are tried.
+const MOST_EDGE_PAIRS: usize = 4096;
+
+/// A primitive pair with its closest points, in a common frame.
+#[derive(Clone, Copy)]
+pub struct ContactPair<'a> {
+    pub r: &'a Placed<'a>,
+    pub s: &'a Placed<'a>,
+    pub closest: &'a Closest,
+    /// L, the largest coordinate of the pair of bodies.
+    pub size: f64,
+    /// In a planar world normals lie in the plane.
+    pub planar: bool,
+}
+
+impl ContactPair<'_> {
+    /// The unit normal from s to r, or `None` where the interiors overlap.
+    pub fn normal(&self) -> Option<Vec3> {
+        if self.closest.distance > DIRECTION_KNOWN * self.size {
+            return self.normal_apart();
+        }
+        if self
+            .closest
+            .features
+            .iter()
+            .any(|f| f.kind == FeatureKind::Interior)
+        {
+            return None;
+        }
+        self.normal_at_touch()
+    }
+
+    /// Apart, the normal is that of the features where they define it alone; else the direction between the points, less
+    /// what rounding can have put along an edge. Where a face's or two edges' normal agrees with it within rounding, the
+    /// features are parallel and that one is exact.
+    fn normal_apart(&self) -> Option<Vec3> {
+        let between = self.closest.points[0] - self.closest.points[1];
+        let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
+        if !self.planar
+            && let Some(normal) = feature_normal(self.r, self.s, self.closest)
+        {
+            return Some(oriented(normal));
+        }
+        let mut direct = between;
+        for (placed, feature) in [
+            (self.r, self.closest.features[0]),
+            (self.s, self.closest.features[1]),
+        ] {
+            if feature.kind == FeatureKind::Edge {
+                let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
+                let along = (q - p).normalize();
+                direct -= along * along.dot(&direct);
+            }
+        }
+        let direct = direct.try_normalize(0.0)?;
+        let doubt = 64.0 * tolerance::EPSILON * self.size / self.closest.distance;
+        if doubt < PARALLEL_SEEN {
+            return Some(direct);
+        }
+        let mut best = (doubt, direct);
+        for candidate in self.local_normals() {
+            let off = (oriented(candidate) - direct).norm();
+            if off <= best.0 {
+                best = (off, oriented(candidate));
+            }
+        }
+        Some(best.1)
+    }
+
+    /// Touching, the normal is the direction, among those that the touching features offer, along which the sets overlap
+    /// least.
+    fn normal_at_touch(&self) -> Option<Vec3> {
+        let mut best: Option<(f64, Vec3)> = None;
+        for candidate in self.local_normals() {
+            for n in [candidate, -candidate] {
+                let gap = gap_along(self.r, self.s, &n);
+                if best.is_none_or(|(most, _)| gap > most + 1e-13 * self.size) {
+                    best = Some((gap, n));
+                }
+            }
+        }
+        best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * self.size)
+            .map(|(_, normal)| normal)
+    }
+
+    /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
+    /// polygon's outline within its plane.
+    fn local_normals(&self) -> Vec<Vec3> {
+        let near = 1e-8 * self.size;
+        let local_r = Local::around(self.r, &self.closest.points[0], near);
+        let local_s = Local::around(self.s, &self.closest.points[1], near);
+        let mut found = Vec::new();
+        let mut offer = |candidate: Vec3| {
+            let in_plane = if self.planar {
+                Vec3::new(candidate.x, candidate.y, 0.0)
+            } else {
+                candidate
+            };
+            found.extend(in_plane.try_normalize(1e-6));
+        };
+        for normal in local_r.normals.iter().chain(&local_s.normals) {
+            offer(*normal);
+        }
+        let pairs = local_r.directions.iter().flat_map(|along_r| {
+            local_s
+                .directions
+                .iter()
+                .map(|along_s| along_r.cross(along_s))
+        });
+        pairs.take(MOST_EDGE_PAIRS).for_each(&mut offer);
+        for local in [&local_r, &local_s] {
+            if local.is_flat {
+                for along in &local.directions {
+                    for normal in &local.normals {
+                        offer(along.cross(normal));
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+/// The face normals and edge directions of the features that hold a point.
+struct Local {
+    normals: Vec<Vec3>,
+    directions: Vec<Vec3>,
+    is_flat: bool,
+}
+
+impl Local {
+    fn around(placed: &Placed, point: &Vec3, near: f64) -> Self {
+        let mut directions = Vec::new();
+        for &ends in &placed.shape.edges {
+            let (p, q) = placed.edge_ends(ends);
+            let segment = Segment::new((p, q));
+            let here = Segment::new((*point, *point));
+            let (_, t) = closest_parameters(&here, &segment);
+            if (segment.at(t) - point).norm() <= near {
+                directions.extend((q - p).try_normalize(0.0));
+            }
+        }
+        let normals = (0..placed.shape.faces.len())
+            .filter(|&f| placed.over_face(f, point).0.abs() <= near)
+            .map(|f| placed.normals[f])
+            .collect();
+        Self {
+            normals,
+            directions,
+            is_flat: placed.shape.faces.len() == 1,
+        }
+    }
+}
