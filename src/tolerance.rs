@@ -3,20 +3,20 @@
 /// Unit round-off of f64 arithmetic, doubled: the spacing of numbers at 1.
 pub const EPSILON: f64 = f64::EPSILON;
 
-/// Two closest points nearer than this times L (the pair's largest coordinate) touch.
+/// The rounding error of a primitive pair's distance, times L (the pair's largest coordinate); nearer points touch.
 ///
 /// A closed-form distance is a difference of points whose coordinates carry the rounding of one rigid transform
 /// (three products and three sums, each within EPSILON/2 of at most 3 L) and of one interpolation along a feature; that
-/// bounds the error by about 12 EPSILON L. Below it a gap cannot be told from contact.
-pub const TOUCH: f64 = 16.0 * EPSILON;
-
-/// Slack, times L, taken off every wrapper bound, so that a pair pruned by it could not have changed the computed
-/// minimum even in its last bit: twice the error of a leaf distance and that of the bound itself.
-pub const BOUND_SLACK: f64 = 64.0 * EPSILON;
+/// bounds the error by about 12 EPSILON L. The rest is [`CERTIFIED_GAP`]. Primitives whose vertices leave their faces'
+/// planes add how far they do (see `Convex::deviation`). Below it a gap cannot be told from contact.
+pub const DISTANCE_ERROR: f64 = 32.0 * EPSILON;
 
 /// A distance of two solids is accepted when its certificate (a supporting direction) comes this close, times L, to the
-/// distance of its two points; otherwise all features are searched. Five times under the promised 1e-12 L.
-pub const CERTIFIED_GAP: f64 = 2e-13;
+/// distance of its two points; otherwise all features are searched.
+pub const CERTIFIED_GAP: f64 = 16.0 * EPSILON;
+
+/// The rounding of a wrapper's bound, times L: one support evaluation along a unit vector.
+pub const BOUND_ERROR: f64 = 64.0 * EPSILON;
 
 /// Features of a contact are parallel when their supporting vertices are level to within this times L. Ten times the
 /// promised accuracy of a distance: a tilt below it cannot be seen in a distance.
@@ -28,8 +28,7 @@ pub const TOUCH_DEPTH: f64 = 1e-10;
 /// A polygon's vertices may leave its plane by this times its diameter, plus the rounding of their own coordinates.
 pub const PLANAR: f64 = 1e-12;
 
-/// A vertex of a hull may lie outside one of its faces by this times the hull's diameter; the distance error that
-/// follows is a tenth of the promised 1e-12 L.
+/// A point may lie outside the hull made of it by this times the hull's diameter: a tenth of the promised 1e-12 L.
 pub const HULL_EXCESS: f64 = 1e-13;
 
 /// A rotation matrix may be off orthonormal by this before it is refused; it is replaced by the nearest rotation.

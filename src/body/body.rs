@@ -14,6 +14,7 @@ pub struct Body {
     pub(super) dimension: u32,
     pub(super) center: Vec3,
     pub(super) radius: f64,
+    pub(super) deviation: f64,
     pub(super) primitives: Vec<Convex>,
     pub(super) tags: Vec<u64>,
     pub(super) tree: WrapperTree,
@@ -51,6 +52,7 @@ impl Body {
             dimension,
             center,
             radius: vertices.map(Vec3::norm).fold(0.0, f64::max),
+            deviation: primitives.iter().map(|p| p.deviation).fold(0.0, f64::max),
             primitives,
             tags,
             tree,
@@ -76,6 +78,11 @@ impl Body {
     /// The largest distance of a vertex from the centre.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// The largest deviation of a primitive from its faces (see [`Convex`]).
+    pub fn deviation(&self) -> f64 {
+        self.deviation
     }
 
     /// The primitives, in the body's own (centred) frame.

@@ -107,9 +107,14 @@ pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>
 
 /// One more reference.
 pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), Failure> {
-    slot_of::<T>(handle, argument)?
-        .references
-        .fetch_add(1, Ordering::Relaxed);
+    let references = &slot_of::<T>(handle, argument)?.references;
+    if references.fetch_add(1, Ordering::Relaxed) > u32::MAX / 2 {
+        references.fetch_sub(1, Ordering::Relaxed);
+        return Err(Failure::new(
+            cstk_status::CSTK_INVALID_ARGUMENT,
+            format!("{argument} has been retained two thousand million times"),
+        ));
+    }
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! Induced C-objects and their unions.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use crate::environment::Environment;
@@ -113,10 +114,17 @@ impl CObject {
                 ))));
             }
         }
+        let mut distinct: Vec<[usize; 2]> = Vec::with_capacity(pairs.len());
+        let mut seen = HashSet::new();
+        for &[r, s] in pairs {
+            if seen.insert([r.min(s), r.max(s)]) {
+                distinct.push([r, s]);
+            }
+        }
         Ok(Self {
             space,
             terms: vec![Arc::new(Term::Links {
-                pairs: pairs.to_vec(),
+                pairs: distinct,
                 options,
             })],
         })
@@ -130,6 +138,7 @@ impl CObject {
                 "a union needs at least one C-object",
             ));
         };
+        let mut seen = HashSet::new();
         let serial = first.space.serial();
         if let Some(i) = parts.iter().position(|part| part.space.serial() != serial) {
             return Err(Error::invalid(format!(
@@ -140,9 +149,50 @@ impl CObject {
             space: first.space.clone(),
             terms: parts
                 .iter()
-                .flat_map(|part| part.terms.iter().cloned())
+                .flat_map(|part| &part.terms)
+                .filter(|term| seen.insert(Arc::as_ptr(term)))
+                .cloned()
                 .collect(),
         })
+    }
+
+    /// The same set as it is now: its environments stay in the state they are in.
+    pub fn frozen(&self) -> Self {
+        let mut frozen: Vec<(u64, Arc<Environment>)> = Vec::new();
+        let mut freeze = |environment: &Arc<Environment>| {
+            let serial = environment.serial();
+            let known = frozen.iter().find(|(other, _)| *other == serial);
+            match known {
+                Some((_, environment)) => environment.clone(),
+                None => {
+                    let now = Arc::new(environment.freeze());
+                    frozen.push((serial, now.clone()));
+                    now
+                }
+            }
+        };
+        let terms = self.terms.iter().map(|term| match &**term {
+            Term::Links { .. } => term.clone(),
+            Term::Objects {
+                links,
+                objects,
+                options,
+            } => Arc::new(Term::Objects {
+                links: links.clone(),
+                objects: match objects {
+                    SObjects::All(environment) => SObjects::All(freeze(environment)),
+                    SObjects::Some(environment, ids) => {
+                        SObjects::Some(freeze(environment), ids.clone())
+                    }
+                },
+                options: *options,
+            }),
+        });
+        let terms = terms.collect();
+        Self {
+            space: self.space.clone(),
+            terms,
+        }
     }
 
     pub fn space(&self) -> &Arc<Space> {

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::contact_normal::ContactPair;
-use super::placed::Placed;
+use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
@@ -30,22 +30,15 @@ pub struct Contact {
     pub features: [Feature; 2],
 }
 
-/// The contacts of the pair (r, s) whose closest points are `closest`, nearest first. `size` is L. In planar worlds
-/// normals lie in the plane. Empty when the interiors overlap deeper than [`tolerance::TOUCH_DEPTH`] L: containment has
-/// no contact.
-pub fn contacts(
-    r: &Placed,
-    s: &Placed,
-    closest: &Closest,
-    size: f64,
-    planar: bool,
-) -> Vec<Contact> {
+/// The contacts of the pair (r, s) whose closest points are `closest`, the one at these points first. Empty when the
+/// interiors overlap deeper than [`tolerance::TOUCH_DEPTH`] L: containment has no contact.
+pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision) -> Vec<Contact> {
+    let (size, planar) = (precision.size, precision.planar);
     let pair = ContactPair {
         r,
         s,
         closest,
-        size,
-        planar,
+        precision,
     };
     let Some(normal) = pair.normal() else {
         return Vec::new();
@@ -64,11 +57,7 @@ pub fn contacts(
             found.push(Contact {
                 points,
                 normal,
-                distance: if gap > tolerance::TOUCH * size {
-                    gap
-                } else {
-                    0.0
-                },
+                distance: if gap > precision.error { gap } else { 0.0 },
                 mode,
                 features,
             });

@@ -2,7 +2,7 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{feature_normal, gap_along};
-use super::placed::Placed;
+use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::FeatureKind;
 use crate::tolerance;
@@ -22,16 +22,13 @@ pub struct ContactPair<'a> {
     pub r: &'a Placed<'a>,
     pub s: &'a Placed<'a>,
     pub closest: &'a Closest,
-    /// L, the largest coordinate of the pair of bodies.
-    pub size: f64,
-    /// In a planar world normals lie in the plane.
-    pub planar: bool,
+    pub precision: &'a Precision,
 }
 
 impl ContactPair<'_> {
     /// The unit normal from s to r, or `None` where the interiors overlap.
     pub fn normal(&self) -> Option<Vec3> {
-        if self.closest.distance > DIRECTION_KNOWN * self.size {
+        if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
             return self.normal_apart();
         }
         if self
@@ -51,7 +48,7 @@ impl ContactPair<'_> {
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
         let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
-        if !self.planar
+        if !self.precision.planar
             && let Some(normal) = feature_normal(self.r, self.s, self.closest)
         {
             return Some(oriented(normal));
@@ -68,7 +65,7 @@ impl ContactPair<'_> {
             }
         }
         let direct = direct.try_normalize(0.0)?;
-        let doubt = 64.0 * tolerance::EPSILON * self.size / self.closest.distance;
+        let doubt = 64.0 * tolerance::EPSILON * self.precision.size / self.closest.distance;
         if doubt < PARALLEL_SEEN {
             return Some(direct);
         }
@@ -89,24 +86,24 @@ impl ContactPair<'_> {
         for candidate in self.local_normals() {
             for n in [candidate, -candidate] {
                 let gap = gap_along(self.r, self.s, &n);
-                if best.is_none_or(|(most, _)| gap > most + 1e-13 * self.size) {
+                if best.is_none_or(|(most, _)| gap > most + 1e-13 * self.precision.size) {
                     best = Some((gap, n));
                 }
             }
         }
-        best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * self.size)
+        best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * self.precision.size)
             .map(|(_, normal)| normal)
     }
 
     /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
     /// polygon's outline within its plane.
     fn local_normals(&self) -> Vec<Vec3> {
-        let near = 1e-8 * self.size;
+        let near = 1e-8 * self.precision.size;
         let local_r = Local::around(self.r, &self.closest.points[0], near);
         let local_s = Local::around(self.s, &self.closest.points[1], near);
         let mut found = Vec::new();
         let mut offer = |candidate: Vec3| {
-            let in_plane = if self.planar {
+            let in_plane = if self.precision.planar {
                 Vec3::new(candidate.x, candidate.y, 0.0)
             } else {
                 candidate

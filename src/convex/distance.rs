@@ -1,7 +1,7 @@
 //! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
 
 use super::closest::{Closest, FeatureSet, closest_features};
-use super::placed::Placed;
+use super::placed::{Placed, Precision};
 use crate::gjk::{PointCloud, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
@@ -14,26 +14,25 @@ pub struct DistanceScratch {
     b: FeatureSet,
 }
 
-/// The closest points of two primitives in a common frame. `size` is L, the largest coordinate of the pair of bodies
-/// they belong to: distances up to [`tolerance::TOUCH`] L are returned as 0. In planar worlds polygons are solid.
+/// The closest points of two primitives in a common frame. Distances up to the pair's error are returned as 0.
 pub fn closest_points(
     a: &Placed,
     b: &Placed,
-    size: f64,
-    planar: bool,
+    pair: &Precision,
     scratch: &mut DistanceScratch,
 ) -> Closest {
-    let mut found = if planar {
-        planar_closest(a, b, size, scratch)
-    } else if a.shape.is_solid() || b.shape.is_solid() {
-        solid_closest(a, b, size, scratch)
+    let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
+    let mut found = if pair.planar {
+        planar_closest(a, b, pair, scratch)
+    } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
+        bounded_closest(a, b, pair, scratch)
     } else {
         all_features(a, b, scratch)
     };
     for (placed, side) in [(a, 0), (b, 1)] {
-        snap_to_vertex(placed, &mut found, side, tolerance::TOUCH * size);
+        snap_to_vertex(placed, &mut found, side, pair.error);
     }
-    if found.distance <= tolerance::TOUCH * size {
+    if found.distance <= pair.error {
         found.distance = 0.0;
     }
     found
@@ -51,6 +50,9 @@ fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64)
     }
 }
 
+/// Polygons with at most so many edges are compared edge by edge.
+const MOST_EDGES_ENUMERATED: usize = 32;
+
 fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
     scratch.a.set_all(a);
     scratch.b.set_all(b);
@@ -58,7 +60,12 @@ fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closes
 }
 
 /// Of polygons in one plane the outlines are compared, then the insides.
-fn planar_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
+fn planar_closest(
+    a: &Placed,
+    b: &Placed,
+    pair: &Precision,
+    scratch: &mut DistanceScratch,
+) -> Closest {
     scratch.a.set_outline(a);
     scratch.b.set_outline(b);
     let found = closest_features(a, &scratch.a, b, &scratch.b, false);
@@ -68,7 +75,7 @@ fn planar_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScrat
         inside.then_some(point)
     };
     let (inner, outer) = (Feature::vertex(0), Feature::interior());
-    if found.distance <= tolerance::TOUCH * size {
+    if found.distance <= pair.error {
         found
     } else if let Some(point) = holds(b, a) {
         Closest::meeting_at(point, [inner, outer])
@@ -79,7 +86,14 @@ fn planar_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScrat
     }
 }
 
-fn solid_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratch) -> Closest {
+/// Of solids, and of polygons too large to enumerate, the features around the supporting planes are compared.
+fn bounded_closest(
+    a: &Placed,
+    b: &Placed,
+    pair: &Precision,
+    scratch: &mut DistanceScratch,
+) -> Closest {
+    let size = pair.size;
     let bounds = gjk(
         &PointCloud(a.vertices),
         &PointCloud(b.vertices),
@@ -103,7 +117,7 @@ fn solid_closest(a: &Placed, b: &Placed, size: f64, scratch: &mut DistanceScratc
     }
     // Surfaces that touch or cross say more, by their features, than that one set holds a vertex of the other.
     let found = all_features(a, b, scratch);
-    if found.distance <= tolerance::TOUCH * size {
+    if found.distance <= pair.error {
         return found;
     }
     if let Some((i, point)) = contained_vertex(a, b) {

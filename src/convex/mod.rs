@@ -9,4 +9,4 @@ mod placed;
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts};
 pub use distance::{DistanceScratch, closest_points};
-pub use placed::{Placed, PlacedBuffer};
+pub use placed::{Placed, PlacedBuffer, Precision};

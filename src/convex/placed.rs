@@ -3,6 +3,17 @@
 use crate::pose::{Pose, Vec3};
 use crate::primitive::Convex;
 
+/// The lengths that decide about a pair of bodies, their dimension with them.
+#[derive(Clone, Copy, Debug)]
+pub struct Precision {
+    /// L, the largest coordinate of the pair in the frame in which it is examined.
+    pub size: f64,
+    /// A distance is known to this; below it the pair touches.
+    pub error: f64,
+    /// In planar worlds polygons are solid, and normals lie in the plane.
+    pub planar: bool,
+}
+
 /// A primitive with its vertices and face normals expressed in some common frame.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {

@@ -1,8 +1,11 @@
 //! Two bodies at two poses, brought into one frame.
 
 use crate::body::Body;
-use crate::convex::{Closest, Contact, DistanceScratch, PlacedBuffer, closest_points, contacts};
+use crate::convex::{
+    Closest, Contact, DistanceScratch, PlacedBuffer, Precision, closest_points, contacts,
+};
 use crate::pose::{Pose, Vec3, relative_centered};
+use crate::tolerance;
 
 /// Bodies A (the r-side) and B (the s-side), seen from the centre of A.
 pub struct Pairing<'a> {
@@ -12,8 +15,7 @@ pub struct Pairing<'a> {
     pub relative: Pose,
     /// Places A's centred frame in the world.
     pub frame: Pose,
-    /// L: the largest coordinate of the pair, in A's centred frame.
-    pub size: f64,
+    pub precision: Precision,
 }
 
 /// A contact with its points and normal in the world.
@@ -27,6 +29,7 @@ pub struct WorldContact {
 impl<'a> Pairing<'a> {
     pub fn new(a: &'a Body, pose_a: &Pose, b: &'a Body, pose_b: &Pose) -> Self {
         let relative = relative_centered(pose_a, a.center(), pose_b, b.center());
+        let size = a.radius().max(relative.translation.norm() + b.radius());
         Self {
             a,
             b,
@@ -35,18 +38,24 @@ impl<'a> Pairing<'a> {
                 rotation: pose_a.rotation,
                 translation: pose_a.transform_point(a.center()),
             },
-            size: a.radius().max(relative.translation.norm() + b.radius()),
+            precision: Precision {
+                size,
+                error: tolerance::DISTANCE_ERROR * size + a.deviation() + b.deviation(),
+                planar: a.dimension() == 2,
+            },
         }
     }
 
-    fn is_planar(&self) -> bool {
-        self.a.dimension() == 2
+    /// What a wrapper's bound must be lowered by so that nothing it excludes could have mattered: the rounding of the bound,
+    /// and the error of the distances on both sides of the comparison.
+    pub fn slack(&self) -> f64 {
+        tolerance::BOUND_ERROR * self.precision.size + 2.0 * self.precision.error
     }
 
-    /// A lower bound of the distance, by the spheres around the bodies.
+    /// A safe lower bound of the distance, by the spheres around the bodies.
     pub fn sphere_bound(&self) -> f64 {
         let (wrapper_a, wrapper_b) = (&self.a.tree().wrappers[0], &self.b.tree().wrappers[0]);
-        wrapper_a.sphere_bound(wrapper_b, &self.relative)
+        wrapper_a.sphere_bound(wrapper_b, &self.relative) - self.slack()
     }
 
     /// The closest points of one primitive pair: a pure function of the primitives and the relative pose.
@@ -62,7 +71,7 @@ impl<'a> Pairing<'a> {
             &Pose::identity(),
         );
         let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
-        closest_points(&a, &b, self.size, self.is_planar(), scratch)
+        closest_points(&a, &b, &self.precision, scratch)
     }
 
     /// The contacts of one primitive pair, in the world.
@@ -74,7 +83,7 @@ impl<'a> Pairing<'a> {
             &Pose::identity(),
         );
         let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
-        contacts(&a, &b, closest, self.size, self.is_planar())
+        contacts(&a, &b, closest, &self.precision)
             .into_iter()
             .map(|contact| WorldContact {
                 points: contact.points.map(|p| self.frame.transform_point(&p)),

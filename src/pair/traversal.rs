@@ -6,15 +6,14 @@ use std::ops::ControlFlow;
 use super::Pairing;
 use crate::convex::{Closest, DistanceScratch, PlacedBuffer};
 use crate::hierarchy::Node;
-use crate::tolerance;
 
 /// What a query wants from the walk.
 pub trait Visitor {
     /// Pairs of nodes that are farther apart than this are skipped; those at exactly this distance are not.
     fn bound(&self) -> f64;
 
-    /// Meets a primitive pair with its distance. `size` is the pair's L.
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, size: f64) -> ControlFlow<()>;
+    /// Meets a primitive pair with its distance, which is known to `error`.
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()>;
 }
 
 /// Work done, for the user's eyes.
@@ -47,7 +46,7 @@ impl Scratch {
     ) -> ControlFlow<()> {
         self.statistics.primitive_pairs += 1;
         let closest = pairing.primitive_distance(primitives, &mut self.buffers, &mut self.distance);
-        visitor.visit(primitives, &closest, pairing.size)
+        visitor.visit(primitives, &closest, pairing.precision.error)
     }
 }
 
@@ -58,7 +57,7 @@ pub fn traverse(
     visitor: &mut impl Visitor,
 ) -> ControlFlow<()> {
     let (tree_a, tree_b) = (pairing.a.tree(), pairing.b.tree());
-    let slack = tolerance::BOUND_SLACK * pairing.size;
+    let slack = pairing.slack();
     scratch.stack.clear();
     scratch.stack.push((0, 0, 0.0));
     while let Some((i, j, lower)) = scratch.stack.pop() {

@@ -5,14 +5,13 @@ use std::ops::ControlFlow;
 use super::hit::{Hit, HitKey};
 use super::traversal::Visitor;
 use crate::convex::Closest;
-use crate::tolerance;
 
 /// A safe lower bound of a primitive pair's distance less its margin: 0 exactly when the distance is.
-fn lower_of(closest: &Closest, size: f64, margin: f64) -> f64 {
+fn lower_of(closest: &Closest, error: f64, margin: f64) -> f64 {
     if closest.distance == 0.0 {
         return 0.0;
     }
-    (closest.distance - tolerance::TOUCH * size - margin).max(0.0)
+    (closest.distance - error - margin).max(0.0)
 }
 
 /// The nearest primitive pair, up to a limit.
@@ -43,7 +42,7 @@ impl Visitor for Nearest {
         self.limit + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, size: f64) -> ControlFlow<()> {
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
         let hit = Hit {
             distance: (closest.distance - self.margin).max(0.0),
             key: HitKey {
@@ -52,8 +51,9 @@ impl Visitor for Nearest {
             },
             closest: *closest,
         };
+        // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
+        self.lower = self.lower.min(lower_of(closest, error, self.margin));
         if hit.distance <= self.limit {
-            self.lower = self.lower.min(lower_of(closest, size, self.margin));
             if self
                 .best
                 .as_ref()
@@ -80,8 +80,8 @@ impl Visitor for Within {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, size: f64) -> ControlFlow<()> {
-        let lower = lower_of(closest, size, self.margin);
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
+        let lower = lower_of(closest, error, self.margin);
         if lower <= self.threshold {
             self.found = Some((primitives, lower));
             return ControlFlow::Break(());
@@ -137,7 +137,7 @@ impl Visitor for Collect {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, _size: f64) -> ControlFlow<()> {
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, _error: f64) -> ControlFlow<()> {
         let distance = (closest.distance - self.margin).max(0.0);
         if distance <= self.threshold {
             self.hits.push(Hit {

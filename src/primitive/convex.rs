@@ -17,6 +17,9 @@ pub struct Convex {
     pub vertices: Vec<Vec3>,
     pub edges: Vec<[u32; 2]>,
     pub faces: Vec<Face>,
+    /// How far a point that belongs to the set may lie from the vertices' hull, or a vertex from the plane of a face that
+    /// stands for it, at most: 0 but for polygons that are planar, and hulls that are complete, within a tolerance.
+    pub deviation: f64,
 }
 
 impl Convex {
@@ -24,16 +27,20 @@ impl Convex {
         self.faces.len() > 1
     }
 
-    /// A flat polygon from vertices in cyclic order around `normal`.
-    pub(super) fn from_cycle(vertices: Vec<Vec3>, normal: Vec3) -> Self {
+    /// A flat polygon from vertices in cyclic order around `normal`, of which `corners` form a strictly convex outline.
+    pub(super) fn from_cycle(vertices: Vec<Vec3>, corners: Vec<u32>, normal: Vec3) -> Self {
         let n = vertices.len() as u32;
+        let origin = vertices[corners[0] as usize];
+        let heights = vertices.iter().map(|v| normal.dot(&(v - origin)).abs());
+        let deviation = heights.fold(0.0, f64::max);
         Self {
             vertices,
             edges: (0..n).map(|i| [i, (i + 1) % n]).collect(),
             faces: vec![Face {
-                vertices: (0..n).collect(),
+                vertices: corners,
                 normal,
             }],
+            deviation,
         }
     }
 

@@ -31,28 +31,7 @@ pub fn split_face(vertices: &[Vec3]) -> Result<FaceSplit> {
         ErrorKind::Degenerate | ErrorKind::Empty if vertices.len() <= 3 => {
             return Ok(FaceSplit::Degenerate);
         }
-        ErrorKind::Degenerate => {
-            // A repeated vertex in an otherwise good face: decide again without it.
-            let kept = without_repeats(vertices)?;
-            if kept.len() == vertices.len() || kept.len() < 3 {
-                return Ok(FaceSplit::Degenerate);
-            }
-            let reduced: Vec<Vec3> = kept.iter().map(|&i| vertices[i as usize]).collect();
-            return Ok(match split_face(&reduced)? {
-                FaceSplit::Degenerate => FaceSplit::Degenerate,
-                FaceSplit::Convex => FaceSplit::Triangles(
-                    (1..kept.len() - 1)
-                        .map(|i| [kept[0], kept[i], kept[i + 1]])
-                        .collect(),
-                ),
-                FaceSplit::Triangles(triangles) => FaceSplit::Triangles(
-                    triangles
-                        .iter()
-                        .map(|t| t.map(|i| kept[i as usize]))
-                        .collect(),
-                ),
-            });
-        }
+        ErrorKind::Degenerate => return without_repeats(vertices),
         _ => return Err(trouble),
     }
     let crosses = || {
@@ -85,14 +64,42 @@ pub fn split_face(vertices: &[Vec3]) -> Result<FaceSplit> {
     Ok(FaceSplit::Triangles(triangles))
 }
 
-/// Indices of the vertices that differ from the one before them.
-fn without_repeats(vertices: &[Vec3]) -> Result<Vec<u32>> {
+/// Decides about a face with repeated vertices as about the same face without them.
+fn without_repeats(vertices: &[Vec3]) -> Result<FaceSplit> {
     let tolerance = extent_of(vertices)?.tolerance;
-    let n = vertices.len();
-    Ok((0..n)
-        .filter(|&i| (vertices[i] - vertices[(i + n - 1) % n]).norm() > tolerance)
-        .map(|i| i as u32)
-        .collect())
+    let apart = |i: usize, j: u32| (vertices[i] - vertices[j as usize]).norm() > tolerance;
+    let mut kept: Vec<u32> = Vec::with_capacity(vertices.len());
+    for i in 0..vertices.len() {
+        if kept.last().is_none_or(|&last| apart(i, last)) {
+            kept.push(i as u32);
+        }
+    }
+    while kept.len() > 1
+        && kept
+            .last()
+            .is_some_and(|&last| !apart(last as usize, kept[0]))
+    {
+        kept.pop();
+    }
+    if kept.len() == vertices.len() || kept.len() < 3 {
+        return Ok(FaceSplit::Degenerate);
+    }
+    let reduced: Vec<Vec3> = kept.iter().map(|&i| vertices[i as usize]).collect();
+    // Nothing repeats any more, so this decides for good.
+    Ok(match split_face(&reduced)? {
+        FaceSplit::Degenerate => FaceSplit::Degenerate,
+        FaceSplit::Convex => FaceSplit::Triangles(
+            (1..kept.len() - 1)
+                .map(|i| [kept[0], kept[i], kept[i + 1]])
+                .collect(),
+        ),
+        FaceSplit::Triangles(triangles) => FaceSplit::Triangles(
+            triangles
+                .iter()
+                .map(|t| t.map(|i| kept[i as usize]))
+                .collect(),
+        ),
+    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! The convex hull of points in a plane, by Andrew's monotone chain; it keeps no collinear points.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector2;
 
 use crate::pose::Vec3;
@@ -18,25 +20,14 @@ pub fn plane_axes(normal: &Vec3) -> (Vec3, Vec3) {
 /// Indices of the hull's corners, counter-clockwise from the leftmost. Points within `tolerance` of an edge, or of each
 /// other, are dropped; so one index is a point, two a segment, more a polygon.
 pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
     let at = |i: u32| points[i as usize];
-    order.sort_by(|&i, &j| {
+    let mut distinct = without_near_points(points, tolerance);
+    distinct.sort_by(|&i, &j| {
         let (p, q) = (at(i), at(j));
         p.x.total_cmp(&q.x)
             .then(p.y.total_cmp(&q.y))
             .then(i.cmp(&j))
     });
-    let mut distinct: Vec<u32> = Vec::with_capacity(order.len());
-    for i in order {
-        if distinct
-            .iter()
-            .rev()
-            .take_while(|&&j| at(i).x - at(j).x <= tolerance)
-            .all(|&j| (at(i) - at(j)).norm() > tolerance)
-        {
-            distinct.push(i);
-        }
-    }
     if distinct.len() < 3 {
         return distinct;
     }
@@ -59,6 +50,44 @@ pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     let mut hull = chain(&mut distinct.iter().copied());
     hull.extend(chain(&mut distinct.iter().rev().copied()));
     hull
+}
+
+/// Indices of points farther than the tolerance from all kept before them, by a grid of cells of that size.
+fn without_near_points(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
+    let cell = tolerance.max(f64::MIN_POSITIVE);
+    let mut grid: HashMap<(i64, i64), Vec<u32>> = HashMap::new();
+    let mut kept = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        // Saturating: points so far apart that cells run out are distinct anyway.
+        let (x, y) = (
+            (point.x / cell).floor() as i64,
+            (point.y / cell).floor() as i64,
+        );
+        let near = |other: &u32| (points[*other as usize] - point).norm() <= tolerance;
+        let known = (-1..=1).any(|dx| {
+            (-1..=1).any(|dy| {
+                let key = (x.saturating_add(dx), y.saturating_add(dy));
+                grid.get(&key)
+                    .is_some_and(|members| members.iter().any(near))
+            })
+        });
+        if !known {
+            grid.entry((x, y)).or_default().push(i as u32);
+            kept.push(i as u32);
+        }
+    }
+    kept
+}
+
+/// Indices of the hull of coplanar points, counter-clockwise around `normal`.
+pub fn planar_ring(points: &[Vec3], normal: &Vec3, tolerance: f64) -> Vec<u32> {
+    let (x, y) = plane_axes(normal);
+    let flat: Vec<_> = points
+        .iter()
+        .map(|p| p - points[0])
+        .map(|p| Vector2::new(x.dot(&p), y.dot(&p)))
+        .collect();
+    convex_hull_2d(&flat, tolerance)
 }
 
 #[cfg(test)]

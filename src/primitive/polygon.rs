@@ -1,15 +1,21 @@
 //! A planar convex polygon, and the checks that it is one.
 
 use super::Convex;
+use super::planar_hull::planar_ring;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A polygon from its vertices in cyclic order, either way round. Vertices on a straight edge are kept. The work is
-/// linear in the number of vertices.
+/// A polygon from its vertices in cyclic order, either way round. Vertices on a straight edge are kept.
 pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
     let normal = check_convex_polygon(vertices)?;
-    Ok(Convex::from_cycle(vertices.to_vec(), normal))
+    // The face is bounded by the strictly convex outline: the direction of a tiny or straight edge says nothing.
+    let mut corners = planar_ring(vertices, &normal, extent_of(vertices)?.tolerance);
+    if corners.len() < 3 {
+        corners = (0..vertices.len() as u32).collect();
+    }
+    corners.sort_unstable();
+    Ok(Convex::from_cycle(vertices.to_vec(), corners, normal))
 }
 
 /// The lengths that decide whether a vertex is out of place: the diameter and longest side of the points' box, and the

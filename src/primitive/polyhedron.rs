@@ -2,10 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use nalgebra::Vector2;
-
 use super::hull::checked_hull;
-use super::planar_hull::{convex_hull_2d, plane_axes};
+use super::planar_hull::planar_ring;
 use super::polygon::{extent_of, upright};
 use super::{Convex, Face};
 use crate::error::{Error, ErrorKind, Result};
@@ -46,6 +44,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             vertices: vec![points[0]],
             edges: vec![[0, 0]],
             faces: Vec::new(),
+            deviation: 0.0,
         });
     }
     let (_, first) = farthest(&|p| (p - second).norm());
@@ -56,6 +55,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             vertices: vec![first, second],
             edges: vec![[0, 1]],
             faces: Vec::new(),
+            deviation: 0.0,
         });
     }
     let normal = along.cross(&(third - first)).normalize();
@@ -63,23 +63,11 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     let (thickness, _) = farthest(&|p| normal.dot(&(p - first)).abs());
     if thickness <= tolerance {
         let ring = planar_ring(points, &normal, tolerance);
-        return Ok(Convex::from_cycle(
-            ring.iter().map(|&i| points[i as usize]).collect(),
-            normal,
-        ));
+        let corners = (0..ring.len() as u32).collect();
+        let vertices = ring.iter().map(|&i| points[i as usize]).collect();
+        return Ok(Convex::from_cycle(vertices, corners, normal));
     }
     solid(points, extent.diameter)
-}
-
-/// Indices of the hull of coplanar points, counter-clockwise around `normal`.
-fn planar_ring(points: &[Vec3], normal: &Vec3, tolerance: f64) -> Vec<u32> {
-    let (x, y) = plane_axes(normal);
-    let flat: Vec<_> = points
-        .iter()
-        .map(|p| p - points[0])
-        .map(|p| Vector2::new(x.dot(&p), y.dot(&p)))
-        .collect();
-    convex_hull_2d(&flat, tolerance)
 }
 
 fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
@@ -108,10 +96,12 @@ fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
             }
         }
     }
+    let deviation = hull.excess + deviation_of(&vertices, &faces, 4.0 * accepted);
     Ok(Convex {
         vertices,
         edges,
         faces,
+        deviation,
     })
 }
 
@@ -175,6 +165,24 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
         });
     }
     faces
+}
+
+/// How far a vertex lies from a face it bounds, at most; a vertex that merging left without a face counts with the
+/// tolerance of merging.
+fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
+    let mut bounds_a_face = vec![false; vertices.len()];
+    let mut deviation = 0.0f64;
+    for face in faces {
+        let origin = vertices[face.vertices[0] as usize];
+        for &i in &face.vertices {
+            bounds_a_face[i as usize] = true;
+            deviation = deviation.max(face.normal.dot(&(vertices[i as usize] - origin)).abs());
+        }
+    }
+    if bounds_a_face.contains(&false) {
+        deviation += merging;
+    }
+    deviation
 }
 
 /// A surface is the boundary of its hull when all vertices lie below all faces and the faces' area vectors cancel.

@@ -60,7 +60,10 @@ pub struct ContactRecord {
     pub points: [Vec3; 2],
     /// Unit, from s to r.
     pub normal: Vec3,
+    /// Less the margin, and at least 0.
     pub distance: f64,
+    /// The same with its sign: negative within the margin.
+    pub clearance: f64,
     pub mode: ContactMode,
     pub features: [Feature; 2],
 }

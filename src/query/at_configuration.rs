@@ -8,7 +8,6 @@ use super::search::{Found, Target};
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Hit;
-use crate::tolerance;
 
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
@@ -85,14 +84,12 @@ impl QueryContext {
             return Ok(Distance::empty(scene.version));
         }
         let found = self.nearest(&targets(scene, candidates), max_distance);
-        let size = candidates
-            .iter()
-            .map(|c| c.pairing.size)
-            .fold(0.0, f64::max);
+        let errors = candidates.iter().map(|c| c.pairing.precision.error);
+        let error = errors.fold(0.0, f64::max);
         Ok(Distance::from_found(
             &found,
             max_distance,
-            size,
+            error,
             scene.version,
             |hit| {
                 let candidate = of_rank(candidates, hit.key.pair);
@@ -252,12 +249,10 @@ fn targets<'a>(scene: &Scene, candidates: &'a [Candidate<'a>]) -> Vec<Target<'a>
         .collect()
 }
 
+/// The candidate a hit came from.
 fn of_rank<'a, 'b>(candidates: &'b [Candidate<'a>], rank: u32) -> &'b Candidate<'a> {
-    // Every hit comes from one of these candidates.
-    candidates
-        .iter()
-        .find(|candidate| candidate.rank == rank)
-        .unwrap_or(&candidates[0])
+    let found = candidates.iter().find(|candidate| candidate.rank == rank);
+    found.expect("a hit comes from one of the candidates it was searched among")
 }
 
 fn witness(candidate: &Candidate, hit: &Hit) -> Witness {
@@ -278,15 +273,14 @@ impl Distance {
         }
     }
 
-    /// The answer to a search up to `max_distance` among pairs of size at most `size`.
+    /// The answer to a search up to `max_distance` among pairs whose distances are known to `error`.
     pub(super) fn from_found<'a>(
         found: &Found,
         max_distance: f64,
-        size: f64,
+        error: f64,
         version: u64,
         describe: impl FnOnce(&Hit) -> (Witness, &'a crate::pair::Pairing<'a>, f64),
     ) -> Self {
-        let error = tolerance::TOUCH * size;
         let Some(hit) = &found.hit else {
             return Self {
                 kind: DistanceKind::BeyondMax,

@@ -8,7 +8,6 @@ use crate::body::Body;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};
 use crate::pose::Pose;
-use crate::tolerance;
 
 /// A body at a pose.
 type Placement<'a> = (&'a Body, &'a Pose);
@@ -36,7 +35,7 @@ fn target<'a>(pairing: &'a Pairing<'a>) -> Target<'a> {
         key: CacheKey::Bodies(pairing.a.serial(), pairing.b.serial()),
         rank: 0,
         margin: 0.0,
-        bound: pairing.sphere_bound() - tolerance::BOUND_SLACK * pairing.size,
+        bound: pairing.sphere_bound(),
         pairing,
     }
 }
@@ -55,7 +54,7 @@ impl QueryContext {
         Ok(Distance::from_found(
             &found,
             max_distance,
-            pairing.size,
+            pairing.precision.error,
             0,
             |hit| {
                 (
@@ -132,6 +131,7 @@ pub(super) fn contact_records(pairing: &Pairing, hit: &Hit, margin: f64) -> Vec<
             points: found.points,
             normal: found.normal,
             distance: (found.contact.distance - margin).max(0.0),
+            clearance: found.contact.distance - margin,
             mode: found.contact.mode,
             features: found.contact.features,
         })

@@ -9,7 +9,6 @@ use crate::environment::Snapshot;
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::pose::Pose;
-use crate::tolerance;
 
 /// Where the robot is: by its coordinates, or by the pose of every link of the space.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +55,13 @@ impl<'a> Scene<'a> {
                             space.link_count()
                         ),
                     ));
+                }
+                if let Some(link) = poses.iter().position(|pose| !pose.is_planar())
+                    && space.dimension() == 2
+                {
+                    return Err(Error::invalid(format!(
+                        "the pose of link {link} leaves the plane z = 0 of its robot"
+                    )));
                 }
                 poses.to_vec()
             }
@@ -137,26 +143,12 @@ impl<'a> Scene<'a> {
                 _ => {}
             }
         }
-        found.sort_by(|a, b| {
-            let by_ids = (a.0, a.1).cmp(&(b.0, b.1));
-            by_ids.then(b.3.margin.total_cmp(&a.3.margin))
-        });
-        // A pair that several terms hold counts once, with its largest margin and contact epsilon.
-        found.dedup_by(|later, kept| {
-            let same = (later.0, later.1) == (kept.0, kept.1);
-            if same {
-                let epsilon = &mut kept.3.contact_epsilon;
-                *epsilon = epsilon.max(later.3.contact_epsilon);
-            }
-            same
-        });
+        let found = without_repeats(found);
         let mut candidates: Vec<Candidate> = found
             .into_iter()
             .enumerate()
             .map(|(rank, (r_link, s_side, pairing, options))| Candidate {
-                bound: pairing.sphere_bound()
-                    - tolerance::BOUND_SLACK * pairing.size
-                    - options.margin,
+                bound: pairing.sphere_bound() - options.margin,
                 r_link,
                 s_side,
                 pairing,
@@ -175,4 +167,34 @@ impl<'a> Scene<'a> {
     pub fn cobject(&self) -> &CObject {
         self.cobject
     }
+}
+
+/// A body pair of a C-object's term.
+type Found<'a> = (usize, SSide, Pairing<'a>, InducedOptions);
+
+/// In order of ids, each pair once: where several terms hold a pair in one state, the most that any of them would call
+/// inside (the largest margin), and in contact, remains. An object that an environment and its snapshot hold in two states
+/// stands for two.
+fn without_repeats(mut found: Vec<Found>) -> Vec<Found> {
+    found.sort_by_key(|(r_link, s_side, ..)| (*r_link, *s_side));
+    let mut kept: Vec<Found> = Vec::with_capacity(found.len());
+    for (r_link, s_side, pairing, options) in found {
+        let same_ids = kept
+            .iter_mut()
+            .rev()
+            .take_while(|(r, s, ..)| (*r, *s) == (r_link, s_side));
+        let known = same_ids.into_iter().find(|(_, _, other, _)| {
+            other.relative == pairing.relative && other.b.serial() == pairing.b.serial()
+        });
+        match known {
+            None => kept.push((r_link, s_side, pairing, options)),
+            Some((_, _, _, merged)) => {
+                let reach = |o: &InducedOptions| o.margin + o.contact_epsilon;
+                let farthest = reach(merged).max(reach(&options));
+                merged.margin = merged.margin.max(options.margin);
+                merged.contact_epsilon = farthest - merged.margin;
+            }
+        }
+    }
+    kept
 }

@@ -31,6 +31,8 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
             Term::Objects { options, .. } | Term::Links { options, .. } => options.contact_epsilon,
         })
         .fold(0.0, f64::max);
+    // One state of the world for the whole picture.
+    let cobject = &cobject.frozen();
     let found = QueryContext::new().pseudo_normal(cobject, q, epsilon, MOST_WITNESSES, false)?;
     let mut drawing = Drawing::new(cobject, q);
     drawing.draw_bodies();
