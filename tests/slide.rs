@@ -176,6 +176,21 @@ fn a_touching_start_slides_and_an_overlapping_one_does_not() {
 }
 
 #[test]
+fn no_start_however_near_lets_it_pass_through_a_wall_or_stop_in_the_open() {
+    let sheet = ([0.6, -1.0, -5.0], [0.601, 20.0, 5.0]);
+    let (closed, open) = (cube_among(&[FLOOR, sheet], &[]), cube_among(&[FLOOR], &[]));
+    let mut query = QueryContext::new();
+    for gap in [0.0, 1e-15, 1e-12, 1e-9, 1e-7, 1e-4, 1e-2] {
+        let q = [0.0, -0.5 + gap];
+        let step = query.slide(&closed, &q, &[8.0, 0.0], &options()).unwrap();
+        assert!(step.configuration[0] < 0.1, "{gap:e}: {step:?}");
+        let step = query.slide(&open, &q, &[0.1, 0.0], &options()).unwrap();
+        assert_eq!(step.outcome, SlideOutcome::Moved, "{gap:e}");
+        assert!(step.configuration[0] > 0.09, "{gap:e}: {step:?}");
+    }
+}
+
+#[test]
 fn ranges_and_the_world_box_hold() {
     let range = Coordinate::Interval {
         lower: -1.0,

@@ -139,4 +139,17 @@ mod tests {
         let needle = [(0., 0.), (1., 0.), (2., 0.)].map(|(x, y)| Vec3::new(x, y, 0.));
         assert_eq!(split_face(&needle).unwrap(), FaceSplit::Degenerate);
     }
+
+    /// Vertices that jump to and fro by less than the tolerance: linear work, and no recursion.
+    #[test]
+    fn a_long_run_of_repeats_is_removed_at_once() {
+        let mut face = vec![Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0)];
+        let hair = 0.8e-12;
+        face.extend((0..200_000).map(|i| Vec3::new(1.0, 1.0 + hair * f64::from(i % 2), 0.0)));
+        face.push(Vec3::new(0.0, 1.0, 0.0));
+        let FaceSplit::Triangles(triangles) = split_face(&face).unwrap() else {
+            panic!("not split");
+        };
+        assert!((area(&face, &triangles) - 1.0).abs() < 1e-9);
+    }
 }

@@ -225,6 +225,23 @@ mod tests {
         assert_eq!(kind(&star), ErrorKind::NotConvex);
     }
 
+    /// A vertex a hair outside a straight edge must not turn the face's boundary.
+    #[test]
+    fn tiny_edges_do_not_bound_the_face() {
+        let points = [
+            (0., 0.),
+            (0.5, 0.),
+            (0.5 + 2e-12, 1e-12),
+            (1., 0.),
+            (1., 1.),
+            (0., 1.),
+        ]
+        .map(|(x, y)| Vec3::new(x, y, 0.0));
+        let polygon = convex_polygon(&points).unwrap();
+        assert_eq!(polygon.edges.len(), 6);
+        assert_eq!(polygon.faces[0].vertices, vec![0, 3, 4, 5]);
+    }
+
     #[test]
     fn accepts_all_scales_and_straight_vertices() {
         for scale in [1e-23, 1e-6, 1.0, 1e6] {

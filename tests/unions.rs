@@ -1,0 +1,190 @@
+//! Unions, margins and states: what they hold, each pair once, whatever the order of the parts.
+
+use std::sync::Arc;
+
+use cstk::body::{Body, BodyBuilder, HierarchyOptions};
+use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
+use cstk::environment::{Change, Environment};
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};
+use cstk::space::{Space, WorldBox};
+
+fn cuboid(sides: [f64; 3]) -> Arc<Body> {
+    let points: Vec<Vec3> = (0..8)
+        .map(|i| {
+            let pick = |axis: usize| sides[axis] * if i >> axis & 1 == 0 { -0.5 } else { 0.5 };
+            Vec3::new(pick(0), pick(1), pick(2))
+        })
+        .collect();
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_polyhedron(&points, 0).unwrap();
+    let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    Arc::new(body.unwrap())
+}
+
+fn at(x: f64) -> Pose {
+    Pose::from_translation(Vec3::new(x, 0.0, 0.0))
+}
+
+/// Unit cubes that shift along x, each a link of its own.
+fn sliders(count: usize) -> Arc<Space> {
+    let mut builder = RobotBuilder::new(3).unwrap();
+    for _ in 0..count {
+        let link = LinkDefinition {
+            name: String::new(),
+            body: Some(cuboid([1.0; 3])),
+            parent: None,
+            at: Pose::identity(),
+            kind: JointKind::Prismatic,
+            axis: Vec3::x(),
+            coordinate: None,
+        };
+        builder.add_link(link).unwrap();
+    }
+    let robot = Arc::new(builder.build().unwrap());
+    let everywhere = WorldBox::unbounded();
+    Arc::new(Space::new(vec![robot], &[], everywhere).unwrap())
+}
+
+fn induced(
+    space: &Arc<Space>,
+    environment: &Arc<Environment>,
+    margin: f64,
+    epsilon: f64,
+) -> Arc<CObject> {
+    let options = InducedOptions {
+        contact_epsilon: epsilon,
+        margin,
+    };
+    let all = SObjects::All(environment.clone());
+    Arc::new(CObject::induced(space.clone(), &[], all, options).unwrap())
+}
+
+fn with_cubes(places: &[f64]) -> (Arc<Environment>, Vec<u64>) {
+    let environment = Arc::new(Environment::default());
+    let add = |x: &f64| Change::Add {
+        body: cuboid([1.0; 3]),
+        pose: at(*x),
+    };
+    let changes: Vec<Change> = places.iter().map(add).collect();
+    let (ids, _) = environment.apply(&changes).unwrap();
+    (environment, ids)
+}
+
+#[test]
+fn an_object_in_two_states_counts_in_both() {
+    let space = sliders(1);
+    let (live, ids) = with_cubes(&[1.2]);
+    let before = Arc::new(live.freeze());
+    let moved = Change::Move {
+        id: ids[0],
+        pose: at(5.0),
+    };
+    live.apply(&[moved]).unwrap();
+    let parts = [
+        induced(&space, &live, 0.0, 0.0),
+        induced(&space, &before, 0.0, 0.0),
+    ];
+    for order in [[0, 1], [1, 0]] {
+        let union = CObject::union(&order.map(|i| parts[i].clone())).unwrap();
+        let mut query = QueryContext::new();
+        let q = Configuration::Coordinates(&[0.0]);
+        let d = query.distance(&union, q, f64::INFINITY).unwrap();
+        assert!((d.distance - 0.2).abs() < 1e-15);
+        assert_eq!(
+            query
+                .witnesses(&union, q, 10.0, 10)
+                .unwrap()
+                .witnesses
+                .len(),
+            2
+        );
+    }
+}
+
+#[test]
+fn the_class_of_a_union_is_the_largest_of_its_parts() {
+    let space = sliders(1);
+    let (environment, _) = with_cubes(&[1.2]);
+    let q = Configuration::Coordinates(&[0.0]);
+    let cases = [
+        (0.1, 0.0),
+        (0.0, 0.15),
+        (0.0, 0.25),
+        (0.3, 0.0),
+        (0.05, 0.2),
+        (0.15, 0.04),
+    ];
+    for (m1, e1) in cases {
+        for (m2, e2) in cases {
+            let parts = [
+                induced(&space, &environment, m1, e1),
+                induced(&space, &environment, m2, e2),
+            ];
+            let class = |c: &CObject| QueryContext::new().classify(c, q).unwrap();
+            let union = CObject::union(&parts).unwrap();
+            assert_eq!(
+                class(&union),
+                class(&parts[0]).max(class(&parts[1])),
+                "{m1} {e1} {m2} {e2}"
+            );
+        }
+    }
+    assert!(Class::Outside < Class::Contact && Class::Contact < Class::Inside);
+}
+
+#[test]
+fn a_pair_given_both_ways_or_twice_counts_once() {
+    let space = sliders(2);
+    let options = InducedOptions::default();
+    let links = CObject::induced_links(space, &[[0, 1], [1, 0], [0, 1]], options).unwrap();
+    let links = Arc::new(links);
+    let mut doubled = links.clone();
+    for _ in 0..40 {
+        doubled = Arc::new(CObject::union(&[doubled.clone(), doubled]).unwrap());
+    }
+    for cobject in [links, doubled] {
+        let q = [0.0, 3.0];
+        let list = QueryContext::new()
+            .witnesses(&cobject, Configuration::Coordinates(&q), 5.0, 10)
+            .unwrap();
+        assert_eq!(list.witnesses.len(), 1);
+    }
+}
+
+/// Each pair is known to an error of its own, so the least bound need not be that of the nearest pair.
+#[test]
+fn bounds_do_not_depend_on_what_was_asked_before() {
+    let space = sliders(1);
+    let environment = Arc::new(Environment::default());
+    let huge = cuboid([1e9; 3]);
+    let changes = [
+        Change::Add {
+            body: cuboid([1.0; 3]),
+            pose: at(1.1),
+        },
+        Change::Add {
+            body: huge,
+            pose: at(-5e8 - 0.6 - 1e-10),
+        },
+    ];
+    environment.apply(&changes).unwrap();
+    let cobject = induced(&space, &environment, 0.0, 0.0);
+    let mut warm = QueryContext::new();
+    for i in 0..50 {
+        let q = [1e-7 * f64::from(i % 7 - 3)];
+        let q = Configuration::Coordinates(&q);
+        let cold = QueryContext::new()
+            .distance(&cobject, q, f64::INFINITY)
+            .unwrap();
+        let again = warm.distance(&cobject, q, f64::INFINITY).unwrap();
+        assert_eq!(
+            [cold.distance, cold.lower, cold.upper].map(f64::to_bits),
+            [again.distance, again.lower, again.upper].map(f64::to_bits)
+        );
+        for t in [cold.lower, cold.lower * 0.999_999, cold.distance] {
+            assert_eq!(warm.within(&cobject, q, t).unwrap(), cold.lower <= t);
+        }
+    }
+}
