@@ -667,11 +667,11 @@ typedef struct cstk_distance_result {
   bool has_contact;
   uint8_t reserved_bytes[2];
   /**
-   * 0 exactly when the sets meet.
+   * 0 exactly when the sets meet, the s-side grown by the C-object's margin.
    */
   double distance;
   /**
-   * Never above the truth; 0 exactly when `distance` is.
+   * Never above the truth. Where `distance` is finite, 0 exactly when that is.
    */
   double lower;
   /**
@@ -686,7 +686,7 @@ typedef struct cstk_distance_result {
   struct cstk_witness witness;
   struct cstk_contact contact;
   /**
-   * The version of the environment that was measured; 0 where there is none.
+   * The version of the environment that was measured, the largest of several; 0 where there is none.
    */
   uint64_t environment_version;
   uint64_t reserved[8];

@@ -114,9 +114,9 @@ pub struct cstk_distance_result {
     /// cstk_witnesses.
     pub has_contact: bool,
     pub reserved_bytes: [u8; 2],
-    /// 0 exactly when the sets meet.
+    /// 0 exactly when the sets meet, the s-side grown by the C-object's margin.
     pub distance: f64,
-    /// Never above the truth; 0 exactly when `distance` is.
+    /// Never above the truth. Where `distance` is finite, 0 exactly when that is.
     pub lower: f64,
     /// Never below the truth.
     pub upper: f64,
@@ -125,7 +125,7 @@ pub struct cstk_distance_result {
     pub s_point: [f64; 3],
     pub witness: cstk_witness,
     pub contact: cstk_contact,
-    /// The version of the environment that was measured; 0 where there is none.
+    /// The version of the environment that was measured, the largest of several; 0 where there is none.
     pub environment_version: u64,
     pub reserved: [u64; 8],
 }

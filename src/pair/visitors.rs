@@ -6,12 +6,14 @@ use super::hit::{Hit, HitKey};
 use super::traversal::Visitor;
 use crate::convex::Closest;
 
-/// A safe lower bound of a primitive pair's distance less its margin: 0 exactly when the distance is.
-fn lower_of(closest: &Closest, error: f64, margin: f64) -> f64 {
-    if closest.distance == 0.0 {
-        return 0.0;
+/// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
+fn measured(closest: &Closest, error: f64, margin: f64) -> (f64, f64) {
+    let clear = closest.distance - margin;
+    if closest.distance > 0.0 && clear > error {
+        (clear, clear - error)
+    } else {
+        (0.0, 0.0)
     }
-    (closest.distance - error - margin).max(0.0)
 }
 
 /// The nearest primitive pair, up to a limit.
@@ -43,8 +45,9 @@ impl Visitor for Nearest {
     }
 
     fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
+        let (distance, lower) = measured(closest, error, self.margin);
         let hit = Hit {
-            distance: (closest.distance - self.margin).max(0.0),
+            distance,
             key: HitKey {
                 pair: self.pair,
                 primitives,
@@ -52,16 +55,15 @@ impl Visitor for Nearest {
             closest: *closest,
         };
         // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
-        self.lower = self.lower.min(lower_of(closest, error, self.margin));
-        if hit.distance <= self.limit {
-            if self
+        self.lower = self.lower.min(lower);
+        if hit.distance <= self.limit
+            && self
                 .best
                 .as_ref()
                 .is_none_or(|best| hit.order(best).is_lt())
-            {
-                self.limit = hit.distance;
-                self.best = Some(hit);
-            }
+        {
+            self.limit = hit.distance;
+            self.best = Some(hit);
         }
         ControlFlow::Continue(())
     }
@@ -81,7 +83,7 @@ impl Visitor for Within {
     }
 
     fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
-        let lower = lower_of(closest, error, self.margin);
+        let (_, lower) = measured(closest, error, self.margin);
         if lower <= self.threshold {
             self.found = Some((primitives, lower));
             return ControlFlow::Break(());
@@ -137,8 +139,8 @@ impl Visitor for Collect {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, _error: f64) -> ControlFlow<()> {
-        let distance = (closest.distance - self.margin).max(0.0);
+    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
+        let (distance, _) = measured(closest, error, self.margin);
         if distance <= self.threshold {
             self.hits.push(Hit {
                 distance,
