@@ -1245,7 +1245,8 @@ cstk_status cstk_distance_at(struct cstk_query *query,
 
 /**
  * Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
- * contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set. Neighbouring faces of a mesh share
+ * contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
+ * nearest are given and `truncated` is set. Neighbouring faces of a mesh share
  * edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
  * with this query context.
  */
@@ -1341,7 +1342,8 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
 /**
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
  * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
- * until the whole way is proved free. Along a contact only part of the step is left; see keep_length. `slide_options` must
+ * until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
+ * gradients must do). Along a contact only part of the step is left; see keep_length. `slide_options` must
  * not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
  * outcome is CSTK_SLIDE_MOVED, `reached` receives q.
  */

@@ -104,31 +104,27 @@ unsafe fn poses<'a>(values: *const f64, count: usize) -> Result<Given<'a>, Failu
     }))
 }
 
-/// Checks the arguments all queries share, and runs one.
-fn run<'a, T>(
+/// Checks the arguments all queries share, and runs one; `at` reads where the robot is.
+fn run<At, T>(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
-    at: impl FnOnce() -> Result<Given<'a>, Failure>,
+    at: impl FnOnce() -> Result<At, Failure>,
     out: *mut T,
-    ask: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
+    ask: impl FnOnce(&mut State, &CObject, &At) -> Result<T, Failure>,
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
             let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
             let out = Output::checked(out, "out")?;
-            let given = at()?;
-            out.write(ask(state, cobject, given.configuration())?);
+            let at = at()?;
+            out.write(ask(state, cobject, &at)?);
             Ok(())
         })
     })
 }
 
-fn classify(
-    state: &mut State,
-    cobject: &CObject,
-    at: Configuration,
-) -> Result<cstk_class, Failure> {
-    Ok(state.context.classify(cobject, at)?.into())
+fn classify(state: &mut State, cobject: &CObject, at: &Given) -> Result<cstk_class, Failure> {
+    Ok(state.context.classify(cobject, at.configuration())?.into())
 }
 
 /// Makes a query context.
@@ -249,7 +245,11 @@ pub unsafe extern "C" fn cstk_within(
         cobject,
         || unsafe { coordinates(q, nq) },
         out,
-        |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        |state, cobject, at| {
+            Ok(state
+                .context
+                .within(cobject, at.configuration(), threshold)?)
+        },
     )
 }
 
@@ -269,7 +269,11 @@ pub unsafe extern "C" fn cstk_within_at(
         cobject,
         || unsafe { poses(link_poses, link_count) },
         out,
-        |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        |state, cobject, at| {
+            Ok(state
+                .context
+                .within(cobject, at.configuration(), threshold)?)
+        },
     )
 }
 
@@ -290,7 +294,12 @@ pub unsafe extern "C" fn cstk_distance(
         cobject,
         || unsafe { coordinates(q, nq) },
         out,
-        |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        |state, cobject, at| {
+            Ok((&state
+                .context
+                .distance(cobject, at.configuration(), max_distance)?)
+                .into())
+        },
     )
 }
 
@@ -310,12 +319,18 @@ pub unsafe extern "C" fn cstk_distance_at(
         cobject,
         || unsafe { poses(link_poses, link_count) },
         out,
-        |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        |state, cobject, at| {
+            Ok((&state
+                .context
+                .distance(cobject, at.configuration(), max_distance)?)
+                .into())
+        },
     )
 }
 
 /// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
-/// contacts. Of more than `max_count` pairs, the nearest are given and `truncated` is set. Neighbouring faces of a mesh share
+/// contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
+/// nearest are given and `truncated` is set. Neighbouring faces of a mesh share
 /// edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
 /// with this query context.
 #[unsafe(no_mangle)]
@@ -335,7 +350,9 @@ pub unsafe extern "C" fn cstk_witnesses(
         || unsafe { coordinates(q, nq) },
         out,
         |state, cobject, at| {
-            let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+            let list = state
+                .context
+                .witnesses(cobject, at.configuration(), epsilon, max_count)?;
             Ok(state.keep(list))
         },
     )
@@ -359,7 +376,9 @@ pub unsafe extern "C" fn cstk_witnesses_at(
         || unsafe { poses(link_poses, link_count) },
         out,
         |state, cobject, at| {
-            let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+            let list = state
+                .context
+                .witnesses(cobject, at.configuration(), epsilon, max_count)?;
             Ok(state.keep(list))
         },
     )
@@ -382,15 +401,9 @@ pub unsafe extern "C" fn cstk_gradients(
     run(
         query,
         cobject,
-        || unsafe { coordinates(q, nq) },
+        || unsafe { slice(q, nq, "q") },
         out,
-        |state, cobject, at| {
-            let Configuration::Coordinates(q) = at else {
-                return Err(Failure::new(
-                    cstk_status::CSTK_INTERNAL,
-                    "gradients need coordinates",
-                ));
-            };
+        |state, cobject, q| {
             let list = state.context.gradients(cobject, q, epsilon, max_count)?;
             Ok(state.keep(list))
         },
@@ -425,15 +438,9 @@ pub unsafe extern "C" fn cstk_pseudo_normal(
     run(
         query,
         cobject,
-        || unsafe { coordinates(q, nq) },
+        || unsafe { slice(q, nq, "q") },
         out,
-        |state, cobject, at| {
-            let Configuration::Coordinates(q) = at else {
-                return Err(Failure::new(
-                    cstk_status::CSTK_INTERNAL,
-                    "gradients need coordinates",
-                ));
-            };
+        |state, cobject, q| {
             let found = state
                 .context
                 .pseudo_normal(cobject, q, max_shell, max_count, normalize)?;

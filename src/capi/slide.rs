@@ -81,7 +81,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
 /// nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
-/// until the whole way is proved free. Along a contact only part of the step is left; see keep_length. `slide_options` must
+/// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
+/// gradients must do). Along a contact only part of the step is left; see keep_length. `slide_options` must
 /// not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
 /// outcome is CSTK_SLIDE_MOVED, `reached` receives q.
 #[unsafe(no_mangle)]
