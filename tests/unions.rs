@@ -188,3 +188,23 @@ fn bounds_do_not_depend_on_what_was_asked_before() {
         }
     }
 }
+
+/// A slide asks many questions of one state; a frozen C-object is how it gets it.
+#[test]
+fn a_frozen_set_does_not_follow_its_environments() {
+    let space = sliders(1);
+    let (live, ids) = with_cubes(&[1.2]);
+    let (other, _) = with_cubes(&[-3.0]);
+    let parts = [
+        induced(&space, &live, 0.0, 0.0),
+        induced(&space, &other, 0.0, 0.0),
+    ];
+    let union = CObject::union(&parts).unwrap();
+    let frozen = union.frozen();
+    live.apply(&[Change::Delete { id: ids[0] }]).unwrap();
+    let q = Configuration::Coordinates(&[0.0]);
+    let mut query = QueryContext::new();
+    let mut distance = |c: &CObject| query.distance(c, q, f64::INFINITY).unwrap().distance;
+    assert!((distance(&frozen) - 0.2).abs() < 1e-15);
+    assert!((distance(&union) - 2.0).abs() < 1e-15);
+}

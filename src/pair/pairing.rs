@@ -2,7 +2,7 @@
 
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, PlacedBuffer, Precision, closest_points, contacts,
+    Closest, Contact, DistanceScratch, Placed, PlacedBuffer, Precision, closest_points, contacts,
 };
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::tolerance;
@@ -65,24 +65,14 @@ impl<'a> Pairing<'a> {
         buffers: &mut [PlacedBuffer; 2],
         scratch: &mut DistanceScratch,
     ) -> Closest {
-        let [buffer_a, buffer_b] = buffers;
-        let a = buffer_a.place(
-            &self.a.primitives()[primitives[0] as usize],
-            &Pose::identity(),
-        );
-        let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
+        let [a, b] = self.place(primitives, buffers);
         closest_points(&a, &b, &self.precision, scratch)
     }
 
     /// The contacts of one primitive pair, in the world.
     pub fn world_contacts(&self, primitives: [u32; 2], closest: &Closest) -> Vec<WorldContact> {
         let mut buffers: [PlacedBuffer; 2] = Default::default();
-        let [buffer_a, buffer_b] = &mut buffers;
-        let a = buffer_a.place(
-            &self.a.primitives()[primitives[0] as usize],
-            &Pose::identity(),
-        );
-        let b = buffer_b.place(&self.b.primitives()[primitives[1] as usize], &self.relative);
+        let [a, b] = self.place(primitives, &mut buffers);
         contacts(&a, &b, closest, &self.precision)
             .into_iter()
             .map(|contact| WorldContact {
@@ -91,6 +81,21 @@ impl<'a> Pairing<'a> {
                 contact,
             })
             .collect()
+    }
+
+    /// Both primitives in A's centred frame.
+    fn place<'b>(
+        &'b self,
+        primitives: [u32; 2],
+        buffers: &'b mut [PlacedBuffer; 2],
+    ) -> [Placed<'b>; 2] {
+        let [buffer_a, buffer_b] = buffers;
+        let a = &self.a.primitives()[primitives[0] as usize];
+        let b = &self.b.primitives()[primitives[1] as usize];
+        [
+            buffer_a.place(a, &Pose::identity()),
+            buffer_b.place(b, &self.relative),
+        ]
     }
 
     /// The closest points in the world.

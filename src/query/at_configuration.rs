@@ -92,7 +92,7 @@ impl QueryContext {
             error,
             scene.version,
             |hit| {
-                let candidate = of_rank(candidates, hit.key.pair);
+                let candidate = by_rank(candidates)[hit.key.pair as usize];
                 (
                     witness(candidate, hit),
                     &candidate.pairing,
@@ -192,8 +192,9 @@ impl QueryContext {
             nv: if with_gradients { nv } else { 0 },
             ..Default::default()
         };
+        let ranked = by_rank(candidates);
         for hit in &hits {
-            let candidate = of_rank(candidates, hit.key.pair);
+            let candidate = ranked[hit.key.pair as usize];
             let contacts = contact_records(&candidate.pairing, hit, candidate.options.margin);
             let mut entry = witness(candidate, hit);
             entry.first_contact = list.contacts.len();
@@ -249,10 +250,11 @@ fn targets<'a>(scene: &Scene, candidates: &'a [Candidate<'a>]) -> Vec<Target<'a>
         .collect()
 }
 
-/// The candidate a hit came from.
-fn of_rank<'a, 'b>(candidates: &'b [Candidate<'a>], rank: u32) -> &'b Candidate<'a> {
-    let found = candidates.iter().find(|candidate| candidate.rank == rank);
-    found.expect("a hit comes from one of the candidates it was searched among")
+/// The candidates in the order of their ranks, by which hits name them.
+fn by_rank<'a, 'b>(candidates: &'b [Candidate<'a>]) -> Vec<&'b Candidate<'a>> {
+    let mut ranked: Vec<_> = candidates.iter().collect();
+    ranked.sort_unstable_by_key(|candidate| candidate.rank);
+    ranked
 }
 
 fn witness(candidate: &Candidate, hit: &Hit) -> Witness {

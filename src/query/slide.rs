@@ -111,6 +111,8 @@ impl QueryContext {
                 step[i]
             )));
         }
+        // One state of the world for all that is asked: else the proof would join distances of several.
+        let cobject = &cobject.frozen();
         let here =
             self.pseudo_normal(cobject, q, options.max_shell, options.max_witnesses, false)?;
         let ended = |outcome| SlideStep {
