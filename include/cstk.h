@@ -1142,7 +1142,8 @@ cstk_status cstk_cobject_induced_links(const struct cstk_space *space,
 
 /**
  * Makes the union of `count` C-objects of one space. It keeps what its parts refer to, not the parts themselves. A
- * body pair that several parts hold counts once, with the largest margin and contact epsilon.
+ * body pair that several parts hold in one state counts once, with the largest margin; a configuration's class is the
+ * largest of those of the parts.
  */
 cstk_status cstk_cobject_union(const struct cstk_cobject *const *parts,
                                size_t count,

@@ -147,7 +147,8 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
 }
 
 /// Makes the union of `count` C-objects of one space. It keeps what its parts refer to, not the parts themselves. A
-/// body pair that several parts hold counts once, with the largest margin and contact epsilon.
+/// body pair that several parts hold in one state counts once, with the largest margin; a configuration's class is the
+/// largest of those of the parts.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_union(
     parts: *const *const cstk_cobject,

@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // every test file uses a part of this module
 
+pub mod differences;
 pub mod oracle;
 pub mod random;
 pub mod robots;
