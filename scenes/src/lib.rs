@@ -1,0 +1,1 @@
+//! Generated models and scenes for tests and benchmarks.
