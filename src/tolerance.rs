@@ -39,3 +39,7 @@ pub const LARGEST_COORDINATE: f64 = 1e50;
 
 /// The smallest diameter accepted for a polygon. Its sixth power is a normal number.
 pub const SMALLEST_DIAMETER: f64 = 1e-50;
+
+/// What rounding may hide of a point's distance from a wrapper, times the largest coordinate: a rotation into a box's frame
+/// and back, or a distance of two points, each within a few EPSILON.
+pub const WRAPPER_ERROR: f64 = 32.0 * EPSILON;

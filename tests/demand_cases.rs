@@ -7,7 +7,8 @@ mod common;
 
 use std::sync::Arc;
 
-use cstk::body::{BodyBuilder, HierarchyOptions, Mesh};
+use cstk::body::{BodyBuilder, Mesh};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::cobject::{CObject, Class, InducedOptions};
 use cstk::error::{ErrorKind, Result};
 use cstk::pose::{Pose, Vec3};

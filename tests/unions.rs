@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use cstk::body::{Body, BodyBuilder, HierarchyOptions};
+use cstk::body::{Body, BodyBuilder};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::pose::{Pose, Vec3};

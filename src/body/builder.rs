@@ -5,24 +5,9 @@ use std::path::Path;
 use super::mesh_file::read_mesh_file;
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{WrapperTree, split_by_median};
+use crate::hierarchy::{Extent, HierarchyOptions, Progress, WrapperTree, group};
 use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
-
-/// How a hierarchy is built.
-#[derive(Clone, Copy, Debug)]
-pub struct HierarchyOptions {
-    /// Hulls with more vertices than this are replaced by oriented boxes (§2.3.4). At least 8.
-    pub hull_vertex_limit: u32,
-}
-
-impl Default for HierarchyOptions {
-    fn default() -> Self {
-        Self {
-            hull_vertex_limit: 32,
-        }
-    }
-}
 
 /// Primitives on their way to a body. A failed call adds nothing.
 #[derive(Debug)]
@@ -168,12 +153,7 @@ impl BodyBuilder {
                 },
             ));
         }
-        if options.hull_vertex_limit < 8 {
-            return Err(Error::invalid(format!(
-                "hull_vertex_limit must be at least 8, not {}",
-                options.hull_vertex_limit
-            )));
-        }
+        options.check()?;
         progress(0.0)?;
         let vertices = || self.primitives.iter().flat_map(|p| &p.vertices);
         let first = self.primitives[0].vertices[0];
@@ -185,26 +165,27 @@ impl BodyBuilder {
             .iter()
             .map(|primitive| primitive.clone().recentered(&center))
             .collect();
-        let centers: Vec<Vec3> = primitives
-            .iter()
-            .map(|p| p.vertices.iter().sum::<Vec3>() / p.vertices.len() as f64)
-            .collect();
-        let tree = WrapperTree::build(
-            split_by_median(&centers),
-            &primitives,
-            options.hull_vertex_limit as usize,
-            progress,
-        )?;
+        let mut progress = Progress::new(progress);
+        let extents: Vec<Extent> = primitives.iter().map(|p| Extent::of(&p.vertices)).collect();
+        let edges = |part: u32, hear: &mut dyn FnMut([Vec3; 2])| {
+            let primitive = &primitives[part as usize];
+            for edge in &primitive.edges {
+                hear(edge.map(|i| primitive.vertices[i as usize]));
+            }
+        };
+        let subsets = group(&extents, edges, options, &mut progress.part(0.0, 0.4))?;
+        let vertices = |part: u32| primitives[part as usize].vertices.clone();
+        let tree = WrapperTree::build(subsets, vertices, options, &mut progress.part(0.4, 1.0))?;
         let statistics = BodyStatistics {
             primitives: primitives.len() as u64,
             faces_split: self.faces_split,
             faces_dropped: self.faces_dropped,
-            nodes: tree.subsets.nodes.len() as u64,
-            depth: tree.subsets.depth() as u64,
+            nodes: tree.subsets().nodes.len() as u64,
+            depth: tree.subsets().depth() as u64,
             low: low.into(),
             high: high.into(),
         };
-        progress(1.0)?;
+        progress.at(1.0)?;
         Ok(Body::assemble(
             self.dimension,
             center,

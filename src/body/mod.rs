@@ -6,4 +6,4 @@ mod builder;
 mod mesh_file;
 
 pub use body::{Body, BodyStatistics};
-pub use builder::{BodyBuilder, HierarchyOptions, Mesh};
+pub use builder::{BodyBuilder, Mesh};

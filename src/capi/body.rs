@@ -10,8 +10,9 @@ use super::input::{
     OptionsStruct, Output, OutputSlice, options_or_default, path, points, slice, write_defaults,
 };
 use super::status::cstk_status;
-use crate::body::{Body, BodyBuilder, HierarchyOptions, Mesh};
+use crate::body::{Body, BodyBuilder, Mesh};
 use crate::error::{Error, ErrorKind};
+use crate::hierarchy::HierarchyOptions;
 use crate::primitive::{Feature, FeatureKind};
 
 /// Collects the primitives of a body.
@@ -290,6 +291,7 @@ pub unsafe extern "C" fn cstk_body_build(
             let options = unsafe { options_or_default(options, "options")? };
             let options = HierarchyOptions {
                 hull_vertex_limit: options.hull_vertex_limit,
+                ..HierarchyOptions::default()
             };
             let mut report = |fraction: f64| match progress {
                 // SAFETY: the caller gives a function of this type.

@@ -1,12 +1,29 @@
 //! Hierarchies: the tree of sets over a body's primitives, and the same tree with a convex wrapper at each node (§3).
 
-mod median_split;
+mod adjacent;
+mod binned_split;
+mod bounding_sphere;
+mod cost;
+mod cover;
+mod extent;
+mod extremes;
+mod forest;
+mod greedy_clustering;
+mod grouping;
+mod nearby;
+mod options;
 mod oriented_box;
+mod parallel;
 mod subset_tree;
 mod wrapper;
 mod wrapper_tree;
 
-pub use median_split::split_by_median;
+pub use cost::Cost;
+pub use extent::Extent;
+use forest::Forest;
+pub use grouping::group;
+pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
+pub use parallel::Progress;
 pub use subset_tree::{Node, SubsetTree};
-pub use wrapper::{Wrapper, cover};
+pub use wrapper::Wrapper;
 pub use wrapper_tree::WrapperTree;

@@ -1,11 +1,37 @@
-//! A box along the principal axes of points: the wrapper where a hull has too many vertices (§2.3.4).
+//! A box of about the least volume around points: the wrapper where a hull has too many vertices (§2.3.4).
 
-use nalgebra::SymmetricEigen;
+use nalgebra::{SymmetricEigen, Vector2};
 
+use super::extremes::Extremes;
 use crate::pose::{Mat3, Vec3};
+use crate::primitive::monotone_chain;
 
 /// The eight corners of a box that covers the points, up to rounding.
-pub fn oriented_box(points: &[Vec3]) -> Vec<Vec3> {
+///
+/// Starts from the axes of coordinates and from the principal axes of the extreme points; each is turned about its own
+/// three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
+pub fn oriented_box(points: &[Vec3], extremes: &Extremes) -> Vec<Vec3> {
+    let few = &extremes.points;
+    let mut best = (f64::INFINITY, Mat3::identity());
+    for start in [Mat3::identity(), principal_axes(few)] {
+        let mut axes = start;
+        let mut size = measure(few, &axes);
+        for turn in 0..6 {
+            let turned = least_rectangle(few, &axes, turn % 3);
+            let smaller = measure(few, &turned);
+            if smaller < size {
+                (size, axes) = (smaller, turned);
+            }
+        }
+        // The axes of coordinates are kept where nothing is gained: their boxes are exact.
+        if size < best.0 * (1.0 - 1e-9) {
+            best = (size, axes);
+        }
+    }
+    corners_along(points, &best.1)
+}
+
+fn principal_axes(points: &[Vec3]) -> Mat3 {
     let mean = points.iter().sum::<Vec3>() / points.len() as f64;
     let size = points
         .iter()
@@ -16,19 +42,69 @@ pub fn oriented_box(points: &[Vec3]) -> Vec<Vec3> {
         .map(|p| (p - mean) / size)
         .map(|d| d * d.transpose())
         .sum();
-    // The axes of coordinates are the fallback where they give the smaller box.
-    let principal = SymmetricEigen::new(covariance).eigenvectors;
-    [principal, Mat3::identity()]
+    SymmetricEigen::new(covariance).eigenvectors
+}
+
+/// The axes turned about one of them so that the projection along it fills the least rectangle.
+fn least_rectangle(points: &[Vec3], axes: &Mat3, about: usize) -> Mat3 {
+    let (w, u, v) = (
+        axes.column(about).into_owned(),
+        axes.column((about + 1) % 3).into_owned(),
+        axes.column((about + 2) % 3).into_owned(),
+    );
+    let flat: Vec<Vector2<f64>> = points
         .iter()
-        .map(|axes| corners_along(points, axes))
-        .min_by(|a, b| surface(a).total_cmp(&surface(b)))
-        .unwrap_or_default()
+        .map(|p| Vector2::new(u.dot(p), v.dot(p)))
+        .collect();
+    let hull = monotone_chain(&flat, (0..flat.len() as u32).collect(), 0.0);
+    let mut best = (f64::INFINITY, Vector2::x());
+    for (i, &from) in hull.iter().enumerate() {
+        let edge = flat[hull[(i + 1) % hull.len()] as usize] - flat[from as usize];
+        let Some(along) = edge.try_normalize(0.0) else {
+            continue;
+        };
+        let across = Vector2::new(-along.y, along.x);
+        let span = |axis: Vector2<f64>| {
+            let ends = hull.iter().map(|&k| axis.dot(&flat[k as usize]));
+            let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            high - low
+        };
+        let area = span(along) * span(across);
+        if area < best.0 {
+            best = (area, along);
+        }
+    }
+    let (cos, sin) = (best.1.x, best.1.y);
+    // Made upright again: errors would add up over the turns.
+    let first = (u * cos + v * sin).normalize();
+    let w = (w - first * first.dot(&w)).normalize();
+    let mut turned = Mat3::zeros();
+    turned.set_column(about, &w);
+    turned.set_column((about + 1) % 3, &first);
+    turned.set_column((about + 2) % 3, &w.cross(&first));
+    turned
+}
+
+/// The box's volume, its sides lengthened a little so that flat boxes are told apart too.
+fn measure(points: &[Vec3], axes: &Mat3) -> f64 {
+    let (low, high) = span(points, axes);
+    let sides = high - low;
+    let least = 1e-3 * sides.amax();
+    sides.iter().map(|side| side + least).product()
+}
+
+fn span(points: &[Vec3], axes: &Mat3) -> (Vec3, Vec3) {
+    let first = axes.tr_mul(&points[0]);
+    points
+        .iter()
+        .map(|p| axes.tr_mul(p))
+        .fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
 fn corners_along(points: &[Vec3], axes: &Mat3) -> Vec<Vec3> {
-    let locals = points.iter().map(|p| axes.tr_mul(p));
-    let first = axes.tr_mul(&points[0]);
-    let (low, high) = locals.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
+    let (low, high) = span(points, axes);
     (0..8)
         .map(|corner| {
             let pick = |axis: usize| {
@@ -41,10 +117,4 @@ fn corners_along(points: &[Vec3], axes: &Mat3) -> Vec<Vec3> {
             axes * Vec3::new(pick(0), pick(1), pick(2))
         })
         .collect()
-}
-
-fn surface(corners: &[Vec3]) -> f64 {
-    let side = |i: usize| (corners[i] - corners[0]).norm();
-    let (x, y, z) = (side(1), side(2), side(4));
-    x * y + y * z + z * x
 }

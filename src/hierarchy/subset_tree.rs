@@ -1,14 +1,14 @@
 //! The binary tree of sets of primitives (§3.1.3).
 
-/// A node: a leaf holds one primitive, an interior node has two children.
+/// A node: a leaf holds one part of the body, an interior node has two children.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
-    Leaf { primitive: u32 },
+    Leaf { part: u32 },
     Interior { children: [u32; 2] },
 }
 
-/// The tree in depth-first order: the root is node 0, children follow their parents.
-#[derive(Clone, Debug, Default)]
+/// The tree in depth-first order: the root is node 0, a first child follows its parent, the second one all of the first.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SubsetTree {
     pub nodes: Vec<Node>,
 }
@@ -16,16 +16,30 @@ pub struct SubsetTree {
 impl SubsetTree {
     /// The number of levels: 1 for a single leaf.
     pub fn depth(&self) -> usize {
-        let mut depths = vec![1usize; self.nodes.len()];
-        let mut deepest = 0;
+        self.levels().into_iter().max().unwrap_or(0) as usize + 1
+    }
+
+    /// The level of each node; the root's is 0.
+    pub fn levels(&self) -> Vec<u32> {
+        let mut levels = vec![0; self.nodes.len()];
         for (i, node) in self.nodes.iter().enumerate() {
-            deepest = deepest.max(depths[i]);
             if let Node::Interior { children } = node {
                 for &child in children {
-                    depths[child as usize] = depths[i] + 1;
+                    levels[child as usize] = levels[i] + 1;
                 }
             }
         }
-        deepest
+        levels
+    }
+
+    /// The number of nodes of each subtree.
+    pub fn sizes(&self) -> Vec<u32> {
+        let mut sizes = vec![1; self.nodes.len()];
+        for (i, node) in self.nodes.iter().enumerate().rev() {
+            if let Node::Interior { children: [a, b] } = *node {
+                sizes[i] = 1 + sizes[a as usize] + sizes[b as usize];
+            }
+        }
+        sizes
     }
 }

@@ -1,128 +1,210 @@
-//! A wrapper on every node of a subset tree, each covering its leaves' vertices directly (§3.2.4).
+//! The construction phase (§3.2.4): a wrapper on every node of a subset tree.
 
-use super::{Node, SubsetTree, Wrapper, cover};
+use super::cover::{Cover, by_coordinates, merge_sorted};
+use super::parallel::{self, Progress};
+use super::{Extent, HierarchyOptions, Node, SubsetTree, Wrapper, WrapperKind};
 use crate::error::Result;
 use crate::pose::Vec3;
-use crate::primitive::Convex;
 
-/// The subset tree with the wrapper of each node.
-#[derive(Clone, Debug)]
+/// The subset tree with the wrapper of each node, packed.
+#[derive(Clone, Debug, PartialEq)]
 pub struct WrapperTree {
-    pub subsets: SubsetTree,
-    pub wrappers: Vec<Wrapper>,
+    pub(super) subsets: SubsetTree,
+    pub(super) frames: Vec<Frame>,
+    pub(super) corners: Vec<Vec3>,
+}
+
+/// A wrapper whose corners lie in the tree's common array.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    pub first_corner: usize,
+    pub corner_count: usize,
+    pub excess: f64,
+    pub center: Vec3,
+    pub radius: f64,
+}
+
+/// What a finished node hands up to its parent.
+struct Finished {
+    cover: Cover,
+    /// Sorted points that stand for all below, and how far those may lie outside the points' hull.
+    points: Vec<Vec3>,
+    inherited: f64,
+    extent: Extent,
 }
 
 impl WrapperTree {
-    /// Builds the wrappers from the leaves up. `progress` hears the fraction done and may end the work with an error.
+    /// Builds the wrappers from the leaves up. `vertices` tells the vertices of a part.
     pub fn build(
         subsets: SubsetTree,
-        primitives: &[Convex],
-        vertex_limit: usize,
-        progress: &mut dyn FnMut(f64) -> Result<()>,
+        vertices: impl Fn(u32) -> Vec<Vec3> + Sync,
+        options: &HierarchyOptions,
+        progress: &mut Progress,
     ) -> Result<Self> {
-        let count = subsets.nodes.len();
-        let mut wrappers: Vec<Option<Wrapper>> = vec![None; count];
-        // The points under each node not yet merged into its parent. Children follow their parents, so going backwards
-        // meets them first. A hull's vertices stand for the points they cover; their excess adds up to the parent's.
-        let mut pending: Vec<(Vec<Vec3>, f64)> = vec![Default::default(); count];
-        for i in (0..count).rev() {
-            let (points, inherited) = match subsets.nodes[i] {
-                Node::Leaf { primitive } => (primitives[primitive as usize].vertices.clone(), 0.0),
+        let threads = options.thread_count();
+        let sizes = subsets.sizes();
+        // Subtrees small enough to be shared out; the nodes above them follow. A node's wrapper depends on its subtree
+        // alone, so that the cut does not show.
+        let task_size = (subsets.nodes.len() / (16 * threads)).max(512);
+        let mut tasks = Vec::new();
+        let mut upper = Vec::new();
+        let mut node = 0;
+        while node < subsets.nodes.len() {
+            if sizes[node] as usize <= task_size {
+                tasks.push(node);
+                node += sizes[node] as usize;
+            } else {
+                upper.push(node);
+                node += 1;
+            }
+        }
+        let finish = |node: usize, children: Option<[Finished; 2]>| match subsets.nodes[node] {
+            Node::Leaf { part } => wrap_leaf(vertices(part), options),
+            Node::Interior { .. } => match children {
+                Some(children) => wrap_children(children, options),
+                None => unreachable!("an interior node has children"),
+            },
+        };
+        let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
+            let from = tasks[t];
+            let mut stack: Vec<Finished> = Vec::new();
+            let mut covers = Vec::new();
+            // Backwards, children come before their parents, and the first child last.
+            for node in (from..from + sizes[from] as usize).rev() {
+                let children = match subsets.nodes[node] {
+                    Node::Leaf { .. } => None,
+                    Node::Interior { .. } => stack.pop().zip(stack.pop()).map(<[_; 2]>::from),
+                };
+                let finished = finish(node, children);
+                covers.push(finished.cover.clone());
+                stack.push(finished);
+            }
+            (covers, stack.pop())
+        })?;
+        let mut waiting: Vec<Option<Finished>> = Vec::new();
+        waiting.resize_with(subsets.nodes.len(), || None);
+        let mut frames = vec![None; subsets.nodes.len()];
+        let mut corners = Vec::new();
+        let mut pack = |node: usize, cover: &Cover| {
+            frames[node] = Some(Frame {
+                first_corner: corners.len(),
+                corner_count: cover.corners.len(),
+                excess: cover.excess,
+                center: cover.center,
+                radius: cover.radius,
+            });
+            corners.extend_from_slice(&cover.corners);
+        };
+        for (&from, (covers, root)) in tasks.iter().zip(done) {
+            for (node, cover) in (from..from + covers.len()).rev().zip(&covers) {
+                pack(node, cover);
+            }
+            waiting[from] = root;
+        }
+        let count = upper.len();
+        for (i, node) in upper.into_iter().rev().enumerate() {
+            let children = match subsets.nodes[node] {
+                Node::Leaf { .. } => None,
                 Node::Interior { children } => {
-                    let [(mut points, left), (others, right)] =
-                        children.map(|child| std::mem::take(&mut pending[child as usize]));
-                    points.extend(others);
-                    sort_and_deduplicate(&mut points);
-                    (points, left.max(right))
+                    let [a, b] = children.map(|child| waiting[child as usize].take());
+                    a.zip(b).map(<[_; 2]>::from)
                 }
             };
-            let (mut wrapper, is_hull) = cover(&points, vertex_limit);
-            wrapper.excess += inherited;
-            wrapper.radius += inherited;
-            // Only hull vertices can be vertices of a hull above; a box's corners would loosen it.
-            pending[i] = if is_hull {
-                (wrapper.corners.clone(), wrapper.excess)
-            } else {
-                (points, inherited)
-            };
-            wrappers[i] = Some(wrapper);
-            if i % 256 == 0 {
-                progress((count - i) as f64 / count as f64)?;
-            }
+            let finished = finish(node, children);
+            pack(node, &finished.cover);
+            waiting[node] = Some(finished);
+            progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
         }
         Ok(Self {
             subsets,
-            wrappers: wrappers.into_iter().flatten().collect(),
+            frames: frames.into_iter().flatten().collect(),
+            corners,
         })
     }
-}
 
-fn sort_and_deduplicate(points: &mut Vec<Vec3>) {
-    points.sort_by(|p, q| {
-        let by_x = p.x.total_cmp(&q.x);
-        by_x.then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z))
-    });
-    points.dedup();
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::gjk::{PointCloud, gjk};
-    use crate::hierarchy::split_by_median;
-    use crate::primitive::convex_polygon;
-
-    /// Triangles on a bumpy sphere: hulls of all sizes, boxes where they have many vertices.
-    fn bumpy(count: usize) -> Vec<Convex> {
-        (0..count)
-            .map(|i| {
-                let at = |k: usize| {
-                    let j = (3 * i + k) as f64;
-                    let (azimuth, height) = (2.4 * j, 1.0 - 2.0 * (i as f64 + 0.5) / count as f64);
-                    let r = (1.0 - height * height).sqrt() * (1.0 + 0.1 * (7.0 * j).sin());
-                    Vec3::new(
-                        r * azimuth.cos(),
-                        r * azimuth.sin(),
-                        height + 0.02 * k as f64,
-                    )
-                };
-                convex_polygon(&[at(0), at(1), at(2)]).unwrap()
-            })
-            .collect()
+    pub fn subsets(&self) -> &SubsetTree {
+        &self.subsets
     }
 
-    #[test]
-    fn no_leaf_vertex_lies_outside_its_ancestors() {
-        let primitives = bumpy(300);
-        let centers: Vec<_> = primitives.iter().map(|p| p.vertices[0]).collect();
-        let tree = WrapperTree::build(split_by_median(&centers), &primitives, 16, &mut |_| Ok(()))
-            .unwrap();
-        let mut stack = vec![(0u32, Vec::new())];
-        let mut checked = 0;
-        while let Some((i, mut above)) = stack.pop() {
-            above.push(i);
-            match tree.subsets.nodes[i as usize] {
-                Node::Interior { children } => {
-                    stack.extend(children.map(|child| (child, above.clone())));
-                }
-                Node::Leaf { primitive } => {
-                    for vertex in &primitives[primitive as usize].vertices {
-                        for &node in &above {
-                            let wrapper = &tree.wrappers[node as usize];
-                            let outside = gjk(
-                                &PointCloud(&wrapper.corners),
-                                &PointCloud(&[*vertex]),
-                                Vec3::zeros(),
-                                f64::INFINITY,
-                            );
-                            assert!(outside.lower <= wrapper.excess + 1e-15);
-                            assert!((vertex - wrapper.center).norm() <= wrapper.radius + 1e-15);
-                            checked += 1;
-                        }
-                    }
-                }
+    pub fn node(&self, node: u32) -> Node {
+        self.subsets.nodes[node as usize]
+    }
+
+    pub fn wrapper(&self, node: u32) -> Wrapper<'_> {
+        let frame = &self.frames[node as usize];
+        Wrapper {
+            corners: &self.corners[frame.first_corner..][..frame.corner_count],
+            excess: frame.excess,
+            center: frame.center,
+            radius: frame.radius,
+        }
+    }
+
+    pub fn radius(&self, node: u32) -> f64 {
+        self.frames[node as usize].radius
+    }
+
+    /// Bytes of memory the tree takes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.subsets.nodes[..])
+            + size_of_val(&self.frames[..])
+            + size_of_val(&self.corners[..])
+    }
+}
+
+fn wrap_leaf(mut points: Vec<Vec3>, options: &HierarchyOptions) -> Finished {
+    points.sort_unstable_by(by_coordinates);
+    points.dedup();
+    wrap(Extent::of(&points), points, 0.0, None, options)
+}
+
+fn wrap_children([a, b]: [Finished; 2], options: &HierarchyOptions) -> Finished {
+    let extent = a.extent.union(&b.extent);
+    let points = merge_sorted(&a.points, &b.points);
+    let inherited = a.inherited.max(b.inherited);
+    wrap(
+        extent,
+        points,
+        inherited,
+        Some([&a.cover, &b.cover]),
+        options,
+    )
+}
+
+fn wrap(
+    extent: Extent,
+    points: Vec<Vec3>,
+    inherited: f64,
+    children: Option<[&Cover; 2]>,
+    options: &HierarchyOptions,
+) -> Finished {
+    let finished = |cover, points, inherited| Finished {
+        cover,
+        points,
+        inherited,
+        extent,
+    };
+    match options.wrapper {
+        WrapperKind::Hull => {
+            let (cover, is_hull) = Cover::hull(&points, options.hull_vertex_limit as usize);
+            if is_hull {
+                // A hull's vertices stand for all below from here on; a box's corners would loosen the hulls above.
+                let excess = inherited + cover.excess;
+                finished(cover.clone().grown(inherited), cover.corners, excess)
+            } else {
+                finished(cover.grown(inherited), points, inherited)
             }
         }
-        assert!(checked > 6000);
+        WrapperKind::OrientedBox => finished(Cover::oriented_box(&points), points, inherited),
+        WrapperKind::TightSphere => finished(Cover::tight_sphere(&points), points, inherited),
+        // These need no points above the leaves.
+        WrapperKind::AlignedBox => finished(Cover::aligned_box(&extent), Vec::new(), 0.0),
+        WrapperKind::MergedSphere => {
+            let cover = match children {
+                Some([a, b]) => Cover::merged_sphere(a, b),
+                None => Cover::tight_sphere(&points),
+            };
+            finished(cover, Vec::new(), 0.0)
+        }
     }
 }

@@ -54,8 +54,8 @@ impl<'a> Pairing<'a> {
 
     /// A safe lower bound of the distance, by the spheres around the bodies.
     pub fn sphere_bound(&self) -> f64 {
-        let (wrapper_a, wrapper_b) = (&self.a.tree().wrappers[0], &self.b.tree().wrappers[0]);
-        wrapper_a.sphere_bound(wrapper_b, &self.relative) - self.slack()
+        let (wrapper_a, wrapper_b) = (self.a.tree().wrapper(0), self.b.tree().wrapper(0));
+        wrapper_a.sphere_bound(&wrapper_b, &self.relative) - self.slack()
     }
 
     /// The closest points of one primitive pair: a pure function of the primitives and the relative pose.

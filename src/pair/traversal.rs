@@ -64,13 +64,10 @@ pub fn traverse(
         if lower > visitor.bound() {
             continue;
         }
-        let (node_a, node_b) = (
-            tree_a.subsets.nodes[i as usize],
-            tree_b.subsets.nodes[j as usize],
-        );
-        let longer_a = || tree_a.wrappers[i as usize].radius >= tree_b.wrappers[j as usize].radius;
+        let (node_a, node_b) = (tree_a.node(i), tree_b.node(j));
+        let longer_a = || tree_a.radius(i) >= tree_b.radius(j);
         let children = match (node_a, node_b) {
-            (Node::Leaf { primitive: a }, Node::Leaf { primitive: b }) => {
+            (Node::Leaf { part: a }, Node::Leaf { part: b }) => {
                 scratch.visit_pair(pairing, [a, b], visitor)?;
                 continue;
             }
@@ -80,13 +77,13 @@ pub fn traverse(
         };
         let bounds = children.map(|(i, j)| {
             scratch.statistics.node_pairs += 1;
-            let (a, b) = (&tree_a.wrappers[i as usize], &tree_b.wrappers[j as usize]);
+            let (a, b) = (tree_a.wrapper(i), tree_b.wrapper(j));
             let cutoff = visitor.bound() + slack;
-            let by_sphere = a.sphere_bound(b, &pairing.relative);
+            let by_sphere = a.sphere_bound(&b, &pairing.relative);
             let bound = if by_sphere > cutoff {
                 by_sphere
             } else {
-                by_sphere.max(a.hull_bound(b, &pairing.relative, cutoff))
+                by_sphere.max(a.hull_bound(&b, &pairing.relative, cutoff))
             };
             bound - slack
         });

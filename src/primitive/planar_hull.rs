@@ -20,8 +20,12 @@ pub fn plane_axes(normal: &Vec3) -> (Vec3, Vec3) {
 /// Indices of the hull's corners, counter-clockwise from the leftmost. Points within `tolerance` of an edge, or of each
 /// other, are dropped; so one index is a point, two a segment, more a polygon.
 pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
+    monotone_chain(points, without_near_points(points, tolerance), tolerance)
+}
+
+/// The same among the points of some indices, which need not be distinct if the tolerance is 0.
+pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance: f64) -> Vec<u32> {
     let at = |i: u32| points[i as usize];
-    let mut distinct = without_near_points(points, tolerance);
     distinct.sort_by(|&i, &j| {
         let (p, q) = (at(i), at(j));
         p.x.total_cmp(&q.x)

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use cstk::body::{Body, BodyBuilder, HierarchyOptions, Mesh};
+use cstk::body::{Body, BodyBuilder, Mesh};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 
 use super::oracle::moved_exactly;

@@ -1,0 +1,192 @@
+//! The top-down builder: splits where a binned surface-area heuristic is least (Goldsmith and Salmon 1987; Wald 2007).
+
+use super::Forest;
+use super::extent::Extent;
+use super::parallel::{self, Progress};
+use crate::error::Result;
+
+const BINS: usize = 16;
+
+/// Sets larger than this are split before the work is shared out.
+const TASK: usize = 4096;
+
+/// A subtree not yet in the forest: a body, or an index of a pair of them.
+#[derive(Clone, Copy)]
+enum Branch {
+    Body(u32),
+    Pair(u32),
+}
+
+/// Builds a tree over the bodies from the top; returns its root.
+///
+/// No deeper than 2 log2 N: where the heuristic would lead deeper, sets are halved at the median.
+pub fn split(
+    forest: &mut Forest,
+    mut bodies: Vec<u32>,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<u32> {
+    let depth_limit = 2 * ceil_log2(bodies.len());
+    // Large sets first, so that the rest can be shared out.
+    let mut upper: Vec<[Branch; 2]> = Vec::new();
+    let mut tasks: Vec<(usize, usize, usize)> = Vec::new();
+    let root = split_upper(forest, &mut bodies, 0, depth_limit, &mut upper, &mut tasks);
+    progress.at(0.3)?;
+    let shared = &*forest;
+    let bodies = &bodies;
+    let lower = parallel::map(threads, tasks.len(), &mut progress.part(0.3, 0.9), |t| {
+        let (from, to, levels) = tasks[t];
+        let mut members = bodies[from..to].to_vec();
+        let mut pairs = Vec::new();
+        let root = split_whole(shared, &mut members, levels, &mut pairs);
+        (root, pairs)
+    })?;
+    let roots: Vec<u32> = lower
+        .iter()
+        .map(|(root, pairs)| {
+            let mut made: Vec<u32> = Vec::with_capacity(pairs.len());
+            for pair in pairs {
+                let [a, b] = pair.map(|branch| match branch {
+                    Branch::Body(body) => body,
+                    Branch::Pair(i) => made[i as usize],
+                });
+                made.push(forest.merge(a, b));
+            }
+            match *root {
+                Branch::Body(body) => body,
+                Branch::Pair(i) => made[i as usize],
+            }
+        })
+        .collect();
+    // In the upper part a body is the number of a task.
+    let mut made: Vec<u32> = Vec::with_capacity(upper.len());
+    for pair in &upper {
+        let [a, b] = pair.map(|branch| match branch {
+            Branch::Body(task) => roots[task as usize],
+            Branch::Pair(i) => made[i as usize],
+        });
+        made.push(forest.merge(a, b));
+    }
+    Ok(match root {
+        Branch::Body(task) => roots[task as usize],
+        Branch::Pair(i) => made[i as usize],
+    })
+}
+
+fn split_upper(
+    forest: &Forest,
+    members: &mut [u32],
+    start: usize,
+    levels: usize,
+    pairs: &mut Vec<[Branch; 2]>,
+    tasks: &mut Vec<(usize, usize, usize)>,
+) -> Branch {
+    if members.len() <= TASK {
+        tasks.push((start, start + members.len(), levels));
+        return Branch::Body((tasks.len() - 1) as u32);
+    }
+    let middle = partition(forest, members, levels);
+    let (left, right) = members.split_at_mut(middle);
+    let left = split_upper(forest, left, start, levels - 1, pairs, tasks);
+    let right = split_upper(forest, right, start + middle, levels - 1, pairs, tasks);
+    pairs.push([left, right]);
+    Branch::Pair((pairs.len() - 1) as u32)
+}
+
+fn split_whole(
+    forest: &Forest,
+    members: &mut [u32],
+    levels: usize,
+    pairs: &mut Vec<[Branch; 2]>,
+) -> Branch {
+    if let [body] = *members {
+        return Branch::Body(body);
+    }
+    let middle = partition(forest, members, levels);
+    let (left, right) = members.split_at_mut(middle);
+    let left = split_whole(forest, left, levels - 1, pairs);
+    let right = split_whole(forest, right, levels - 1, pairs);
+    pairs.push([left, right]);
+    Branch::Pair((pairs.len() - 1) as u32)
+}
+
+/// Orders the members into two sets that both fit under `levels` more levels; returns the size of the first.
+fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
+    let centers = Extent::of(&[forest.center(members[0])]);
+    let centers = members.iter().fold(centers, |all, &i| {
+        let center = forest.center(i);
+        all.union(&Extent {
+            low: center,
+            high: center,
+        })
+    });
+    let bin = |axis: usize, body: u32| -> usize {
+        let along = (forest.center(body)[axis] - centers.low[axis]) / centers.size()[axis];
+        ((along * BINS as f64) as usize).min(BINS - 1)
+    };
+    let mut best: Option<(f64, usize, usize, usize)> = None;
+    for axis in 0..3 {
+        if centers.size()[axis] <= 0.0 {
+            continue;
+        }
+        let mut bins: [(usize, Option<Extent>); BINS] = [(0, None); BINS];
+        for &body in members.iter() {
+            let (count, extent) = &mut bins[bin(axis, body)];
+            let own = forest.extents[body as usize];
+            *count += 1;
+            *extent = Some(extent.map_or(own, |e| e.union(&own)));
+        }
+        let mut above = [(0, 0.0); BINS];
+        let mut sum: (usize, Option<Extent>) = (0, None);
+        for k in (1..BINS).rev() {
+            sum = joined(sum, bins[k]);
+            above[k] = (sum.0, sum.1.map_or(0.0, |e| half_surface(&e)));
+        }
+        sum = (0, None);
+        for k in 1..BINS {
+            sum = joined(sum, bins[k - 1]);
+            let (left, right) = (sum.0, above[k].0);
+            if left == 0 || right == 0 || ceil_log2(left.max(right)) + 1 > levels {
+                continue;
+            }
+            let surface = sum.1.map_or(0.0, |e| half_surface(&e));
+            let cost = surface * left as f64 + above[k].1 * right as f64;
+            if best.is_none_or(|(least, ..)| cost < least) {
+                best = Some((cost, axis, k, left));
+            }
+        }
+    }
+    match best {
+        Some((_, axis, k, left)) => {
+            // Stable, so that the order is the same on every machine.
+            members.sort_by_key(|&body| bin(axis, body) >= k);
+            left
+        }
+        None => {
+            let axis = centers.size().imax();
+            let middle = members.len() / 2;
+            members.select_nth_unstable_by(middle, |&i, &j| {
+                let order = forest.center(i)[axis].total_cmp(&forest.center(j)[axis]);
+                order.then(i.cmp(&j))
+            });
+            middle
+        }
+    }
+}
+
+fn joined(a: (usize, Option<Extent>), b: (usize, Option<Extent>)) -> (usize, Option<Extent>) {
+    let extent = match (a.1, b.1) {
+        (Some(a), Some(b)) => Some(a.union(&b)),
+        (a, b) => a.or(b),
+    };
+    (a.0 + b.0, extent)
+}
+
+fn half_surface(extent: &Extent) -> f64 {
+    let s = extent.size();
+    s.x * s.y + s.y * s.z + s.z * s.x
+}
+
+fn ceil_log2(n: usize) -> usize {
+    n.next_power_of_two().trailing_zeros() as usize
+}

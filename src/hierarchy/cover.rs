@@ -1,0 +1,166 @@
+//! Wrappers around points: hulls, boxes and spheres that leave no point out, whatever rounding does.
+
+use std::cmp::Ordering;
+
+use super::bounding_sphere::bounding_sphere;
+use super::extremes::{Extremes, extremes};
+use super::oriented_box::oriented_box;
+use super::Extent;
+use crate::pose::Vec3;
+use crate::primitive::checked_hull;
+use crate::tolerance;
+
+/// So few points are their own hull: what a hull would leave out costs less than finding it.
+const FEW: usize = 16;
+
+/// A wrapper that owns its corners.
+#[derive(Clone, Debug)]
+pub struct Cover {
+    pub corners: Vec<Vec3>,
+    pub excess: f64,
+    pub center: Vec3,
+    pub radius: f64,
+}
+
+impl Cover {
+    /// With a sphere around all the points; the corners' hull grown by `excess` covers them.
+    fn around(points: &[Vec3], corners: Vec<Vec3>, excess: f64) -> Self {
+        let center = Extent::of(points).center();
+        Self {
+            corners,
+            excess,
+            center,
+            radius: reach(points, &center),
+        }
+    }
+
+    /// The sphere of a given centre as its own wrapper.
+    fn sphere(center: Vec3, radius: f64) -> Self {
+        Self {
+            corners: vec![center],
+            excess: radius,
+            center,
+            radius,
+        }
+    }
+
+    /// The points' convex hull, or an oriented box where it has more than `vertex_limit` vertices. Also says whether the
+    /// corners are given points (a hull) rather than new ones (a box).
+    pub fn hull(points: &[Vec3], vertex_limit: usize) -> (Self, bool) {
+        if points.len() <= FEW.min(vertex_limit) {
+            return (Self::around(points, points.to_vec(), 0.0), true);
+        }
+        let extremes = extremes(points);
+        if extremes.points.len() <= vertex_limit {
+            // An excess of a millionth of the size hardly loosens the bound; more, and the box is the better wrapper.
+            let tolerated = 1e-6 * (extremes.extent.diameter());
+            let hull = checked_hull(points, tolerated, vertex_limit);
+            if let Some(hull) = hull.filter(|hull| hull.excess <= tolerated) {
+                let corners = hull.vertices.iter().map(|&i| points[i as usize]).collect();
+                let excess = hull.excess + rounding(points);
+                return (Self::around(points, corners, excess), true);
+            }
+            if points.len() <= vertex_limit {
+                return (Self::around(points, points.to_vec(), 0.0), true);
+            }
+        }
+        (Self::boxed(points, &extremes), false)
+    }
+
+    /// An oriented box of about the least volume.
+    pub fn oriented_box(points: &[Vec3]) -> Self {
+        Self::boxed(points, &extremes(points))
+    }
+
+    fn boxed(points: &[Vec3], extremes: &Extremes) -> Self {
+        let corners = oriented_box(points, extremes);
+        Self::around(points, corners, rounding(points))
+    }
+
+    pub fn aligned_box(extent: &Extent) -> Self {
+        let (low, high) = (extent.low, extent.high);
+        let corners: Vec<Vec3> = (0..8)
+            .map(|i| {
+                let pick = |axis: usize| {
+                    if i >> axis & 1 == 0 {
+                        low[axis]
+                    } else {
+                        high[axis]
+                    }
+                };
+                Vec3::new(pick(0), pick(1), pick(2))
+            })
+            .collect();
+        Self::around(&corners.clone(), corners, 0.0)
+    }
+
+    /// A nearly least sphere around the points.
+    pub fn tight_sphere(points: &[Vec3]) -> Self {
+        let center = bounding_sphere(points);
+        Self::sphere(center, reach(points, &center))
+    }
+
+    /// The sphere around two spheres.
+    pub fn merged_sphere(a: &Self, b: &Self) -> Self {
+        let apart = (b.center - a.center).norm();
+        if apart + b.radius <= a.radius {
+            return a.clone();
+        }
+        if apart + a.radius <= b.radius {
+            return b.clone();
+        }
+        let radius = 0.5 * (apart + a.radius + b.radius);
+        let center = a.center + (b.center - a.center) * ((radius - a.radius) / apart);
+        let reach = |child: &Self| (child.center - center).norm() + child.radius;
+        let radius = reach(a).max(reach(b));
+        Self::sphere(center, outwards(radius, &center))
+    }
+
+    /// The same grown by `excess`.
+    pub fn grown(mut self, excess: f64) -> Self {
+        self.excess += excess;
+        self.radius += excess;
+        self
+    }
+}
+
+/// The radius of a sphere around the points, rounded outwards.
+fn reach(points: &[Vec3], center: &Vec3) -> f64 {
+    let farthest = points
+        .iter()
+        .map(|p| (p - center).norm_squared())
+        .fold(0.0, f64::max);
+    outwards(farthest.sqrt(), center)
+}
+
+/// A distance from `center`, with what its computation may have lost.
+fn outwards(distance: f64, center: &Vec3) -> f64 {
+    distance + tolerance::WRAPPER_ERROR * (distance + center.amax())
+}
+
+/// What rounding can hide of a point's distance from a hull or box.
+fn rounding(points: &[Vec3]) -> f64 {
+    let largest = points.iter().map(|p| p.amax()).fold(0.0, f64::max);
+    tolerance::WRAPPER_ERROR * largest
+}
+
+/// The order of points in lists that are merged.
+pub fn by_coordinates(p: &Vec3, q: &Vec3) -> Ordering {
+    let by_x = p.x.total_cmp(&q.x);
+    by_x.then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z))
+}
+
+/// Two sorted lists as one, each point once.
+pub fn merge_sorted(a: &[Vec3], b: &[Vec3]) -> Vec<Vec3> {
+    let mut merged = Vec::with_capacity(a.len() + b.len());
+    let (mut i, mut j) = (0, 0);
+    while i < a.len() && j < b.len() {
+        let order = by_coordinates(&a[i], &b[j]);
+        merged.push(if order.is_le() { a[i] } else { b[j] });
+        i += usize::from(order.is_le());
+        j += usize::from(order.is_ge());
+    }
+    merged.extend_from_slice(&a[i..]);
+    merged.extend_from_slice(&b[j..]);
+    merged
+}

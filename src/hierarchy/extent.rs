@@ -1,0 +1,49 @@
+//! Axis-aligned boxes: the p-set wrappers of the grouping phase (§3.2.1).
+
+use crate::pose::Vec3;
+
+/// The box of a set of points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    pub low: Vec3,
+    pub high: Vec3,
+}
+
+impl Extent {
+    /// The box of points, of which there is at least one.
+    pub fn of(points: &[Vec3]) -> Self {
+        let first = Self {
+            low: points[0],
+            high: points[0],
+        };
+        points[1..].iter().fold(first, |extent, p| Self {
+            low: extent.low.inf(p),
+            high: extent.high.sup(p),
+        })
+    }
+
+    pub fn union(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    pub fn center(&self) -> Vec3 {
+        (self.low + self.high) * 0.5
+    }
+
+    pub fn size(&self) -> Vec3 {
+        self.high - self.low
+    }
+
+    pub fn diameter(&self) -> f64 {
+        self.size().norm()
+    }
+
+    /// The L∞ gap between two boxes; 0 when they meet.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let apart = (other.low - self.high).sup(&(self.low - other.high));
+        apart.max().max(0.0)
+    }
+}

@@ -1,0 +1,225 @@
+//! Bottom-up clustering (§3.2.2, §3.2.5): of all eligible pairs of parentless bodies, the cheapest gets a parent.
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use super::Forest;
+use super::parallel::{self, Progress};
+use crate::error::Result;
+
+/// A body may grow by so many levels in one round before it waits for the others. Without this, bodies whose merging
+/// hardly changes the diameter (nested shells, a hub with thousands of spikes) make one long chain.
+const GROWTH_LIMIT: u8 = 4;
+
+/// The report's DLimit and GLimit: the largest diameter of a body that may merge, and the largest gap to its partner.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    pub diameter: f64,
+    pub gap: f64,
+}
+
+/// Which bodies may merge. Bodies are older the lower their number.
+pub trait Eligibility: Sync {
+    /// Starts a round among the active bodies.
+    fn begin(&mut self, forest: &Forest, active: &[u32], limits: &Limits);
+
+    /// The cheapest active partner among older bodies, with its cost; ties go to the oldest.
+    fn partner(&self, forest: &Forest, body: u32) -> Option<(f64, u32)>;
+
+    /// Two bodies got a parent, which takes part in this round or does not.
+    fn merged(&mut self, forest: &Forest, children: [u32; 2], parent: u32, active: bool);
+}
+
+/// A body and its cheapest older partner. Every pair is known to its younger body, so that the least entry of the queue
+/// is the cheapest of all eligible pairs, with one entry a body.
+#[derive(PartialEq)]
+struct Entry {
+    cost: f64,
+    body: u32,
+    partner: u32,
+}
+
+impl Eq for Entry {}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.cost
+            .total_cmp(&other.cost)
+            .then(self.body.cmp(&other.body))
+            .then(self.partner.cmp(&other.partner))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Merges the bodies until one is left, or until the limits have passed `last` and no pair is eligible. Returns the
+/// parentless bodies.
+pub fn cluster(
+    forest: &mut Forest,
+    bodies: Vec<u32>,
+    rule: &mut impl Eligibility,
+    first: Limits,
+    last: f64,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<Vec<u32>> {
+    let total = bodies.len();
+    let mut parentless = bodies;
+    let mut limits = first;
+    while parentless.len() > 1 {
+        let is_small = |&i: &u32| forest.diameters[i as usize] <= limits.diameter;
+        let (active, dormant): (Vec<u32>, Vec<u32>) = parentless.iter().partition(|&i| is_small(i));
+        let before = parentless.len();
+        let mut held_back = false;
+        if active.len() > 1 {
+            let done = total - before;
+            rule.begin(forest, &active, &limits);
+            let mut hear = |merged: usize| progress.at((done + merged) as f64 / total as f64);
+            let mut round = Round::new(forest, rule, &limits, &active, threads)?;
+            parentless = round.run(&active, dormant, &mut hear)?;
+            held_back = round.held_back;
+        }
+        // A round that held bodies back is repeated, unless it came to little.
+        let worthwhile = parentless.len() < before - before / 8;
+        if !(held_back && worthwhile) {
+            if limits.diameter > last && limits.gap > last && parentless.len() == before {
+                break;
+            }
+            limits = widened(&limits, forest, &parentless);
+        }
+    }
+    Ok(parentless)
+}
+
+/// Both limits doubled; more at once where fewer than two bodies would be active.
+fn widened(limits: &Limits, forest: &Forest, parentless: &[u32]) -> Limits {
+    let mut least = [f64::INFINITY; 2];
+    for &body in parentless {
+        let diameter = forest.diameters[body as usize];
+        if diameter < least[0] {
+            least = [diameter, least[0]];
+        } else if diameter < least[1] {
+            least[1] = diameter;
+        }
+    }
+    let mut factor = 2.0;
+    while limits.diameter * factor < least[1] && least[1].is_finite() {
+        factor *= 2.0;
+    }
+    Limits {
+        diameter: limits.diameter * factor,
+        gap: limits.gap * factor,
+    }
+}
+
+struct Round<'a, R> {
+    forest: &'a mut Forest,
+    rule: &'a mut R,
+    diameter_limit: f64,
+    queue: BinaryHeap<Reverse<Entry>>,
+    /// Levels grown in this round, for bodies that take part and have no parent; `None` for others.
+    growth: Vec<Option<u8>>,
+    held_back: bool,
+}
+
+impl<'a, R: Eligibility> Round<'a, R> {
+    fn new(
+        forest: &'a mut Forest,
+        rule: &'a mut R,
+        limits: &Limits,
+        active: &[u32],
+        threads: usize,
+    ) -> Result<Self> {
+        let mut growth = vec![None; forest.extents.len()];
+        for &body in active {
+            growth[body as usize] = Some(0);
+        }
+        const CHUNK: usize = 1024;
+        let (search, whole) = (&*rule, &*forest);
+        let chunks: Vec<&[u32]> = active.chunks(CHUNK).collect();
+        let found = parallel::map(
+            threads,
+            chunks.len(),
+            &mut Progress::new(&mut |_| Ok(())),
+            |c| {
+                let entry = |&body: &u32| {
+                    let (cost, partner) = search.partner(whole, body)?;
+                    Some(Reverse(Entry {
+                        cost,
+                        body,
+                        partner,
+                    }))
+                };
+                chunks[c].iter().filter_map(entry).collect::<Vec<_>>()
+            },
+        )?;
+        Ok(Self {
+            queue: found.into_iter().flatten().collect::<Vec<_>>().into(),
+            forest,
+            rule,
+            diameter_limit: limits.diameter,
+            growth,
+            held_back: false,
+        })
+    }
+
+    fn run(
+        &mut self,
+        active: &[u32],
+        dormant: Vec<u32>,
+        hear: &mut dyn FnMut(usize) -> Result<()>,
+    ) -> Result<Vec<u32>> {
+        let first_new = self.forest.extents.len() as u32;
+        let mut rest = dormant;
+        while let Some(Reverse(Entry { body, partner, .. })) = self.queue.pop() {
+            let (Some(own), theirs) = (self.growth[body as usize], self.growth[partner as usize])
+            else {
+                continue;
+            };
+            let Some(theirs) = theirs else {
+                self.enqueue(body);
+                continue;
+            };
+            self.growth[body as usize] = None;
+            self.growth[partner as usize] = None;
+            let parent = self.forest.merge(body, partner);
+            let grown = own.max(theirs) + 1;
+            let small = self.forest.diameters[parent as usize] <= self.diameter_limit;
+            let active = small && grown < GROWTH_LIMIT;
+            self.held_back |= small && !active;
+            self.growth.push(active.then_some(grown));
+            if !active {
+                rest.push(parent);
+            }
+            self.rule
+                .merged(self.forest, [body, partner], parent, active);
+            if active {
+                self.enqueue(parent);
+            }
+            if parent % 4096 == 0 {
+                hear((parent - first_new) as usize)?;
+            }
+        }
+        let unmerged = active
+            .iter()
+            .copied()
+            .chain(first_new..self.forest.extents.len() as u32);
+        rest.extend(unmerged.filter(|&i| self.growth[i as usize].is_some()));
+        rest.sort_unstable();
+        Ok(rest)
+    }
+
+    fn enqueue(&mut self, body: u32) {
+        if let Some((cost, partner)) = self.rule.partner(self.forest, body) {
+            self.queue.push(Reverse(Entry {
+                cost,
+                body,
+                partner,
+            }));
+        }
+    }
+}

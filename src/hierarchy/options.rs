@@ -1,0 +1,134 @@
+//! How a hierarchy is built.
+
+use super::Cost;
+use crate::error::{Error, Result};
+
+/// The algorithm of the grouping phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grouping {
+    /// Adjacent-element clustering, then basic clustering of its chunks (§3.2.5). For models that are built once and
+    /// asked often.
+    #[default]
+    Hybrid,
+    /// Basic clustering alone (§3.2.2): needs no adjacency.
+    Basic,
+    /// Top-down splits by the surface-area heuristic (§3.4). The fastest to build.
+    TopDown,
+}
+
+/// The kind of wrapper in the construction phase (§3.2.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WrapperKind {
+    /// Convex hulls of bounded size, oriented boxes where the hull has more vertices (§2.3.4).
+    #[default]
+    Hull,
+    OrientedBox,
+    AlignedBox,
+    /// Spheres around the vertices at the leaves below: O(N log N), much tighter than merged ones.
+    TightSphere,
+    /// Spheres around the children's spheres: O(N).
+    MergedSphere,
+}
+
+/// Which maximal convex pieces stand as leaves (§3.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pieces {
+    /// Each primitive is a leaf.
+    #[default]
+    Off,
+    /// Coplanar neighbours whose union is a convex polygon share a leaf.
+    Coplanar,
+    /// So do edge-adjacent polygons that bound a convex part of a closed body.
+    Patches,
+}
+
+/// How a hierarchy is built. Answers do not depend on it, only their cost does.
+#[derive(Clone, Copy, Debug)]
+pub struct HierarchyOptions {
+    pub grouping: Grouping,
+    pub wrapper: WrapperKind,
+    pub pieces: Pieces,
+    /// Hulls with more vertices than this are replaced by oriented boxes (§2.3.4). At least 8.
+    pub hull_vertex_limit: u32,
+    /// Threads to build on; 0 for as many as the machine runs at once. The tree does not depend on it.
+    pub threads: u32,
+    /// The cost of merging two bodies (eq. 2).
+    pub cost: Cost,
+    /// The first DLimit, the largest diameter of bodies to be merged; 0 for twice the smallest primitive's.
+    pub diameter_limit: f64,
+    /// The first GLimit, the largest gap between bodies to be merged; 0 for a quarter of DLimit.
+    pub gap_limit: f64,
+    /// Polygons that are longer than this many times their width, or much larger than the others, get several leaves,
+    /// each bounding a part (§3.4); 0 for one leaf each. At least 1.5.
+    pub aspect_limit: f64,
+}
+
+impl Default for HierarchyOptions {
+    fn default() -> Self {
+        Self {
+            grouping: Grouping::default(),
+            wrapper: WrapperKind::default(),
+            pieces: Pieces::default(),
+            hull_vertex_limit: 32,
+            threads: 1,
+            cost: Cost::default(),
+            diameter_limit: 0.0,
+            gap_limit: 0.0,
+            aspect_limit: 0.0,
+        }
+    }
+}
+
+impl HierarchyOptions {
+    /// Fails with the name of the option that is out of range.
+    pub fn check(&self) -> Result<()> {
+        if self.hull_vertex_limit < 8 {
+            return Err(Error::invalid(format!(
+                "hull_vertex_limit must be at least 8, not {}",
+                self.hull_vertex_limit
+            )));
+        }
+        if self.threads > 1024 {
+            return Err(Error::invalid(format!(
+                "threads must be at most 1024, not {}",
+                self.threads
+            )));
+        }
+        let not_negative = [
+            ("cost_diameter", self.cost.diameter),
+            ("cost_fill", self.cost.fill),
+            ("cost_balance", self.cost.balance),
+            ("diameter_limit", self.diameter_limit),
+            ("gap_limit", self.gap_limit),
+            ("aspect_limit", self.aspect_limit),
+        ];
+        for (name, value) in not_negative {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(Error::invalid(format!(
+                    "{name} must be finite and not negative, not {value}"
+                )));
+            }
+        }
+        if self.cost.diameter > 16.0 {
+            return Err(Error::invalid(format!(
+                "cost_diameter must be at most 16, not {}",
+                self.cost.diameter
+            )));
+        }
+        if self.aspect_limit != 0.0 && self.aspect_limit < 1.5 {
+            return Err(Error::invalid(format!(
+                "aspect_limit must be 0 or at least 1.5, not {}",
+                self.aspect_limit
+            )));
+        }
+        Ok(())
+    }
+
+    /// The number of threads to build on.
+    pub fn thread_count(&self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+            n => n as usize,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Work shared out to threads, with progress heard on the calling thread.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use crate::error::Result;
+
+/// Hears the fraction done of a part of a longer work; its error ends the work.
+pub struct Progress<'a> {
+    report: &'a mut dyn FnMut(f64) -> Result<()>,
+    from: f64,
+    to: f64,
+}
+
+impl<'a> Progress<'a> {
+    pub fn new(report: &'a mut dyn FnMut(f64) -> Result<()>) -> Self {
+        Self {
+            report,
+            from: 0.0,
+            to: 1.0,
+        }
+    }
+
+    /// The progress of the part of this work that lies between two fractions of it.
+    pub fn part(&mut self, from: f64, to: f64) -> Progress<'_> {
+        let span = self.to - self.from;
+        Progress {
+            report: &mut *self.report,
+            from: self.from + span * from,
+            to: self.from + span * to,
+        }
+    }
+
+    pub fn at(&mut self, fraction: f64) -> Result<()> {
+        (self.report)(self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0))
+    }
+}
+
+/// `task(i)` for all i below `count`, in order of i, on several threads.
+pub fn map<T: Send>(
+    threads: usize,
+    count: usize,
+    progress: &mut Progress,
+    task: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>> {
+    let next = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let work = |done: &mut Vec<(usize, T)>| -> bool {
+        let i = next.fetch_add(1, Ordering::Relaxed);
+        if i >= count || stopped.load(Ordering::Relaxed) {
+            return false;
+        }
+        done.push((i, task(i)));
+        true
+    };
+    let (mut done, outcome) = std::thread::scope(|scope| {
+        let helpers: Vec<_> = (1..threads.min(count))
+            .map(|_| {
+                scope.spawn(|| {
+                    let mut done = Vec::new();
+                    while work(&mut done) {}
+                    done
+                })
+            })
+            .collect();
+        let mut done = Vec::new();
+        let mut outcome = Ok(());
+        while outcome.is_ok() && work(&mut done) {
+            outcome = progress.at(next.load(Ordering::Relaxed).min(count) as f64 / count as f64);
+        }
+        if outcome.is_err() {
+            stopped.store(true, Ordering::Relaxed);
+        }
+        for helper in helpers {
+            match helper.join() {
+                Ok(part) => done.extend(part),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        (done, outcome)
+    });
+    outcome?;
+    done.sort_unstable_by_key(|(i, _)| *i);
+    Ok(done.into_iter().map(|(_, value)| value).collect())
+}
