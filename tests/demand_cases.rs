@@ -8,9 +8,9 @@ mod common;
 use std::sync::Arc;
 
 use cstk::body::{BodyBuilder, Mesh};
-use cstk::hierarchy::HierarchyOptions;
 use cstk::cobject::{CObject, Class, InducedOptions};
 use cstk::error::{ErrorKind, Result};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, Distance, DistanceKind, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::hierarchy::HierarchyOptions;
 use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};

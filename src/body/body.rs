@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::hierarchy::WrapperTree;
+use crate::hierarchy::{BuildTimes, WrapperTree};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 
@@ -34,6 +34,7 @@ pub struct BodyStatistics {
     /// The box of the body's vertices, in the caller's frame.
     pub low: [f64; 3],
     pub high: [f64; 3],
+    pub times: BuildTimes,
 }
 
 impl Body {

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::mesh_file::read_mesh_file;
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{Extent, HierarchyOptions, Progress, WrapperTree, group};
+use crate::hierarchy::{HierarchyOptions, build_hierarchy};
 use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
 
@@ -153,8 +153,6 @@ impl BodyBuilder {
                 },
             ));
         }
-        options.check()?;
-        progress(0.0)?;
         let vertices = || self.primitives.iter().flat_map(|p| &p.vertices);
         let first = self.primitives[0].vertices[0];
         let low = vertices().fold(first, |low, v| low.inf(v));
@@ -165,17 +163,7 @@ impl BodyBuilder {
             .iter()
             .map(|primitive| primitive.clone().recentered(&center))
             .collect();
-        let mut progress = Progress::new(progress);
-        let extents: Vec<Extent> = primitives.iter().map(|p| Extent::of(&p.vertices)).collect();
-        let edges = |part: u32, hear: &mut dyn FnMut([Vec3; 2])| {
-            let primitive = &primitives[part as usize];
-            for edge in &primitive.edges {
-                hear(edge.map(|i| primitive.vertices[i as usize]));
-            }
-        };
-        let subsets = group(&extents, edges, options, &mut progress.part(0.0, 0.4))?;
-        let vertices = |part: u32| primitives[part as usize].vertices.clone();
-        let tree = WrapperTree::build(subsets, vertices, options, &mut progress.part(0.4, 1.0))?;
+        let (tree, times) = build_hierarchy(&primitives, options, progress)?;
         let statistics = BodyStatistics {
             primitives: primitives.len() as u64,
             faces_split: self.faces_split,
@@ -184,8 +172,8 @@ impl BodyBuilder {
             depth: tree.subsets().depth() as u64,
             low: low.into(),
             high: high.into(),
+            times,
         };
-        progress.at(1.0)?;
         Ok(Body::assemble(
             self.dimension,
             center,

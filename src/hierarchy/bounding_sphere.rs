@@ -7,9 +7,12 @@ use crate::pose::Vec3;
 pub fn bounding_sphere(points: &[Vec3]) -> Vec3 {
     let farthest = |center: &Vec3| -> (f64, Vec3) {
         let measured = points.iter().map(|p| ((p - center).norm_squared(), *p));
-        measured.fold((-1.0, *center), |best, next| {
-            if next.0 > best.0 { next } else { best }
-        })
+        measured.fold(
+            (-1.0, *center),
+            |best, next| {
+                if next.0 > best.0 { next } else { best }
+            },
+        )
     };
     // The middle of the box is the report's centre; it is the best for many shapes, and never far off.
     let mut center = Extent::of(points).center();

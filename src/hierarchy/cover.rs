@@ -2,10 +2,10 @@
 
 use std::cmp::Ordering;
 
+use super::Extent;
 use super::bounding_sphere::bounding_sphere;
 use super::extremes::{Extremes, extremes};
 use super::oriented_box::oriented_box;
-use super::Extent;
 use crate::pose::Vec3;
 use crate::primitive::checked_hull;
 use crate::tolerance;

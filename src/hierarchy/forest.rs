@@ -53,31 +53,30 @@ impl Forest {
         self.extents[body as usize].center()
     }
 
-    /// The tree under `root` in depth-first order, leaf i renamed to `names[i]`.
-    pub fn into_tree(self, root: u32, names: &[u32]) -> SubsetTree {
-        let mut nodes = Vec::with_capacity(2 * self.leaves - 1);
-        // A body and, but for the root, its parent's place and its own among the children.
-        let mut stack = vec![(root, None)];
-        while let Some((body, place)) = stack.pop() {
-            let index = nodes.len() as u32;
-            if let Some((parent, side)) = place {
-                let parent: usize = parent;
-                if let Node::Interior { children } = &mut nodes[parent] {
-                    let side: usize = side;
-                    children[side] = index;
-                }
+    /// The tree under `root` in depth-first order, and the body at each of its nodes.
+    pub fn into_tree(self, root: u32) -> (SubsetTree, Vec<u32>) {
+        let count = 2 * self.leaves - 1;
+        let (mut nodes, mut bodies) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        // A body and, for second children, their parent.
+        let mut stack: Vec<(u32, Option<usize>)> = vec![(root, None)];
+        while let Some((body, parent)) = stack.pop() {
+            let index = nodes.len();
+            if let Some(Node::Interior { children }) = parent.map(|parent| &mut nodes[parent]) {
+                children[1] = index as u32;
             }
+            bodies.push(body);
             if (body as usize) < self.leaves {
-                nodes.push(Node::Leaf {
-                    part: names[body as usize],
-                });
+                nodes.push(Node::Leaf { primitive: body });
             } else {
-                nodes.push(Node::Interior { children: [0; 2] });
                 let [first, second] = self.children[body as usize - self.leaves];
-                stack.push((second, Some((index as usize, 1))));
-                stack.push((first, Some((index as usize, 0))));
+                let next = index as u32 + 1;
+                nodes.push(Node::Interior {
+                    children: [next, next],
+                });
+                stack.push((second, Some(index)));
+                stack.push((first, None));
             }
         }
-        SubsetTree { nodes }
+        (SubsetTree { nodes }, bodies)
     }
 }

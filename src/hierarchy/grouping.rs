@@ -5,33 +5,52 @@ use super::binned_split::split;
 use super::greedy_clustering::{Limits, cluster};
 use super::nearby::{Curve, Nearby};
 use super::parallel::Progress;
-use super::{Extent, Forest, Grouping, HierarchyOptions, SubsetTree};
+use super::parts::Part;
+use super::{Extent, Forest, Grouping, HierarchyOptions, Node, SubsetTree};
 use crate::error::Result;
-use crate::pose::Vec3;
+use crate::primitive::Convex;
 
-/// Groups parts with the given boxes and edges (`edges` tells those of a part); there must be at least one. The same input gives the same tree.
+/// The subset tree over parts (its leaves name parts, by index), and the nodes that hold the given convex pieces.
+pub struct Groups {
+    pub subsets: SubsetTree,
+    /// In ascending order.
+    pub pieces: Vec<u32>,
+}
+
+/// Groups parts, of which there is at least one. `pieces` are sets of parts that get a common ancestor of their own. The
+/// same input gives the same tree.
 pub fn group(
-    extents: &[Extent],
-    edges: impl Fn(u32, &mut dyn FnMut([Vec3; 2])),
+    primitives: &[Convex],
+    parts: &[Part],
+    pieces: &[Vec<u32>],
     options: &HierarchyOptions,
     progress: &mut Progress,
-) -> Result<SubsetTree> {
-    // Along a curve, so that neighbours in space are neighbours in memory, and ties are broken between neighbours.
+) -> Result<Groups> {
+    let extents: Vec<Extent> = parts.iter().map(|p| p.extent(primitives)).collect();
     let bounds = extents
         .iter()
         .fold(extents[0], |all, extent| all.union(extent));
+    // Along a curve, so that neighbours in space are neighbours in memory, and ties are broken between neighbours.
     let curve = Curve::new(&bounds);
     let mut order: Vec<u32> = (0..extents.len() as u32).collect();
     order.sort_by_cached_key(|&i| (curve.code(&extents[i as usize].center()), i));
     let mut forest = Forest::new(order.iter().map(|&i| extents[i as usize]).collect());
-    let bodies: Vec<u32> = (0..extents.len() as u32).collect();
+    let (bodies, holders, piece_roots) = join_pieces(&mut forest, pieces, &order)?;
     let threads = options.thread_count();
+    progress.at(0.05)?;
     let root = match options.grouping {
         Grouping::TopDown => split(&mut forest, bodies, threads, progress)?,
         Grouping::Basic => basic(&mut forest, bodies, &bounds, options, progress)?,
         Grouping::Hybrid => {
-            let siblings = sibling_pairs(order.iter().copied(), edges);
-            let mut adjacent = Adjacent::new(options.cost, bodies.len(), &siblings);
+            let mut siblings = sibling_pairs(order.iter().copied(), |part, hear| {
+                parts[part as usize].edges(primitives, hear);
+            });
+            for pair in &mut siblings {
+                *pair = pair.map(|leaf| holders[leaf as usize]);
+            }
+            siblings.retain(|[a, b]| a != b);
+            let mut adjacent = Adjacent::new(options.cost, forest.extents.len(), &siblings);
+            drop(siblings);
             progress.at(0.1)?;
             let first = first_limits(&forest, &bodies, options);
             let chunks = cluster(
@@ -44,16 +63,47 @@ pub fn group(
                 &mut progress.part(0.1, 0.6),
             )?;
             drop(adjacent);
-            basic(
-                &mut forest,
-                chunks,
-                &bounds,
-                options,
-                &mut progress.part(0.6, 1.0),
-            )?
+            let mut rest = progress.part(0.6, 1.0);
+            basic(&mut forest, chunks, &bounds, options, &mut rest)?
         }
     };
-    Ok(forest.into_tree(root, &order))
+    let (mut subsets, at) = forest.into_tree(root);
+    for node in &mut subsets.nodes {
+        if let Node::Leaf { primitive } = node {
+            *primitive = order[*primitive as usize];
+        }
+    }
+    let pieces = (0..at.len() as u32)
+        .filter(|&node| piece_roots.binary_search(&at[node as usize]).is_ok())
+        .collect();
+    Ok(Groups { subsets, pieces })
+}
+
+/// Gives each piece a tree of its own. Returns the parentless bodies, the one that holds each leaf, and the pieces' roots.
+fn join_pieces(
+    forest: &mut Forest,
+    pieces: &[Vec<u32>],
+    order: &[u32],
+) -> Result<(Vec<u32>, Vec<u32>, Vec<u32>)> {
+    let mut holders: Vec<u32> = (0..order.len() as u32).collect();
+    let mut roots = Vec::new();
+    let mut leaf_of = vec![0; order.len()];
+    for (leaf, &part) in order.iter().enumerate() {
+        leaf_of[part as usize] = leaf as u32;
+    }
+    for piece in pieces.iter().filter(|piece| piece.len() > 1) {
+        let leaves: Vec<u32> = piece.iter().map(|&part| leaf_of[part as usize]).collect();
+        let mut unheard = |_| Ok(());
+        let root = split(forest, leaves.clone(), 1, &mut Progress::new(&mut unheard))?;
+        for leaf in leaves {
+            holders[leaf as usize] = root;
+        }
+        roots.push(root);
+    }
+    let mut bodies = holders.clone();
+    bodies.sort_unstable();
+    bodies.dedup();
+    Ok((bodies, holders, roots))
 }
 
 /// The basic clustering algorithm; returns the root.

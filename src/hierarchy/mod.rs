@@ -3,6 +3,7 @@
 mod adjacent;
 mod binned_split;
 mod bounding_sphere;
+mod build;
 mod cost;
 mod cover;
 mod extent;
@@ -14,16 +15,16 @@ mod nearby;
 mod options;
 mod oriented_box;
 mod parallel;
+mod parts;
 mod subset_tree;
 mod wrapper;
 mod wrapper_tree;
 
+pub use build::{BuildTimes, build_hierarchy};
 pub use cost::Cost;
 pub use extent::Extent;
 use forest::Forest;
-pub use grouping::group;
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
-pub use parallel::Progress;
 pub use subset_tree::{Node, SubsetTree};
 pub use wrapper::Wrapper;
 pub use wrapper_tree::WrapperTree;

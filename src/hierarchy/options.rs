@@ -58,8 +58,8 @@ pub struct HierarchyOptions {
     pub diameter_limit: f64,
     /// The first GLimit, the largest gap between bodies to be merged; 0 for a quarter of DLimit.
     pub gap_limit: f64,
-    /// Polygons that are longer than this many times their width, or much larger than the others, get several leaves,
-    /// each bounding a part (§3.4); 0 for one leaf each. At least 1.5.
+    /// Primitives longer than this many times their width get several leaves, each bounding a part (§3.4); 0 for one leaf
+    /// each. At least 1.5.
     pub aspect_limit: f64,
 }
 

@@ -1,9 +1,10 @@
 //! The binary tree of sets of primitives (§3.1.3).
 
-/// A node: a leaf holds one part of the body, an interior node has two children.
+/// A node: a leaf holds one primitive, an interior node has two children. Slender primitives may have several leaves, each
+/// of which bounds a part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
-    Leaf { part: u32 },
+    Leaf { primitive: u32 },
     Interior { children: [u32; 2] },
 }
 

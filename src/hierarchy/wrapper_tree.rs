@@ -1,10 +1,13 @@
 //! The construction phase (§3.2.4): a wrapper on every node of a subset tree.
 
 use super::cover::{Cover, by_coordinates, merge_sorted};
+use super::grouping::Groups;
 use super::parallel::{self, Progress};
+use super::parts::Part;
 use super::{Extent, HierarchyOptions, Node, SubsetTree, Wrapper, WrapperKind};
 use crate::error::Result;
 use crate::pose::Vec3;
+use crate::primitive::Convex;
 
 /// The subset tree with the wrapper of each node, packed.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +15,9 @@ pub struct WrapperTree {
     pub(super) subsets: SubsetTree,
     pub(super) frames: Vec<Frame>,
     pub(super) corners: Vec<Vec3>,
+    pub(super) kind: WrapperKind,
+    /// The nodes that hold maximal convex pieces, in ascending order.
+    pub(super) pieces: Vec<u32>,
 }
 
 /// A wrapper whose corners lie in the tree's common array.
@@ -34,13 +40,18 @@ struct Finished {
 }
 
 impl WrapperTree {
-    /// Builds the wrappers from the leaves up. `vertices` tells the vertices of a part.
+    /// Builds the wrappers from the leaves up, over grouped parts of the primitives.
     pub fn build(
-        subsets: SubsetTree,
-        vertices: impl Fn(u32) -> Vec<Vec3> + Sync,
+        groups: Groups,
+        primitives: &[Convex],
+        parts: &[Part],
         options: &HierarchyOptions,
         progress: &mut Progress,
     ) -> Result<Self> {
+        let Groups {
+            mut subsets,
+            pieces,
+        } = groups;
         let threads = options.thread_count();
         let sizes = subsets.sizes();
         // Subtrees small enough to be shared out; the nodes above them follow. A node's wrapper depends on its subtree
@@ -58,12 +69,20 @@ impl WrapperTree {
                 node += 1;
             }
         }
-        let finish = |node: usize, children: Option<[Finished; 2]>| match subsets.nodes[node] {
-            Node::Leaf { part } => wrap_leaf(vertices(part), options),
-            Node::Interior { .. } => match children {
-                Some(children) => wrap_children(children, options),
-                None => unreachable!("an interior node has children"),
-            },
+        let finish = |node: usize, children: Option<[Finished; 2]>| {
+            let mut options = *options;
+            if pieces.binary_search(&(node as u32)).is_ok() {
+                // A convex piece is bounded exactly.
+                options.hull_vertex_limit = u32::MAX;
+            }
+            match (subsets.nodes[node], children) {
+                (Node::Leaf { primitive: part }, _) => {
+                    let (points, doubt) = parts[part as usize].vertices(primitives);
+                    wrap_leaf(points.to_vec(), doubt, &options)
+                }
+                (_, Some(children)) => wrap_children(children, &options),
+                (_, None) => unreachable!("an interior node has children"),
+            }
         };
         let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
             let from = tasks[t];
@@ -115,11 +134,28 @@ impl WrapperTree {
             waiting[node] = Some(finished);
             progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
         }
+        for node in &mut subsets.nodes {
+            if let Node::Leaf { primitive } = node {
+                *primitive = parts[*primitive as usize].primitive;
+            }
+        }
         Ok(Self {
             subsets,
+            kind: options.wrapper,
+            pieces,
             frames: frames.into_iter().flatten().collect(),
             corners,
         })
+    }
+
+    /// The kind of its wrappers.
+    pub fn kind(&self) -> WrapperKind {
+        self.kind
+    }
+
+    /// The nodes that hold maximal convex pieces: each wrapper is the hull of a convex part of the body's surface.
+    pub fn pieces(&self) -> &[u32] {
+        &self.pieces
     }
 
     pub fn subsets(&self) -> &SubsetTree {
@@ -152,10 +188,11 @@ impl WrapperTree {
     }
 }
 
-fn wrap_leaf(mut points: Vec<Vec3>, options: &HierarchyOptions) -> Finished {
+/// `doubt` says how far the leaf's part may lie outside the points' hull.
+fn wrap_leaf(mut points: Vec<Vec3>, doubt: f64, options: &HierarchyOptions) -> Finished {
     points.sort_unstable_by(by_coordinates);
     points.dedup();
-    wrap(Extent::of(&points), points, 0.0, None, options)
+    wrap(Extent::of(&points), points, doubt, None, options)
 }
 
 fn wrap_children([a, b]: [Finished; 2], options: &HierarchyOptions) -> Finished {
@@ -195,14 +232,23 @@ fn wrap(
                 finished(cover.grown(inherited), points, inherited)
             }
         }
-        WrapperKind::OrientedBox => finished(Cover::oriented_box(&points), points, inherited),
-        WrapperKind::TightSphere => finished(Cover::tight_sphere(&points), points, inherited),
+        WrapperKind::OrientedBox => {
+            let cover = Cover::oriented_box(&points).grown(inherited);
+            finished(cover, points, inherited)
+        }
+        WrapperKind::TightSphere => {
+            let cover = Cover::tight_sphere(&points).grown(inherited);
+            finished(cover, points, inherited)
+        }
         // These need no points above the leaves.
-        WrapperKind::AlignedBox => finished(Cover::aligned_box(&extent), Vec::new(), 0.0),
+        WrapperKind::AlignedBox => {
+            let cover = Cover::aligned_box(&extent).grown(inherited);
+            finished(cover, Vec::new(), inherited)
+        }
         WrapperKind::MergedSphere => {
             let cover = match children {
                 Some([a, b]) => Cover::merged_sphere(a, b),
-                None => Cover::tight_sphere(&points),
+                None => Cover::tight_sphere(&points).grown(inherited),
             };
             finished(cover, Vec::new(), 0.0)
         }

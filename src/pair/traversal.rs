@@ -67,7 +67,7 @@ pub fn traverse(
         let (node_a, node_b) = (tree_a.node(i), tree_b.node(j));
         let longer_a = || tree_a.radius(i) >= tree_b.radius(j);
         let children = match (node_a, node_b) {
-            (Node::Leaf { part: a }, Node::Leaf { part: b }) => {
+            (Node::Leaf { primitive: a }, Node::Leaf { primitive: b }) => {
                 scratch.visit_pair(pairing, [a, b], visitor)?;
                 continue;
             }

@@ -123,6 +123,8 @@ impl Collect {
 
     fn cut(&mut self) {
         self.hits.sort_unstable_by(Hit::order);
+        // A primitive with several leaves is met more than once.
+        self.hits.dedup_by_key(|hit| hit.key);
         if self.hits.len() > self.max_count {
             self.hits.truncate(self.max_count);
             self.truncated = true;
