@@ -3,6 +3,7 @@
 #[allow(clippy::module_inception)]
 mod body;
 mod builder;
+mod file;
 mod mesh_file;
 
 pub use body::{Body, BodyStatistics};

@@ -140,7 +140,7 @@ fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
         let mut sum: (usize, Option<Extent>) = (0, None);
         for k in (1..BINS).rev() {
             sum = joined(sum, bins[k]);
-            above[k] = (sum.0, sum.1.map_or(0.0, |e| half_surface(&e)));
+            above[k] = (sum.0, sum.1.map_or(0.0, |e| e.half_surface()));
         }
         sum = (0, None);
         for k in 1..BINS {
@@ -149,7 +149,7 @@ fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
             if left == 0 || right == 0 || ceil_log2(left.max(right)) + 1 > levels {
                 continue;
             }
-            let surface = sum.1.map_or(0.0, |e| half_surface(&e));
+            let surface = sum.1.map_or(0.0, |e| e.half_surface());
             let cost = surface * left as f64 + above[k].1 * right as f64;
             if best.is_none_or(|(least, ..)| cost < least) {
                 best = Some((cost, axis, k, left));
@@ -180,11 +180,6 @@ fn joined(a: (usize, Option<Extent>), b: (usize, Option<Extent>)) -> (usize, Opt
         (a, b) => a.or(b),
     };
     (a.0 + b.0, extent)
-}
-
-fn half_surface(extent: &Extent) -> f64 {
-    let s = extent.size();
-    s.x * s.y + s.y * s.z + s.z * s.x
 }
 
 fn ceil_log2(n: usize) -> usize {

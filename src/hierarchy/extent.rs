@@ -41,6 +41,12 @@ impl Extent {
         self.size().norm()
     }
 
+    /// Half the area of the box's surface.
+    pub fn half_surface(&self) -> f64 {
+        let s = self.size();
+        s.x * s.y + s.y * s.z + s.z * s.x
+    }
+
     /// The L∞ gap between two boxes; 0 when they meet.
     pub fn gap(&self, other: &Self) -> f64 {
         let apart = (other.low - self.high).sup(&(self.low - other.high));

@@ -33,6 +33,29 @@ impl SubsetTree {
         levels
     }
 
+    /// Whether the nodes are one tree in depth-first order over the given number of primitives, each in at least one leaf.
+    pub fn is_sound(&self, primitives: usize) -> bool {
+        let count = self.nodes.len();
+        let mut sizes = vec![1usize; count];
+        let mut met = vec![false; primitives];
+        for (i, node) in self.nodes.iter().enumerate().rev() {
+            match *node {
+                Node::Leaf { primitive } => match met.get_mut(primitive as usize) {
+                    Some(met) => *met = true,
+                    None => return false,
+                },
+                Node::Interior { children: [a, b] } => {
+                    let (a, b) = (a as usize, b as usize);
+                    if a != i + 1 || b >= count || a >= count || b != a + sizes[a] {
+                        return false;
+                    }
+                    sizes[i] = 1 + sizes[a] + sizes[b];
+                }
+            }
+        }
+        sizes.first() == Some(&count) && met.iter().all(|&met| met)
+    }
+
     /// The number of nodes of each subtree.
     pub fn sizes(&self) -> Vec<u32> {
         let mut sizes = vec![1; self.nodes.len()];

@@ -22,7 +22,7 @@ pub struct WrapperTree {
 
 /// A wrapper whose corners lie in the tree's common array.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub struct Frame {
     pub first_corner: usize,
     pub corner_count: usize,
     pub excess: f64,
@@ -102,21 +102,10 @@ impl WrapperTree {
         })?;
         let mut waiting: Vec<Option<Finished>> = Vec::new();
         waiting.resize_with(subsets.nodes.len(), || None);
-        let mut frames = vec![None; subsets.nodes.len()];
-        let mut corners = Vec::new();
-        let mut pack = |node: usize, cover: &Cover| {
-            frames[node] = Some(Frame {
-                first_corner: corners.len(),
-                corner_count: cover.corners.len(),
-                excess: cover.excess,
-                center: cover.center,
-                radius: cover.radius,
-            });
-            corners.extend_from_slice(&cover.corners);
-        };
+        let mut all: Vec<Option<Cover>> = vec![None; subsets.nodes.len()];
         for (&from, (covers, root)) in tasks.iter().zip(done) {
-            for (node, cover) in (from..from + covers.len()).rev().zip(&covers) {
-                pack(node, cover);
+            for (node, cover) in (from..from + covers.len()).rev().zip(covers) {
+                all[node] = Some(cover);
             }
             waiting[from] = root;
         }
@@ -130,7 +119,7 @@ impl WrapperTree {
                 }
             };
             let finished = finish(node, children);
-            pack(node, &finished.cover);
+            all[node] = Some(finished.cover.clone());
             waiting[node] = Some(finished);
             progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
         }
@@ -139,13 +128,42 @@ impl WrapperTree {
                 *primitive = parts[*primitive as usize].primitive;
             }
         }
+        drop(waiting);
+        let (mut frames, mut corners) = (Vec::with_capacity(all.len()), Vec::new());
+        for cover in all.into_iter().flatten() {
+            frames.push(Frame {
+                first_corner: corners.len(),
+                corner_count: cover.corners.len(),
+                excess: cover.excess,
+                center: cover.center,
+                radius: cover.radius,
+            });
+            corners.extend(cover.corners);
+        }
         Ok(Self {
             subsets,
             kind: options.wrapper,
             pieces,
-            frames: frames.into_iter().flatten().collect(),
+            frames,
             corners,
         })
+    }
+
+    /// A tree from what is in a file. The caller has checked that it is sound.
+    pub fn from_parts(
+        subsets: SubsetTree,
+        frames: Vec<Frame>,
+        corners: Vec<Vec3>,
+        kind: WrapperKind,
+        pieces: Vec<u32>,
+    ) -> Self {
+        Self {
+            subsets,
+            frames,
+            corners,
+            kind,
+            pieces,
+        }
     }
 
     /// The kind of its wrappers.

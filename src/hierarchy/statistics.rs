@@ -1,0 +1,118 @@
+//! What a tree is like: numbers by which hierarchies are compared.
+
+use super::extent::Extent;
+use super::{Node, WrapperTree};
+use crate::error::{Error, ErrorKind, Result};
+
+/// Work of one primitive test for one of node test, in the model of the expected cost.
+const PRIMITIVE_COST: f64 = 4.0;
+
+/// Shape of a hierarchy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TreeStatistics {
+    pub nodes: u64,
+    pub leaves: u64,
+    /// Levels, and the mean level of a leaf; the root's is 0.
+    pub depth: u64,
+    pub mean_leaf_level: f64,
+    /// Means over interior nodes of eq. 2's Balance and Fill, with the diameters of the wrappers' boxes.
+    pub balance: f64,
+    pub fill: f64,
+    /// Eq. 1 under a simple model: the mean number of tests by a random line through the root's box, a primitive test
+    /// counting as four of nodes. A node is tested when its parent's box is hit, which is as likely as its surface is
+    /// to the root's.
+    pub expected_cost: f64,
+    /// Nodes that hold a maximal convex piece.
+    pub pieces: u64,
+    pub bytes: u64,
+}
+
+/// A level and what covers the body there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LevelStatistics {
+    /// Nodes of the level, and leaves above it.
+    pub nodes: u64,
+    pub leaves_above: u64,
+    /// Sums over these nodes' wrappers.
+    pub volume: f64,
+    pub surface: f64,
+}
+
+impl WrapperTree {
+    pub fn statistics(&self) -> TreeStatistics {
+        let levels = self.subsets.levels();
+        let extents: Vec<Extent> = (0..levels.len() as u32)
+            .map(|node| self.wrapper(node).extent())
+            .collect();
+        let root = extents[0].half_surface().max(f64::MIN_POSITIVE);
+        let tiny = 1e-9 * extents[0].diameter().max(f64::MIN_POSITIVE);
+        let (mut leaves, mut leaf_levels, mut interior) = (0u64, 0u64, 0u64);
+        let (mut balance, mut fill, mut cost) = (0.0, 0.0, 1.0);
+        for (i, node) in self.subsets.nodes.iter().enumerate() {
+            let reached = extents[i].half_surface() / root;
+            match *node {
+                Node::Leaf { .. } => {
+                    leaves += 1;
+                    leaf_levels += u64::from(levels[i]);
+                    cost += PRIMITIVE_COST * reached;
+                }
+                Node::Interior { children } => {
+                    interior += 1;
+                    cost += 2.0 * reached;
+                    let diameter = |i: usize| extents[i].diameter().max(tiny);
+                    let [a, b] = children.map(|child| diameter(child as usize));
+                    balance += (a / b).max(b / a);
+                    fill += diameter(i) / (a + b);
+                }
+            }
+        }
+        let mean = |sum: f64| {
+            if interior > 0 {
+                sum / interior as f64
+            } else {
+                1.0
+            }
+        };
+        TreeStatistics {
+            nodes: levels.len() as u64,
+            leaves,
+            depth: self.subsets.depth() as u64,
+            mean_leaf_level: leaf_levels as f64 / leaves as f64,
+            balance: mean(balance),
+            fill: mean(fill),
+            expected_cost: cost,
+            pieces: self.pieces.len() as u64,
+            bytes: self.bytes() as u64,
+        }
+    }
+
+    /// Fails for a level the tree does not have. Work grows with the level's nodes.
+    pub fn level_statistics(&self, level: u32) -> Result<LevelStatistics> {
+        self.require_level(level)?;
+        let mut statistics = LevelStatistics::default();
+        let levels = self.subsets.levels();
+        for node in self.level(level) {
+            let (volume, surface) = self.wrapper(node).volume_and_area();
+            statistics.volume += volume;
+            statistics.surface += surface;
+            if levels[node as usize] == level {
+                statistics.nodes += 1;
+            } else {
+                statistics.leaves_above += 1;
+            }
+        }
+        Ok(statistics)
+    }
+
+    /// Fails for a level the tree does not have.
+    pub fn require_level(&self, level: u32) -> Result<()> {
+        let depth = self.subsets.depth();
+        if (level as usize) < depth {
+            return Ok(());
+        }
+        Err(Error::new(
+            ErrorKind::NotFound,
+            format!("the hierarchy has no level {level}; its {depth} levels count from 0"),
+        ))
+    }
+}
