@@ -158,6 +158,37 @@ typedef int32_t cstk_status;
 #endif // __cplusplus
 
 /**
+ * The kind of convex bound at each node.
+ */
+enum cstk_wrapper_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default.
+   */
+  CSTK_WRAPPER_HULL = 0,
+  CSTK_WRAPPER_ORIENTED_BOX = 1,
+  CSTK_WRAPPER_ALIGNED_BOX = 2,
+  /**
+   * Spheres around the vertices below.
+   */
+  CSTK_WRAPPER_TIGHT_SPHERE = 3,
+  /**
+   * Spheres around the children's spheres; the fastest to build, and loose.
+   */
+  CSTK_WRAPPER_MERGED_SPHERE = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_wrapper_kind cstk_wrapper_kind;
+#else
+typedef int32_t cstk_wrapper_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * Where a configuration stands. The order is that of the set algebra: a union takes the largest.
  */
 enum cstk_class
@@ -401,6 +432,11 @@ typedef struct cstk_cobject cstk_cobject;
 typedef struct cstk_environment cstk_environment;
 
 /**
+ * Polygons in space, for looking at. Immutable; threads may share it.
+ */
+typedef struct cstk_mesh cstk_mesh;
+
+/**
  * One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
  * time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
  */
@@ -422,7 +458,8 @@ typedef struct cstk_robot_builder cstk_robot_builder;
 typedef struct cstk_space cstk_space;
 
 /**
- * How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first.
+ * How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first. Answers do not depend on it, only
+ * their speed does.
  */
 typedef struct cstk_hierarchy_options {
   uint32_t size;
@@ -431,7 +468,41 @@ typedef struct cstk_hierarchy_options {
    * Wrappers are convex hulls of at most so many vertices; larger ones become oriented boxes. At least 8; default 32.
    */
   uint32_t hull_vertex_limit;
+  /**
+   * Threads to build on; 0 for as many as the machine runs at once. Default 1. The hierarchy does not depend on it.
+   */
+  uint32_t threads;
+  /**
+   * A cstk_grouping.
+   */
+  int32_t grouping;
+  /**
+   * A cstk_wrapper_kind.
+   */
+  int32_t wrapper;
+  /**
+   * A cstk_pieces.
+   */
+  int32_t pieces;
   uint32_t reserved;
+  /**
+   * The cost of merging two bodies is diameter^A (B Fill + C Balance): Fill is the merged diameter over the sum of the
+   * two, Balance the greater ratio of the two. These are A (at most 16), B and C; not negative.
+   */
+  double cost_diameter;
+  double cost_fill;
+  double cost_balance;
+  /**
+   * The largest diameter of bodies merged in the first round, and the largest gap between them; both double from round
+   * to round. 0, the default, for limits that suit the primitives.
+   */
+  double diameter_limit;
+  double gap_limit;
+  /**
+   * Primitives longer than this many times their width get several leaves, each bounding a part; witnesses name the
+   * primitive as ever. At least 1.5, or 0, the default, for one leaf each.
+   */
+  double aspect_limit;
 } cstk_hierarchy_options;
 
 /**
@@ -468,6 +539,121 @@ typedef struct cstk_body_statistics {
   double high[3];
   uint64_t reserved[8];
 } cstk_body_statistics;
+
+/**
+ * What a body's hierarchy is like.
+ */
+typedef struct cstk_hierarchy_statistics {
+  /**
+   * A cstk_wrapper_kind.
+   */
+  cstk_wrapper_kind wrapper;
+  uint32_t reserved_0;
+  /**
+   * Nodes; the leaves among them; the nodes that hold a maximal convex piece.
+   */
+  uint64_t node_count;
+  uint64_t leaf_count;
+  uint64_t piece_count;
+  /**
+   * Levels, and the mean level of a leaf; the root's is 0.
+   */
+  uint64_t depth;
+  double mean_leaf_level;
+  /**
+   * Means over interior nodes: the greater ratio of the children's diameters (1 is perfect spatial balance), and the
+   * diameter over the sum of the children's (1/2: they overlap wholly; above 1: they are apart).
+   */
+  double balance;
+  double fill;
+  /**
+   * The mean number of tests that a random line through the body's box makes, a primitive counting as four nodes: for
+   * comparing hierarchies of one body.
+   */
+  double expected_cost;
+  /**
+   * Seconds the phases took on the machine that built it: convex pieces and slender primitives, the tree of sets, the
+   * wrappers.
+   */
+  double preparation_seconds;
+  double grouping_seconds;
+  double construction_seconds;
+  /**
+   * Memory of the hierarchy, without the primitives.
+   */
+  uint64_t memory_bytes;
+  uint64_t reserved[8];
+} cstk_hierarchy_statistics;
+
+/**
+ * A level of a hierarchy.
+ */
+typedef struct cstk_level_statistics {
+  /**
+   * Nodes of the level; leaves of the levels above it. Together they cover the body.
+   */
+  uint64_t node_count;
+  uint64_t leaves_above;
+  /**
+   * Sums of the volumes and surfaces of all these nodes' wrappers; flat wrappers have two sides.
+   */
+  double volume;
+  double surface;
+  uint64_t reserved[4];
+} cstk_level_statistics;
+
+/**
+ * A node of a hierarchy. Nodes are numbered from 0, the root, in depth-first order.
+ */
+typedef struct cstk_hierarchy_node {
+  /**
+   * The children; UINT32_MAX both for a leaf.
+   */
+  uint32_t children[2];
+  /**
+   * A leaf's primitive; UINT32_MAX otherwise. A slender primitive may have several leaves.
+   */
+  uint32_t primitive;
+  /**
+   * 1 if the node holds a maximal convex piece, else 0.
+   */
+  uint32_t is_piece;
+  /**
+   * The wrapper: the convex hull of its corners (see cstk_body_node_corners), grown by `excess`. A sphere has one
+   * corner, its centre, and `excess` is its radius.
+   */
+  uint64_t corner_count;
+  double excess;
+  /**
+   * A sphere around it, in the frame in which the body was given.
+   */
+  double center[3];
+  double radius;
+  uint64_t reserved[4];
+} cstk_hierarchy_node;
+
+/**
+ * What a mesh holds: pointers that live as long as the mesh.
+ */
+typedef struct cstk_mesh_view {
+  /**
+   * `vertex_count` vertices of three doubles.
+   */
+  const double *vertices;
+  size_t vertex_count;
+  /**
+   * Per face, its number of vertices, and the node it stands for.
+   */
+  const uint32_t *face_sizes;
+  const uint32_t *face_nodes;
+  size_t face_count;
+  /**
+   * The vertices of the faces, face after face, counter-clockwise seen from outside.
+   */
+  const uint32_t *indices;
+  size_t index_count;
+  uint64_t reserved[4];
+} cstk_mesh_view;
 
 /**
  * A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
@@ -833,6 +1019,11 @@ cstk_status cstk_euler_from_rotation(const double *rotation,
                                      double *yaw_pitch_roll);
 
 /**
+ * Writes the default options. `size` is sizeof(cstk_hierarchy_options).
+ */
+cstk_status cstk_hierarchy_options_default(struct cstk_hierarchy_options *out, size_t size);
+
+/**
  * Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
  * surfaces). Release it with cstk_body_builder_release.
  */
@@ -895,13 +1086,11 @@ cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
                                             const char *file);
 
 /**
- * Writes the default options. `size` is sizeof(cstk_hierarchy_options).
- */
-cstk_status cstk_hierarchy_options_default(struct cstk_hierarchy_options *out, size_t size);
-
-/**
  * Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
  * defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added.
+ *
+ * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon;
+ * build once and share, or keep the body in a file (cstk_body_save).
  */
 cstk_status cstk_body_build(struct cstk_body_builder *builder,
                             const struct cstk_hierarchy_options *options,
@@ -938,6 +1127,107 @@ cstk_status cstk_body_feature_vertices(const struct cstk_body *body,
                                        size_t max_count,
                                        double *xyz,
                                        size_t *count);
+
+/**
+ * Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
+ * docs/body-file.md describes the format. CSTK_IO if it cannot be written.
+ */
+cstk_status cstk_body_save(const struct cstk_body *body,
+                           const char *file);
+
+/**
+ * Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_IO if
+ * the file cannot be read, CSTK_PARSE if it is truncated, altered or no body file, CSTK_UNSUPPORTED if a newer version
+ * of the library wrote it. The checksum finds damage; it is no protection against forgery.
+ */
+cstk_status cstk_body_load(const char *file,
+                           struct cstk_body **out);
+
+/**
+ * Describes the body's hierarchy. Takes time in proportion to its nodes.
+ */
+cstk_status cstk_body_get_hierarchy(const struct cstk_body *body,
+                                    struct cstk_hierarchy_statistics *out);
+
+/**
+ * Measures a level of the hierarchy; the root's is 0. CSTK_NOT_FOUND for a level it does not have. The wrappers' hulls are
+ * computed for it: some tens of microseconds a node.
+ */
+cstk_status cstk_body_get_level(const struct cstk_body *body,
+                                uint32_t level,
+                                struct cstk_level_statistics *out);
+
+/**
+ * The nodes of a level and the leaves above it, which together cover the body. At most `max_count` are written to `nodes`
+ * (NULL if `max_count` is 0), and their full number to `count`. CSTK_NOT_FOUND for a level the hierarchy does not have.
+ */
+cstk_status cstk_body_level(const struct cstk_body *body,
+                            uint32_t level,
+                            size_t max_count,
+                            uint32_t *nodes,
+                            size_t *count);
+
+/**
+ * At most `max_count` nodes that cover the body as tightly as opening the largest wrapper again and again gets: for
+ * broad-phase structures of limited size. They are written to `nodes`, their number to `count`. CSTK_INVALID_ARGUMENT
+ * if `max_count` is 0.
+ */
+cstk_status cstk_body_cover(const struct cstk_body *body,
+                            size_t max_count,
+                            uint32_t *nodes,
+                            size_t *count);
+
+/**
+ * Describes a node. CSTK_NOT_FOUND for one the hierarchy does not have.
+ */
+cstk_status cstk_body_get_node(const struct cstk_body *body,
+                               uint32_t node,
+                               struct cstk_hierarchy_node *out);
+
+/**
+ * The corners of a node's wrapper, in the frame in which the body was given. At most `max_count` points of three doubles
+ * are written to `xyz` (NULL if `max_count` is 0), and their full number to `count`. CSTK_NOT_FOUND for a node the
+ * hierarchy does not have.
+ */
+cstk_status cstk_body_node_corners(const struct cstk_body *body,
+                                   uint32_t node,
+                                   size_t max_count,
+                                   double *xyz,
+                                   size_t *count);
+
+/**
+ * The wrappers of nodes as one mesh, in the frame in which the body was given; leaves as their primitives. Release it with
+ * cstk_mesh_release. CSTK_NOT_FOUND for a node the hierarchy does not have.
+ */
+cstk_status cstk_body_nodes_mesh(const struct cstk_body *body,
+                                 const uint32_t *nodes,
+                                 size_t node_count,
+                                 struct cstk_mesh **out);
+
+/**
+ * Writes a picture of nodes to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
+ * primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO
+ * if that fails.
+ */
+cstk_status cstk_body_show_nodes(const struct cstk_body *body,
+                                 const uint32_t *nodes,
+                                 size_t node_count,
+                                 const char *file);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_mesh_retain(struct cstk_mesh *mesh);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_mesh_release(struct cstk_mesh *mesh);
+
+/**
+ * Shows what the mesh holds; the pointers live as long as the mesh.
+ */
+cstk_status cstk_mesh_get(const struct cstk_mesh *mesh, struct cstk_mesh_view *out);
 
 /**
  * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.

@@ -154,9 +154,90 @@ private:
 };
 
 /// A rigid union of convex primitives.
+/// Polygons for looking at; the view's pointers live as long as the mesh.
+class Mesh : public Handle<cstk_mesh, cstk_mesh_retain, cstk_mesh_release> {
+public:
+    using Handle::Handle;
+
+    cstk_mesh_view view() const {
+        cstk_mesh_view out;
+        check(cstk_mesh_get(get(), &out));
+        return out;
+    }
+};
+
 class Body : public Handle<cstk_body, cstk_body_retain, cstk_body_release> {
 public:
     using Handle::Handle;
+
+    /// A body that save() wrote.
+    static Body load(const std::string &file) {
+        cstk_body *out = nullptr;
+        check(cstk_body_load(file.c_str(), &out));
+        return Body(out);
+    }
+
+    void save(const std::string &file) const { check(cstk_body_save(get(), file.c_str())); }
+
+    cstk_hierarchy_statistics hierarchy() const {
+        cstk_hierarchy_statistics out;
+        check(cstk_body_get_hierarchy(get(), &out));
+        return out;
+    }
+
+    cstk_level_statistics level_statistics(std::uint32_t level) const {
+        cstk_level_statistics out;
+        check(cstk_body_get_level(get(), level, &out));
+        return out;
+    }
+
+    /// The nodes of a level and the leaves above it.
+    std::vector<std::uint32_t> level(std::uint32_t level) const {
+        std::size_t count = 0;
+        check(cstk_body_level(get(), level, 0, nullptr, &count));
+        std::vector<std::uint32_t> nodes(count);
+        check(cstk_body_level(get(), level, count, nodes.data(), &count));
+        return nodes;
+    }
+
+    /// At most `max_count` nodes that cover the body.
+    std::vector<std::uint32_t> cover(std::size_t max_count) const {
+        cstk_body_statistics statistics = this->statistics();
+        if (max_count > statistics.node_count) {
+            max_count = static_cast<std::size_t>(statistics.node_count);
+        }
+        std::vector<std::uint32_t> nodes(max_count);
+        std::size_t count = 0;
+        check(cstk_body_cover(get(), max_count, nodes.data(), &count));
+        nodes.resize(count);
+        return nodes;
+    }
+
+    cstk_hierarchy_node node(std::uint32_t node) const {
+        cstk_hierarchy_node out;
+        check(cstk_body_get_node(get(), node, &out));
+        return out;
+    }
+
+    /// The corners of a node's wrapper, three doubles each.
+    std::vector<double> node_corners(std::uint32_t node) const {
+        std::size_t count = 0;
+        check(cstk_body_node_corners(get(), node, 0, nullptr, &count));
+        std::vector<double> xyz(3 * count);
+        check(cstk_body_node_corners(get(), node, count, xyz.data(), &count));
+        return xyz;
+    }
+
+    Mesh nodes_mesh(Span<std::uint32_t> nodes) const {
+        cstk_mesh *out = nullptr;
+        check(cstk_body_nodes_mesh(get(), nodes.data(), nodes.size(), &out));
+        return Mesh(out);
+    }
+
+    /// A picture of nodes; the file's name ends in .glb.
+    void show_nodes(Span<std::uint32_t> nodes, const std::string &file) const {
+        check(cstk_body_show_nodes(get(), nodes.data(), nodes.size(), file.c_str()));
+    }
 
     cstk_body_statistics statistics() const {
         cstk_body_statistics out;

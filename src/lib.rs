@@ -5,6 +5,7 @@
 
 pub mod error;
 pub mod tolerance;
+mod whole_file;
 
 pub mod pose;
 

@@ -10,6 +10,7 @@ use crate::hierarchy::{BuildTimes, Frame, Node, SubsetTree, WrapperKind, Wrapper
 use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, Face};
 use crate::tolerance;
+use crate::whole_file::write_whole;
 
 const MAGIC: [u8; 8] = *b"cstkbody";
 const VERSION: u32 = 1;
@@ -28,14 +29,7 @@ const KINDS: [WrapperKind; 5] = [
 impl Body {
     /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is.
     pub fn save(&self, path: &Path) -> Result<()> {
-        let mut part = path.as_os_str().to_owned();
-        part.push(".part");
-        let part = Path::new(&part);
-        let written = fs::write(part, self.to_bytes()).and_then(|()| fs::rename(part, path));
-        written.map_err(|error| {
-            let _ = fs::remove_file(part);
-            Error::new(ErrorKind::Io, format!("{}: {error}", path.display()))
-        })
+        write_whole(path, &self.to_bytes())
     }
 
     /// Reads a body from a file that [`Body::save`] wrote. It answers as the saved one does, bit for bit.

@@ -19,7 +19,11 @@ pub mod boundary;
 
 pub mod pose;
 
+pub mod hierarchy;
+
 pub mod body;
+
+pub mod nodes;
 
 pub mod robot;
 

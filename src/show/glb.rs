@@ -1,8 +1,22 @@
 //! Writes triangles, placed and coloured, as a glTF 2.0 binary (.glb): a JSON chunk and a buffer chunk.
 
+use std::path::Path;
+
 use serde_json::{Value, json};
 
+use crate::error::{Error, ErrorKind, Result};
 use crate::pose::{Pose, Vec3};
+
+/// Fails unless the name ends in .glb.
+pub fn require_glb(path: &Path) -> Result<()> {
+    if path.extension().is_some_and(|ending| ending == "glb") {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::Unsupported,
+        format!("{}: the name of a picture ends in .glb", path.display()),
+    ))
+}
 
 /// Triangles with a normal at each corner.
 #[derive(Default)]

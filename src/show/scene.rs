@@ -5,25 +5,21 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::glb::{Document, Triangles};
+use super::glb::{Document, Triangles, require_glb};
 use super::shapes::{add_arrow, add_ball, add_rod, of_body};
 use crate::body::Body;
 use crate::cobject::{CObject, SObjects, Term};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::query::{PseudoNormal, QueryContext, SSide};
+use crate::whole_file::write_whole;
 
 /// At most so many witnesses are drawn.
 const MOST_WITNESSES: usize = 64;
 
 /// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
 pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
-    if path.extension().is_none_or(|ending| ending != "glb") {
-        return Err(Error::new(
-            ErrorKind::Unsupported,
-            format!("{}: the name of a picture ends in .glb", path.display()),
-        ));
-    }
+    require_glb(path)?;
     let epsilon = cobject
         .terms()
         .iter()
@@ -217,24 +213,4 @@ impl<'a> Drawing<'a> {
                 .add_node(name, mesh, &Pose::identity(), extras);
         }
     }
-}
-
-/// Writes beside the file and renames, so that no reader ever sees half of it.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let failed =
-        |error: std::io::Error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display()));
-    if path.is_dir() {
-        return Err(Error::new(
-            ErrorKind::Io,
-            format!("{} is a folder", path.display()),
-        ));
-    }
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}.part", std::process::id()));
-    std::fs::write(&beside, bytes)
-        .and_then(|()| std::fs::rename(&beside, path))
-        .map_err(|error| {
-            let _ = std::fs::remove_file(&beside);
-            failed(error)
-        })
 }

@@ -14,7 +14,8 @@ pub fn of_body(body: &Body) -> Triangles {
     triangles
 }
 
-fn add_primitive(triangles: &mut Triangles, primitive: &Convex, thickness: f64) {
+/// The faces of a primitive; a segment becomes a rod, a point a ball.
+pub fn add_primitive(triangles: &mut Triangles, primitive: &Convex, thickness: f64) {
     for face in &primitive.faces {
         let corner = |i: usize| primitive.vertices[face.vertices[i] as usize];
         for i in 1..face.vertices.len() - 1 {

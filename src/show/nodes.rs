@@ -1,0 +1,95 @@
+//! Nodes of a body's hierarchy: their wrappers as one surface, and as a picture (§3.3.2, Figures 6–9).
+
+use std::path::Path;
+
+use serde_json::json;
+
+use super::glb::{Colour, Document, Triangles, require_glb};
+use super::shapes::add_primitive;
+use crate::body::Body;
+use crate::error::{Error, ErrorKind, Result};
+use crate::hierarchy::{Node, Surface};
+use crate::pose::{Pose, Vec3};
+use crate::whole_file::write_whole;
+
+/// Colours of neighbouring nodes.
+const COLOURS: [Colour; 8] = [
+    [0.55, 0.70, 0.90, 1.0],
+    [0.95, 0.75, 0.45, 1.0],
+    [0.60, 0.82, 0.55, 1.0],
+    [0.88, 0.55, 0.55, 1.0],
+    [0.72, 0.62, 0.86, 1.0],
+    [0.78, 0.68, 0.58, 1.0],
+    [0.92, 0.66, 0.82, 1.0],
+    [0.55, 0.82, 0.84, 1.0],
+];
+
+/// The wrappers of nodes as meshes in the frame in which the body was given, leaves as their primitives. Fails for a node
+/// the hierarchy does not have.
+pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
+    let count = body.tree().subsets().nodes.len();
+    nodes
+        .iter()
+        .map(|&node| {
+            if node as usize >= count {
+                return Err(Error::new(
+                    ErrorKind::NotFound,
+                    format!("node {node} does not exist; the hierarchy has {count}"),
+                ));
+            }
+            let mut surface = match body.tree().node(node) {
+                Node::Interior { .. } => body.tree().wrapper(node).surface(),
+                Node::Leaf { primitive } => {
+                    let primitive = &body.primitives()[primitive as usize];
+                    Surface {
+                        vertices: primitive.vertices.clone(),
+                        faces: primitive.faces.iter().map(|f| f.vertices.clone()).collect(),
+                    }
+                }
+            };
+            for vertex in &mut surface.vertices {
+                *vertex += body.center();
+            }
+            Ok(surface)
+        })
+        .collect()
+}
+
+/// Writes a .glb picture of nodes, neighbours in different colours, leaves as their primitives.
+pub fn show_nodes(body: &Body, nodes: &[u32], path: &Path) -> Result<()> {
+    require_glb(path)?;
+    let surfaces = node_surfaces(body, nodes)?;
+    let mut document = Document::default();
+    let materials = COLOURS.map(|colour| document.add_material("node", colour, true));
+    for (i, (&node, surface)) in nodes.iter().zip(&surfaces).enumerate() {
+        let mut triangles = Triangles::default();
+        match body.tree().node(node) {
+            Node::Leaf { primitive } => {
+                let primitive = body.primitives()[primitive as usize].clone();
+                let back = -body.center();
+                let primitive = primitive.recentered(&back);
+                add_primitive(&mut triangles, &primitive, 0.004 * body.radius());
+            }
+            Node::Interior { .. } => add_surface(&mut triangles, surface),
+        }
+        if let Some(mesh) = document.add_mesh(&triangles, materials[i % COLOURS.len()]) {
+            let name = format!("node {node}");
+            document.add_node(&name, mesh, &Pose::identity(), json!({ "node": node }));
+        }
+    }
+    write_whole(path, &document.into_bytes(json!({ "nodes": nodes.len() })))
+}
+
+fn add_surface(triangles: &mut Triangles, surface: &Surface) {
+    for face in &surface.faces {
+        let corner = |k: usize| surface.vertices[face[k] as usize];
+        let fan = (1..face.len() - 1).map(|k| [corner(0), corner(k), corner(k + 1)]);
+        let sum: Vec3 = fan.clone().map(|[a, b, c]| (b - a).cross(&(c - a))).sum();
+        let Some(normal) = sum.try_normalize(0.0) else {
+            continue;
+        };
+        for corners in fan {
+            triangles.push(corners, normal);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Files that are written whole or not at all.
+
+use std::path::Path;
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// Writes beside the file and renames, so that no reader ever sees half of it. A file of that name is replaced.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let failed =
+        |error: std::io::Error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display()));
+    if path.is_dir() {
+        return Err(Error::new(
+            ErrorKind::Io,
+            format!("{} is a folder", path.display()),
+        ));
+    }
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(format!(".{}.part", std::process::id()));
+    std::fs::write(&beside, bytes)
+        .and_then(|()| std::fs::rename(&beside, path))
+        .map_err(|error| {
+            let _ = std::fs::remove_file(&beside);
+            failed(error)
+        })
+}
