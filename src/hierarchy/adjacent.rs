@@ -8,7 +8,7 @@ use crate::pose::Vec3;
 
 /// Adjacent bodies this many times smaller are left to the basic algorithm, which lets them merge among themselves: a
 /// plate would take in its thousands of rivets one by one.
-const LARGEST_BALANCE: f64 = 8.0;
+const LARGEST_BALANCE: f64 = 4.0;
 
 /// Which bodies are adjacent. The relation is given between the leaves and carried up as bodies merge; it may be any
 /// relation, edge families are one.

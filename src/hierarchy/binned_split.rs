@@ -19,14 +19,14 @@ enum Branch {
 
 /// Builds a tree over the bodies from the top; returns its root.
 ///
-/// No deeper than 2 log2 N: where the heuristic would lead deeper, sets are halved at the median.
+/// No more than 2 log2 N levels: where the heuristic would lead deeper, sets are halved at the median.
 pub fn split(
     forest: &mut Forest,
     mut bodies: Vec<u32>,
     threads: usize,
     progress: &mut Progress,
 ) -> Result<u32> {
-    let depth_limit = 2 * ceil_log2(bodies.len());
+    let depth_limit = levels_for(bodies.len());
     // Large sets first, so that the rest can be shared out.
     let mut upper: Vec<[Branch; 2]> = Vec::new();
     let mut tasks: Vec<(usize, usize, usize)> = Vec::new();
@@ -43,34 +43,38 @@ pub fn split(
     })?;
     let roots: Vec<u32> = lower
         .iter()
-        .map(|(root, pairs)| {
-            let mut made: Vec<u32> = Vec::with_capacity(pairs.len());
-            for pair in pairs {
-                let [a, b] = pair.map(|branch| match branch {
-                    Branch::Body(body) => body,
-                    Branch::Pair(i) => made[i as usize],
-                });
-                made.push(forest.merge(a, b));
-            }
-            match *root {
-                Branch::Body(body) => body,
-                Branch::Pair(i) => made[i as usize],
-            }
-        })
+        .map(|(root, pairs)| merge_all(forest, *root, pairs, &|body| body))
         .collect();
     // In the upper part a body is the number of a task.
-    let mut made: Vec<u32> = Vec::with_capacity(upper.len());
-    for pair in &upper {
-        let [a, b] = pair.map(|branch| match branch {
-            Branch::Body(task) => roots[task as usize],
-            Branch::Pair(i) => made[i as usize],
-        });
+    Ok(merge_all(forest, root, &upper, &|task| {
+        roots[task as usize]
+    }))
+}
+
+/// The same for few bodies, under `levels` more levels, which must be enough.
+pub fn split_within(forest: &mut Forest, mut bodies: Vec<u32>, levels: usize) -> u32 {
+    let mut pairs = Vec::new();
+    let root = split_whole(forest, &mut bodies, levels, &mut pairs);
+    merge_all(forest, root, &pairs, &|body| body)
+}
+
+/// Enters pairs into the forest; `named` tells the body a branch stands for.
+fn merge_all(
+    forest: &mut Forest,
+    root: Branch,
+    pairs: &[[Branch; 2]],
+    named: &dyn Fn(u32) -> u32,
+) -> u32 {
+    let mut made: Vec<u32> = Vec::with_capacity(pairs.len());
+    let body = |branch: Branch, made: &[u32]| match branch {
+        Branch::Body(body) => named(body),
+        Branch::Pair(i) => made[i as usize],
+    };
+    for pair in pairs {
+        let [a, b] = pair.map(|branch| body(branch, &made));
         made.push(forest.merge(a, b));
     }
-    Ok(match root {
-        Branch::Body(task) => roots[task as usize],
-        Branch::Pair(i) => made[i as usize],
-    })
+    body(root, &made)
 }
 
 fn split_upper(
@@ -180,6 +184,11 @@ fn joined(a: (usize, Option<Extent>), b: (usize, Option<Extent>)) -> (usize, Opt
         (a, b) => a.or(b),
     };
     (a.0 + b.0, extent)
+}
+
+/// The most levels below the root of a tree with no more than 2 log2 n levels.
+pub fn levels_for(bodies: usize) -> usize {
+    (2.0 * (bodies as f64).log2() - 1.0 + 1e-9).max(0.0) as usize
 }
 
 fn ceil_log2(n: usize) -> usize {

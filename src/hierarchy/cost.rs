@@ -14,7 +14,7 @@ impl Default for Cost {
         Self {
             diameter: 1.0,
             fill: 1.0,
-            balance: 0.25,
+            balance: 0.1,
         }
     }
 }

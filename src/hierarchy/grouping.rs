@@ -1,11 +1,12 @@
 //! The grouping phase (§3.2): from the parts that stand as leaves to the subset tree.
 
 use super::adjacent::{Adjacent, sibling_pairs};
-use super::binned_split::split;
+use super::binned_split::{levels_for, split, split_within};
 use super::greedy_clustering::{Limits, cluster};
 use super::nearby::{Curve, Nearby};
 use super::parallel::Progress;
 use super::parts::Part;
+use super::rebalancing::rebalanced;
 use super::{Extent, Forest, Grouping, HierarchyOptions, Node, SubsetTree};
 use crate::error::Result;
 use crate::primitive::Convex;
@@ -13,7 +14,7 @@ use crate::primitive::Convex;
 /// The subset tree over parts (its leaves name parts, by index), and the nodes that hold the given convex pieces.
 pub struct Groups {
     pub subsets: SubsetTree,
-    /// In ascending order.
+    /// In ascending order. A piece that was opened to bound the tree's depth has none.
     pub pieces: Vec<u32>,
 }
 
@@ -35,7 +36,7 @@ pub fn group(
     let mut order: Vec<u32> = (0..extents.len() as u32).collect();
     order.sort_by_cached_key(|&i| (curve.code(&extents[i as usize].center()), i));
     let mut forest = Forest::new(order.iter().map(|&i| extents[i as usize]).collect());
-    let (bodies, holders, piece_roots) = join_pieces(&mut forest, pieces, &order)?;
+    let (bodies, holders, piece_roots) = join_pieces(&mut forest, pieces, &order);
     let threads = options.thread_count();
     progress.at(0.05)?;
     let root = match options.grouping {
@@ -67,7 +68,10 @@ pub fn group(
             basic(&mut forest, chunks, &bounds, options, &mut rest)?
         }
     };
-    let (mut subsets, at) = forest.into_tree(root);
+    let (forest, names) = rebalanced(forest);
+    let mut piece_roots: Vec<u32> = piece_roots.iter().map(|&i| names[i as usize]).collect();
+    piece_roots.sort_unstable();
+    let (mut subsets, at) = forest.into_tree(names[root as usize]);
     for node in &mut subsets.nodes {
         if let Node::Leaf { primitive } = node {
             *primitive = order[*primitive as usize];
@@ -84,7 +88,7 @@ fn join_pieces(
     forest: &mut Forest,
     pieces: &[Vec<u32>],
     order: &[u32],
-) -> Result<(Vec<u32>, Vec<u32>, Vec<u32>)> {
+) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
     let mut holders: Vec<u32> = (0..order.len() as u32).collect();
     let mut roots = Vec::new();
     let mut leaf_of = vec![0; order.len()];
@@ -93,8 +97,7 @@ fn join_pieces(
     }
     for piece in pieces.iter().filter(|piece| piece.len() > 1) {
         let leaves: Vec<u32> = piece.iter().map(|&part| leaf_of[part as usize]).collect();
-        let mut unheard = |_| Ok(());
-        let root = split(forest, leaves.clone(), 1, &mut Progress::new(&mut unheard))?;
+        let root = split_within(forest, leaves.clone(), levels_for(leaves.len()));
         for leaf in leaves {
             holders[leaf as usize] = root;
         }
@@ -103,7 +106,7 @@ fn join_pieces(
     let mut bodies = holders.clone();
     bodies.sort_unstable();
     bodies.dedup();
-    Ok((bodies, holders, roots))
+    (bodies, holders, roots)
 }
 
 /// The basic clustering algorithm; returns the root.

@@ -17,6 +17,7 @@ mod options;
 mod oriented_box;
 mod parallel;
 mod parts;
+mod rebalancing;
 mod statistics;
 mod subset_tree;
 mod wrapper;
