@@ -223,3 +223,153 @@ impl<'a, R: Eligibility> Round<'a, R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hierarchy::adjacent::{Adjacent, sibling_pairs};
+    use crate::hierarchy::nearby::Nearby;
+    use crate::hierarchy::{Cost, Extent};
+    use crate::pose::Vec3;
+
+    /// Boxes of sizes from 0.01 to 1 in a cube of 10.
+    fn boxes(count: usize) -> Vec<Extent> {
+        let mut state = 1u64;
+        let mut random = move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count)
+            .map(|_| {
+                let low = Vec3::new(random(), random(), random()) * 10.0;
+                let size = 0.01f64.powf(random());
+                let high = low + Vec3::new(random(), random(), random()) * size;
+                Extent { low, high }
+            })
+            .collect()
+    }
+
+    /// Eligible by nearness, found by looking at all pairs; checks that each merged pair was the cheapest of all.
+    struct AllPairs {
+        cost: Cost,
+        gap_limit: f64,
+        active: Vec<u32>,
+        merges: usize,
+    }
+
+    impl AllPairs {
+        fn cost(&self, forest: &Forest, a: u32, b: u32) -> Option<f64> {
+            let [own, theirs] = [a, b].map(|i| forest.extents[i as usize]);
+            let diameters = [a, b].map(|i| forest.diameters[i as usize]);
+            let merged = own.union(&theirs).diameter();
+            let merged = merged.max(diameters[0]).max(diameters[1]);
+            let near = own.gap(&theirs) <= self.gap_limit;
+            near.then(|| self.cost.of(merged, diameters))
+        }
+    }
+
+    impl Eligibility for AllPairs {
+        fn begin(&mut self, _forest: &Forest, active: &[u32], limits: &Limits) {
+            self.gap_limit = limits.gap;
+            self.active = active.to_vec();
+        }
+
+        fn partner(&self, forest: &Forest, body: u32) -> Option<(f64, u32)> {
+            let older = self.active.iter().filter(|&&other| other < body);
+            older
+                .filter_map(|&other| Some((self.cost(forest, body, other)?, other)))
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+        }
+
+        fn merged(&mut self, forest: &Forest, children: [u32; 2], parent: u32, active: bool) {
+            let taken = self.cost(forest, children[0], children[1]).unwrap();
+            for (i, &a) in self.active.iter().enumerate() {
+                for &b in &self.active[..i] {
+                    let other = self.cost(forest, a, b);
+                    assert!(
+                        other.is_none_or(|cost| cost >= taken),
+                        "{a}, {b} is cheaper"
+                    );
+                }
+            }
+            self.active.retain(|body| !children.contains(body));
+            self.active.extend(active.then_some(parent));
+            self.merges += 1;
+        }
+    }
+
+    fn run(boxes: &[Extent], rule: &mut impl Eligibility, threads: usize) -> (Forest, Vec<u32>) {
+        let mut forest = Forest::new(boxes.to_vec());
+        let first = Limits {
+            diameter: 0.05,
+            gap: 0.0125,
+        };
+        let mut unheard = |_| Ok(());
+        let left = cluster(
+            &mut forest,
+            (0..boxes.len() as u32).collect(),
+            rule,
+            first,
+            20.0,
+            threads,
+            &mut Progress::new(&mut unheard),
+        );
+        (forest, left.unwrap())
+    }
+
+    #[test]
+    fn the_cheapest_pair_of_all_is_merged_first_and_the_hash_finds_it() {
+        let boxes = boxes(120);
+        let bounds = boxes.iter().fold(boxes[0], |all, e| all.union(e));
+        for cost in [
+            Cost::default(),
+            Cost {
+                diameter: 2.0,
+                fill: 0.5,
+                balance: 1.0,
+            },
+        ] {
+            let mut all = AllPairs {
+                cost,
+                gap_limit: 0.0,
+                active: Vec::new(),
+                merges: 0,
+            };
+            let (expected, left) = run(&boxes, &mut all, 1);
+            assert_eq!((all.merges, left.len()), (119, 1));
+            for threads in [1, 3] {
+                let (found, _) = run(&boxes, &mut Nearby::new(cost, &bounds), threads);
+                assert_eq!(found.children, expected.children);
+            }
+        }
+    }
+
+    /// Two strips of squares that share no edge are two chunks, however near.
+    #[test]
+    fn chunks_are_connected_parts() {
+        let square = |i: usize, y: f64| {
+            let x = i as f64;
+            [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)]
+                .map(|(x, y)| Vec3::new(x, y, 0.0))
+        };
+        let squares: Vec<[Vec3; 4]> = (0..40)
+            .map(|i| square(i % 20, if i < 20 { 0.0 } else { 1.001 }))
+            .collect();
+        let extents: Vec<Extent> = squares.iter().map(|s| Extent::of(s)).collect();
+        let siblings = sibling_pairs(0..40, |part, hear| {
+            let s = squares[part as usize];
+            for k in 0..4 {
+                hear([s[k], s[(k + 1) % 4]]);
+            }
+        });
+        assert_eq!(siblings.len(), 38);
+        let mut rule = Adjacent::new(Cost::default(), 40, &siblings);
+        let (forest, chunks) = run(&extents, &mut rule, 1);
+        assert_eq!(chunks.len(), 2);
+        let spans = chunks.iter().map(|&chunk| forest.extents[chunk as usize]);
+        assert!(spans.clone().any(|e| e.low.y == 0.0 && e.high.y == 1.0));
+        assert!(spans.clone().any(|e| e.low.y == 1.001));
+    }
+}
