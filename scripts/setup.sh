@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that the other scripts need and that are missing: setup.sh demo | test.
+# Installs the Debian packages that the other scripts need and that are missing: setup.sh demo | test | bench.
 set -euo pipefail
 
 common=(cmake g++ make pkg-config)
 case "${1:-}" in
   demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick fonts-dejavu-core) ;;
+  bench) packages=("${common[@]}") ;;
   test) packages=("${common[@]}" python3-pip clang valgrind binutils libfcl-dev) ;;
-  *) echo "usage: setup.sh demo|test" >&2; exit 2 ;;
+  *) echo "usage: setup.sh demo|test|bench" >&2; exit 2 ;;
 esac
 
 missing=()
