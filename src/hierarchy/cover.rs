@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Extent;
 use super::bounding_sphere::bounding_sphere;
-use super::extremes::{Extremes, extremes};
+use super::extremes::extremes;
 use super::oriented_box::oriented_box;
 use crate::pose::Vec3;
 use crate::primitive::checked_hull;
@@ -13,10 +13,19 @@ use crate::tolerance;
 /// So few points are their own hull: what a hull would leave out costs less than finding it.
 const FEW: usize = 16;
 
-/// A wrapper that owns its corners.
-#[derive(Clone, Debug)]
+/// The corners of a wrapper around points.
+pub enum Corners {
+    /// All the points.
+    Points,
+    /// Those of the points that are corners of their hull.
+    Hull(Vec<Vec3>),
+    /// Corners of a box, or the centre of a sphere.
+    New(Vec<Vec3>),
+}
+
+/// A wrapper but for its corners.
+#[derive(Clone, Copy, Debug)]
 pub struct Cover {
-    pub corners: Vec<Vec3>,
     pub excess: f64,
     pub center: Vec3,
     pub radius: f64,
@@ -24,10 +33,9 @@ pub struct Cover {
 
 impl Cover {
     /// With a sphere around all the points; the corners' hull grown by `excess` covers them.
-    fn around(points: &[Vec3], corners: Vec<Vec3>, excess: f64) -> Self {
-        let center = Extent::of(points).center();
+    fn around(points: &[Vec3], extent: &Extent, excess: f64) -> Self {
+        let center = extent.center();
         Self {
-            corners,
             excess,
             center,
             radius: reach(points, &center),
@@ -37,83 +45,73 @@ impl Cover {
     /// The sphere of a given centre as its own wrapper.
     fn sphere(center: Vec3, radius: f64) -> Self {
         Self {
-            corners: vec![center],
             excess: radius,
             center,
             radius,
         }
     }
 
-    /// The points' convex hull, or an oriented box where it has more than `vertex_limit` vertices. Also says whether the
-    /// corners are given points (a hull) rather than new ones (a box).
-    pub fn hull(points: &[Vec3], vertex_limit: usize) -> (Self, bool) {
+    /// The points' convex hull, or an oriented box where it has more than `vertex_limit` vertices. `extent` is the points'.
+    pub fn hull(points: &[Vec3], extent: &Extent, vertex_limit: usize) -> (Self, Corners) {
         if points.len() <= FEW.min(vertex_limit) {
-            return (Self::around(points, points.to_vec(), 0.0), true);
+            return (Self::around(points, extent, 0.0), Corners::Points);
         }
         let extremes = extremes(points);
-        if extremes.points.len() <= vertex_limit {
+        if extremes.len() <= vertex_limit {
             // An excess of a millionth of the size hardly loosens the bound; more, and the box is the better wrapper.
-            let tolerated = 1e-6 * (extremes.extent.diameter());
+            let tolerated = 1e-6 * extent.diameter();
             let hull = checked_hull(points, tolerated, vertex_limit);
             if let Some(hull) = hull.filter(|hull| hull.excess <= tolerated) {
                 let corners = hull.vertices.iter().map(|&i| points[i as usize]).collect();
-                let excess = hull.excess + rounding(points);
-                return (Self::around(points, corners, excess), true);
+                let excess = hull.excess + rounding(extent);
+                return (Self::around(points, extent, excess), Corners::Hull(corners));
             }
             if points.len() <= vertex_limit {
-                return (Self::around(points, points.to_vec(), 0.0), true);
+                return (Self::around(points, extent, 0.0), Corners::Points);
             }
         }
-        (Self::boxed(points, &extremes), false)
+        Self::boxed(points, extent, &extremes)
     }
 
     /// An oriented box of about the least volume.
-    pub fn oriented_box(points: &[Vec3]) -> Self {
-        Self::boxed(points, &extremes(points))
+    pub fn oriented_box(points: &[Vec3], extent: &Extent) -> (Self, Corners) {
+        Self::boxed(points, extent, &extremes(points))
     }
 
-    fn boxed(points: &[Vec3], extremes: &Extremes) -> Self {
+    fn boxed(points: &[Vec3], extent: &Extent, extremes: &[Vec3]) -> (Self, Corners) {
         let corners = oriented_box(points, extremes);
-        Self::around(points, corners, rounding(points))
+        let cover = Self::around(points, extent, rounding(extent));
+        (cover, Corners::New(corners))
     }
 
-    pub fn aligned_box(extent: &Extent) -> Self {
-        let (low, high) = (extent.low, extent.high);
-        let corners: Vec<Vec3> = (0..8)
-            .map(|i| {
-                let pick = |axis: usize| {
-                    if i >> axis & 1 == 0 {
-                        low[axis]
-                    } else {
-                        high[axis]
-                    }
-                };
-                Vec3::new(pick(0), pick(1), pick(2))
-            })
-            .collect();
-        Self::around(&corners.clone(), corners, 0.0)
+    pub fn aligned_box(extent: &Extent) -> (Self, Corners) {
+        let corners = extent.corners();
+        let cover = Self::around(&corners, extent, 0.0);
+        (cover, Corners::New(corners.into()))
     }
 
     /// A nearly least sphere around the points.
-    pub fn tight_sphere(points: &[Vec3]) -> Self {
+    pub fn tight_sphere(points: &[Vec3]) -> (Self, Corners) {
         let center = bounding_sphere(points);
-        Self::sphere(center, reach(points, &center))
+        let cover = Self::sphere(center, reach(points, &center));
+        (cover, Corners::New(vec![center]))
     }
 
     /// The sphere around two spheres.
-    pub fn merged_sphere(a: &Self, b: &Self) -> Self {
+    pub fn merged_sphere(a: &Self, b: &Self) -> (Self, Corners) {
         let apart = (b.center - a.center).norm();
-        if apart + b.radius <= a.radius {
-            return a.clone();
-        }
-        if apart + a.radius <= b.radius {
-            return b.clone();
-        }
-        let radius = 0.5 * (apart + a.radius + b.radius);
-        let center = a.center + (b.center - a.center) * ((radius - a.radius) / apart);
-        let reach = |child: &Self| (child.center - center).norm() + child.radius;
-        let radius = reach(a).max(reach(b));
-        Self::sphere(center, outwards(radius, &center))
+        let cover = if apart + b.radius <= a.radius {
+            *a
+        } else if apart + a.radius <= b.radius {
+            *b
+        } else {
+            let radius = 0.5 * (apart + a.radius + b.radius);
+            let center = a.center + (b.center - a.center) * ((radius - a.radius) / apart);
+            let reach = |child: &Self| (child.center - center).norm() + child.radius;
+            let radius = reach(a).max(reach(b));
+            Self::sphere(center, outwards(radius, &center))
+        };
+        (cover, Corners::New(vec![cover.center]))
     }
 
     /// The same grown by `excess`.
@@ -138,10 +136,9 @@ fn outwards(distance: f64, center: &Vec3) -> f64 {
     distance + tolerance::WRAPPER_ERROR * (distance + center.amax())
 }
 
-/// What rounding can hide of a point's distance from a hull or box.
-fn rounding(points: &[Vec3]) -> f64 {
-    let largest = points.iter().map(|p| p.amax()).fold(0.0, f64::max);
-    tolerance::WRAPPER_ERROR * largest
+/// What rounding can hide of the distance of a point in the box from a hull or another box.
+fn rounding(extent: &Extent) -> f64 {
+    tolerance::WRAPPER_ERROR * extent.low.amax().max(extent.high.amax())
 }
 
 /// The order of points in lists that are merged.

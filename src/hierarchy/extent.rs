@@ -29,6 +29,12 @@ impl Extent {
         }
     }
 
+    /// The eight corners; bit k of a corner's index says whether it is high along axis k.
+    pub fn corners(&self) -> [Vec3; 8] {
+        let pick = |i: usize, axis: usize| [self.low, self.high][i >> axis & 1][axis];
+        std::array::from_fn(|i| Vec3::new(pick(i, 0), pick(i, 1), pick(i, 2)))
+    }
+
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) * 0.5
     }

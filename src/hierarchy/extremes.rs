@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use super::Extent;
 use crate::pose::Vec3;
 
 /// Enough lines that a set with many hull vertices shows more than any usual limit of them.
@@ -18,32 +17,65 @@ static DIRECTIONS: LazyLock<[Vec3; LINES]> = LazyLock::new(|| {
     })
 });
 
-/// Vertices of the hull of a set, each once, and its box.
-pub struct Extremes {
-    pub points: Vec<Vec3>,
-    pub extent: Extent,
-}
+/// Points are taken in blocks that fit the nearest cache, their coordinates apart.
+const BLOCK: usize = 256;
 
-/// The points farthest out along the directions, both ways.
-pub fn extremes(points: &[Vec3]) -> Extremes {
-    let mut indices: Vec<usize> = Vec::with_capacity(2 * LINES);
-    for direction in DIRECTIONS.iter() {
-        let (mut low, mut high) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
-        for (i, p) in points.iter().enumerate() {
-            let along = direction.dot(p);
-            if along < low.1 {
-                low = (i, along);
-            }
-            if along > high.1 {
-                high = (i, along);
+/// The points farthest out along the directions, both ways: vertices of their hull, each once.
+pub fn extremes(points: &[Vec3]) -> Vec<Vec3> {
+    let mut low = [(0, f64::INFINITY); LINES];
+    let mut high = [(0, f64::NEG_INFINITY); LINES];
+    for (b, block) in points.chunks(BLOCK).enumerate() {
+        let mut along = [0.0; BLOCK];
+        let mut coordinates = [[0.0; BLOCK]; 3];
+        for (i, p) in block.iter().enumerate() {
+            for axis in 0..3 {
+                coordinates[axis][i] = p[axis];
             }
         }
-        indices.extend([low.0, high.0]);
+        let [x, y, z] = &coordinates;
+        for (k, direction) in DIRECTIONS.iter().enumerate() {
+            for i in 0..BLOCK {
+                along[i] = direction.x * x[i] + direction.y * y[i] + direction.z * z[i];
+            }
+            let along = &along[..block.len()];
+            let (least, most) = ends(along);
+            let place =
+                |value: f64| b * BLOCK + along.iter().position(|&a| a == value).unwrap_or(0);
+            if least < low[k].1 {
+                low[k] = (place(least), least);
+            }
+            if most > high[k].1 {
+                high[k] = (place(most), most);
+            }
+        }
     }
+    let mut indices: Vec<usize> = low.iter().chain(&high).map(|end| end.0).collect();
     indices.sort_unstable();
     indices.dedup();
-    Extremes {
-        points: indices.iter().map(|&i| points[i]).collect(),
-        extent: Extent::of(points),
+    indices.into_iter().map(|i| points[i]).collect()
+}
+
+/// The least and the largest value; several at a time, so that they do not wait for each other.
+fn ends(values: &[f64]) -> (f64, f64) {
+    let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+    let (fours, rest) = values.as_chunks::<4>();
+    for four in fours {
+        for lane in 0..4 {
+            low[lane] = if four[lane] < low[lane] {
+                four[lane]
+            } else {
+                low[lane]
+            };
+            high[lane] = if four[lane] > high[lane] {
+                four[lane]
+            } else {
+                high[lane]
+            };
+        }
     }
+    let all = |lanes: [f64; 4]| lanes.into_iter().chain(rest.iter().copied());
+    (
+        all(low).fold(f64::INFINITY, f64::min),
+        all(high).fold(f64::NEG_INFINITY, f64::max),
+    )
 }

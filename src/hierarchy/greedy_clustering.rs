@@ -1,6 +1,6 @@
 //! Bottom-up clustering (§3.2.2, §3.2.5): of all eligible pairs of parentless bodies, the cheapest gets a parent.
 
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::Forest;
@@ -32,27 +32,22 @@ pub trait Eligibility: Sync {
 
 /// A body and its cheapest older partner. Every pair is known to its younger body, so that the least entry of the queue
 /// is the cheapest of all eligible pairs, with one entry a body.
-#[derive(PartialEq)]
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
-    cost: f64,
+    /// The bits of a number that is not negative order as the number does.
+    cost: u64,
     body: u32,
     partner: u32,
 }
 
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.cost
-            .total_cmp(&other.cost)
-            .then(self.body.cmp(&other.body))
-            .then(self.partner.cmp(&other.partner))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+impl Entry {
+    fn of(rule: &impl Eligibility, forest: &Forest, body: u32) -> Option<Reverse<Self>> {
+        let (cost, partner) = rule.partner(forest, body)?;
+        Some(Reverse(Self {
+            cost: (cost + 0.0).to_bits(),
+            body,
+            partner,
+        }))
     }
 }
 
@@ -146,15 +141,10 @@ impl<'a, R: Eligibility> Round<'a, R> {
             chunks.len(),
             &mut Progress::new(&mut |_| Ok(())),
             |c| {
-                let entry = |&body: &u32| {
-                    let (cost, partner) = search.partner(whole, body)?;
-                    Some(Reverse(Entry {
-                        cost,
-                        body,
-                        partner,
-                    }))
-                };
-                chunks[c].iter().filter_map(entry).collect::<Vec<_>>()
+                let entries = chunks[c]
+                    .iter()
+                    .filter_map(|&body| Entry::of(search, whole, body));
+                entries.collect::<Vec<_>>()
             },
         )?;
         Ok(Self {
@@ -214,13 +204,7 @@ impl<'a, R: Eligibility> Round<'a, R> {
     }
 
     fn enqueue(&mut self, body: u32) {
-        if let Some((cost, partner)) = self.rule.partner(self.forest, body) {
-            self.queue.push(Reverse(Entry {
-                cost,
-                body,
-                partner,
-            }));
-        }
+        self.queue.extend(Entry::of(self.rule, self.forest, body));
     }
 }
 

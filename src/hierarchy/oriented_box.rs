@@ -2,16 +2,14 @@
 
 use nalgebra::{SymmetricEigen, Vector2};
 
-use super::extremes::Extremes;
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::monotone_chain;
 
 /// The eight corners of a box that covers the points, up to rounding.
 ///
-/// Starts from the axes of coordinates and from the principal axes of the extreme points; each is turned about its own
+/// Starts from the axes of coordinates and from the principal axes of few points that lie farthest out; each is turned about its own
 /// three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
-pub fn oriented_box(points: &[Vec3], extremes: &Extremes) -> Vec<Vec3> {
-    let few = &extremes.points;
+pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
     let mut best = (f64::INFINITY, Mat3::identity());
     for start in [Mat3::identity(), principal_axes(few)] {
         let mut axes = start;

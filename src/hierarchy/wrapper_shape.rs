@@ -90,12 +90,6 @@ impl Surface {
 }
 
 fn aligned_box(extent: &Extent) -> Surface {
-    let vertices = (0..8)
-        .map(|i| {
-            let pick = |axis: usize| [extent.low, extent.high][i >> axis & 1][axis];
-            Vec3::new(pick(0), pick(1), pick(2))
-        })
-        .collect();
     let faces = [
         [0, 2, 3, 1],
         [4, 5, 7, 6],
@@ -105,7 +99,7 @@ fn aligned_box(extent: &Extent) -> Surface {
         [1, 3, 7, 5],
     ];
     Surface {
-        vertices,
+        vertices: extent.corners().into(),
         faces: faces.map(Vec::from).into(),
     }
 }

@@ -1,6 +1,8 @@
 //! The construction phase (§3.2.4): a wrapper on every node of a subset tree.
 
-use super::cover::{Cover, by_coordinates, merge_sorted};
+use std::collections::HashMap;
+
+use super::cover::{Corners, Cover, by_coordinates, merge_sorted};
 use super::grouping::Groups;
 use super::parallel::{self, Progress};
 use super::parts::Part;
@@ -28,6 +30,41 @@ pub struct Frame {
     pub excess: f64,
     pub center: Vec3,
     pub radius: f64,
+}
+
+/// Wrappers one after the other.
+#[derive(Default)]
+struct Packed {
+    frames: Vec<Frame>,
+    corners: Vec<Vec3>,
+}
+
+impl Packed {
+    fn push(&mut self, cover: &Cover, corners: &[Vec3]) {
+        self.frames.push(Frame {
+            first_corner: self.corners.len(),
+            corner_count: corners.len(),
+            excess: cover.excess,
+            center: cover.center,
+            radius: cover.radius,
+        });
+        self.corners.extend_from_slice(corners);
+    }
+
+    /// Appends the wrappers of another, last first.
+    fn append_backwards(&mut self, other: &Packed) {
+        for frame in other.frames.iter().rev() {
+            let cover = Cover {
+                excess: frame.excess,
+                center: frame.center,
+                radius: frame.radius,
+            };
+            self.push(
+                &cover,
+                &other.corners[frame.first_corner..][..frame.corner_count],
+            );
+        }
+    }
 }
 
 /// What a finished node hands up to its parent.
@@ -69,7 +106,7 @@ impl WrapperTree {
                 node += 1;
             }
         }
-        let finish = |node: usize, children: Option<[Finished; 2]>| {
+        let finish = |node: usize, children: Option<[Finished; 2]>, packed: &mut Packed| {
             let mut options = *options;
             if pieces.binary_search(&(node as u32)).is_ok() {
                 // A convex piece is bounded exactly.
@@ -78,74 +115,67 @@ impl WrapperTree {
             match (subsets.nodes[node], children) {
                 (Node::Leaf { primitive: part }, _) => {
                     let (points, doubt) = parts[part as usize].vertices(primitives);
-                    wrap_leaf(points.to_vec(), doubt, &options)
+                    wrap_leaf(points.to_vec(), doubt, &options, packed)
                 }
-                (_, Some(children)) => wrap_children(children, &options),
+                (_, Some(children)) => wrap_children(children, &options, packed),
                 (_, None) => unreachable!("an interior node has children"),
             }
         };
         let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
             let from = tasks[t];
             let mut stack: Vec<Finished> = Vec::new();
-            let mut covers = Vec::new();
+            let mut packed = Packed::default();
             // Backwards, children come before their parents, and the first child last.
             for node in (from..from + sizes[from] as usize).rev() {
                 let children = match subsets.nodes[node] {
                     Node::Leaf { .. } => None,
                     Node::Interior { .. } => stack.pop().zip(stack.pop()).map(<[_; 2]>::from),
                 };
-                let finished = finish(node, children);
-                covers.push(finished.cover.clone());
-                stack.push(finished);
+                stack.push(finish(node, children, &mut packed));
             }
-            (covers, stack.pop())
+            (packed, stack.pop())
         })?;
-        let mut waiting: Vec<Option<Finished>> = Vec::new();
-        waiting.resize_with(subsets.nodes.len(), || None);
-        let mut all: Vec<Option<Cover>> = vec![None; subsets.nodes.len()];
-        for (&from, (covers, root)) in tasks.iter().zip(done) {
-            for (node, cover) in (from..from + covers.len()).rev().zip(covers) {
-                all[node] = Some(cover);
-            }
-            waiting[from] = root;
+        let mut waiting: HashMap<usize, Finished> = HashMap::new();
+        let mut packed: Vec<(usize, Packed)> = Vec::new();
+        for (&from, (wrappers, root)) in tasks.iter().zip(done) {
+            packed.push((from, wrappers));
+            waiting.extend(root.map(|root| (from, root)));
         }
         let count = upper.len();
         for (i, node) in upper.into_iter().rev().enumerate() {
             let children = match subsets.nodes[node] {
                 Node::Leaf { .. } => None,
                 Node::Interior { children } => {
-                    let [a, b] = children.map(|child| waiting[child as usize].take());
+                    let [a, b] = children.map(|child| waiting.remove(&(child as usize)));
                     a.zip(b).map(<[_; 2]>::from)
                 }
             };
-            let finished = finish(node, children);
-            all[node] = Some(finished.cover.clone());
-            waiting[node] = Some(finished);
+            let mut one = Packed::default();
+            waiting.insert(node, finish(node, children, &mut one));
+            packed.push((node, one));
             progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
+        }
+        drop(waiting);
+        // In the order of nodes: which is that of the first nodes of the runs, each backwards.
+        packed.sort_unstable_by_key(|(first, _)| *first);
+        let mut all = Packed::default();
+        all.frames.reserve_exact(subsets.nodes.len());
+        all.corners
+            .reserve_exact(packed.iter().map(|(_, run)| run.corners.len()).sum());
+        for (_, run) in packed {
+            all.append_backwards(&run);
         }
         for node in &mut subsets.nodes {
             if let Node::Leaf { primitive } = node {
                 *primitive = parts[*primitive as usize].primitive;
             }
         }
-        drop(waiting);
-        let (mut frames, mut corners) = (Vec::with_capacity(all.len()), Vec::new());
-        for cover in all.into_iter().flatten() {
-            frames.push(Frame {
-                first_corner: corners.len(),
-                corner_count: cover.corners.len(),
-                excess: cover.excess,
-                center: cover.center,
-                radius: cover.radius,
-            });
-            corners.extend(cover.corners);
-        }
         Ok(Self {
             subsets,
             kind: options.wrapper,
             pieces,
-            frames,
-            corners,
+            frames: all.frames,
+            corners: all.corners,
         })
     }
 
@@ -207,68 +237,70 @@ impl WrapperTree {
 }
 
 /// `doubt` says how far the leaf's part may lie outside the points' hull.
-fn wrap_leaf(mut points: Vec<Vec3>, doubt: f64, options: &HierarchyOptions) -> Finished {
+fn wrap_leaf(
+    mut points: Vec<Vec3>,
+    doubt: f64,
+    options: &HierarchyOptions,
+    packed: &mut Packed,
+) -> Finished {
     points.sort_unstable_by(by_coordinates);
     points.dedup();
-    wrap(Extent::of(&points), points, doubt, None, options)
+    wrap(Extent::of(&points), points, doubt, None, options, packed)
 }
 
-fn wrap_children([a, b]: [Finished; 2], options: &HierarchyOptions) -> Finished {
+fn wrap_children(
+    [a, b]: [Finished; 2],
+    options: &HierarchyOptions,
+    packed: &mut Packed,
+) -> Finished {
     let extent = a.extent.union(&b.extent);
     let points = merge_sorted(&a.points, &b.points);
     let inherited = a.inherited.max(b.inherited);
-    wrap(
-        extent,
-        points,
-        inherited,
-        Some([&a.cover, &b.cover]),
-        options,
-    )
+    let covers = Some([&a.cover, &b.cover]);
+    wrap(extent, points, inherited, covers, options, packed)
 }
 
+/// Wraps points, which lie no farther than `inherited` from all they stand for.
 fn wrap(
     extent: Extent,
-    points: Vec<Vec3>,
-    inherited: f64,
+    mut points: Vec<Vec3>,
+    mut inherited: f64,
     children: Option<[&Cover; 2]>,
     options: &HierarchyOptions,
+    packed: &mut Packed,
 ) -> Finished {
-    let finished = |cover, points, inherited| Finished {
+    let (cover, corners) = match (options.wrapper, children) {
+        (WrapperKind::Hull, _) => Cover::hull(&points, &extent, options.hull_vertex_limit as usize),
+        (WrapperKind::OrientedBox, _) => Cover::oriented_box(&points, &extent),
+        (WrapperKind::AlignedBox, _) => Cover::aligned_box(&extent),
+        (WrapperKind::MergedSphere, Some([a, b])) => Cover::merged_sphere(a, b),
+        (WrapperKind::TightSphere | WrapperKind::MergedSphere, _) => Cover::tight_sphere(&points),
+    };
+    // Children's spheres are grown already.
+    let merged = options.wrapper == WrapperKind::MergedSphere && children.is_some();
+    let cover = cover.grown(if merged { 0.0 } else { inherited });
+    match corners {
+        Corners::Points => packed.push(&cover, &points),
+        // A hull's vertices stand for all below from here on; a box's corners would loosen the hulls above.
+        Corners::Hull(corners) => {
+            packed.push(&cover, &corners);
+            points = corners;
+            points.sort_unstable_by(by_coordinates);
+            inherited = cover.excess;
+        }
+        Corners::New(corners) => packed.push(&cover, &corners),
+    }
+    if matches!(
+        options.wrapper,
+        WrapperKind::AlignedBox | WrapperKind::MergedSphere
+    ) {
+        // These need no points above the leaves.
+        points = Vec::new();
+    }
+    Finished {
         cover,
         points,
         inherited,
         extent,
-    };
-    match options.wrapper {
-        WrapperKind::Hull => {
-            let (cover, is_hull) = Cover::hull(&points, options.hull_vertex_limit as usize);
-            if is_hull {
-                // A hull's vertices stand for all below from here on; a box's corners would loosen the hulls above.
-                let excess = inherited + cover.excess;
-                finished(cover.clone().grown(inherited), cover.corners, excess)
-            } else {
-                finished(cover.grown(inherited), points, inherited)
-            }
-        }
-        WrapperKind::OrientedBox => {
-            let cover = Cover::oriented_box(&points).grown(inherited);
-            finished(cover, points, inherited)
-        }
-        WrapperKind::TightSphere => {
-            let cover = Cover::tight_sphere(&points).grown(inherited);
-            finished(cover, points, inherited)
-        }
-        // These need no points above the leaves.
-        WrapperKind::AlignedBox => {
-            let cover = Cover::aligned_box(&extent).grown(inherited);
-            finished(cover, Vec::new(), inherited)
-        }
-        WrapperKind::MergedSphere => {
-            let cover = match children {
-                Some([a, b]) => Cover::merged_sphere(a, b),
-                None => Cover::tight_sphere(&points).grown(inherited),
-            };
-            finished(cover, Vec::new(), 0.0)
-        }
     }
 }
