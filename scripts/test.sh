@@ -7,10 +7,10 @@ scripts/setup.sh test
 
 echo "== formatting and lints"
 cargo fmt --all -- --check
-cargo clippy --quiet --locked --all-targets -- -D warnings
+cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
 
 echo "== Rust tests"
-cargo test --locked
+cargo test --locked --workspace
 cargo run --quiet --locked --example generate_models -- --check
 
 echo "== the installed library"

@@ -2,9 +2,10 @@
 
 use std::time::Instant;
 
+use super::convex_pieces::convex_pieces;
 use super::grouping::group;
 use super::parallel::Progress;
-use super::parts::parts;
+use super::parts::{Part, parts};
 use super::{HierarchyOptions, WrapperTree};
 use crate::error::Result;
 use crate::primitive::Convex;
@@ -16,6 +17,19 @@ pub struct BuildTimes {
     pub preparation: f64,
     pub grouping: f64,
     pub construction: f64,
+}
+
+/// Pieces of primitives as pieces of the parts those were cut into.
+fn parts_of(parts: &[Part], primitives: usize, pieces: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    let mut slabs: Vec<Vec<u32>> = vec![Vec::new(); primitives];
+    for (i, part) in parts.iter().enumerate() {
+        slabs[part.primitive as usize].push(i as u32);
+    }
+    let of_piece = |piece: Vec<u32>| {
+        let members = piece.into_iter().flat_map(|i| slabs[i as usize].clone());
+        members.collect()
+    };
+    pieces.into_iter().map(of_piece).collect()
 }
 
 /// Builds the hierarchy of primitives, of which there is at least one. `progress` hears the fraction done, on this thread,
@@ -30,7 +44,10 @@ pub fn build_hierarchy(
     progress.at(0.0)?;
     let start = Instant::now();
     let parts = parts(primitives, options.aspect_limit);
-    let pieces: Vec<Vec<u32>> = Vec::new();
+    let mut pieces = convex_pieces(primitives, options.pieces, &mut progress.part(0.0, 0.1))?;
+    if parts.len() > primitives.len() {
+        pieces = parts_of(&parts, primitives.len(), pieces);
+    }
     let prepared = start.elapsed().as_secs_f64();
     let groups = group(
         primitives,
