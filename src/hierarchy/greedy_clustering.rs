@@ -190,7 +190,7 @@ impl<'a, R: Eligibility> Round<'a, R> {
             if active {
                 self.enqueue(parent);
             }
-            if parent % 4096 == 0 {
+            if parent.is_multiple_of(4096) {
                 hear((parent - first_new) as usize)?;
             }
         }

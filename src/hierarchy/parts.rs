@@ -169,7 +169,7 @@ mod tests {
         let plank = [(0., 0.), (10., 0.), (10., 1.), (0., 1.)].map(|(x, y)| Vec3::new(x, y, 0.5));
         let rod: Vec<Vec3> = (0..16)
             .map(|i| {
-                let angle = f64::from(i % 8) * 0.7854;
+                let angle = f64::from(i % 8) * std::f64::consts::FRAC_PI_4;
                 Vec3::new(angle.cos(), angle.sin(), if i < 8 { 0.0 } else { 50.0 })
             })
             .collect();
