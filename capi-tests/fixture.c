@@ -65,6 +65,7 @@ cstk_robot *make_arm(cstk_robot_builder *builder, const cstk_body *body) {
 static void keep_handles(fixture *f) {
     f->live[NOUN_BODY_BUILDER] = f->body_builder;
     f->live[NOUN_BODY] = f->body;
+    f->live[NOUN_MESH] = f->mesh;
     f->live[NOUN_ROBOT_BUILDER] = f->robot_builder;
     f->live[NOUN_ROBOT] = f->robot;
     f->live[NOUN_SPACE] = f->space;
@@ -80,6 +81,7 @@ static void release_handles(void *const handles[NOUN_COUNT]) {
     CHECK_OK(cstk_space_release(handles[NOUN_SPACE]));
     CHECK_OK(cstk_robot_release(handles[NOUN_ROBOT]));
     CHECK_OK(cstk_robot_builder_release(handles[NOUN_ROBOT_BUILDER]));
+    CHECK_OK(cstk_mesh_release(handles[NOUN_MESH]));
     CHECK_OK(cstk_body_release(handles[NOUN_BODY]));
     CHECK_OK(cstk_body_builder_release(handles[NOUN_BODY_BUILDER]));
 }
@@ -88,6 +90,8 @@ static void create_scene(fixture *f) {
     CHECK_OK(cstk_body_builder_create(3, &f->body_builder));
     add_box(f->body_builder, 0.4, 0.1, 0.1);
     CHECK_OK(cstk_body_build(f->body_builder, NULL, NULL, NULL, &f->body));
+    const uint32_t root = 0;
+    CHECK_OK(cstk_body_nodes_mesh(f->body, &root, 1, &f->mesh));
     CHECK_OK(cstk_robot_builder_create(3, &f->robot_builder));
     f->robot = make_arm(f->robot_builder, f->body);
     const cstk_robot *robot = f->robot;
@@ -131,6 +135,12 @@ static void environment_unchanged(const fixture *f) {
     CHECK(memcmp(pose, expected, sizeof pose) == 0);
 }
 
+static void mesh_unchanged(const fixture *f) {
+    cstk_mesh_view view;
+    CHECK_OK(cstk_mesh_get(f->mesh, &view));
+    CHECK(view.vertex_count == 8 && view.face_count == 6 && view.index_count == 24);
+}
+
 static void builders_unchanged(const fixture *f) {
     cstk_body *body = NULL;
     cstk_body_statistics statistics;
@@ -153,6 +163,7 @@ void fixture_unchanged(const fixture *f) {
     cstk_distance_result again;
     environment_unchanged(f);
     builders_unchanged(f);
+    mesh_unchanged(f);
     CHECK_OK(cstk_distance(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &again));
     CHECK(memcmp(&again.distance, &f->distance.distance, sizeof again.distance) == 0);
     CHECK(memcmp(again.r_point, f->distance.r_point, sizeof again.r_point) == 0);

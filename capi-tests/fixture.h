@@ -8,6 +8,7 @@
 typedef enum noun {
     NOUN_BODY_BUILDER,
     NOUN_BODY,
+    NOUN_MESH,
     NOUN_ROBOT_BUILDER,
     NOUN_ROBOT,
     NOUN_SPACE,
@@ -24,6 +25,8 @@ enum { FIXTURE_NQ = 3, FIXTURE_LINKS = 4, FIXTURE_BASE = 0, FIXTURE_TIP = 3 };
 typedef struct fixture {
     cstk_body_builder *body_builder;
     cstk_body *body;
+    /* The surface of the body's one node. */
+    cstk_mesh *mesh;
     cstk_robot_builder *robot_builder;
     cstk_robot *robot;
     cstk_space *space;

@@ -12,5 +12,7 @@ foreach(name ${names})
     add_test(NAME ${name}_memcheck COMMAND ${VALGRIND} --quiet --leak-check=full
       --errors-for-leak-kinds=definite,possible --error-exitcode=9 $<TARGET_FILE:${name}>)
     set_tests_properties(${name}_memcheck PROPERTIES TIMEOUT 900)
+    # Both write the same files.
+    set_tests_properties(${name} ${name}_memcheck PROPERTIES RESOURCE_LOCK ${name})
   endif()
 endforeach()

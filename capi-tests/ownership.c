@@ -26,6 +26,7 @@ static void every_noun(void) {
     cstk_class class_of;
     cstk_query_statistics done;
     cstk_body_statistics counts;
+    cstk_mesh_view view;
     const double square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     cstk_link_def def;
     CHECK_OK(cstk_link_def_default(&def, sizeof def));
@@ -35,6 +36,7 @@ static void every_noun(void) {
     TWO_REFERENCES(body_builder, "builder", f.body_builder,
                    cstk_body_builder_add_polygon(f.body_builder, square, 4, 0));
     TWO_REFERENCES(body, "body", f.body, cstk_body_get_statistics(f.body, &counts));
+    TWO_REFERENCES(mesh, "mesh", f.mesh, cstk_mesh_get(f.mesh, &view));
     TWO_REFERENCES(robot_builder, "builder", f.robot_builder,
                    cstk_robot_builder_add_link(f.robot_builder, &def, NULL));
     TWO_REFERENCES(robot, "robot", f.robot, cstk_robot_size(f.robot, NULL, NULL));
@@ -56,6 +58,7 @@ static void wrong_kind(void) {
         CHECK_FAILS(cstk_robot_release(f.live[NOUN_BODY]), CSTK_WRONG_HANDLE, "robot");
         CHECK_FAILS(cstk_body_release(f.live[NOUN_ROBOT]), CSTK_WRONG_HANDLE, "body");
         CHECK_FAILS(cstk_query_release(f.live[NOUN_COBJECT]), CSTK_WRONG_HANDLE, "query");
+        CHECK_FAILS(cstk_mesh_release(f.live[NOUN_BODY]), CSTK_WRONG_HANDLE, "mesh");
         CHECK_FAILS(cstk_space_release(f.live[NOUN_ENVIRONMENT]), CSTK_WRONG_HANDLE, "space");
     }
     fixture_unchanged(&f);
@@ -66,6 +69,35 @@ static void check_distance(const fixture *f, const cstk_cobject *cobject) {
     cstk_distance_result d;
     CHECK_OK(cstk_distance(f->query, cobject, f->q, FIXTURE_NQ, INFINITY, &d));
     CHECK(memcmp(&d.distance, &f->distance.distance, sizeof d.distance) == 0);
+}
+
+/* A mesh holds copies: it is used when its body is gone, and its arrays stay where they are. */
+static void mesh_after_its_body(void) {
+    fixture f;
+    cstk_mesh_view before;
+    cstk_mesh_view after;
+    const uint32_t root = 0;
+    cstk_mesh *mesh = NULL;
+    cstk_body *body = make_box(1, 2, 3);
+    CHECK_OK(cstk_body_nodes_mesh(body, &root, 1, &mesh));
+    CHECK_OK(cstk_mesh_get(mesh, &before));
+    CHECK_OK(cstk_body_release(body));
+    fixture_create(&f); /* may take the memory that is free now */
+    fixture_release(&f);
+    CHECK_OK(cstk_mesh_get(mesh, &after));
+    CHECK(memcmp(&before, &after, sizeof before) == 0);
+    CHECK(after.vertex_count == 8 && after.face_count == 6 && after.index_count == 24);
+    for (size_t i = 0; i < 3 * after.vertex_count; ++i) {
+        CHECK(fabs(after.vertices[i]) == 1.0 + (double)(i % 3));
+    }
+    for (size_t i = 0; i < after.face_count; ++i) {
+        CHECK(after.face_sizes[i] == 4 && after.face_nodes[i] == root);
+    }
+    /* The arrays live as long as the last reference. */
+    CHECK_OK(cstk_mesh_retain(mesh));
+    CHECK_OK(cstk_mesh_release(mesh));
+    CHECK(after.vertices[0] == before.vertices[0] && after.indices[23] < 8);
+    CHECK_OK(cstk_mesh_release(mesh));
 }
 
 /* A union of two C-objects over an environment and its snapshot is used when all it was made of is
@@ -81,6 +113,7 @@ static void parts_before_the_whole(void) {
     const cstk_cobject *parts[2] = {f.cobject, frozen};
     CHECK_OK(cstk_cobject_union(parts, 2, &both));
     CHECK_OK(cstk_body_builder_release(f.body_builder));
+    CHECK_OK(cstk_mesh_release(f.mesh));
     CHECK_OK(cstk_body_release(f.body));
     CHECK_OK(cstk_robot_builder_release(f.robot_builder));
     check_distance(&f, f.cobject);
@@ -240,6 +273,7 @@ static void released_meanwhile(void) {
 int main(void) {
     every_noun();
     wrong_kind();
+    mesh_after_its_body();
     parts_before_the_whole();
     query_after_all_is_gone();
     many_times();

@@ -410,6 +410,61 @@ typedef int32_t cstk_change_kind;
 #endif // __cplusplus
 
 /**
+ * The algorithm that groups primitives into a binary tree.
+ */
+enum cstk_grouping
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default.
+   */
+  CSTK_GROUPING_HYBRID = 0,
+  /**
+   * Clustering of what is near; needs no adjacency (the report's Basic Clustering).
+   */
+  CSTK_GROUPING_BASIC = 1,
+  /**
+   * Top-down splits by the surface-area heuristic; the fastest to build.
+   */
+  CSTK_GROUPING_TOP_DOWN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_grouping cstk_grouping;
+#else
+typedef int32_t cstk_grouping;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Whether primitives that form a convex piece of the body get a node of their own, bounded exactly.
+ */
+enum cstk_pieces
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  CSTK_PIECES_OFF = 0,
+  /**
+   * Coplanar neighbours whose union is a convex polygon.
+   */
+  CSTK_PIECES_COPLANAR = 1,
+  /**
+   * These, and edge-adjacent polygons that bound a convex part of a closed body.
+   */
+  CSTK_PIECES_PATCHES = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_pieces cstk_pieces;
+#else
+typedef int32_t cstk_pieces;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
  */
 typedef struct cstk_body cstk_body;
@@ -625,7 +680,7 @@ typedef struct cstk_hierarchy_node {
   uint64_t corner_count;
   double excess;
   /**
-   * A sphere around it, in the frame in which the body was given.
+   * A sphere around the primitives below, in the frame in which the body was given.
    */
   double center[3];
   double radius;
@@ -1205,7 +1260,7 @@ cstk_status cstk_body_nodes_mesh(const struct cstk_body *body,
                                  struct cstk_mesh **out);
 
 /**
- * Writes a picture of nodes to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
+ * Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
  * primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO
  * if that fails.
  */

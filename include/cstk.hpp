@@ -153,7 +153,6 @@ private:
     T *object_ = nullptr;
 };
 
-/// A rigid union of convex primitives.
 /// Polygons for looking at; the view's pointers live as long as the mesh.
 class Mesh : public Handle<cstk_mesh, cstk_mesh_retain, cstk_mesh_release> {
 public:
@@ -166,6 +165,7 @@ public:
     }
 };
 
+/// A rigid union of convex primitives.
 class Body : public Handle<cstk_body, cstk_body_retain, cstk_body_release> {
 public:
     using Handle::Handle;

@@ -1,6 +1,7 @@
 //! Files that are written whole or not at all.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -14,8 +15,10 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
             format!("{} is a folder", path.display()),
         ));
     }
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}.part", std::process::id()));
+    // Threads may write under one name at the same time.
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let beside = path.with_file_name(format!(".cstk-{}-{number}.part", std::process::id()));
     std::fs::write(&beside, bytes)
         .and_then(|()| std::fs::rename(&beside, path))
         .map_err(|error| {

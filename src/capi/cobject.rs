@@ -42,7 +42,6 @@ pub struct cstk_cobject_options {
 unsafe impl OptionsStruct for cstk_cobject_options {
     const COOKIE: u32 = 0x4353_0401;
     const NAME: &'static str = "cstk_cobject_options";
-    const FIRST_SIZE: usize = 24;
     fn defaults() -> Self {
         let defaults = InducedOptions::default();
         Self {

@@ -57,7 +57,6 @@ pub struct cstk_environment_change {
 unsafe impl OptionsStruct for cstk_environment_change {
     const COOKIE: u32 = 0x4353_0301;
     const NAME: &'static str = "cstk_environment_change";
-    const FIRST_SIZE: usize = size_of::<Self>();
     fn defaults() -> Self {
         Self {
             size: 0,

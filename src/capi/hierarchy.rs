@@ -79,7 +79,7 @@ pub struct cstk_hierarchy_options {
 unsafe impl OptionsStruct for cstk_hierarchy_options {
     const COOKIE: u32 = 0x4353_0101;
     const NAME: &'static str = "cstk_hierarchy_options";
-    const FIRST_SIZE: usize = 16;
+    const EARLIER_SIZES: &'static [usize] = &[16];
     fn defaults() -> Self {
         let options = HierarchyOptions::default();
         Self {

@@ -192,8 +192,8 @@ pub unsafe trait OptionsStruct: Copy {
     const COOKIE: u32;
     /// The C name.
     const NAME: &'static str;
-    /// The size of its first version.
-    const FIRST_SIZE: usize;
+    /// The sizes of its earlier versions.
+    const EARLIER_SIZES: &'static [usize] = &[];
     /// The defaults, but for size and cookie.
     fn defaults() -> Self;
 }
@@ -201,10 +201,15 @@ pub unsafe trait OptionsStruct: Copy {
 /// Sizes beyond this are taken for damage.
 const LARGEST_OPTIONS: usize = 1 << 16;
 
+/// Whether a version of the structure has this size: an earlier one, this one, or one to come.
+fn is_version<T: OptionsStruct>(size: usize) -> bool {
+    T::EARLIER_SIZES.contains(&size) || (size_of::<T>()..=LARGEST_OPTIONS).contains(&size)
+}
+
 /// Writes the defaults into the caller's structure, which is `size` bytes long.
 pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Result<(), Failure> {
     Output::checked(out, "out")?;
-    if size < T::FIRST_SIZE || size > LARGEST_OPTIONS {
+    if !is_version::<T>(size) {
         return Err(Failure::new(
             cstk_status::CSTK_WRONG_SIZE,
             format!("size is {size}; pass sizeof({})", T::NAME),
@@ -247,7 +252,7 @@ pub unsafe fn options<T: OptionsStruct>(given: *const T, argument: &str) -> Resu
     if cookie != T::COOKIE {
         return Err(not_initialised(format!("its cookie is {cookie:#x}")));
     }
-    if size < T::FIRST_SIZE || size > LARGEST_OPTIONS {
+    if !is_version::<T>(size) {
         return Err(not_initialised(format!("its size is {size}")));
     }
     let mut read = T::defaults();

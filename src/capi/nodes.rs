@@ -90,7 +90,7 @@ pub struct cstk_hierarchy_node {
     /// corner, its centre, and `excess` is its radius.
     pub corner_count: u64,
     pub excess: f64,
-    /// A sphere around it, in the frame in which the body was given.
+    /// A sphere around the primitives below, in the frame in which the body was given.
     pub center: [f64; 3],
     pub radius: f64,
     pub reserved: [u64; 4],
@@ -204,6 +204,9 @@ pub unsafe extern "C" fn cstk_body_cover(
         let body = handle::borrow::<Body>(body, "body")?;
         let room = OutputSlice::checked(nodes, max_count, "nodes")?;
         let count = Output::checked(count, "count")?;
+        if max_count == 0 {
+            return Err(Error::invalid("max_count must be at least 1").into());
+        }
         let found = body.tree().cover(max_count)?;
         room.write(&found);
         count.write(found.len());
@@ -311,7 +314,7 @@ pub unsafe extern "C" fn cstk_body_nodes_mesh(
     })
 }
 
-/// Writes a picture of nodes to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
+/// Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
 /// primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO
 /// if that fails.
 #[unsafe(no_mangle)]

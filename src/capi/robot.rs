@@ -94,7 +94,6 @@ pub struct cstk_link_def {
 unsafe impl OptionsStruct for cstk_link_def {
     const COOKIE: u32 = 0x4353_0201;
     const NAME: &'static str = "cstk_link_def";
-    const FIRST_SIZE: usize = size_of::<Self>();
     fn defaults() -> Self {
         Self {
             size: 0,

@@ -31,7 +31,6 @@ pub struct cstk_slide_options {
 unsafe impl OptionsStruct for cstk_slide_options {
     const COOKIE: u32 = 0x4353_0501;
     const NAME: &'static str = "cstk_slide_options";
-    const FIRST_SIZE: usize = 32;
     fn defaults() -> Self {
         Self {
             size: 0,

@@ -11,7 +11,8 @@ pub struct Forest {
     /// Diameters of the extents, at least a tiny part of the whole's so that ratios are finite.
     pub diameters: Vec<f64>,
     pub children: Vec<[u32; 2]>,
-    smallest: f64,
+    /// The floor of diameters.
+    pub smallest: f64,
 }
 
 impl Forest {

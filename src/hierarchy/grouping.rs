@@ -39,9 +39,10 @@ pub fn group(
     let (bodies, holders, piece_roots) = join_pieces(&mut forest, pieces, &order);
     let threads = options.thread_count();
     progress.at(0.05)?;
+    let mut progress = progress.part(0.05, 1.0);
     let root = match options.grouping {
-        Grouping::TopDown => split(&mut forest, bodies, threads, progress)?,
-        Grouping::Basic => basic(&mut forest, bodies, &bounds, options, progress)?,
+        Grouping::TopDown => split(&mut forest, bodies, threads, &mut progress)?,
+        Grouping::Basic => basic(&mut forest, bodies, &bounds, options, &mut progress)?,
         Grouping::Hybrid => {
             let mut siblings = sibling_pairs(order.iter().copied(), |part, hear| {
                 parts[part as usize].edges(primitives, hear);
@@ -127,7 +128,11 @@ fn basic(
 
 fn first_limits(forest: &Forest, bodies: &[u32], options: &HierarchyOptions) -> Limits {
     let diameters = bodies.iter().map(|&i| forest.diameters[i as usize]);
-    let given = |value: f64, automatic: f64| if value > 0.0 { value } else { automatic };
+    // Not so small that doubling would take for ever, or leave a rounded 0.
+    let given = |value: f64, automatic: f64| {
+        let limit = if value > 0.0 { value } else { automatic };
+        limit.max(forest.smallest)
+    };
     let diameter = given(
         options.diameter_limit,
         2.0 * diameters.fold(f64::INFINITY, f64::min),

@@ -19,7 +19,8 @@ impl WrapperTree {
             .collect()
     }
 
-    /// At most `count` nodes that cover the body tightly: the wrapper of the largest volume is opened again and again.
+    /// At most `count` nodes that cover the body: the wrapper of the largest volume is opened again and again. The sum of
+    /// volumes was seen up to 2.5 times that of the best choice of nodes for hulls and boxes, 9 times for spheres.
     pub fn cover(&self, count: usize) -> Result<Vec<u32>> {
         if count == 0 {
             return Err(Error::invalid("a cover needs at least one node"));

@@ -1,7 +1,7 @@
 //! How a hierarchy is built.
 
 use super::Cost;
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 
 /// The algorithm of the grouping phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,9 +103,15 @@ impl HierarchyOptions {
             ("aspect_limit", self.aspect_limit),
         ];
         for (name, value) in not_negative {
-            if !(value >= 0.0 && value.is_finite()) {
+            if !value.is_finite() {
+                return Err(Error::new(
+                    ErrorKind::NotFinite,
+                    format!("{name} is {value}; it must be finite"),
+                ));
+            }
+            if value < 0.0 {
                 return Err(Error::invalid(format!(
-                    "{name} must be finite and not negative, not {value}"
+                    "{name} must not be negative, but is {value}"
                 )));
             }
         }

@@ -42,6 +42,15 @@ pub fn map<T: Send>(
     progress: &mut Progress,
     task: impl Fn(usize) -> T + Sync,
 ) -> Result<Vec<T>> {
+    if threads.min(count) < 2 {
+        return (0..count)
+            .map(|i| {
+                let value = task(i);
+                progress.at((i + 1) as f64 / count as f64)?;
+                Ok(value)
+            })
+            .collect();
+    }
     let next = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
     let work = |done: &mut Vec<(usize, T)>| -> bool {

@@ -83,10 +83,10 @@ fn slabs(primitive: &Convex, aspect_limit: f64) -> Vec<Vec<Vec3>> {
     let Some((along, aspect)) = longest_extent(primitive) else {
         return Vec::new();
     };
-    let aspect = aspect.min(MOST_SLABS as f64);
     if aspect <= aspect_limit {
         return Vec::new();
     }
+    let aspect = aspect.min(MOST_SLABS as f64);
     let lowest = range(vertices, &along).0;
     let heights: Vec<f64> = vertices.iter().map(|v| along.dot(v) - lowest).collect();
     let top = heights.iter().copied().fold(0.0, f64::max);

@@ -58,6 +58,9 @@ pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
 /// Writes a .glb picture of nodes, neighbours in different colours, leaves as their primitives.
 pub fn show_nodes(body: &Body, nodes: &[u32], path: &Path) -> Result<()> {
     require_glb(path)?;
+    if nodes.is_empty() {
+        return Err(Error::new(ErrorKind::Empty, "there are no nodes to show"));
+    }
     let surfaces = node_surfaces(body, nodes)?;
     let mut document = Document::default();
     let materials = COLOURS.map(|colour| document.add_material("node", colour, true));

@@ -3,7 +3,10 @@
 
 #![allow(dead_code)] // every test file uses a part of this module
 
+pub mod containment;
 pub mod differences;
+pub mod expansion;
+pub mod models;
 pub mod oracle;
 pub mod random;
 pub mod robots;
