@@ -8,6 +8,9 @@ use crate::tolerance;
 /// A primitive gets at most so many leaves.
 const MOST_SLABS: usize = 64;
 
+/// All primitives together get at most so many times their number, where each is slender.
+const MOST_PARTS: usize = 8;
+
 /// A primitive, or the part of it between two planes. Queries ask the whole primitive, the part only bounds it.
 #[derive(Clone, Debug)]
 pub struct Part {
@@ -56,12 +59,26 @@ impl Part {
 
 /// Cuts primitives longer than `aspect_limit` times their width into slabs about as long as wide; 0 cuts nothing.
 pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
+    let extents: Vec<Option<(Vec3, f64)>> = if aspect_limit > 0.0 {
+        let slender = |p| longest_extent(p).filter(|(_, aspect)| *aspect > aspect_limit);
+        primitives.iter().map(slender).collect()
+    } else {
+        vec![None; primitives.len()]
+    };
+    let mut most = MOST_SLABS;
+    let count = |aspect: f64, most: usize| aspect.min(most as f64).ceil() as usize;
+    let total = |most: usize| -> usize {
+        let slender = extents.iter().flatten();
+        slender.map(|&(_, aspect)| count(aspect, most)).sum()
+    };
+    while most > 2 && total(most) > MOST_PARTS * primitives.len() + MOST_SLABS {
+        most /= 2;
+    }
     let mut parts = Vec::with_capacity(primitives.len());
-    for (i, primitive) in primitives.iter().enumerate() {
-        let slabs = if aspect_limit > 0.0 {
-            slabs(primitive, aspect_limit)
-        } else {
-            Vec::new()
+    for (i, (primitive, extent)) in primitives.iter().zip(&extents).enumerate() {
+        let slabs = match extent {
+            Some((along, aspect)) => slabs(primitive, along, count(*aspect, most)),
+            None => Vec::new(),
         };
         if slabs.is_empty() {
             parts.push(Part {
@@ -77,20 +94,12 @@ pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     parts
 }
 
-/// The slabs of a slender primitive along its longest extent; none if it is not slender.
-fn slabs(primitive: &Convex, aspect_limit: f64) -> Vec<Vec<Vec3>> {
+/// So many slabs of a primitive, of equal height in the direction `along`.
+fn slabs(primitive: &Convex, along: &Vec3, count: usize) -> Vec<Vec<Vec3>> {
     let vertices = &primitive.vertices;
-    let Some((along, aspect)) = longest_extent(primitive) else {
-        return Vec::new();
-    };
-    if aspect <= aspect_limit {
-        return Vec::new();
-    }
-    let aspect = aspect.min(MOST_SLABS as f64);
-    let lowest = range(vertices, &along).0;
+    let lowest = range(vertices, along).0;
     let heights: Vec<f64> = vertices.iter().map(|v| along.dot(v) - lowest).collect();
     let top = heights.iter().copied().fold(0.0, f64::max);
-    let count = aspect.ceil() as usize;
     let cut = |k: usize| match k {
         0 => f64::NEG_INFINITY,
         k if k == count => f64::INFINITY,
