@@ -115,6 +115,9 @@ struct Round<'a, R> {
     forest: &'a mut Forest,
     rule: &'a mut R,
     diameter_limit: f64,
+    /// The entries of the round's start, the cheapest last: a sorted list is read in order where a heap jumps about.
+    first: Vec<Reverse<Entry>>,
+    /// Those that came since.
     queue: BinaryHeap<Reverse<Entry>>,
     /// Levels grown in this round, for bodies that take part and have no parent; `None` for others.
     growth: Vec<Option<u8>>,
@@ -147,8 +150,11 @@ impl<'a, R: Eligibility> Round<'a, R> {
                 entries.collect::<Vec<_>>()
             },
         )?;
+        let mut first: Vec<_> = found.into_iter().flatten().collect();
+        first.sort_unstable();
         Ok(Self {
-            queue: found.into_iter().flatten().collect::<Vec<_>>().into(),
+            first,
+            queue: BinaryHeap::new(),
             forest,
             rule,
             diameter_limit: limits.diameter,
@@ -165,7 +171,7 @@ impl<'a, R: Eligibility> Round<'a, R> {
     ) -> Result<Vec<u32>> {
         let first_new = self.forest.extents.len() as u32;
         let mut rest = dormant;
-        while let Some(Reverse(Entry { body, partner, .. })) = self.queue.pop() {
+        while let Some(Reverse(Entry { body, partner, .. })) = self.cheapest() {
             let (Some(own), theirs) = (self.growth[body as usize], self.growth[partner as usize])
             else {
                 continue;
@@ -201,6 +207,14 @@ impl<'a, R: Eligibility> Round<'a, R> {
         rest.extend(unmerged.filter(|&i| self.growth[i as usize].is_some()));
         rest.sort_unstable();
         Ok(rest)
+    }
+
+    fn cheapest(&mut self) -> Option<Reverse<Entry>> {
+        if self.queue.peek() > self.first.last() {
+            self.queue.pop()
+        } else {
+            self.first.pop()
+        }
     }
 
     fn enqueue(&mut self, body: u32) {
