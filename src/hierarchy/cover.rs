@@ -7,7 +7,7 @@ use super::bounding_sphere::bounding_sphere;
 use super::extremes::extremes;
 use super::oriented_box::oriented_box;
 use crate::pose::Vec3;
-use crate::primitive::checked_hull;
+use crate::primitive::{checked_hull, frame_of};
 use crate::tolerance;
 
 /// So few points are their own hull: what a hull would leave out costs less than finding it.
@@ -57,7 +57,7 @@ impl Cover {
             return (Self::around(points, extent, 0.0), Corners::Points);
         }
         let extremes = extremes(points);
-        if extremes.len() <= vertex_limit {
+        if extremes.len() <= vertex_limit && !has_more_vertices(points, vertex_limit) {
             // An excess of a millionth of the size hardly loosens the bound; more, and the box is the better wrapper.
             let tolerated = 1e-6 * extent.diameter();
             let hull = checked_hull(points, tolerated, vertex_limit);
@@ -120,6 +120,17 @@ impl Cover {
         self.radius += excess;
         self
     }
+}
+
+/// Whether the hull of many points shows more than `limit` vertices once it is stretched to unit extents: few directions
+/// meet those of a shallow cap, and the hull of thousands is dear to find only to be refused.
+fn has_more_vertices(points: &[Vec3], limit: usize) -> bool {
+    if points.len() <= 2 * limit {
+        return false;
+    }
+    let (center, stretch) = frame_of(points);
+    let round: Vec<Vec3> = points.iter().map(|p| stretch * (p - center)).collect();
+    extremes(&round).len() > limit
 }
 
 /// The radius of a sphere around the points, rounded outwards.

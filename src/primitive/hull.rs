@@ -81,7 +81,7 @@ pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec
 
 /// The middle of the points' box, and a linear map that brings their three extents to unit size. Hulls go along with
 /// linear maps; flat and needle-like sets, on which proposals fail, become round ones.
-fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
+pub fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
     // A point of the hull: the box's middle may lie far off the plane of a thin set.
