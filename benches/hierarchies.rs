@@ -8,7 +8,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use cstk::body::{Body, BodyBuilder, Mesh};
-use cstk::hierarchy::{Grouping, HierarchyOptions, Pieces, WrapperKind};
+use cstk::hierarchy::{BuildTimes, Grouping, HierarchyOptions, Pieces, WrapperKind};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 use cstk_scenes::{self as scenes, Scene};
@@ -58,13 +58,13 @@ const REPORT_MODELS: [Model; 5] = [
 const HARD_MODELS: [Model; 15] = [
     sized("bumpy sphere 1e4", || scenes::bumpy_sphere(10_000, 1), 5),
     sized("bumpy sphere 1e5", || scenes::bumpy_sphere(100_000, 1), 3),
-    sized("bumpy sphere 1e6", || scenes::bumpy_sphere(1_000_000, 1), 1),
+    sized("bumpy sphere 1e6", || scenes::bumpy_sphere(1_000_000, 1), 3),
     sized("spaghetti 1e4", || scenes::spaghetti(10_000, 1), 5),
     sized("spaghetti 1e5", || scenes::spaghetti(100_000, 1), 3),
-    sized("spaghetti 1e6", || scenes::spaghetti(1_000_000, 1), 1),
+    sized("spaghetti 1e6", || scenes::spaghetti(1_000_000, 1), 3),
     sized("coincident 1e4", || scenes::coincident(10_000), 5),
     sized("coincident 1e5", || scenes::coincident(100_000), 3),
-    sized("coincident 1e6", || scenes::coincident(1_000_000), 1),
+    sized("coincident 1e6", || scenes::coincident(1_000_000), 3),
     sized(
         "floor, screws 1e4",
         || scenes::floor_and_screws(10_000, 1),
@@ -78,11 +78,11 @@ const HARD_MODELS: [Model; 15] = [
     sized(
         "floor, screws 1e6",
         || scenes::floor_and_screws(1_000_000, 1),
-        1,
+        3,
     ),
     sized("nested shells 1e4", || scenes::nested_shells(10_000), 5),
     sized("nested shells 1e5", || scenes::nested_shells(100_000), 3),
-    sized("nested shells 1e6", || scenes::nested_shells(1_000_000), 1),
+    sized("nested shells 1e6", || scenes::nested_shells(1_000_000), 3),
 ];
 
 const fn sized(name: &'static str, make: fn() -> scenes::Mesh, repeats: usize) -> Model {
@@ -213,16 +213,19 @@ fn build_and_tell(request: &str) {
         threads: threads.parse().expect("a number of threads"),
         ..HierarchyOptions::default()
     };
-    let mut runs: Vec<(f64, Body)> = (0..model.repeats)
-        .map(|_| {
-            let start = Instant::now();
-            let body = builder.build(&options, &mut |_| Ok(())).expect("a body");
-            (start.elapsed().as_secs_f64(), body)
-        })
-        .collect();
+    let mut runs: Vec<(f64, BuildTimes)> = Vec::new();
+    let mut last = None;
+    for _ in 0..model.repeats {
+        // One body at a time, so that the peak of memory is that of a build.
+        drop(last.take());
+        let start = Instant::now();
+        let body = builder.build(&options, &mut |_| Ok(())).expect("a body");
+        runs.push((start.elapsed().as_secs_f64(), body.statistics().times));
+        last = Some(body);
+    }
     runs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (total, body) = &runs[runs.len() / 2];
-    let times = body.statistics().times;
+    let (total, times) = &runs[runs.len() / 2];
+    let body = last.expect("at least one run");
     println!(
         "{} {} {} {} {} {} {}",
         body.primitives().len(),
@@ -230,7 +233,7 @@ fn build_and_tell(request: &str) {
         times.grouping,
         times.construction,
         total,
-        body.tree().bytes(),
+        body.tree().bytes() + body.packed().bytes(),
         peak_kibibytes()
     );
 }

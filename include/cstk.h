@@ -634,7 +634,7 @@ typedef struct cstk_hierarchy_statistics {
   double grouping_seconds;
   double construction_seconds;
   /**
-   * Memory of the hierarchy, without the primitives.
+   * Memory of the hierarchy and of what queries read of the primitives.
    */
   uint64_t memory_bytes;
   uint64_t reserved[8];

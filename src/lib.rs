@@ -5,6 +5,8 @@
 
 pub mod error;
 pub mod tolerance;
+
+pub mod lanes;
 mod whole_file;
 
 pub mod pose;

@@ -43,3 +43,7 @@ pub const SMALLEST_DIAMETER: f64 = 1e-50;
 /// What rounding may hide of a point's distance from a wrapper, times the largest coordinate: a rotation into a box's frame
 /// and back, or a distance of two points, each within a few EPSILON.
 pub const WRAPPER_ERROR: f64 = 32.0 * EPSILON;
+
+/// A point counts as inside a polygon for its foot's sake, or as piercing it, to within this times L (times L^2 for areas):
+/// more than the rounding of a coordinate, so that none is missed.
+pub const INSIDE_DOUBT: f64 = 256.0 * EPSILON;

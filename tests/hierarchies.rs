@@ -12,7 +12,7 @@ use cstk::gjk::{PointCloud, gjk};
 use cstk::hierarchy::{
     Extent, Grouping, HierarchyOptions, Node, WrapperKind, WrapperTree, build_hierarchy,
 };
-use cstk::pair::Pairing;
+use cstk::pair::{Pairing, PrimitiveScratch};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{DistanceKind, QueryContext};
 use cstk_scenes as scenes;
@@ -448,16 +448,19 @@ fn same(found: &Answers, expected: &Answers, what: impl Fn() -> String) {
 /// All distances of primitives by brute force: what every tree must find. Sorted as witnesses are.
 fn all_pairs(a: Placed, b: Placed) -> Vec<(f64, [u32; 2])> {
     let pairing = Pairing::new(a.0, a.1, b.0, b.1);
-    let (mut buffers, mut scratch) = Default::default();
+    let mut scratch = PrimitiveScratch::default();
     let mut pairs = Vec::new();
-    for i in 0..a.0.primitives().len() as u32 {
-        for j in 0..b.0.primitives().len() as u32 {
-            let closest = pairing.primitive_distance([i, j], &mut buffers, &mut scratch);
-            let d = closest.distance;
-            pairs.push((if d > pairing.precision.error { d } else { 0.0 }, [i, j]));
+    let count = |body: &Body| body.packed().primitives().len() as u32;
+    for i in 0..count(a.0) {
+        for j in 0..count(b.0) {
+            let apart = pairing.distance([i, j], f64::INFINITY, &mut scratch);
+            let apart = apart.expect("a distance");
+            pairs.push((apart, pairing.met([i, j], apart).primitives));
         }
     }
     pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    // Slender primitives have several leaves.
+    pairs.dedup();
     pairs
 }
 

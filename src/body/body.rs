@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::hierarchy::{BuildTimes, WrapperTree};
+use crate::hierarchy::{BuildTimes, PackedTree, WrapperTree};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 
@@ -18,6 +18,7 @@ pub struct Body {
     pub(super) primitives: Vec<Convex>,
     pub(super) tags: Vec<u64>,
     pub(super) tree: WrapperTree,
+    packed: PackedTree,
     pub(super) statistics: BodyStatistics,
 }
 
@@ -54,8 +55,9 @@ impl Body {
             center,
             radius: vertices.map(Vec3::norm).fold(0.0, f64::max),
             deviation: primitives.iter().map(|p| p.deviation).fold(0.0, f64::max),
-            primitives,
             tags,
+            packed: PackedTree::new(&primitives, &tree),
+            primitives,
             tree,
             statistics,
         }
@@ -97,6 +99,11 @@ impl Body {
 
     pub fn tree(&self) -> &WrapperTree {
         &self.tree
+    }
+
+    /// The tree as queries walk it.
+    pub fn packed(&self) -> &PackedTree {
+        &self.packed
     }
 
     pub fn statistics(&self) -> &BodyStatistics {

@@ -58,7 +58,7 @@ pub struct cstk_hierarchy_statistics {
     pub preparation_seconds: f64,
     pub grouping_seconds: f64,
     pub construction_seconds: f64,
-    /// Memory of the hierarchy, without the primitives.
+    /// Memory of the hierarchy and of what queries read of the primitives.
     pub memory_bytes: u64,
     pub reserved: [u64; 8],
 }
@@ -138,7 +138,7 @@ pub unsafe extern "C" fn cstk_body_get_hierarchy(
             preparation_seconds: times.preparation,
             grouping_seconds: times.grouping,
             construction_seconds: times.construction,
-            memory_bytes: s.bytes,
+            memory_bytes: s.bytes + body.packed().bytes() as u64,
             reserved: [0; 8],
         });
         Ok(())

@@ -6,7 +6,7 @@
 mod simplex;
 
 use self::simplex::{Corner, Nearest, Simplex};
-use crate::pose::{Pose, Vec3};
+use crate::pose::Vec3;
 use crate::tolerance;
 
 /// A convex set that can name its point farthest along a direction.
@@ -29,20 +29,6 @@ impl Support for PointCloud<'_> {
             }
         }
         best
-    }
-}
-
-/// The hull of points given in another frame; only the support points are transformed.
-pub struct MovedCloud<'a> {
-    pub points: &'a [Vec3],
-    pub pose: &'a Pose,
-}
-
-impl Support for MovedCloud<'_> {
-    fn support(&self, direction: &Vec3) -> Vec3 {
-        let local = self.pose.rotation.tr_mul(direction);
-        self.pose
-            .transform_point(&PointCloud(self.points).support(&local))
     }
 }
 

@@ -10,6 +10,11 @@ use crate::primitive::monotone_chain;
 /// Starts from the axes of coordinates and from the principal axes of few points that lie farthest out; each is turned about its own
 /// three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
 pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
+    corners_along(points, &least_volume_axes(few))
+}
+
+/// The axes of that box.
+pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
     let mut best = (f64::INFINITY, Mat3::identity());
     for start in [Mat3::identity(), principal_axes(few)] {
         let mut axes = start;
@@ -26,10 +31,10 @@ pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
             best = (size, axes);
         }
     }
-    corners_along(points, &best.1)
+    best.1
 }
 
-fn principal_axes(points: &[Vec3]) -> Mat3 {
+pub fn principal_axes(points: &[Vec3]) -> Mat3 {
     let mean = points.iter().sum::<Vec3>() / points.len() as f64;
     let size = points
         .iter()
@@ -93,7 +98,7 @@ fn measure(points: &[Vec3], axes: &Mat3) -> f64 {
     sides.iter().map(|side| side + least).product()
 }
 
-fn span(points: &[Vec3], axes: &Mat3) -> (Vec3, Vec3) {
+pub fn span(points: &[Vec3], axes: &Mat3) -> (Vec3, Vec3) {
     let first = axes.tr_mul(&points[0]);
     points
         .iter()

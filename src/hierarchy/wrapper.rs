@@ -1,6 +1,5 @@
 //! The convex bound at a node, and the lower bounds of distance it gives.
 
-use crate::gjk::{MovedCloud, PointCloud, gjk};
 use crate::pose::{Pose, Vec3};
 
 /// A convex wrapper: the hull of its corners grown by `excess`, and a sphere around it for a first, cheap bound.
@@ -21,16 +20,5 @@ impl Wrapper<'_> {
     pub fn sphere_bound(&self, other: &Wrapper, pose: &Pose) -> f64 {
         let apart = (pose.transform_point(&other.center) - self.center).norm();
         apart - self.radius - other.radius
-    }
-
-    /// A lower bound by the hulls. Stops early once the bound exceeds `cutoff`.
-    pub fn hull_bound(&self, other: &Wrapper, pose: &Pose, cutoff: f64) -> f64 {
-        let grown = self.excess + other.excess;
-        let moved = MovedCloud {
-            points: other.corners,
-            pose,
-        };
-        let start = self.center - pose.transform_point(&other.center);
-        gjk(&PointCloud(self.corners), &moved, start, cutoff + grown).lower - grown
     }
 }

@@ -2,8 +2,6 @@
 
 use std::cmp::Ordering;
 
-use crate::convex::Closest;
-
 /// Names a primitive pair among all the pairs of a query: `pair` is the body pair's rank, in order of ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HitKey {
@@ -11,13 +9,16 @@ pub struct HitKey {
     pub primitives: [u32; 2],
 }
 
-/// A primitive pair with its closest points, in the centred frame of body A.
+/// A primitive pair with its distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     /// The distance less the pair's margin, at least 0.
     pub distance: f64,
+    /// The distance itself.
+    pub apart: f64,
     pub key: HitKey,
-    pub closest: Closest,
+    /// Where the bodies hold the two primitives.
+    pub places: [u32; 2],
 }
 
 impl Hit {

@@ -1,11 +1,12 @@
 //! Pairs: two bodies at two poses, no robot (§2.3.3).
 
+mod box_bounds;
 mod hit;
 mod pairing;
 mod traversal;
 mod visitors;
 
 pub use hit::{Hit, HitKey};
-pub use pairing::{Pairing, WorldContact};
-pub use traversal::{Scratch, Statistics, Visitor, traverse};
+pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
+pub use traversal::{Met, Scratch, Statistics, Visitor, traverse, visit_pair};
 pub use visitors::{Collect, Nearest, Within};

@@ -1,9 +1,14 @@
 //! Two bodies at two poses, brought into one frame.
 
+use super::hit::Hit;
+use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, Placed, PlacedBuffer, Precision, closest_points, contacts,
+    Closest, Contact, DistanceScratch, Outline, Placed, PlacedBuffer, PolygonDistance, Precision,
+    closest_points, contacts, moved, polygon_closest, polygon_distance,
 };
+use crate::hierarchy::{MOST_CORNERS, PackedPrimitives};
+use crate::lanes::{F64x4, Points64};
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::tolerance;
 
@@ -16,6 +21,20 @@ pub struct Pairing<'a> {
     /// Places A's centred frame in the world.
     pub frame: Pose,
     pub precision: Precision,
+}
+
+/// Room for the corners of a polygon.
+pub type MovedOutline = [Points64; MOST_CORNERS / 4];
+
+pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MOST_CORNERS / 4];
+
+/// Memory of the distances of primitives, reused from pair to pair.
+#[derive(Default)]
+pub struct PrimitiveScratch {
+    buffers: [PlacedBuffer; 2],
+    distance: DistanceScratch,
+    /// How many pairs had all their features compared.
+    pub exact_pairs: u64,
 }
 
 /// A contact with its points and normal in the world.
@@ -58,15 +77,101 @@ impl<'a> Pairing<'a> {
         wrapper_a.sphere_bound(&wrapper_b, &self.relative) - self.slack()
     }
 
-    /// The closest points of one primitive pair: a pure function of the primitives and the relative pose.
-    pub fn primitive_distance(
+    /// The distance of the primitives at two places, unless it is above `cutoff`: a pure function of the primitives and
+    /// the relative pose. 0 where they touch to within the pair's error.
+    #[inline(always)]
+    pub fn distance(
         &self,
-        primitives: [u32; 2],
-        buffers: &mut [PlacedBuffer; 2],
-        scratch: &mut DistanceScratch,
-    ) -> Closest {
-        let [a, b] = self.place(primitives, buffers);
-        closest_points(&a, &b, &self.precision, scratch)
+        places: [u32; 2],
+        cutoff: f64,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<f64> {
+        let mut buffer = EMPTY;
+        let b = self.outline_b(places[1], &mut buffer);
+        self.distance_to(places, &b, cutoff, scratch)
+    }
+
+    #[inline(always)]
+    pub fn outline_a(&self, place: u32) -> Option<Outline<'_>> {
+        outline(self.a.packed().primitives(), place)
+    }
+
+    /// The outline of a primitive of B in A's frame, if it has one.
+    #[inline(always)]
+    pub fn outline_b<'b>(&self, place: u32, buffer: &'b mut MovedOutline) -> Option<Outline<'b>> {
+        let outline = outline(self.b.packed().primitives(), place)?;
+        (!self.precision.planar).then(|| moved(&outline, &self.relative, buffer))
+    }
+
+    /// The same as `distance` with the outline of B's primitive.
+    #[inline(always)]
+    pub fn distance_to(
+        &self,
+        places: [u32; 2],
+        outline_b: &Option<Outline>,
+        cutoff: f64,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<f64> {
+        let outline_a = outline(self.a.packed().primitives(), places[0]);
+        let apart = match (&outline_a, outline_b) {
+            (Some(a), Some(b)) => match polygon_distance(a, b, cutoff, self.precision.size) {
+                PolygonDistance::Beyond => return None,
+                PolygonDistance::Apart(distance) => distance,
+                PolygonDistance::Doubt => self.closest_at(places, scratch).distance,
+            },
+            _ => self.closest_at(places, scratch).distance,
+        };
+        let apart = if apart <= self.precision.error {
+            0.0
+        } else {
+            apart
+        };
+        (apart <= cutoff).then_some(apart)
+    }
+
+    pub fn met(&self, places: [u32; 2], apart: f64) -> Met {
+        let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
+        let primitives = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
+        Met {
+            primitives: primitives.map(|entry| entry.primitive),
+            places,
+            apart,
+            error: self.precision.error,
+        }
+    }
+
+    #[inline(never)]
+    fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
+        scratch.exact_pairs += 1;
+        let primitives = self.met(places, 0.0).primitives;
+        let [a, b] = self.place(primitives, &mut scratch.buffers);
+        closest_points(&a, &b, &self.precision, &mut scratch.distance)
+    }
+
+    /// The closest points of a primitive pair that is `apart`, in the centred frame of A.
+    pub fn closest(&self, hit: &Hit) -> Closest {
+        let found = self.closest_outlines(hit.places);
+        let found =
+            found.unwrap_or_else(|| self.closest_at(hit.places, &mut PrimitiveScratch::default()));
+        Closest {
+            distance: hit.apart,
+            ..found
+        }
+    }
+
+    /// The same of polygons that do not cross.
+    fn closest_outlines(&self, places: [u32; 2]) -> Option<Closest> {
+        let mut buffer = EMPTY;
+        let (a, b) = (
+            self.outline_a(places[0])?,
+            self.outline_b(places[1], &mut buffer)?,
+        );
+        let entries = [(self.a, places[0]), (self.b, places[1])]
+            .map(|(body, place)| body.packed().primitives().entry(place as usize));
+        let is_plain = entries.iter().all(|entry| entry.is_plain);
+        is_plain
+            .then(|| polygon_closest(&a, &b, self.precision.size, self.precision.error))
+            .flatten()
     }
 
     /// The contacts of one primitive pair, in the world.
@@ -102,4 +207,15 @@ impl<'a> Pairing<'a> {
     pub fn world_points(&self, closest: &Closest) -> [Vec3; 2] {
         closest.points.map(|p| self.frame.transform_point(&p))
     }
+}
+
+#[inline(always)]
+fn outline(primitives: &PackedPrimitives, place: u32) -> Option<Outline<'_>> {
+    let entry = primitives.entry(place as usize);
+    (entry.corners > 0).then(|| Outline {
+        blocks: primitives.outline(entry),
+        corners: entry.corners as usize,
+        normal: entry.normal,
+        offset: entry.offset,
+    })
 }

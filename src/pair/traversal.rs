@@ -3,97 +3,344 @@
 
 use std::ops::ControlFlow;
 
-use super::Pairing;
-use crate::convex::{Closest, DistanceScratch, PlacedBuffer};
-use crate::hierarchy::Node;
+use super::box_bounds::{self, Motion32, ROUNDING};
+use super::hit::{Hit, HitKey};
+use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use crate::hierarchy::{PackedTree, Unit, power_of_two};
+use crate::lanes::{Work, each3, with_widest};
+use crate::pose::{Pose, Vec3};
 
 /// What a query wants from the walk.
 pub trait Visitor {
-    /// Pairs of nodes that are farther apart than this are skipped; those at exactly this distance are not.
+    /// Pairs that are farther apart than this are skipped; those at exactly this distance are not.
     fn bound(&self) -> f64;
 
-    /// Meets a primitive pair with its distance, which is known to `error`.
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()>;
+    /// Whether pairs of primitives no lower than these cannot matter any more, however near.
+    fn is_settled(&self, _lowest: [u32; 2]) -> bool {
+        false
+    }
+
+    /// Meets a primitive pair.
+    fn visit(&mut self, met: &Met) -> ControlFlow<()>;
+}
+
+/// A primitive pair that the walk came upon.
+#[derive(Clone, Copy, Debug)]
+pub struct Met {
+    pub primitives: [u32; 2],
+    /// Where the bodies hold the two.
+    pub places: [u32; 2],
+    /// Their distance, known to `error`.
+    pub apart: f64,
+    pub error: f64,
+}
+
+impl Met {
+    pub fn hit(&self, pair: u32, distance: f64) -> Hit {
+        Hit {
+            distance,
+            apart: self.apart,
+            key: HitKey {
+                pair,
+                primitives: self.primitives,
+            },
+            places: self.places,
+        }
+    }
 }
 
 /// Work done, for the user's eyes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Statistics {
-    /// Node pairs whose wrappers were tested.
+    /// Pairs of boxes whose bound was computed.
     pub node_pairs: u64,
-    /// Primitive pairs whose distance was computed.
+    /// Primitive pairs that were looked at.
     pub primitive_pairs: u64,
+    /// Of those, pairs whose exact distance was computed.
+    pub exact_pairs: u64,
     /// Remembered witnesses that were evaluated first.
     pub cache_hits: u64,
 }
 
+/// A pair of units, with the bound of its distance in units of the pair.
+#[derive(Clone, Copy)]
+struct Entry {
+    bound: f32,
+    a: Unit,
+    b: Unit,
+}
+
 /// Memory of the walk, reused from query to query.
-#[derive(Default)]
 pub struct Scratch {
-    stack: Vec<(u32, u32, f64)>,
-    buffers: [PlacedBuffer; 2],
-    distance: DistanceScratch,
-    pub statistics: Statistics,
+    stack: Vec<Entry>,
+    buffer: MovedOutline,
+    state: State,
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self {
+            stack: Vec::new(),
+            buffer: EMPTY,
+            state: State::default(),
+        }
+    }
 }
 
 impl Scratch {
-    /// Shows the visitor one primitive pair.
-    pub fn visit_pair(
-        &mut self,
-        pairing: &Pairing,
-        primitives: [u32; 2],
-        visitor: &mut impl Visitor,
-    ) -> ControlFlow<()> {
-        self.statistics.primitive_pairs += 1;
-        let closest = pairing.primitive_distance(primitives, &mut self.buffers, &mut self.distance);
-        visitor.visit(primitives, &closest, pairing.precision.error)
+    /// Work done since the last reset.
+    pub fn statistics(&self) -> Statistics {
+        Statistics {
+            exact_pairs: self.state.primitives.exact_pairs,
+            ..self.state.statistics
+        }
+    }
+
+    pub fn reset_statistics(&mut self) {
+        self.state.statistics = Statistics::default();
+        self.state.primitives.exact_pairs = 0;
     }
 }
 
-/// Walks both trees from their roots, nearer children first. Breaks as soon as the visitor does.
-pub fn traverse(
+#[derive(Default)]
+struct State {
+    primitives: PrimitiveScratch,
+    /// From B to A where they were last seen nearest, in A's frame: a unit vector, or zero. And how far apart that was.
+    direction: Vec3,
+    direction_at: f64,
+    statistics: Statistics,
+}
+
+impl State {
+    /// Takes the direction of a pair as the one to separate others by.
+    fn aim(&mut self, pairing: &Pairing, met: &Met) {
+        self.direction_at = met.apart;
+        self.direction = Vec3::zeros();
+        if met.apart > 0.0 {
+            let closest = pairing.closest(&met.hit(0, met.apart));
+            let across = closest.points[0] - closest.points[1];
+            self.direction = across.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        }
+    }
+}
+
+/// Shows the visitor the primitives at two places.
+pub fn visit_pair(
     pairing: &Pairing,
+    places: [u32; 2],
     scratch: &mut Scratch,
     visitor: &mut impl Visitor,
 ) -> ControlFlow<()> {
-    let (tree_a, tree_b) = (pairing.a.tree(), pairing.b.tree());
-    let slack = pairing.slack();
-    scratch.stack.clear();
-    scratch.stack.push((0, 0, 0.0));
-    while let Some((i, j, lower)) = scratch.stack.pop() {
-        if lower > visitor.bound() {
-            continue;
+    let state = &mut scratch.state;
+    state.statistics.primitive_pairs += 1;
+    state.statistics.cache_hits += 1;
+    match pairing.distance(places, f64::INFINITY, &mut state.primitives) {
+        Some(apart) => visitor.visit(&pairing.met(places, apart)),
+        None => ControlFlow::Continue(()),
+    }
+}
+
+/// Walks both trees from their roots, nearer children first, after the primitives at two places if any are given.
+/// Breaks as soon as the visitor does.
+pub fn traverse(
+    pairing: &Pairing,
+    first: Option<[u32; 2]>,
+    scratch: &mut Scratch,
+    visitor: &mut impl Visitor,
+) -> ControlFlow<()> {
+    let Scratch {
+        stack,
+        buffer,
+        state,
+    } = scratch;
+    state.direction = Vec3::zeros();
+    state.direction_at = f64::INFINITY;
+    if let Some(places) = first {
+        state.statistics.cache_hits += 1;
+        state.statistics.primitive_pairs += 1;
+        let cutoff = visitor.bound() + pairing.slack();
+        if let Some(apart) = pairing.distance(places, cutoff, &mut state.primitives) {
+            let met = pairing.met(places, apart);
+            visitor.visit(&met)?;
+            state.aim(pairing, &met);
         }
-        let (node_a, node_b) = (tree_a.node(i), tree_b.node(j));
-        let longer_a = || tree_a.radius(i) >= tree_b.radius(j);
-        let children = match (node_a, node_b) {
-            (Node::Leaf { primitive: a }, Node::Leaf { primitive: b }) => {
-                scratch.visit_pair(pairing, [a, b], visitor)?;
+    }
+    stack.clear();
+    with_widest(Walk::new(pairing, state, stack, buffer, visitor))
+}
+
+/// The two bodies as the walk sees them. Lengths in single precision are in units of `scale`, a power of two next above
+/// the pair's size.
+struct Walk<'a, V> {
+    pairing: &'a Pairing<'a>,
+    trees: [&'a PackedTree; 2],
+    /// Into A's frame, and into B's.
+    motions: [Motion32; 2],
+    inverse_scale: f64,
+    /// Bounds are lowered by this.
+    slack: f64,
+    stack: &'a mut Vec<Entry>,
+    buffer: &'a mut MovedOutline,
+    state: &'a mut State,
+    visitor: &'a mut V,
+}
+
+impl<V: Visitor> Work for Walk<'_, V> {
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run(mut self) -> ControlFlow<()> {
+        let roots = self.trees.map(PackedTree::root);
+        self.stack.push(Entry {
+            bound: f32::NEG_INFINITY,
+            a: roots[0],
+            b: roots[1],
+        });
+        while let Some(Entry { bound, a, b }) = self.stack.pop() {
+            let cutoff = self.cutoff();
+            if bound > cutoff || self.is_settled(a, b) {
                 continue;
             }
-            (Node::Interior { children: [c, d] }, Node::Leaf { .. }) => [(c, j), (d, j)],
-            (Node::Interior { children: [c, d] }, _) if longer_a() => [(c, j), (d, j)],
-            (_, Node::Interior { children: [c, d] }) => [(i, c), (i, d)],
-        };
-        let bounds = children.map(|(i, j)| {
-            scratch.statistics.node_pairs += 1;
-            let (a, b) = (tree_a.wrapper(i), tree_b.wrapper(j));
-            let cutoff = visitor.bound() + slack;
-            let by_sphere = a.sphere_bound(&b, &pairing.relative);
-            let bound = if by_sphere > cutoff {
-                by_sphere
+            if a.is_leaf() && b.is_leaf() {
+                self.visit_leaves(a, b)?;
             } else {
-                by_sphere.max(a.hull_bound(&b, &pairing.relative, cutoff))
+                self.open(a, b, cutoff);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<'a, V: Visitor> Walk<'a, V> {
+    fn new(
+        pairing: &'a Pairing<'a>,
+        state: &'a mut State,
+        stack: &'a mut Vec<Entry>,
+        buffer: &'a mut MovedOutline,
+        visitor: &'a mut V,
+    ) -> Self {
+        let trees = [pairing.a.packed(), pairing.b.packed()];
+        let size = pairing.precision.size;
+        let scale = power_of_two(size);
+        let inverse_scale = 1.0 / scale;
+        let motion = |pose: &Pose, moving: &PackedTree| Motion32 {
+            rotation: std::array::from_fn(|i| {
+                std::array::from_fn(|k| pose.rotation[(k, i)] as f32)
+            }),
+            translation: std::array::from_fn(|k| (pose.translation[k] * inverse_scale) as f32),
+            factor: (moving.scale() * inverse_scale) as f32,
+        };
+        let inverse = pairing.relative.inverse();
+        Self {
+            motions: [
+                motion(&pairing.relative, trees[1]),
+                motion(&inverse, trees[0]),
+            ],
+            inverse_scale,
+            slack: pairing.slack() + ROUNDING * size,
+            pairing,
+            trees,
+            stack,
+            buffer,
+            state,
+            visitor,
+        }
+    }
+
+    /// Bounds above this, in units of the pair, tell that a pair does not matter.
+    #[inline(always)]
+    fn cutoff(&self) -> f32 {
+        (((self.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
+    }
+
+    #[inline(always)]
+    fn is_settled(&self, a: Unit, b: Unit) -> bool {
+        self.visitor
+            .is_settled([self.trees[0].lowest(a), self.trees[1].lowest(b)])
+    }
+
+    /// The unit of one of the bodies, in units of the pair.
+    #[inline(always)]
+    fn unit(&self, body: usize) -> f32 {
+        self.motions[1 - body].factor
+    }
+
+    /// The direction in which the bodies were last seen nearest, in the frame of one of them.
+    #[inline(always)]
+    fn direction(&self, body: usize) -> [f32; 3] {
+        let direction = each3(|k| self.state.direction[k] as f32);
+        match body {
+            0 => direction,
+            _ => self.motions[1].turn(&direction),
+        }
+    }
+
+    /// Opens the larger of two units, or the one that is no leaf.
+    #[inline(always)]
+    fn open(&mut self, a: Unit, b: Unit, cutoff: f32) {
+        let boxes = [self.trees[0].bounding_box(a), self.trees[1].bounding_box(b)];
+        let opened = if a.is_leaf() {
+            1
+        } else if b.is_leaf() {
+            0
+        } else {
+            let size = |body: usize| {
+                let [x, y, z] = each3(|k| boxes[body].half[k] * self.unit(body));
+                x * x + y * y + z * z
             };
-            bound - slack
-        });
-        let nearer = usize::from(bounds[1] < bounds[0]);
-        for k in [1 - nearer, nearer] {
-            if bounds[k] <= visitor.bound() {
-                let (i, j) = children[k];
-                scratch.stack.push((i, j, bounds[k]));
+            usize::from(size(1) > size(0))
+        };
+        let one = self.motions[opened].apply(boxes[1 - opened]);
+        let node = if opened == 0 { a } else { b };
+        let (eight, count) = self.trees[opened].children(node);
+        let direction = self.direction(opened);
+        let direction = match opened {
+            0 => each3(|k| -direction[k]),
+            _ => direction,
+        };
+        let bounds = box_bounds::bounds(eight, self.unit(opened), &one, &direction);
+        self.state.statistics.node_pairs += count as u64;
+        let first = self.stack.len();
+        for lane in 0..count {
+            let bound = bounds.0[lane];
+            if bound <= cutoff {
+                let child = eight.children[lane];
+                let (a, b) = if opened == 0 { (child, b) } else { (a, child) };
+                // The nearest goes on top.
+                let mut place = self.stack.len();
+                self.stack.push(Entry { bound, a, b });
+                while place > first && self.stack[place - 1].bound < bound {
+                    self.stack.swap(place - 1, place);
+                    place -= 1;
+                }
             }
         }
     }
-    ControlFlow::Continue(())
+
+    #[inline(always)]
+    fn visit_leaves(&mut self, a: Unit, b: Unit) -> ControlFlow<()> {
+        let places = [self.trees[0].place(a), self.trees[1].place(b)];
+        let cutoff = self.visitor.bound() + self.pairing.slack();
+        self.state.statistics.primitive_pairs += 1;
+        let outline = self.pairing.outline_b(places[1], self.buffer);
+        if let (Some(a), Some(b)) = (self.pairing.outline_a(places[0]), &outline) {
+            let direction: [f64; 3] = self.state.direction.into();
+            if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
+                return ControlFlow::Continue(());
+            }
+        }
+        let primitives = &mut self.state.primitives;
+        let Some(apart) = self
+            .pairing
+            .distance_to(places, &outline, cutoff, primitives)
+        else {
+            return ControlFlow::Continue(());
+        };
+        let met = self.pairing.met(places, apart);
+        // A new direction where it has changed by enough to be worth its price.
+        if apart < 0.9 * self.state.direction_at {
+            self.state.aim(self.pairing, &met);
+        }
+        self.visitor.visit(&met)
+    }
 }

@@ -3,14 +3,13 @@
 use std::ops::ControlFlow;
 
 use super::hit::{Hit, HitKey};
-use super::traversal::Visitor;
-use crate::convex::Closest;
+use super::traversal::{Met, Visitor};
 
 /// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
-fn measured(closest: &Closest, error: f64, margin: f64) -> (f64, f64) {
-    let clear = closest.distance - margin;
-    if closest.distance > 0.0 && clear > error {
-        (clear, clear - error)
+fn measured(met: &Met, margin: f64) -> (f64, f64) {
+    let clear = met.apart - margin;
+    if met.apart > 0.0 && clear > met.error {
+        (clear, clear - met.error)
     } else {
         (0.0, 0.0)
     }
@@ -44,16 +43,21 @@ impl Visitor for Nearest {
         self.limit + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
-        let (distance, lower) = measured(closest, error, self.margin);
-        let hit = Hit {
-            distance,
-            key: HitKey {
-                pair: self.pair,
-                primitives,
-            },
-            closest: *closest,
-        };
+    fn is_settled(&self, lowest: [u32; 2]) -> bool {
+        // Where the sets meet nothing is nearer, and only lower ids are of interest.
+        self.best.as_ref().is_some_and(|best| {
+            best.distance == 0.0
+                && best.key
+                    <= HitKey {
+                        pair: self.pair,
+                        primitives: lowest,
+                    }
+        })
+    }
+
+    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+        let (distance, lower) = measured(met, self.margin);
+        let hit = met.hit(self.pair, distance);
         // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
         self.lower = self.lower.min(lower);
         if hit.distance <= self.limit
@@ -73,7 +77,7 @@ impl Visitor for Nearest {
 pub struct Within {
     pub margin: f64,
     pub threshold: f64,
-    /// The first pair found, and the lower bound that decided.
+    /// The places of the first pair found, and the lower bound that decided.
     pub found: Option<([u32; 2], f64)>,
 }
 
@@ -82,10 +86,10 @@ impl Visitor for Within {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
-        let (_, lower) = measured(closest, error, self.margin);
+    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+        let (_, lower) = measured(met, self.margin);
         if lower <= self.threshold {
-            self.found = Some((primitives, lower));
+            self.found = Some((met.places, lower));
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
@@ -141,17 +145,10 @@ impl Visitor for Collect {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, primitives: [u32; 2], closest: &Closest, error: f64) -> ControlFlow<()> {
-        let (distance, _) = measured(closest, error, self.margin);
+    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+        let (distance, _) = measured(met, self.margin);
         if distance <= self.threshold {
-            self.hits.push(Hit {
-                distance,
-                key: HitKey {
-                    pair: self.pair,
-                    primitives,
-                },
-                closest: *closest,
-            });
+            self.hits.push(met.hit(self.pair, distance));
             if self.hits.len() > self.max_count.max(512).saturating_mul(2) {
                 self.cut();
             }

@@ -199,7 +199,7 @@ impl QueryContext {
             let mut entry = witness(candidate, hit);
             entry.first_contact = list.contacts.len();
             entry.contact_count = contacts.len();
-            entry.overlapping = contacts.is_empty() && hit.closest.distance == 0.0;
+            entry.overlapping = contacts.is_empty() && hit.apart == 0.0;
             list.witnesses.push(entry);
             if with_gradients {
                 for contact in &contacts {
@@ -293,14 +293,14 @@ impl Distance {
         let (mut witness, pairing, margin) = describe(hit);
         let contact = contact_at_witness(pairing, hit, margin);
         witness.contact_count = usize::from(contact.is_some());
-        witness.overlapping = contact.is_none() && hit.closest.distance == 0.0;
+        witness.overlapping = contact.is_none() && hit.apart == 0.0;
         Self {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower: found.lower,
             upper: hit.distance + error,
             witness: Some(witness),
-            points: pairing.world_points(&hit.closest),
+            points: pairing.world_points(&pairing.closest(hit)),
             contact,
             version,
         }

@@ -96,7 +96,7 @@ impl QueryContext {
             list.witnesses.push(Witness {
                 first_contact: list.contacts.len(),
                 contact_count: contacts.len(),
-                overlapping: contacts.is_empty() && hit.closest.distance == 0.0,
+                overlapping: contacts.is_empty() && hit.apart == 0.0,
                 ..Witness::of(0, SSide::Object(0), &pairing, hit)
             });
             list.contacts.extend(contacts);
@@ -125,7 +125,7 @@ impl Witness {
 /// The contacts of a primitive pair, distances less the margin.
 pub(super) fn contact_records(pairing: &Pairing, hit: &Hit, margin: f64) -> Vec<ContactRecord> {
     pairing
-        .world_contacts(hit.key.primitives, &hit.closest)
+        .world_contacts(hit.key.primitives, &pairing.closest(hit))
         .into_iter()
         .map(|found| ContactRecord {
             points: found.points,

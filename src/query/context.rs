@@ -35,11 +35,11 @@ impl QueryContext {
 
     /// Work done since the context was made or last reset.
     pub fn statistics(&self) -> Statistics {
-        self.scratch.statistics
+        self.scratch.statistics()
     }
 
     pub fn reset_statistics(&mut self) {
-        self.scratch.statistics = Statistics::default();
+        self.scratch.reset_statistics();
     }
 
     /// Forgets the witnesses of earlier queries.

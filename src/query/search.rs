@@ -1,7 +1,7 @@
 //! The searches over many body pairs that the queries share: nearest, within, all within.
 
 use super::context::{CacheKey, QueryContext};
-use crate::pair::{Collect, Hit, Nearest, Pairing, Visitor, Within, traverse};
+use crate::pair::{Collect, Hit, Nearest, Pairing, Visitor, Within, traverse, visit_pair};
 
 /// One body pair of a search: its geometry, its rank among all pairs, and the margin taken off its distances.
 pub(super) struct Target<'a> {
@@ -22,30 +22,29 @@ pub(super) struct Found {
 impl QueryContext {
     pub(super) fn nearest(&mut self, targets: &[Target], limit: f64) -> Found {
         let mut visitor = Nearest::up_to(limit);
-        for target in targets {
+        // The pairs last nearest between each two bodies bound the distance before any tree is walked.
+        for target in targets.iter().filter(|_| targets.len() > 1) {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin > visitor.bound() {
                 break;
             }
-            if let Some(primitives) = self.remembered(&target.key) {
-                self.scratch.statistics.cache_hits += 1;
-                let _ = self
-                    .scratch
-                    .visit_pair(target.pairing, primitives, &mut visitor);
+            if let Some(places) = self.remembered(&target.key) {
+                let _ = visit_pair(target.pairing, places, &mut self.scratch, &mut visitor);
             }
         }
         for target in targets {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin <= visitor.bound() {
-                let _ = traverse(target.pairing, &mut self.scratch, &mut visitor);
+                let first = self.remembered(&target.key);
+                let _ = traverse(target.pairing, first, &mut self.scratch, &mut visitor);
             }
         }
         if let Some(hit) = &visitor.best
             && let Some(target) = targets.iter().find(|target| target.rank == hit.key.pair)
         {
-            self.remember(target.key, hit.key.primitives);
+            self.remember(target.key, hit.places);
         }
         Found {
             lower: visitor.lower,
@@ -68,17 +67,10 @@ impl QueryContext {
             if target.bound > threshold {
                 continue;
             }
-            if let Some(primitives) = self.remembered(&target.key) {
-                self.scratch.statistics.cache_hits += 1;
-                let _ = self
-                    .scratch
-                    .visit_pair(target.pairing, primitives, &mut visitor);
-            }
-            if visitor.found.is_none() {
-                let _ = traverse(target.pairing, &mut self.scratch, &mut visitor);
-            }
-            if let Some((primitives, lower)) = visitor.found {
-                self.remember(target.key, primitives);
+            let first = self.remembered(&target.key);
+            let _ = traverse(target.pairing, first, &mut self.scratch, &mut visitor);
+            if let Some((places, lower)) = visitor.found {
+                self.remember(target.key, places);
                 return Some(lower);
             }
         }
@@ -97,7 +89,7 @@ impl QueryContext {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin <= visitor.bound() {
-                let _ = traverse(target.pairing, &mut self.scratch, &mut visitor);
+                let _ = traverse(target.pairing, None, &mut self.scratch, &mut visitor);
             }
         }
         visitor.finish()
