@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies [--csv FILE] [--quick].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE] [--quick].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies) ;;
-  *) echo "usage: bench.sh hierarchies [--csv FILE] [--quick]" >&2; exit 2 ;;
+  hierarchies | kernel) ;;
+  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -22,4 +22,10 @@ while [ $# -gt 0 ]; do
   shift
 done
 scripts/setup.sh bench
+if [ "$name" = kernel ]; then
+  # A peer that cannot be had is left out, and named.
+  coal=$(scripts/fetch_coal.sh) || coal=
+  cmake -S benches/peers -B build/peers ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
+  cmake --build build/peers -j2 >/dev/null
+fi
 cargo bench --quiet --locked --bench "$name" -- "${arguments[@]}"

@@ -49,6 +49,7 @@ mod scene;
 
 mod free_lamp;
 mod gear_plate_motor;
+mod random_pair;
 mod teapot_contacts;
 
 pub use bumpy_sphere::bumpy_sphere;
@@ -63,6 +64,7 @@ pub use motion::Pose;
 pub use motor::motor;
 pub use nested_shells::nested_shells;
 pub use plate::plate;
+pub use random_pair::random_pair;
 pub use robot_base::{robot_base, robot_bases};
 pub use scene::Scene;
 pub use spaghetti::spaghetti;
