@@ -373,11 +373,11 @@ fn print_queries() {
     let all: Vec<Scene> = designed.into_iter().chain(turned).chain(seeded).collect();
     for (title, threshold) in [
         (
-            "Tests per distance query: wrapper pairs / primitive pairs",
+            "Tests per distance query: box pairs / primitive pairs",
             None,
         ),
         (
-            "Tests per interference query (FL 0.1, FP 0.01, GPM 0.00128): wrapper pairs / primitive pairs",
+            "Tests per interference query (FL 0.1, FP 0.01, GPM 0.00128): box pairs / primitive pairs",
             Some([0.1, 0.01, 0.00128]),
         ),
     ] {

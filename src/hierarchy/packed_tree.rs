@@ -1,4 +1,5 @@
-//! The tree as the kernel walks it: eight children a node, oriented boxes in single precision, and the primitives in the order of the leaves.
+//! The tree as the kernel walks it: eight children a node, oriented boxes in single precision, and the primitives in the
+//! order of the leaves.
 
 use super::eight_below::Cuts;
 use super::packed_box::{PackedBox, fit};

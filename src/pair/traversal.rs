@@ -133,7 +133,6 @@ pub fn visit_pair(
 ) -> ControlFlow<()> {
     let state = &mut scratch.state;
     state.statistics.primitive_pairs += 1;
-    state.statistics.cache_hits += 1;
     match pairing.distance(places, f64::INFINITY, &mut state.primitives) {
         Some(apart) => visitor.visit(&pairing.met(places, apart)),
         None => ControlFlow::Continue(()),
