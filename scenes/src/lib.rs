@@ -3,7 +3,8 @@
 //! The robotics models and the three scenes are *reconstructions* from the report SAND97-0366, "The C-Space Toolkit"
 //! (§2.3.5 and §3.3.2): the report prints polygon counts, clearances and pictures, not the models themselves. The
 //! counts here are the printed ones, to the polygon but for the stalagmites; the shapes are ours. The remaining models
-//! are hard cases for hierarchies.
+//! are hard cases for hierarchies. Bumpy pairs, scattered obstacles and the robot arm are scenes of our own, for
+//! comparisons and for studies of growth.
 //!
 //! Every face is a convex planar polygon, counter-clockwise from outside. Robot base, lamp, teapot, gear, plate,
 //! motor, stalagmite, bumpy sphere, spaghetti, screws and all bodies of the scenes are unions of closed surfaces;
@@ -52,6 +53,13 @@ mod gear_plate_motor;
 mod random_pair;
 mod teapot_contacts;
 
+mod ball_tree;
+
+mod bumpy_pair;
+mod puma_arm;
+mod scattered;
+
+pub use bumpy_pair::{PlacedScene, Placement, bumpy_pair, bumpy_pair_coherent};
 pub use bumpy_sphere::bumpy_sphere;
 pub use coincident::coincident;
 pub use floor_and_screws::floor_and_screws;
@@ -64,8 +72,10 @@ pub use motion::Pose;
 pub use motor::motor;
 pub use nested_shells::nested_shells;
 pub use plate::plate;
+pub use puma_arm::{ArmScene, puma_coherent, puma_random};
 pub use random_pair::random_pair;
 pub use robot_base::{robot_base, robot_bases};
+pub use scattered::scattered;
 pub use scene::Scene;
 pub use spaghetti::spaghetti;
 pub use stalagmite::stalagmite;

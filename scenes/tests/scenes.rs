@@ -5,7 +5,7 @@ mod support;
 use std::f64::consts::PI;
 
 use cstk_scenes::*;
-use support::{distance, distances_within};
+use support::{along, distance, distances_within, norm};
 
 const CLEARANCE: f64 = 0.00125;
 
@@ -168,4 +168,76 @@ fn turning_leaves_no_face_aligned() {
             }
         }
     }
+}
+
+/// `pose` with the moving body shifted by `step` away from the origin.
+fn outward(pose: &Pose, step: f64) -> Pose {
+    let offset = [pose.0[3], pose.0[7], pose.0[11]];
+    Pose::translation(along([0.0; 3], offset, step / norm(offset))).compose(pose)
+}
+
+#[test]
+fn bumpy_pairs_are_as_far_apart_as_they_say() {
+    let made = bumpy_pair(1000, 6);
+    let scene = &made.scene;
+    for (pose, placement) in scene.poses.iter().zip(made.placements).step_by(3) {
+        let at = |step: f64| distance(scene, &outward(pose, step));
+        let found = at(0.0);
+        match placement {
+            Placement::Far => assert!((0.5..2.00001).contains(&found), "{found}"),
+            Placement::Near => assert!((0.001..0.10001).contains(&found), "{found}"),
+            Placement::Touching => {
+                assert!(found <= 1e-4, "{found}");
+                assert!(at(1e-4) > 0.0 && at(-1.1e-4) == 0.0);
+            }
+            Placement::Overlapping => {
+                assert_eq!(found, 0.0);
+                assert!(at(0.029) == 0.0 && at(0.501) > 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn coherent_bumpy_pairs_keep_their_gap() {
+    for (polygons, gap) in [(1000, 0.01), (1000, 1.0), (3000, 0.01)] {
+        let scene = bumpy_pair_coherent(polygons, gap, 8);
+        assert_eq!(scene.poses.len(), 200);
+        for pose in scene.poses.iter().step_by(40) {
+            let more = distance(&scene, pose) - gap;
+            assert!(
+                (-1e-12..1.001e-6).contains(&more),
+                "{polygons} {gap}: {more:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_bumpy_pair_again_and_others_for_other_seeds() {
+    assert!(bumpy_pair(200, 1) == bumpy_pair(200, 1));
+    assert!(bumpy_pair(200, 1) != bumpy_pair(200, 2));
+    let coherent = |seed| bumpy_pair_coherent(200, 0.1, seed);
+    assert!(coherent(1) == coherent(1) && coherent(1) != coherent(2));
+    assert!(scattered(50, 1) == scattered(50, 1) && scattered(50, 1) != scattered(50, 2));
+    for make in [puma_random, puma_coherent] {
+        assert!(make(1) == make(1) && make(1) != make(2));
+    }
+}
+
+#[test]
+fn the_way_through_scattered_obstacles_is_narrow_and_wide_by_turns() {
+    let scene = scattered(500, 2);
+    let at = |index: usize| distance(&scene, &scene.poses[index]);
+    for (index, most) in [(40, 0.2), (80, 0.2), (120, 0.2), (160, 0.2)] {
+        let found = at(index);
+        assert!(found > 0.0 && found < most, "{index}: {found}");
+    }
+    for index in [20, 60, 100, 140, 180] {
+        let found = at(index);
+        assert!((0.9..1.5).contains(&found), "{index}: {found}");
+    }
+    let beside_first = scene.poses[192..].iter().chain(&scene.poses[..8]);
+    let least = beside_first.map(|pose| distance(&scene, pose));
+    assert_eq!(least.fold(f64::INFINITY, f64::min), 0.0);
 }
