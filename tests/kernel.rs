@@ -7,7 +7,7 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::convex::{DistanceScratch, PlacedBuffer, closest_points};
 use cstk::hierarchy::{Grouping, PackedBox, PackedTree, Unit};
 use cstk::pair::{Pairing, PrimitiveScratch};
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::tolerance::DISTANCE_ERROR;
 use cstk_scenes as scenes;
 
@@ -15,15 +15,16 @@ use common::models::{KINDS, builder, built, mixed_primitives, options};
 use common::oracle::hull_distance;
 use common::random::Random;
 
-/// How far a point is outside a box, at most 0 inside; both in units of the tree.
+/// How far a point is outside a box in either of its meanings, at most 0 inside; both in units of the tree.
 fn outside(bounds: &PackedBox, point: &Vec3) -> f64 {
-    let center = Vec3::from(bounds.center.map(f64::from));
-    (0..3)
-        .map(|i| {
-            let axis = Vec3::from(bounds.axes[i].map(f64::from));
-            axis.dot(&(point - center)).abs() - f64::from(bounds.half[i])
-        })
-        .fold(f64::NEG_INFINITY, f64::max)
+    let from_center = point - Vec3::from(bounds.center.map(f64::from));
+    let axes = Mat3::from_columns(&bounds.axes.map(|axis| Vec3::from(axis.map(f64::from))));
+    let uprightness = (axes.transpose() * axes - Mat3::identity()).norm();
+    assert!(uprightness < 1.0 / 4096.0, "axes are {uprightness} askew");
+    let along = axes.transpose() * from_center;
+    let places = axes.try_inverse().expect("axes") * from_center;
+    let half = Vec3::from(bounds.half.map(f64::from));
+    (along.abs() - half).sup(&(places.abs() - half)).max()
 }
 
 /// Checks the boxes of a unit and of all below, and counts the primitives met.
@@ -33,7 +34,7 @@ fn check_boxes(
     unit: Unit,
     ancestors: &mut Vec<PackedBox>,
 ) -> usize {
-    ancestors.push(*tree.bounding_box(unit));
+    ancestors.push(tree.bounding_box(unit));
     let met = if unit.is_leaf() {
         let place = tree.place(unit);
         let primitive = tree.primitives().entry(place as usize).primitive;
@@ -45,22 +46,29 @@ fn check_boxes(
         }
         1
     } else {
-        let (eight, count) = tree.children(unit);
+        let index = tree.index(unit);
+        let node = tree.node(index);
+        let count = node.count as usize;
         assert!((2..=8).contains(&count), "{count} children");
-        (0..count)
+        let eight = node.boxes(0.5);
+        let met = (0..count)
             .map(|lane| {
-                let child = eight.children[lane];
+                let child = tree.child(index, lane);
                 let bounds = tree.bounding_box(child);
                 for i in 0..3 {
-                    assert_eq!(eight.center[i].0[lane], bounds.center[i]);
-                    assert_eq!(eight.half[i].0[lane], bounds.half[i]);
+                    assert_eq!(eight.center[i].0[lane], 0.5 * bounds.center[i]);
+                    assert_eq!(eight.half[i].0[lane], 0.5 * bounds.half[i]);
                     for k in 0..3 {
                         assert_eq!(eight.axes[i][k].0[lane], bounds.axes[i][k]);
                     }
                 }
+                assert!(tree.lowest(child) >= tree.lowest(unit));
                 check_boxes(body, tree, child, ancestors)
             })
-            .sum()
+            .sum();
+        let lowest = (0..count).map(|lane| tree.lowest(tree.child(index, lane)));
+        assert_eq!(lowest.min(), Some(tree.lowest(unit)));
+        met
     };
     ancestors.pop();
     met

@@ -1,13 +1,12 @@
-//! An oriented box in single precision that leaves no point out.
+//! Oriented boxes in single precision, and how they are fitted to points.
 
 use super::oriented_box::{least_volume_axes, principal_axes, span};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::Convex;
 
-/// The points x with |axis_i . (x - center)| <= half_i: slabs, so that it holds its points whatever rounding did to the
-/// axes, which are orthonormal to within single precision.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
+/// A box in two meanings, so that it can be relied on whatever rounding did to its axes, which are orthonormal to within
+/// 2^-12: the points it holds are center + sum c_i axis_i with |c_i| <= half_i, and for them |axis_i . (x - center)| <= half_i.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedBox {
     pub axes: [[f32; 3]; 3],
     pub center: [f32; 3],
@@ -17,9 +16,9 @@ pub struct PackedBox {
 /// More points than this are worth a search for their axes.
 const FEW: usize = 12;
 
-/// A box of little surface around points grown by `excess`: distances are bounded best by boxes of little surface, as
-/// those turn away the most of what comes from all sides. `flat` is a polygon among the points.
-pub fn fit(points: &[Vec3], excess: f64, flat: Option<&Convex>) -> PackedBox {
+/// The axes of a box of little surface around points, that of its shortest side last: distances are bounded best by such
+/// boxes, as those turn away the most of what comes from all sides. `flat` is a polygon among the points.
+pub fn fitted_axes(points: &[Vec3], flat: Option<&Convex>) -> Mat3 {
     let mut best = (surface(points, &Mat3::identity()), Mat3::identity());
     let mut offer = |axes: Mat3| {
         let size = surface(points, &axes);
@@ -31,11 +30,19 @@ pub fn fit(points: &[Vec3], excess: f64, flat: Option<&Convex>) -> PackedBox {
     if points.len() > FEW {
         offer(least_volume_axes(points));
     }
-    if let Some(axes) = flat.and_then(polygon_axes) {
-        offer(axes);
+    match flat.and_then(polygon_axes) {
+        Some(axes) => offer(axes),
+        None => offer(principal_axes(points)),
     }
-    offer(principal_axes(points));
-    along(points, excess, &best.1)
+    shortest_last(points, &best.1)
+}
+
+fn shortest_last(points: &[Vec3], axes: &Mat3) -> Mat3 {
+    let (low, high) = span(points, axes);
+    let shortest = (high - low).imin();
+    let [first, second] =
+        [(shortest + 1) % 3, (shortest + 2) % 3].map(|i| axes.column(i).into_owned());
+    Mat3::from_columns(&[first, second, first.cross(&second)])
 }
 
 /// The frame of a polygon's longest edge and normal.
@@ -62,21 +69,4 @@ fn surface(points: &[Vec3], axes: &Mat3) -> f64 {
     let (low, high) = span(points, axes);
     let [x, y, z]: [f64; 3] = (high - low).into();
     x * y + y * z + z * x
-}
-
-fn along(points: &[Vec3], excess: f64, axes: &Mat3) -> PackedBox {
-    let (low, high) = span(points, axes);
-    let center = axes * ((low + high) * 0.5);
-    let center: [f32; 3] = std::array::from_fn(|i| center[i] as f32);
-    let axes: [[f32; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|k| axes[(k, i)] as f32));
-    let from = Vec3::from(center.map(f64::from));
-    let half = axes.map(|axis| {
-        let axis = Vec3::from(axis.map(f64::from));
-        let farthest = points
-            .iter()
-            .map(|p| axis.dot(&(p - from)).abs())
-            .fold(0.0, f64::max);
-        ((farthest + excess * axis.norm()) as f32).next_up()
-    });
-    PackedBox { axes, center, half }
 }

@@ -7,16 +7,13 @@ use crate::primitive::Convex;
 /// Polygons of up to so many corners are measured four edges at a time (see `convex::polygon_distance`).
 pub const MOST_CORNERS: usize = 64;
 
-/// A primitive, and its outline if it is a flat polygon of few corners.
+/// A primitive, and where its outline is if it is a flat polygon of few corners.
 #[derive(Clone, Copy, Debug)]
 pub struct PackedPrimitive {
-    /// The plane normal . x = offset of the outline.
-    pub normal: Vec3,
-    pub offset: f64,
     pub primitive: u32,
-    first_block: u32,
+    first: u32,
     /// 0 for what is no such polygon.
-    pub corners: u32,
+    pub corners: u8,
     /// The corners are the primitive's vertices, in the same order.
     pub is_plain: bool,
 }
@@ -24,37 +21,44 @@ pub struct PackedPrimitive {
 #[derive(Clone, Debug, Default)]
 pub struct PackedPrimitives {
     entries: Vec<PackedPrimitive>,
-    blocks: Vec<Points64>,
+    /// Of each polygon the plane normal . x = offset, then its corners four at a time, coordinates apart: a triangle or a
+    /// quadrangle takes two cache lines.
+    data: Vec<F64x4>,
+}
+
+/// The plane of a polygon, and its corners four at a time; the last four are filled up with the first corner.
+pub struct PackedOutline<'a> {
+    pub normal: Vec3,
+    pub offset: f64,
+    pub blocks: &'a [Points64],
 }
 
 impl PackedPrimitives {
     pub fn push(&mut self, primitive: u32, shape: &Convex) {
-        let first_block = self.blocks.len() as u32;
         let mut entry = PackedPrimitive {
-            normal: Vec3::zeros(),
-            offset: 0.0,
             primitive,
-            first_block,
+            first: self.data.len() as u32,
             corners: 0,
             is_plain: false,
         };
         if let [face] = &shape.faces[..]
             && face.vertices.len() <= MOST_CORNERS
         {
+            let ring = &face.vertices;
             let corner = |i: usize| {
-                let ring = &face.vertices;
-                shape.vertices[ring[if i < ring.len() { i } else { 0 }] as usize]
+                let i = if i < ring.len() { i } else { 0 };
+                shape.vertices[ring[i] as usize]
             };
-            entry.normal = face.normal;
-            entry.offset = face.normal.dot(&corner(0));
-            entry.corners = face.vertices.len() as u32;
+            entry.corners = ring.len() as u8;
             let vertices = 0..shape.vertices.len() as u32;
-            entry.is_plain = face.vertices.iter().copied().eq(vertices);
-            for block in 0..face.vertices.len().div_ceil(4) {
-                self.blocks.push(
-                    [0, 1, 2]
-                        .map(|axis| F64x4(std::array::from_fn(|i| corner(4 * block + i)[axis]))),
-                );
+            entry.is_plain = ring.iter().copied().eq(vertices);
+            let normal = face.normal;
+            let offset = normal.dot(&corner(0));
+            self.data
+                .push(F64x4([normal.x, normal.y, normal.z, offset]));
+            for block in 0..ring.len().div_ceil(4) {
+                let four = |axis: usize| std::array::from_fn(|i| corner(4 * block + i)[axis]);
+                self.data.extend([0, 1, 2].map(|axis| F64x4(four(axis))));
             }
         }
         self.entries.push(entry);
@@ -73,14 +77,20 @@ impl PackedPrimitives {
         &self.entries[place]
     }
 
-    /// The corners of a polygon, four at a time; the last four are filled up with the first corner.
+    /// The outline of an entry that has corners.
     #[inline(always)]
-    pub fn outline(&self, entry: &PackedPrimitive) -> &[Points64] {
-        let blocks = entry.corners.div_ceil(4) as usize;
-        &self.blocks[entry.first_block as usize..][..blocks]
+    pub fn outline(&self, entry: &PackedPrimitive) -> PackedOutline<'_> {
+        let blocks = usize::from(entry.corners).div_ceil(4);
+        let record = &self.data[entry.first as usize..][..1 + 3 * blocks];
+        let [x, y, z, offset] = record[0].0;
+        PackedOutline {
+            normal: Vec3::new(x, y, z),
+            offset,
+            blocks: record[1..].as_chunks().0,
+        }
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.entries[..]) + size_of_val(&self.blocks[..])
+        size_of_val(&self.entries[..]) + size_of_val(&self.data[..])
     }
 }

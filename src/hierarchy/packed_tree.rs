@@ -1,56 +1,45 @@
-//! The tree as the kernel walks it: eight children a node, oriented boxes in single precision, and the primitives in the
-//! order of the leaves.
+//! The tree as the kernel walks it: eight children a node, oriented boxes in few bits, and the primitives in the order of
+//! the leaves.
 
 use super::eight_below::Cuts;
-use super::packed_box::{PackedBox, fit};
+use super::packed_box::{PackedBox, fitted_axes};
 use super::packed_primitives::PackedPrimitives;
+use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
-use crate::lanes::{F32x8, Points32};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 
-/// A node, or a leaf, which is one packed primitive.
+/// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit(u32);
 
+/// Marks leaves, among units and children.
+const LEAF: u32 = 1 << 31;
+
 impl Unit {
-    const LEAF: u32 = 1 << 31;
-
-    fn leaf(index: usize) -> Self {
-        Self(index as u32 | Self::LEAF)
-    }
-
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
-        self.0 & Self::LEAF != 0
+        self.0 & LEAF != 0
     }
 
+    /// Its lane in the node above.
     #[inline(always)]
-    fn index(self) -> usize {
-        (self.0 & !Self::LEAF) as usize
+    fn lane(self) -> usize {
+        (self.0 & 7) as usize
     }
-}
 
-/// The children of a node, their boxes side by side: a box holds the points x with |axis_i . (x - center)| <= half_i.
-#[derive(Clone, Debug)]
-#[repr(C)]
-pub struct WideNode {
-    pub axes: [Points32; 3],
-    pub center: Points32,
-    pub half: Points32,
-    pub children: [Unit; 8],
+    /// The node above.
+    #[inline(always)]
+    fn above(self) -> usize {
+        ((self.0 & !LEAF) >> 3) as usize
+    }
 }
 
 /// Lengths are in units of `scale`, a power of two about as large as the body, so that they fit single precision.
 #[derive(Clone, Debug)]
 pub struct PackedTree {
+    /// The first has one child, the root.
     nodes: Vec<WideNode>,
-    /// How many children each node has.
-    counts: Vec<u8>,
-    node_boxes: Vec<PackedBox>,
-    leaf_boxes: Vec<PackedBox>,
-    /// The lowest primitive under each node.
-    node_lowest: Vec<u32>,
     primitives: PackedPrimitives,
     scale: f64,
 }
@@ -62,13 +51,8 @@ impl PackedTree {
         let mut builder = Builder {
             tree,
             shapes: primitives,
-            cuts: Cuts::of(tree),
             packed: Self {
                 nodes: Vec::new(),
-                counts: Vec::new(),
-                node_boxes: Vec::new(),
-                leaf_boxes: Vec::new(),
-                node_lowest: Vec::new(),
                 primitives: PackedPrimitives::default(),
                 scale: power_of_two(reach),
             },
@@ -77,12 +61,9 @@ impl PackedTree {
         builder.packed
     }
 
+    #[inline(always)]
     pub fn root(&self) -> Unit {
-        if self.nodes.is_empty() {
-            Unit::leaf(0)
-        } else {
-            Unit(0)
-        }
+        self.child(0, 0)
     }
 
     pub fn scale(&self) -> f64 {
@@ -94,45 +75,57 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    pub fn bounding_box(&self, unit: Unit) -> &PackedBox {
-        if unit.is_leaf() {
-            &self.leaf_boxes[unit.index()]
-        } else {
-            &self.node_boxes[unit.index()]
-        }
+    pub fn bounding_box(&self, unit: Unit) -> PackedBox {
+        self.nodes[unit.above()].get(unit.lane())
     }
 
-    /// The children of a node, side by side, and how many there are.
+    /// About the logarithm of a unit's size: `SIZE_STEPS` more for twice the size.
     #[inline(always)]
-    pub fn children(&self, node: Unit) -> (&WideNode, usize) {
-        let index = node.index();
-        (&self.nodes[index], self.counts[index] as usize)
+    pub fn size_code(&self, unit: Unit) -> i32 {
+        self.nodes[unit.above()].size_code(unit.lane())
+    }
+
+    /// The node that a unit is.
+    #[inline(always)]
+    pub fn index(&self, node: Unit) -> usize {
+        self.target(node) as usize
+    }
+
+    #[inline(always)]
+    pub fn node(&self, index: usize) -> &WideNode {
+        &self.nodes[index]
+    }
+
+    #[inline(always)]
+    pub fn child(&self, index: usize, lane: usize) -> Unit {
+        let leaf = self.nodes[index].children[lane] & LEAF;
+        Unit((index as u32) << 3 | lane as u32 | leaf)
     }
 
     /// The place of a leaf's primitive among the packed ones.
     #[inline(always)]
     pub fn place(&self, leaf: Unit) -> u32 {
-        leaf.index() as u32
+        self.target(leaf) & !LEAF
     }
 
     /// The lowest primitive in a unit.
     #[inline(always)]
     pub fn lowest(&self, unit: Unit) -> u32 {
         if unit.is_leaf() {
-            self.primitives.entry(unit.index()).primitive
+            self.primitives.entry(self.place(unit) as usize).primitive
         } else {
-            self.node_lowest[unit.index()]
+            self.nodes[self.index(unit)].lowest
         }
+    }
+
+    #[inline(always)]
+    fn target(&self, unit: Unit) -> u32 {
+        self.nodes[unit.above()].children[unit.lane()]
     }
 
     /// Bytes of memory it takes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
-            + size_of_val(&self.counts[..])
-            + size_of_val(&self.node_boxes[..])
-            + size_of_val(&self.leaf_boxes[..])
-            + size_of_val(&self.node_lowest[..])
-            + self.primitives.bytes()
+        size_of_val(&self.nodes[..]) + self.primitives.bytes()
     }
 }
 
@@ -146,93 +139,56 @@ pub fn power_of_two(length: f64) -> f64 {
 struct Builder<'a> {
     tree: &'a WrapperTree,
     shapes: &'a [Convex],
-    cuts: Cuts,
     packed: PackedTree,
 }
 
 impl Builder<'_> {
     fn build(&mut self) {
-        if let Node::Leaf { primitive } = self.tree.node(0) {
-            self.add_leaf(0, primitive);
-            return;
-        }
-        // Nodes of the binary tree that become wide nodes, with the places of those.
-        self.add_node(0);
-        let mut open: Vec<(u32, usize)> = vec![(0, 0)];
-        while let Some((node, index)) = open.pop() {
-            let below = self.cuts.below(self.tree, node);
-            for (lane, &child) in below.iter().enumerate() {
-                let (unit, bounds) = if let Node::Leaf { primitive } = self.tree.node(child) {
-                    let leaf = self.add_leaf(child, primitive);
-                    (Unit::leaf(leaf), self.packed.leaf_boxes[leaf])
-                } else {
-                    let wide = self.add_node(child);
-                    open.push((child, wide));
-                    (Unit(wide as u32), self.packed.node_boxes[wide])
-                };
-                self.packed.nodes[index].set(lane, unit, &bounds);
-            }
-            self.packed.counts[index] = below.len() as u8;
+        let cuts = Cuts::of(self.tree);
+        self.packed.nodes.push(WideNode::new(&[self.held(0)]));
+        // Nodes of the binary tree, each with where its wide node is to be named.
+        let mut open: Vec<(u32, usize, usize)> = vec![(0, 0, 0)];
+        while let Some((node, above, lane)) = open.pop() {
+            let target = if let Node::Leaf { primitive } = self.tree.node(node) {
+                let shape = &self.shapes[primitive as usize];
+                self.packed.primitives.push(primitive, shape);
+                (self.packed.primitives.len() - 1) as u32 | LEAF
+            } else {
+                let below = cuts.below(self.tree, node);
+                let held: Vec<Held> = below.iter().map(|&child| self.held(child)).collect();
+                let index = self.packed.nodes.len();
+                self.packed.nodes.push(WideNode::new(&held));
+                let children = below.iter().enumerate();
+                open.extend(children.rev().map(|(lane, &child)| (child, index, lane)));
+                index as u32
+            };
+            self.packed.nodes[above].children[lane] = target;
         }
         // Children come after their parents.
         for index in (0..self.packed.nodes.len()).rev() {
-            let count = self.packed.counts[index] as usize;
-            let children = &self.packed.nodes[index].children[..count];
-            let lowest = children.iter().map(|&child| self.packed.lowest(child));
-            self.packed.node_lowest[index] = lowest.min().unwrap_or(0);
+            let lanes = 0..self.packed.nodes[index].count as usize;
+            let lowest = lanes.map(|lane| self.packed.lowest(self.packed.child(index, lane)));
+            self.packed.nodes[index].lowest = lowest.min().unwrap_or(0);
         }
     }
 
-    fn add_node(&mut self, node: u32) -> usize {
+    fn held(&self, node: u32) -> Held {
         let wrapper = self.tree.wrapper(node);
         let points: Vec<Vec3> = wrapper
             .corners
             .iter()
             .map(|p| p / self.packed.scale)
             .collect();
-        let excess = wrapper.excess / self.packed.scale;
-        self.packed.node_boxes.push(fit(&points, excess, None));
-        self.packed.nodes.push(WideNode::empty());
-        self.packed.counts.push(0);
-        self.packed.node_lowest.push(0);
-        self.packed.nodes.len() - 1
-    }
-
-    fn add_leaf(&mut self, node: u32, primitive: u32) -> usize {
-        let wrapper = self.tree.wrapper(node);
-        let points: Vec<Vec3> = wrapper
-            .corners
-            .iter()
-            .map(|p| p / self.packed.scale)
-            .collect();
-        let excess = wrapper.excess / self.packed.scale;
-        let shape = &self.shapes[primitive as usize];
-        let flat = Some(shape).filter(|shape| shape.faces.len() == 1);
-        self.packed.leaf_boxes.push(fit(&points, excess, flat));
-        self.packed.primitives.push(primitive, shape);
-        self.packed.leaf_boxes.len() - 1
-    }
-}
-
-impl WideNode {
-    fn empty() -> Self {
-        let zero = [F32x8::splat(0.0); 3];
-        Self {
-            axes: [zero; 3],
-            center: zero,
-            half: zero,
-            children: [Unit(0); 8],
-        }
-    }
-
-    fn set(&mut self, lane: usize, unit: Unit, bounds: &PackedBox) {
-        for i in 0..3 {
-            for k in 0..3 {
-                self.axes[i][k].0[lane] = bounds.axes[i][k];
+        let flat = match self.tree.node(node) {
+            Node::Leaf { primitive } => {
+                Some(&self.shapes[primitive as usize]).filter(|shape| shape.faces.len() == 1)
             }
-            self.center[i].0[lane] = bounds.center[i];
-            self.half[i].0[lane] = bounds.half[i];
+            Node::Interior { .. } => None,
+        };
+        Held {
+            axes: fitted_axes(&points, flat),
+            excess: wrapper.excess / self.packed.scale,
+            points,
         }
-        self.children[lane] = unit;
     }
 }

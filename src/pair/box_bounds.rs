@@ -4,22 +4,29 @@
 //! Along the three axes of one box such gaps are the sides of a box between the sets, whose diagonal bounds the distance;
 //! the larger of the two diagonals counts.
 //!
+//! Axes: with those of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
+//! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the half sides say what a box reaches, along
+//! others the sum of what the sides do (see `PackedBox`), so each gap holds as it is. The diagonal of three may be too long
+//! by the root of 1 + e, for which [`UPRIGHT`] shortens it.
+//!
 //! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most
-//! the radius of its body, so that the three of a box add up to at most 3 S. Axes, centres and rotations are within u of
-//! what they stand for in each component, and boxes hold their points by their rounded axes. Brought into the other frame,
-//! a centre takes three products and three sums: with the rounding of what goes in, it is within 8 u S, its difference
-//! from another centre within 9 u S in each component, and the projection of that on an axis within 24 u S. An axis
-//! brought over is within 5 u in each component, its product with another within 13 u, so that the reach of a box is
-//! within 39 u S for those and 7 u S for the sum. A gap is thus within 70 u S, a diagonal within sqrt(3) times that; that
-//! the axes are orthonormal only to 4 u costs another 8 u of a distance of at most 2 S. In all less than 140 u S, for which
-//! [`ROUNDING`] is taken off. A direction given in double precision and turned into a frame is within 6 u of unit length,
-//! its gap within 100 u S by the same count.
+//! the radius of its body, so that the three of a box add up to at most 3 S. Axes, centres and half sides are what the
+//! boxes hold their points by; the motion's rotation and translation are within u of what they stand for in each component.
+//! Brought into the other frame, a centre takes three products and three sums: with the rounding of the motion, it is within
+//! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within
+//! 24 u S. An axis brought over is within 5 u in each component, its product with another within 13 u, so that the reach of
+//! a box is within 39 u S for those and 7 u S for the sum. A gap is thus within 70 u S, a diagonal within sqrt(3) times
+//! that. In all less than 140 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
+//! into a frame is within 6 u of unit length, its gap within 100 u S by the same count.
 
-use crate::hierarchy::{PackedBox, WideNode};
+use crate::hierarchy::{EightBoxes, PackedBox};
 use crate::lanes::{F32x8, Points32, along32, dot32, each3};
 
 /// The rounding of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
+
+/// What is left of a diagonal for certain.
+const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
 
 /// A rigid motion from one body's frame to the other's, in units of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -51,14 +58,13 @@ impl Motion32 {
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do
-/// as a number below 0. `unit` is that of the eight, in units of the pair; `direction`, a unit vector from the eight to the
-/// one or zero, is tried for a better bound.
+/// as a number below 0. `direction`, a unit vector from the eight to the one or zero, is tried for a better bound.
 // Indices are those of the axes in the formulas.
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-pub fn bounds(eight: &WideNode, unit: f32, one: &PackedBox, direction: &[f32; 3]) -> F32x8 {
-    let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k] * unit);
-    let halves = each3(|i| eight.half[i] * unit);
+pub fn bounds(eight: &EightBoxes, one: &PackedBox, direction: &[f32; 3]) -> F32x8 {
+    let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k]);
+    let halves = &eight.half;
     // The reach of the one along the axes of the eight, and of the eight along those of the one.
     let mut reaches = [F32x8::splat(0.0); 3];
     let mut square = F32x8::splat(0.0);
@@ -90,11 +96,20 @@ pub fn bounds(eight: &WideNode, unit: f32, one: &PackedBox, direction: &[f32; 3]
         across += dot(&one.axes[i], direction).abs() * one.half[i];
     }
     let gap = along32(&apart, direction) - reach - F32x8::splat(across);
-    let apart = square.max(other).sqrt().max(gap);
-    apart.zip(
-        deepest,
-        |apart, deepest| if deepest > 0.0 { apart } else { deepest },
-    )
+    // Where no gap is above 0 the diagonal is 0.
+    let diagonal = square.max(other).sqrt() * UPRIGHT;
+    (diagonal + deepest.min(F32x8::splat(0.0))).max(gap)
+}
+
+/// How far apart two boxes are along a unit vector from the first to the second, at least; negative where they may meet.
+#[inline(always)]
+pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &[f32; 3]) -> f32 {
+    let reach = |given: &PackedBox| {
+        let [x, y, z] = each3(|i| dot(&given.axes[i], direction).abs() * given.half[i]);
+        x + y + z
+    };
+    let apart = each3(|k| second.center[k] - first.center[k]);
+    dot(&apart, direction) - reach(first) - reach(second)
 }
 
 #[inline(always)]

@@ -2,6 +2,7 @@
 
 mod box_bounds;
 mod hit;
+mod nearest_first;
 mod pairing;
 mod traversal;
 mod visitors;

@@ -212,10 +212,13 @@ impl<'a> Pairing<'a> {
 #[inline(always)]
 fn outline(primitives: &PackedPrimitives, place: u32) -> Option<Outline<'_>> {
     let entry = primitives.entry(place as usize);
-    (entry.corners > 0).then(|| Outline {
-        blocks: primitives.outline(entry),
-        corners: entry.corners as usize,
-        normal: entry.normal,
-        offset: entry.offset,
+    (entry.corners > 0).then(|| {
+        let packed = primitives.outline(entry);
+        Outline {
+            blocks: packed.blocks,
+            corners: entry.corners.into(),
+            normal: packed.normal,
+            offset: packed.offset,
+        }
     })
 }

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use super::box_bounds::{self, Motion32, ROUNDING};
 use super::hit::{Hit, HitKey};
+use super::nearest_first::{Entry, push_nearest_last};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
-use crate::hierarchy::{PackedTree, Unit, power_of_two};
+use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Work, each3, with_widest};
 use crate::pose::{Pose, Vec3};
 
@@ -15,9 +16,9 @@ pub trait Visitor {
     /// Pairs that are farther apart than this are skipped; those at exactly this distance are not.
     fn bound(&self) -> f64;
 
-    /// Whether pairs of primitives no lower than these cannot matter any more, however near.
-    fn is_settled(&self, _lowest: [u32; 2]) -> bool {
-        false
+    /// Pairs of primitives no lower than these cannot matter any more, however near.
+    fn settled_from(&self) -> Option<[u32; 2]> {
+        None
     }
 
     /// Meets a primitive pair.
@@ -60,14 +61,6 @@ pub struct Statistics {
     pub exact_pairs: u64,
     /// Remembered witnesses that were evaluated first.
     pub cache_hits: u64,
-}
-
-/// A pair of units, with the bound of its distance in units of the pair.
-#[derive(Clone, Copy)]
-struct Entry {
-    bound: f32,
-    a: Unit,
-    b: Unit,
 }
 
 /// Memory of the walk, reused from query to query.
@@ -175,6 +168,8 @@ struct Walk<'a, V> {
     trees: [&'a PackedTree; 2],
     /// Into A's frame, and into B's.
     motions: [Motion32; 2],
+    /// What the codes of sizes in B are above those in A.
+    size_offset: i32,
     inverse_scale: f64,
     /// Bounds are lowered by this.
     slack: f64,
@@ -189,12 +184,10 @@ impl<V: Visitor> Work for Walk<'_, V> {
 
     #[inline(always)]
     fn run(mut self) -> ControlFlow<()> {
-        let roots = self.trees.map(PackedTree::root);
-        self.stack.push(Entry {
-            bound: f32::NEG_INFINITY,
-            a: roots[0],
-            b: roots[1],
-        });
+        self.aim_at_centers();
+        let [a, b] = self.trees.map(PackedTree::root);
+        let bound = f32::NEG_INFINITY;
+        self.stack.push(Entry { bound, a, b });
         while let Some(Entry { bound, a, b }) = self.stack.pop() {
             let cutoff = self.cutoff();
             if bound > cutoff || self.is_settled(a, b) {
@@ -230,11 +223,13 @@ impl<'a, V: Visitor> Walk<'a, V> {
             factor: (moving.scale() * inverse_scale) as f32,
         };
         let inverse = pairing.relative.inverse();
+        let exponents = trees.map(|tree| (tree.scale().to_bits() >> 52) as i32);
         Self {
             motions: [
                 motion(&pairing.relative, trees[1]),
                 motion(&inverse, trees[0]),
             ],
+            size_offset: SIZE_STEPS * (exponents[1] - exponents[0]),
             inverse_scale,
             slack: pairing.slack() + ROUNDING * size,
             pairing,
@@ -255,7 +250,8 @@ impl<'a, V: Visitor> Walk<'a, V> {
     #[inline(always)]
     fn is_settled(&self, a: Unit, b: Unit) -> bool {
         self.visitor
-            .is_settled([self.trees[0].lowest(a), self.trees[1].lowest(b)])
+            .settled_from()
+            .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
     }
 
     /// The unit of one of the bodies, in units of the pair.
@@ -264,12 +260,34 @@ impl<'a, V: Visitor> Walk<'a, V> {
         self.motions[1 - body].factor
     }
 
-    /// The direction in which the bodies were last seen nearest, in the frame of one of them.
+    /// The direction between the centres, if it separates the bodies by more than that of the pair visited first.
     #[inline(always)]
-    fn direction(&self, body: usize) -> [f32; 3] {
+    fn aim_at_centers(&mut self) {
+        let centers = -self.pairing.relative.translation;
+        let Some(centers) = centers.try_normalize(0.0) else {
+            return;
+        };
+        let [a, b] = self.trees.map(|tree| tree.bounding_box(tree.root()));
+        let a = PackedBox {
+            axes: a.axes,
+            center: each3(|k| a.center[k] * self.unit(0)),
+            half: each3(|k| a.half[k] * self.unit(0)),
+        };
+        let b = self.motions[0].apply(&b);
+        let [now, then] = [self.state.direction, centers]
+            .map(|direction| box_bounds::gap_along(&b, &a, &each3(|k| direction[k] as f32)));
+        let nothing_known = self.state.direction == Vec3::zeros();
+        if nothing_known || (now <= 0.0 && then > 0.0) {
+            self.state.direction = centers;
+        }
+    }
+
+    /// The direction in which the bodies were last seen nearest, from one of them, in its frame.
+    #[inline(always)]
+    fn direction_from(&self, body: usize) -> [f32; 3] {
         let direction = each3(|k| self.state.direction[k] as f32);
         match body {
-            0 => direction,
+            0 => each3(|k| -direction[k]),
             _ => self.motions[1].turn(&direction),
         }
     }
@@ -277,43 +295,37 @@ impl<'a, V: Visitor> Walk<'a, V> {
     /// Opens the larger of two units, or the one that is no leaf.
     #[inline(always)]
     fn open(&mut self, a: Unit, b: Unit, cutoff: f32) {
-        let boxes = [self.trees[0].bounding_box(a), self.trees[1].bounding_box(b)];
+        let [size_a, size_b] = [
+            self.trees[0].size_code(a),
+            self.trees[1].size_code(b) + self.size_offset,
+        ];
         let opened = if a.is_leaf() {
             1
         } else if b.is_leaf() {
             0
         } else {
-            let size = |body: usize| {
-                let [x, y, z] = each3(|k| boxes[body].half[k] * self.unit(body));
-                x * x + y * y + z * z
-            };
-            usize::from(size(1) > size(0))
+            usize::from(size_b > size_a)
         };
-        let one = self.motions[opened].apply(boxes[1 - opened]);
-        let node = if opened == 0 { a } else { b };
-        let (eight, count) = self.trees[opened].children(node);
-        let direction = self.direction(opened);
-        let direction = match opened {
-            0 => each3(|k| -direction[k]),
-            _ => direction,
-        };
-        let bounds = box_bounds::bounds(eight, self.unit(opened), &one, &direction);
-        self.state.statistics.node_pairs += count as u64;
-        let first = self.stack.len();
-        for lane in 0..count {
-            let bound = bounds.0[lane];
-            if bound <= cutoff {
-                let child = eight.children[lane];
-                let (a, b) = if opened == 0 { (child, b) } else { (a, child) };
-                // The nearest goes on top.
-                let mut place = self.stack.len();
-                self.stack.push(Entry { bound, a, b });
-                while place > first && self.stack[place - 1].bound < bound {
-                    self.stack.swap(place - 1, place);
-                    place -= 1;
-                }
+        let (unit, other) = if opened == 0 { (a, b) } else { (b, a) };
+        let tree = self.trees[opened];
+        let other_tree = self.trees[1 - opened];
+        let index = tree.index(unit);
+        let node = tree.node(index);
+        let motion = &self.motions[opened];
+        let one = motion.apply(&other_tree.bounding_box(other));
+        let eight = node.boxes(self.unit(opened));
+        let direction = self.direction_from(opened);
+        let bounds = box_bounds::bounds(&eight, &one, &direction);
+        let count = node.count as usize;
+        push_nearest_last(self.stack, &bounds, count, cutoff, |lane| {
+            let child = tree.child(index, lane);
+            if opened == 0 {
+                [child, other]
+            } else {
+                [other, child]
             }
-        }
+        });
+        self.state.statistics.node_pairs += count as u64;
     }
 
     #[inline(always)]
@@ -336,8 +348,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             return ControlFlow::Continue(());
         };
         let met = self.pairing.met(places, apart);
-        // A new direction where it has changed by enough to be worth its price.
-        if apart < 0.9 * self.state.direction_at {
+        if apart < self.state.direction_at {
             self.state.aim(self.pairing, &met);
         }
         self.visitor.visit(&met)

@@ -1,8 +1,9 @@
 //! The queries as visitors of the one walk. Each may see several body pairs in turn; `pair` and `margin` say which.
 
+use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-use super::hit::{Hit, HitKey};
+use super::hit::Hit;
 use super::traversal::{Met, Visitor};
 
 /// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
@@ -43,16 +44,14 @@ impl Visitor for Nearest {
         self.limit + self.margin
     }
 
-    fn is_settled(&self, lowest: [u32; 2]) -> bool {
+    fn settled_from(&self) -> Option<[u32; 2]> {
         // Where the sets meet nothing is nearer, and only lower ids are of interest.
-        self.best.as_ref().is_some_and(|best| {
-            best.distance == 0.0
-                && best.key
-                    <= HitKey {
-                        pair: self.pair,
-                        primitives: lowest,
-                    }
-        })
+        let best = self.best.as_ref().filter(|best| best.distance == 0.0)?;
+        match best.key.pair.cmp(&self.pair) {
+            Ordering::Less => Some([0, 0]),
+            Ordering::Equal => Some(best.key.primitives),
+            Ordering::Greater => None,
+        }
     }
 
     fn visit(&mut self, met: &Met) -> ControlFlow<()> {
