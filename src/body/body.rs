@@ -18,7 +18,7 @@ pub struct Body {
     pub(super) primitives: Vec<Convex>,
     pub(super) tags: Vec<u64>,
     pub(super) tree: WrapperTree,
-    packed: PackedTree,
+    pub(super) packed: PackedTree,
     pub(super) statistics: BodyStatistics,
 }
 
@@ -45,6 +45,7 @@ impl Body {
         primitives: Vec<Convex>,
         tags: Vec<u64>,
         tree: WrapperTree,
+        packed: PackedTree,
         statistics: BodyStatistics,
     ) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
@@ -56,7 +57,7 @@ impl Body {
             radius: vertices.map(Vec3::norm).fold(0.0, f64::max),
             deviation: primitives.iter().map(|p| p.deviation).fold(0.0, f64::max),
             tags,
-            packed: PackedTree::new(&primitives, &tree),
+            packed,
             primitives,
             tree,
             statistics,

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::mesh_file::read_mesh_file;
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{HierarchyOptions, build_hierarchy};
+use crate::hierarchy::{HierarchyOptions, PackedTree, build_hierarchy};
 use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
 
@@ -165,7 +165,11 @@ impl BodyBuilder {
             .map(|primitive| primitive.clone().recentered(&center))
             .collect();
         let start = Instant::now();
-        let (tree, times) = build_hierarchy(&primitives, options, progress)?;
+        let (tree, mut times) = build_hierarchy(&primitives, options, progress)?;
+        let packed = PackedTree::new(&primitives, &tree);
+        // Packing the tree is part of its construction.
+        let before = times.preparation + times.grouping;
+        times.construction = start.elapsed().as_secs_f64() - before;
         let statistics = BodyStatistics {
             primitives: primitives.len() as u64,
             faces_split: self.faces_split,
@@ -176,18 +180,15 @@ impl BodyBuilder {
             high: high.into(),
             times,
         };
-        let mut body = Body::assemble(
+        Ok(Body::assemble(
             self.dimension,
             center,
             primitives,
             self.tags.clone(),
             tree,
+            packed,
             statistics,
-        );
-        // Packing the tree is part of its construction.
-        let before = times.preparation + times.grouping;
-        body.statistics.times.construction = start.elapsed().as_secs_f64() - before;
-        Ok(body)
+        ))
     }
 
     fn push(&mut self, primitive: Convex, tag: u64) -> Result<()> {

@@ -6,14 +6,16 @@ use std::path::Path;
 
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{BuildTimes, Frame, Node, SubsetTree, WrapperKind, WrapperTree};
+use crate::hierarchy::{
+    BuildTimes, Frame, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperKind, WrapperTree,
+};
 use crate::pose::{Vec3, check_dimension};
 use crate::primitive::{Convex, Face};
 use crate::tolerance;
 use crate::whole_file::write_whole;
 
 const MAGIC: [u8; 8] = *b"cstkbody";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER_BYTES: usize = 32;
 const LEAF: u32 = 1 << 31;
 
@@ -58,6 +60,7 @@ impl Body {
             payload.primitive(primitive);
         }
         payload.tree(&self.tree);
+        payload.packed(&self.packed);
         let mut bytes = Writer::default();
         bytes.0.extend(MAGIC);
         bytes.u32(VERSION);
@@ -101,6 +104,7 @@ impl Body {
             primitives.push(reader.primitive()?);
         }
         let tree = reader.tree(count)?;
+        let packed = reader.packed(&primitives, &tree)?;
         if !reader.payload.is_empty() {
             return Err(reader.damaged("the end: more follows"));
         }
@@ -108,7 +112,7 @@ impl Body {
         statistics.nodes = tree.subsets().nodes.len() as u64;
         statistics.depth = tree.subsets().depth() as u64;
         Ok(Self::assemble(
-            dimension, center, primitives, tags, tree, statistics,
+            dimension, center, primitives, tags, tree, packed, statistics,
         ))
     }
 }
@@ -227,6 +231,17 @@ impl Writer {
         }
         for &piece in tree.pieces() {
             self.u32(piece);
+        }
+    }
+
+    fn packed(&mut self, packed: &PackedTree) {
+        self.count(packed.primitives().len());
+        for entry in packed.primitives().entries() {
+            self.u32(entry.primitive);
+        }
+        self.count(packed.nodes().len());
+        for node in packed.nodes() {
+            self.0.extend(node.to_bytes());
         }
     }
 }
@@ -397,6 +412,22 @@ impl Reader<'_> {
             subsets, frames, corners, kind, pieces,
         ))
     }
+
+    fn packed(&mut self, primitives: &[Convex], tree: &WrapperTree) -> Result<PackedTree> {
+        let leaves = self.count(4)?;
+        let order: Vec<u32> = (0..leaves)
+            .map(|_| self.index(primitives.len()))
+            .collect::<Result<_>>()?;
+        let count = self.count(NODE_BYTES)?;
+        let nodes: Vec<WideNode> = (0..count)
+            .map(|_| {
+                let bytes = self.take()?;
+                WideNode::from_bytes(&bytes).ok_or_else(|| self.damaged("a node of boxes"))
+            })
+            .collect::<Result<_>>()?;
+        PackedTree::from_parts(nodes, &order, primitives, tree)
+            .ok_or_else(|| self.damaged("the tree of boxes"))
+    }
 }
 
 #[cfg(test)]
@@ -442,6 +473,7 @@ mod tests {
             let saved = steps(kind);
             let loaded = Body::from_bytes(&saved.to_bytes()).unwrap();
             assert_eq!(loaded.tree, saved.tree);
+            assert_eq!(loaded.packed, saved.packed);
             assert_eq!(loaded.primitives, saved.primitives);
             assert_eq!(loaded.tags, saved.tags);
             assert_eq!(loaded.center, saved.center);
@@ -470,10 +502,10 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 2;
+        altered[8] = 3;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 2"), "{}", error.message);
+        assert!(error.message.contains("version 3"), "{}", error.message);
     }
 
     /// Content that passes the checksum but was not written by us must not lead out of bounds.

@@ -43,7 +43,7 @@ pub use packed_primitives::{MOST_CORNERS, PackedPrimitive, PackedPrimitives};
 pub use packed_tree::{PackedTree, Unit, power_of_two};
 pub use statistics::{LevelStatistics, TreeStatistics};
 pub use subset_tree::{Node, SubsetTree};
-pub use wide_node::{EightBoxes, SIZE_STEPS, WideNode};
+pub use wide_node::{EightBoxes, NODE_BYTES, SIZE_STEPS, WideNode};
 pub use wrapper::Wrapper;
 pub use wrapper_shape::Surface;
 pub use wrapper_tree::{Frame, WrapperTree};

@@ -8,7 +8,7 @@ use crate::primitive::Convex;
 pub const MOST_CORNERS: usize = 64;
 
 /// A primitive, and where its outline is if it is a flat polygon of few corners.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedPrimitive {
     pub primitive: u32,
     first: u32,
@@ -18,7 +18,7 @@ pub struct PackedPrimitive {
     pub is_plain: bool,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackedPrimitives {
     entries: Vec<PackedPrimitive>,
     /// Of each polygon the plane normal . x = offset, then its corners four at a time, coordinates apart: a triangle or a
@@ -70,6 +70,10 @@ impl PackedPrimitives {
 
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
+    }
+
+    pub fn entries(&self) -> &[PackedPrimitive] {
+        &self.entries
     }
 
     #[inline(always)]

@@ -36,7 +36,7 @@ impl Unit {
 }
 
 /// Lengths are in units of `scale`, a power of two about as large as the body, so that they fit single precision.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PackedTree {
     /// The first has one child, the root.
     nodes: Vec<WideNode>,
@@ -46,19 +46,78 @@ pub struct PackedTree {
 
 impl PackedTree {
     pub fn new(primitives: &[Convex], tree: &WrapperTree) -> Self {
-        let root = tree.wrapper(0);
-        let reach = root.radius + root.center.norm();
         let mut builder = Builder {
             tree,
             shapes: primitives,
-            packed: Self {
-                nodes: Vec::new(),
-                primitives: PackedPrimitives::default(),
-                scale: power_of_two(reach),
-            },
+            packed: Self::empty(tree),
         };
         builder.build();
+        builder.packed.find_lowest();
         builder.packed
+    }
+
+    /// The tree of given nodes, and of primitives in the order of its leaves; `None` if they do not make one.
+    pub fn from_parts(
+        nodes: Vec<WideNode>,
+        order: &[u32],
+        primitives: &[Convex],
+        tree: &WrapperTree,
+    ) -> Option<Self> {
+        let mut packed = Self::empty(tree);
+        for &primitive in order {
+            packed
+                .primitives
+                .push(primitive, primitives.get(primitive as usize)?);
+        }
+        packed.nodes = nodes;
+        packed.is_sound().then(|| {
+            packed.find_lowest();
+            packed
+        })
+    }
+
+    fn empty(tree: &WrapperTree) -> Self {
+        let root = tree.wrapper(0);
+        Self {
+            nodes: Vec::new(),
+            primitives: PackedPrimitives::default(),
+            scale: power_of_two(root.radius + root.center.norm()),
+        }
+    }
+
+    /// Whether every node and every leaf has one parent, before it in the order.
+    fn is_sound(&self) -> bool {
+        let mut node_seen = vec![false; self.nodes.len()];
+        let mut leaf_seen = vec![false; self.primitives.len()];
+        let links_are_sound = self.nodes.iter().enumerate().all(|(index, node)| {
+            let children = &node.children[..node.count as usize];
+            children.iter().all(|&child| {
+                let (seen, place) = match child & LEAF {
+                    0 if child as usize <= index => return false,
+                    0 => (&mut node_seen, child),
+                    _ => (&mut leaf_seen, child & !LEAF),
+                };
+                seen.get_mut(place as usize)
+                    .is_some_and(|seen| !std::mem::replace(seen, true))
+            })
+        });
+        links_are_sound
+            && self.nodes.first().is_some_and(|top| top.count == 1)
+            && node_seen.iter().skip(1).chain(&leaf_seen).all(|&seen| seen)
+    }
+
+    fn find_lowest(&mut self) {
+        // Children come after their parents.
+        for index in (0..self.nodes.len()).rev() {
+            let lanes = 0..self.nodes[index].count as usize;
+            let lowest = lanes.map(|lane| self.lowest(self.child(index, lane)));
+            self.nodes[index].lowest = lowest.min().unwrap_or(0);
+        }
+    }
+
+    /// The nodes, each before its children; the first has one child, the root.
+    pub fn nodes(&self) -> &[WideNode] {
+        &self.nodes
     }
 
     #[inline(always)]
@@ -163,12 +222,6 @@ impl Builder<'_> {
                 index as u32
             };
             self.packed.nodes[above].children[lane] = target;
-        }
-        // Children come after their parents.
-        for index in (0..self.packed.nodes.len()).rev() {
-            let lanes = 0..self.packed.nodes[index].count as usize;
-            let lowest = lanes.map(|lane| self.packed.lowest(self.packed.child(index, lane)));
-            self.packed.nodes[index].lowest = lowest.min().unwrap_or(0);
         }
     }
 

@@ -21,9 +21,12 @@ const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
 pub const SIZE_STEPS: i32 = 8;
 const SIZE_OF_ONE: f64 = 200.0;
 
+/// What a node takes in a file.
+pub const NODE_BYTES: usize = 252;
+
 /// The boxes of a node's children. Two axes of a box are stored, the third, along its shortest side, is their cross product
 /// and so upright to them; centres are relative to an origin, and like half sides in units of a step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct WideNode {
     axes: [[[i16; 8]; 3]; 2],
@@ -126,6 +129,56 @@ impl WideNode {
         let size = Vec3::from(self.get(lane).half.map(f64::from)).norm();
         let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.max(f64::MIN_POSITIVE).log2();
         self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
+    }
+
+    /// As files hold it, without the lowest primitive, in the order of the fields, little-endian.
+    pub fn to_bytes(&self) -> [u8; NODE_BYTES] {
+        let mut bytes = [0; NODE_BYTES];
+        let mut at = 0;
+        let mut put = |field: &[u8]| {
+            bytes[at..at + field.len()].copy_from_slice(field);
+            at += field.len();
+        };
+        let signed = self.axes.as_flattened().iter().chain(&self.center);
+        signed.flatten().for_each(|x| put(&x.to_le_bytes()));
+        let halves = self.half.as_flattened();
+        halves.iter().for_each(|x| put(&x.to_le_bytes()));
+        self.children.iter().for_each(|x| put(&x.to_le_bytes()));
+        self.origin.iter().for_each(|x| put(&x.to_le_bytes()));
+        put(&self.step.to_le_bytes());
+        put(&self.sizes);
+        put(&self.count.to_le_bytes());
+        bytes
+    }
+
+    /// A node of a file, if it could be one.
+    pub fn from_bytes(bytes: &[u8; NODE_BYTES]) -> Option<Self> {
+        let mut rest = &bytes[..];
+        fn take<const N: usize>(rest: &mut &[u8]) -> [u8; N] {
+            let (taken, after) = rest.split_first_chunk().expect("the sizes of the fields");
+            *rest = after;
+            *taken
+        }
+        let mut signed = || std::array::from_fn(|_| i16::from_le_bytes(take(&mut rest)));
+        let axes = [0, 1].map(|_| [0, 1, 2].map(|_| signed()));
+        let center = [0, 1, 2].map(|_| signed());
+        let half = [0, 1, 2].map(|_| std::array::from_fn(|_| u16::from_le_bytes(take(&mut rest))));
+        let children = std::array::from_fn(|_| u32::from_le_bytes(take(&mut rest)));
+        let mut number = || f32::from_le_bytes(take(&mut rest));
+        let node = Self {
+            axes,
+            center,
+            half,
+            children,
+            origin: [number(), number(), number()],
+            step: number(),
+            sizes: take(&mut rest),
+            count: u32::from_le_bytes(take(&mut rest)),
+            lowest: 0,
+        };
+        let sensible = |x: f32| x.abs() <= 4.0;
+        let is_sound = node.origin.into_iter().all(sensible) && sensible(node.step);
+        (is_sound && (1..=8).contains(&node.count)).then_some(node)
     }
 
     /// About the logarithm of a box's size.
