@@ -1,5 +1,7 @@
 //! Unions, margins and states: what they hold, each pair once, whatever the order of the parts.
 
+mod common;
+
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
@@ -7,9 +9,11 @@ use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, QueryContext};
+use cstk::query::{Configuration, DistanceKind, QueryContext, SSide};
 use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};
 use cstk::space::{Space, WorldBox};
+
+use common::random::Random;
 
 fn cuboid(sides: [f64; 3]) -> Arc<Body> {
     let points: Vec<Vec3> = (0..8)
@@ -208,4 +212,73 @@ fn a_frozen_set_does_not_follow_its_environments() {
     let mut distance = |c: &CObject| query.distance(c, q, f64::INFINITY).unwrap().distance;
     assert!((distance(&frozen) - 0.2).abs() < 1e-15);
     assert!((distance(&union) - 2.0).abs() < 1e-15);
+}
+
+/// Among many objects only those near are asked; the answers are those of asking each by itself.
+#[test]
+fn a_union_of_many_objects_is_the_least_of_all_pairs() {
+    let mut random = Random::new(3);
+    let space = sliders(3);
+    let bodies = [[0.5, 0.2, 0.1], [3.0, 0.1, 0.1], [0.1; 3]].map(cuboid);
+    // Far from the origin too: bounds in the world carry the rounding of its coordinates.
+    for (reach, away) in [(4.0, 0.0), (12.0, 0.0), (12.0, 1e5)] {
+        let environment = Arc::new(Environment::default());
+        let poses: Vec<Pose> = (0..120)
+            .map(|_| {
+                let mut pose = random.pose(reach);
+                pose.translation.x += away;
+                pose
+            })
+            .collect();
+        let add = |(i, pose): (usize, &Pose)| Change::Add {
+            body: bodies[i % 3].clone(),
+            pose: *pose,
+        };
+        let changes: Vec<Change> = poses.iter().enumerate().map(add).collect();
+        let (ids, _) = environment.apply(&changes).unwrap();
+        let (margin, epsilon) = (0.05, 0.3);
+        let cobject = induced(&space, &environment, margin, epsilon);
+        let link = cuboid([1.0; 3]);
+        for _ in 0..60 {
+            let q: Vec<f64> = (0..3)
+                .map(|_| away + random.within(-reach, reach))
+                .collect();
+            let mut query = QueryContext::new();
+            let mut least = (f64::INFINITY, 0, 0);
+            let mut within = 0;
+            for (k, x) in q.iter().enumerate() {
+                for (i, pose) in poses.iter().enumerate() {
+                    let (a, b) = ((&*link, &at(*x)), (&*bodies[i % 3], pose));
+                    let apart = query.pair_distance(a, b, f64::INFINITY).unwrap().distance;
+                    let clear = if apart > margin { apart - margin } else { 0.0 };
+                    if clear < least.0 {
+                        least = (clear, k, i);
+                    }
+                    within += usize::from(clear <= epsilon);
+                }
+            }
+            let q = Configuration::Coordinates(&q);
+            let found = query.distance(&cobject, q, f64::INFINITY).unwrap();
+            assert!((found.distance - least.0).abs() <= 1e-15 * away.max(10.0));
+            let witness = found.witness.unwrap();
+            assert_eq!(witness.r_link, least.1);
+            assert_eq!(witness.s_side, SSide::Object(ids[least.2]));
+            let list = query.witnesses(&cobject, q, epsilon, 1000).unwrap();
+            assert_eq!(list.witnesses.len(), within);
+            let class = match least.0 {
+                0.0 => Class::Inside,
+                d if d <= epsilon => Class::Contact,
+                _ => Class::Outside,
+            };
+            assert_eq!(query.classify(&cobject, q).unwrap(), class);
+            for threshold in [0.1, 1.0] {
+                assert_eq!(
+                    query.within(&cobject, q, threshold).unwrap(),
+                    least.0 <= threshold
+                );
+            }
+            let beyond = query.distance(&cobject, q, 0.9 * least.0).unwrap();
+            assert_eq!(beyond.kind == DistanceKind::BeyondMax, least.0 > 0.0);
+        }
+    }
 }

@@ -71,7 +71,11 @@ impl Environment {
             ));
         }
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut next = Snapshot::clone(&state);
+        let mut next = Snapshot {
+            version: state.version + 1,
+            objects: state.objects.clone(),
+            ..Snapshot::default()
+        };
         let mut ids = Vec::with_capacity(changes.len());
         for (i, change) in changes.iter().enumerate() {
             let id = next
@@ -79,7 +83,6 @@ impl Environment {
                 .map_err(|error| error.within(format_args!("changes[{i}]")))?;
             ids.push(id);
         }
-        next.version += 1;
         let version = next.version;
         *state = Arc::new(next);
         Ok((ids, version))
@@ -121,14 +124,12 @@ impl Snapshot {
     }
 
     fn index_of(&self, id: u64) -> Result<usize> {
-        self.objects
-            .binary_search_by_key(&id, |object| object.id)
-            .map_err(|_| {
-                Error::new(
-                    ErrorKind::NotFound,
-                    format!("there is no s-object with id {id}"),
-                )
-            })
+        self.place_of(id).ok_or_else(|| {
+            Error::new(
+                ErrorKind::NotFound,
+                format!("there is no s-object with id {id}"),
+            )
+        })
     }
 }
 

@@ -2,7 +2,9 @@
 
 #[allow(clippy::module_inception)]
 mod environment;
+mod object_tree;
 mod snapshot;
 
 pub use environment::{Change, Environment};
+pub use object_tree::{Ball, ObjectTree};
 pub use snapshot::{SObject, Snapshot};

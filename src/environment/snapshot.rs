@@ -1,7 +1,8 @@
 //! What a query sees of an environment: whole or not at all.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use super::ObjectTree;
 use crate::body::Body;
 use crate::pose::Pose;
 
@@ -21,14 +22,24 @@ pub struct Snapshot {
     pub version: u64,
     /// In order of ids.
     pub objects: Vec<SObject>,
+    /// Built when first asked for.
+    pub(super) tree: OnceLock<ObjectTree>,
 }
 
 impl Snapshot {
     pub fn find(&self, id: u64) -> Option<&SObject> {
-        let index = self
-            .objects
+        self.place_of(id).map(|place| &self.objects[place])
+    }
+
+    /// The place of an object among all.
+    pub fn place_of(&self, id: u64) -> Option<usize> {
+        self.objects
             .binary_search_by_key(&id, |object| object.id)
-            .ok()?;
-        Some(&self.objects[index])
+            .ok()
+    }
+
+    /// The tree over the objects, which it names by their places.
+    pub fn tree(&self) -> &ObjectTree {
+        self.tree.get_or_init(|| ObjectTree::new(&self.objects))
     }
 }

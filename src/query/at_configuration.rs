@@ -2,7 +2,7 @@
 
 use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
 use super::at_poses::{contact_at_witness, contact_records};
-use super::candidates::{Candidate, Configuration, Scene};
+use super::candidates::{Candidate, Configuration, Scene, Wanted};
 use super::context::{CacheKey, QueryContext};
 use super::search::{Found, Target};
 use crate::cobject::{CObject, Class};
@@ -32,7 +32,10 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted {
+            in_contact: true,
+            ..Wanted::within(0.0)
+        })?;
         let targets = targets(&scene, &candidates);
         let inside = targets.iter().map(|target| (target, 0.0));
         if self.first_within(inside).is_some() {
@@ -54,7 +57,7 @@ impl QueryContext {
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted::within(threshold))?;
         let targets = targets(&scene, &candidates);
         Ok(self
             .first_within(targets.iter().map(|target| (target, threshold)))
@@ -70,7 +73,10 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted {
+            nearest: Some(max_distance),
+            ..Wanted::within(0.0)
+        })?;
         self.distance_among(&scene, &candidates, max_distance)
     }
 
@@ -80,7 +86,7 @@ impl QueryContext {
         candidates: &[Candidate],
         max_distance: f64,
     ) -> Result<Distance> {
-        if candidates.is_empty() {
+        if scene.is_empty() {
             return Ok(Distance::empty(scene.version));
         }
         let found = self.nearest(&targets(scene, candidates), max_distance);
@@ -112,7 +118,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted::within(epsilon))?;
         Ok(self.list(&scene, &candidates, epsilon, max_count, false))
     }
 
@@ -126,7 +132,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted::within(epsilon))?;
         Ok(self.list(&scene, &candidates, epsilon, max_count, true))
     }
 
@@ -142,7 +148,11 @@ impl QueryContext {
     ) -> Result<PseudoNormal> {
         check_threshold(max_shell, "max_shell")?;
         let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates()?;
+        let candidates = scene.candidates(Wanted {
+            in_contact: true,
+            nearest: Some(f64::INFINITY),
+            ..Wanted::within(max_shell)
+        })?;
         let distance = self.distance_among(&scene, &candidates, f64::INFINITY)?;
         let mut list = self.list(&scene, &candidates, max_shell, max_count, true);
         if normalize && list.nv > 0 {

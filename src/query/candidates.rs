@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::answer::SSide;
 use crate::body::Body;
 use crate::cobject::{CObject, InducedOptions, SObjects, Term};
-use crate::environment::Snapshot;
+use crate::environment::{Ball, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::pose::Pose;
@@ -98,16 +98,43 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// All body pairs, each once, ranked by ids and sorted by bound.
-    pub fn candidates(&self) -> Result<Vec<Candidate<'_>>> {
-        let mut found = Vec::new();
+    /// Whether there is no pair of bodies at all.
+    pub fn is_empty(&self) -> bool {
+        let nothing = |(term, snapshot): (&Arc<Term>, &Option<Arc<Snapshot>>)| match &**term {
+            Term::Links { pairs, .. } => pairs.is_empty(),
+            Term::Objects { links, objects, .. } => {
+                let Some(snapshot) = snapshot else {
+                    return true;
+                };
+                let no_object = match objects {
+                    SObjects::All(_) => snapshot.objects.is_empty(),
+                    SObjects::Some(_, ids) => ids.iter().all(|id| snapshot.find(*id).is_none()),
+                };
+                links.is_empty() || no_object
+            }
+        };
+        self.cobject
+            .terms()
+            .iter()
+            .zip(&self.snapshots)
+            .all(nothing)
+    }
+
+    /// The body pairs that a search may need, each once, ranked by ids and sorted by bound.
+    pub fn candidates(&self, wanted: Wanted) -> Result<Vec<Candidate<'_>>> {
+        let mut near = Near {
+            wanted,
+            nearest: f64::INFINITY,
+            found: Vec::new(),
+        };
         for (term, snapshot) in self.cobject.terms().iter().zip(&self.snapshots) {
             match (&**term, snapshot) {
                 (Term::Links { pairs, options }, _) => {
                     for &[r, s] in pairs {
                         if let (Some(a), Some(b)) = (self.body(r), self.body(s)) {
-                            let pairing = Pairing::new(a, &self.poses[r], b, &self.poses[s]);
-                            found.push((r, SSide::Link(s), pairing, *options));
+                            let [ball, other] = [(a, r), (b, s)]
+                                .map(|(body, link)| Ball::of(body, &self.poses[link]));
+                            near.offer(r, Side::Link(s), ball.bounds(&other), options);
                         }
                     }
                 }
@@ -118,32 +145,19 @@ impl<'a> Scene<'a> {
                         options,
                     },
                     Some(snapshot),
-                ) => {
-                    let chosen: Vec<_> = match objects {
-                        SObjects::All(_) => snapshot.objects.iter().collect(),
-                        SObjects::Some(_, ids) => {
-                            ids.iter().filter_map(|id| snapshot.find(*id)).collect()
-                        }
-                    };
-                    for &r in links {
-                        let Some(a) = self.body(r) else { continue };
-                        for object in &chosen {
-                            if object.body.dimension() != a.dimension() {
-                                return Err(Error::invalid(format!(
-                                    "s-object {} and link {r} differ in dimension",
-                                    object.id
-                                )));
-                            }
-                            let pairing =
-                                Pairing::new(a, &self.poses[r], &object.body, &object.pose);
-                            found.push((r, SSide::Object(object.id), pairing, *options));
-                        }
-                    }
-                }
+                ) => self.offer_objects(links, objects, options, snapshot, &mut near)?,
                 _ => {}
             }
         }
-        let found = without_repeats(found);
+        let found = near.finish().map(|(r, side, options)| {
+            let (s_side, body, pose) = match side {
+                Side::Link(s) => (SSide::Link(s), self.body(s)?, &self.poses[s]),
+                Side::Object(object) => (SSide::Object(object.id), &*object.body, &object.pose),
+            };
+            let pairing = Pairing::new(self.body(r)?, &self.poses[r], body, pose);
+            Some((r, s_side, pairing, options))
+        });
+        let found = without_repeats(found.flatten().collect());
         let mut candidates: Vec<Candidate> = found
             .into_iter()
             .enumerate()
@@ -160,12 +174,126 @@ impl<'a> Scene<'a> {
         Ok(candidates)
     }
 
+    fn offer_objects<'s>(
+        &self,
+        links: &[usize],
+        objects: &SObjects,
+        options: &InducedOptions,
+        snapshot: &'s Snapshot,
+        near: &mut Near<'s>,
+    ) -> Result<()> {
+        let tree = snapshot.tree();
+        for &r in links {
+            let Some(body) = self.body(r) else { continue };
+            if let Some(object) = snapshot.objects.first()
+                && object.body.dimension() != body.dimension()
+            {
+                return Err(Error::invalid(format!(
+                    "s-object {} and link {r} differ in dimension",
+                    object.id
+                )));
+            }
+            let ball = Ball::of(body, &self.poses[r]);
+            let limit = near.limit(options) + options.margin;
+            let mut offer = |place: usize| {
+                let side = Side::Object(&snapshot.objects[place]);
+                near.offer(r, side, ball.bounds(tree.ball(place)), options)
+            };
+            match objects {
+                SObjects::All(_) => {
+                    tree.visit_near(&ball, limit, offer);
+                }
+                SObjects::Some(_, ids) => {
+                    for place in ids.iter().filter_map(|id| snapshot.place_of(*id)) {
+                        offer(place);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn body(&self, link: usize) -> Option<&Body> {
         self.cobject.space().link(link)?.body.as_deref()
     }
 
     pub fn cobject(&self) -> &CObject {
         self.cobject
+    }
+}
+
+/// Which body pairs a search needs.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// All that may be within this.
+    pub within: f64,
+    /// All that may be in contact.
+    pub in_contact: bool,
+    /// Those that may be nearest, if within this.
+    pub nearest: Option<f64>,
+}
+
+impl Wanted {
+    pub fn within(threshold: f64) -> Self {
+        Self {
+            within: threshold,
+            in_contact: false,
+            nearest: None,
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Side<'s> {
+    Link(usize),
+    Object(&'s SObject),
+}
+
+/// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
+struct Near<'s> {
+    wanted: Wanted,
+    /// No pair that is farther than this, less its margin, is nearest.
+    nearest: f64,
+    found: Vec<(f64, usize, Side<'s>, InducedOptions)>,
+}
+
+impl<'s> Near<'s> {
+    /// Takes a pair if it may matter. Returns how far other pairs of the same options may be to matter.
+    fn offer(
+        &mut self,
+        r_link: usize,
+        side: Side<'s>,
+        [lower, upper]: [f64; 2],
+        options: &InducedOptions,
+    ) -> f64 {
+        self.nearest = self.nearest.min(upper - options.margin);
+        if lower - options.margin <= self.limit(options) {
+            self.found
+                .push((lower - options.margin, r_link, side, *options));
+        }
+        self.limit(options) + options.margin
+    }
+
+    fn limit(&self, options: &InducedOptions) -> f64 {
+        let contact = if self.wanted.in_contact {
+            options.contact_epsilon
+        } else {
+            0.0
+        };
+        let nearest = self
+            .wanted
+            .nearest
+            .map_or(0.0, |most| self.nearest.min(most));
+        self.wanted.within.max(contact).max(nearest)
+    }
+
+    fn finish(self) -> impl Iterator<Item = (usize, Side<'s>, InducedOptions)> {
+        let limits = self.found.iter().map(|(.., options)| self.limit(options));
+        let limits: Vec<f64> = limits.collect();
+        let found = self.found.into_iter().zip(limits);
+        found
+            .filter(|((lower, ..), limit)| lower <= limit)
+            .map(|((_, r_link, side, options), _)| (r_link, side, options))
     }
 }
 
