@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE] [--quick].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE]; kernel also takes
+# [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text.
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
   hierarchies | kernel) ;;
-  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick]" >&2; exit 2 ;;
+  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick] [--seed N] [--only TEXT]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -23,7 +24,8 @@ while [ $# -gt 0 ]; do
 done
 scripts/setup.sh bench
 if [ "$name" = kernel ]; then
-  # A peer that cannot be had is left out, and named.
+  # A peer or a model that cannot be had is left out, and named.
+  scripts/fetch_puma560.sh >/dev/null || true
   coal=$(scripts/fetch_coal.sh) || coal=
   cmake -S benches/peers -B build/peers ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/peers -j2 >/dev/null

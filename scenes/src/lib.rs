@@ -50,7 +50,6 @@ mod scene;
 
 mod free_lamp;
 mod gear_plate_motor;
-mod random_pair;
 mod teapot_contacts;
 
 mod ball_tree;
@@ -73,7 +72,6 @@ pub use motor::motor;
 pub use nested_shells::nested_shells;
 pub use plate::plate;
 pub use puma_arm::{ArmScene, puma_coherent, puma_random};
-pub use random_pair::random_pair;
 pub use robot_base::{robot_base, robot_bases};
 pub use scattered::scattered;
 pub use scene::Scene;

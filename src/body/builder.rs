@@ -21,7 +21,7 @@ pub struct BodyBuilder {
 }
 
 /// A mesh: vertices, and faces as runs of vertex indices.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     pub vertices: Vec<Vec3>,
     pub face_sizes: Vec<u32>,

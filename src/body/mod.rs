@@ -8,3 +8,4 @@ mod mesh_file;
 
 pub use body::{Body, BodyStatistics};
 pub use builder::{BodyBuilder, Mesh};
+pub use mesh_file::read_mesh_file;
