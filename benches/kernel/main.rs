@@ -174,7 +174,7 @@ fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Op
 /// Runs everything once and compares the answers with our first; says where they differ.
 fn first_passes(name: &str, mode: Mode, runners: &mut [Runner]) -> Vec<String> {
     let mut expected: Vec<f64> = Vec::new();
-    let mut notes = Vec::new();
+    let mut differing: Vec<(&str, String, usize, f64)> = Vec::new();
     for runner in runners {
         let (library, variant) = (runner.library, &runner.variant);
         eprint!("\r{:78}\r{name}: {library} {variant}", "");
@@ -192,12 +192,19 @@ fn first_passes(name: &str, mode: Mode, runners: &mut [Runner]) -> Vec<String> {
             .filter(|&d| d > allowed)
             .fold((0, 0.0f64), |(n, worst), d| (n + 1, worst.max(d)));
         if count > 0 {
-            notes.push(format!(
-                "{library} {variant}: {count} answers differ, by up to {worst:.1e}"
-            ));
+            differing.push((library, variant.clone(), count, worst));
         }
     }
-    notes
+    differing
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|same| {
+            let variants: Vec<&str> = same.iter().map(|d| d.1.as_str()).collect();
+            let count = same.iter().map(|d| d.2).max().unwrap_or(0);
+            let worst = same.iter().map(|d| d.3).fold(0.0, f64::max);
+            let (library, variants) = (same[0].0, variants.join(", "));
+            format!("{library} differs in up to {count} answers, by up to {worst:.1e} ({variants})")
+        })
+        .collect()
 }
 
 /// All of ours, and the two fastest variants of each peer.

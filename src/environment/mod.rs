@@ -6,5 +6,5 @@ mod object_tree;
 mod snapshot;
 
 pub use environment::{Change, Environment};
-pub use object_tree::{Ball, ObjectTree};
+pub use object_tree::{Bounds, ObjectTree};
 pub use snapshot::{SObject, Snapshot};

@@ -2,35 +2,51 @@
 
 use super::SObject;
 use crate::body::Body;
-use crate::hierarchy::{Extent, ExtentTree};
-use crate::pose::{Pose, Vec3};
+use crate::hierarchy::{BOX, BoxTree, Extent, OrientedBox, PackedBox, power_of_two};
+use crate::lanes::{Work, each3, with_widest};
+use crate::pair::{ROUNDING, bounds};
+use crate::pose::{Mat3, Pose, Vec3};
 use crate::tolerance;
 
-/// The sphere around a body at a pose.
+/// What bounds a body at a pose: a ball, and a box.
 #[derive(Clone, Copy, Debug)]
-pub struct Ball {
-    pub center: Vec3,
-    pub radius: f64,
+pub struct Bounds {
+    center: Vec3,
+    radius: f64,
+    box_center: Vec3,
+    /// Columns that are orthonormal to within 2^-12 (see `PackedBox`).
+    axes: Mat3,
+    half: Vec3,
     /// How far the body's primitives may be from what their features say (see `Body::deviation`).
-    pub deviation: f64,
+    deviation: f64,
 }
 
 /// The objects of one state of an environment, by their places in it.
 #[derive(Clone, Debug, Default)]
 pub struct ObjectTree {
-    tree: ExtentTree,
-    balls: Vec<Ball>,
-    /// The largest deviation, and the largest coordinate.
+    tree: BoxTree,
+    bounds: Vec<Bounds>,
     deviation: f64,
+    /// No corner of a box is farther from the tree's centre.
+    radius: f64,
+    /// The largest coordinate in the world.
     reach: f64,
 }
 
-impl Ball {
+impl Bounds {
     pub fn of(body: &Body, pose: &Pose) -> Self {
-        let root = body.tree().wrapper(0);
+        let packed = body.packed();
+        let root = packed.bounding_box(packed.root());
+        let [x, y, z] = root.axes.map(|axis| Vec3::from(axis.map(f64::from)));
+        let scaled = |v: [f32; 3]| Vec3::from(v.map(f64::from)) * packed.scale();
+        let ball = body.tree().wrapper(0);
+        let placed = |from_center: Vec3| pose.transform_point(&(body.center() + from_center));
         Self {
-            center: pose.transform_point(&(body.center() + root.center)),
-            radius: root.radius,
+            center: placed(ball.center),
+            radius: ball.radius,
+            box_center: placed(scaled(root.center)),
+            axes: pose.rotation * Mat3::from_columns(&[x, y, z]),
+            half: scaled(root.half),
             deviation: body.deviation(),
         }
     }
@@ -39,74 +55,140 @@ impl Ball {
         self.center.amax() + self.radius
     }
 
-    /// What a bound between two balls in the world must be lowered by, so that nothing it excludes could have mattered:
-    /// its rounding, and the error of the distances on both sides of a comparison (see `Pairing::slack`).
-    fn slack(reach: f64, deviation: f64) -> f64 {
-        let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
-        4.0 * rounding * reach + 2.0 * deviation
-    }
-
-    /// A safe lower and a safe upper bound of the distance of the bodies in two balls.
-    pub fn bounds(&self, other: &Ball) -> [f64; 2] {
+    /// A safe lower and a safe upper bound of the distance of two bodies, by their balls.
+    pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
         let reach = self.reach().max(other.reach());
-        let slack = Self::slack(reach, self.deviation + other.deviation);
+        let slack = slack(reach, self.deviation + other.deviation);
         [apart - radii - slack, apart + radii + slack]
     }
+
+    fn oriented_box(&self) -> OrientedBox {
+        let whole = Extent {
+            low: -self.half,
+            high: self.half,
+        };
+        let x = self.axes.column(0).normalize();
+        let y = self.axes.column(1).into_owned();
+        let y = (y - x * x.dot(&y)).normalize();
+        OrientedBox {
+            corners: whole.corners().map(|c| self.box_center + self.axes * c),
+            axes: Mat3::from_columns(&[x, y, x.cross(&y)]),
+        }
+    }
+}
+
+/// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
+/// error of the distances on both sides of a comparison (see `Pairing::slack`).
+fn slack(reach: f64, deviation: f64) -> f64 {
+    let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
+    4.0 * rounding * reach + 2.0 * deviation
 }
 
 impl ObjectTree {
     pub fn new(objects: &[SObject]) -> Self {
-        let balls: Vec<Ball> = objects
+        let bounds: Vec<Bounds> = objects
             .iter()
-            .map(|object| Ball::of(&object.body, &object.pose))
+            .map(|object| Bounds::of(&object.body, &object.pose))
             .collect();
-        let extents = objects
-            .iter()
-            .zip(&balls)
-            .map(|(object, ball)| extent(object, ball));
+        let boxes: Vec<OrientedBox> = bounds.iter().map(Bounds::oriented_box).collect();
+        let tree = BoxTree::new(&boxes);
+        let corners = boxes.iter().flat_map(|b| &b.corners);
+        let largest = |lengths: &mut dyn Iterator<Item = f64>| lengths.fold(0.0, f64::max);
         Self {
-            tree: ExtentTree::new(extents.collect()),
-            deviation: balls.iter().map(|ball| ball.deviation).fold(0.0, f64::max),
-            reach: balls.iter().map(Ball::reach).fold(0.0, f64::max),
-            balls,
+            radius: largest(&mut corners.clone().map(|c| (c - tree.center).norm())),
+            reach: largest(&mut corners.map(|c| c.amax()))
+                .max(largest(&mut bounds.iter().map(Bounds::reach))),
+            deviation: largest(&mut bounds.iter().map(|b| b.deviation)),
+            tree,
+            bounds,
         }
     }
 
-    pub fn ball(&self, place: usize) -> &Ball {
-        &self.balls[place]
+    pub fn bounds(&self, place: usize) -> &Bounds {
+        &self.bounds[place]
     }
 
-    /// Visits the objects whose distance from a ball may be at most a limit, by their places. `visit` returns the limit
-    /// from then on.
-    pub fn visit_near(&self, ball: &Ball, limit: f64, mut visit: impl FnMut(usize) -> f64) {
-        let reach = self.reach.max(ball.reach());
-        let slack = Ball::slack(reach, self.deviation + ball.deviation);
-        let farther = ball.radius + slack;
-        let measure = |extent: &Extent| extent.distance(&ball.center) - farther;
-        self.tree
-            .visit_nearest_first(limit, measure, |place| visit(place as usize));
+    /// Visits the objects that may be within a limit of a body, by their places and with a safe lower bound of the
+    /// distance, nearer parts of the tree first. `visit` returns the limit from then on.
+    pub fn visit_near(&self, body: &Bounds, limit: f64, visit: impl FnMut(usize, f64) -> f64) {
+        if !self.bounds.is_empty() {
+            with_widest(Descent::new(self, body, limit, visit));
+        }
     }
 }
 
-/// The axis-aligned box around an object, which is in its ball and in the box that queries walk.
-fn extent(object: &SObject, ball: &Ball) -> Extent {
-    let packed = object.body.packed();
-    let root = packed.bounding_box(packed.root());
-    let scaled = |v: [f32; 3]| Vec3::from(v.map(f64::from)) * packed.scale();
-    let center = object
-        .pose
-        .transform_point(&(object.body.center() + scaled(root.center)));
-    let half = scaled(root.half);
-    let mut reach = Vec3::zeros();
-    for (i, axis) in root.axes.iter().enumerate() {
-        let axis = object.pose.rotation * Vec3::from(axis.map(f64::from));
-        reach += axis.abs() * half[i];
+/// A body's way down the tree. Lengths in single precision are in units of a power of two next above the size of the two.
+struct Descent<'a, F> {
+    tree: &'a BoxTree,
+    /// The body's box, from the tree's centre.
+    one: PackedBox,
+    /// The unit of the tree, and that of the descent.
+    unit: f32,
+    scale: f64,
+    /// Bounds are lowered by this.
+    slack: f64,
+    limit: f64,
+    visit: F,
+}
+
+impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
+    fn new(objects: &'a ObjectTree, body: &Bounds, limit: f64, visit: F) -> Self {
+        let tree = &objects.tree;
+        let from_center = body.box_center - tree.center;
+        let size = objects
+            .radius
+            .max(from_center.norm() + body.half.norm() * 1.001);
+        let scale = power_of_two(size);
+        let reach = objects.reach.max(body.reach());
+        Self {
+            one: PackedBox {
+                axes: each3(|i| each3(|k| body.axes[(k, i)] as f32)),
+                center: each3(|k| (from_center[k] / scale) as f32),
+                half: each3(|i| ((body.half[i] / scale) as f32).next_up()),
+            },
+            unit: (tree.scale / scale) as f32,
+            scale,
+            slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
+            tree,
+            limit,
+            visit,
+        }
     }
-    let reach = reach.inf(&Vec3::repeat(ball.radius + (center - ball.center).amax()));
-    Extent {
-        low: center - reach,
-        high: center + reach,
+
+    #[inline(always)]
+    fn cutoff(&self) -> f32 {
+        (((self.limit + self.slack) / self.scale) as f32).next_up()
+    }
+}
+
+impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let mut open: Vec<(f32, u32)> = Vec::new();
+        let mut next = Some((f32::NEG_INFINITY, 0));
+        while let Some((bound, child)) = next {
+            if bound <= self.cutoff() {
+                if child & BOX != 0 {
+                    let lower = f64::from(bound) * self.scale - self.slack;
+                    self.limit = (self.visit)((child & !BOX) as usize, lower);
+                } else {
+                    let node = &self.tree.nodes[child as usize];
+                    let bounds = bounds(&node.boxes(self.unit), &self.one, &[0.0; 3]);
+                    let cutoff = self.cutoff();
+                    let first = open.len();
+                    for lane in 0..node.count as usize {
+                        if bounds.0[lane] <= cutoff {
+                            open.push((bounds.0[lane], node.children[lane]));
+                        }
+                    }
+                    open[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+                }
+            }
+            next = open.pop();
+        }
     }
 }

@@ -53,12 +53,6 @@ impl Extent {
         s.x * s.y + s.y * s.z + s.z * s.x
     }
 
-    /// The distance of a point, 0 inside.
-    pub fn distance(&self, point: &Vec3) -> f64 {
-        let beyond = (self.low - point).sup(&(point - self.high));
-        beyond.sup(&Vec3::zeros()).norm()
-    }
-
     /// The L∞ gap between two boxes; 0 when they meet.
     pub fn gap(&self, other: &Self) -> f64 {
         let apart = (other.low - self.high).sup(&(self.low - other.high));

@@ -3,6 +3,7 @@
 mod adjacent;
 mod binned_split;
 mod bounding_sphere;
+mod box_tree;
 mod build;
 mod convex_patches;
 mod convex_pieces;
@@ -11,7 +12,6 @@ mod cost;
 mod cover;
 mod eight_below;
 mod extent;
-mod extent_tree;
 mod extremes;
 mod forest;
 mod greedy_clustering;
@@ -34,10 +34,10 @@ mod wrapper;
 mod wrapper_shape;
 mod wrapper_tree;
 
+pub use box_tree::{BOX, BoxTree, OrientedBox};
 pub use build::{BuildTimes, build_hierarchy};
 pub use cost::Cost;
 pub use extent::Extent;
-pub use extent_tree::ExtentTree;
 use forest::Forest;
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use packed_box::PackedBox;

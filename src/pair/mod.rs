@@ -7,6 +7,7 @@ mod pairing;
 mod traversal;
 mod visitors;
 
+pub use box_bounds::{Motion32, ROUNDING, bounds};
 pub use hit::{Hit, HitKey};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use traversal::{Met, Scratch, Statistics, Visitor, traverse, visit_pair};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::answer::SSide;
 use crate::body::Body;
 use crate::cobject::{CObject, InducedOptions, SObjects, Term};
-use crate::environment::{Ball, SObject, Snapshot};
+use crate::environment::{Bounds, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::pose::Pose;
@@ -133,8 +133,8 @@ impl<'a> Scene<'a> {
                     for &[r, s] in pairs {
                         if let (Some(a), Some(b)) = (self.body(r), self.body(s)) {
                             let [ball, other] = [(a, r), (b, s)]
-                                .map(|(body, link)| Ball::of(body, &self.poses[link]));
-                            near.offer(r, Side::Link(s), ball.bounds(&other), options);
+                                .map(|(body, link)| Bounds::of(body, &self.poses[link]));
+                            near.offer(r, Side::Link(s), ball.distance(&other), options);
                         }
                     }
                 }
@@ -193,19 +193,18 @@ impl<'a> Scene<'a> {
                     object.id
                 )));
             }
-            let ball = Ball::of(body, &self.poses[r]);
+            let bounds = Bounds::of(body, &self.poses[r]);
             let limit = near.limit(options) + options.margin;
-            let mut offer = |place: usize| {
+            let mut offer = |place: usize, bound: f64| {
                 let side = Side::Object(&snapshot.objects[place]);
-                near.offer(r, side, ball.bounds(tree.ball(place)), options)
+                let [lower, upper] = bounds.distance(tree.bounds(place));
+                near.offer(r, side, [lower.max(bound), upper], options)
             };
             match objects {
-                SObjects::All(_) => {
-                    tree.visit_near(&ball, limit, offer);
-                }
+                SObjects::All(_) => tree.visit_near(&bounds, limit, offer),
                 SObjects::Some(_, ids) => {
                     for place in ids.iter().filter_map(|id| snapshot.place_of(*id)) {
-                        offer(place);
+                        offer(place, f64::NEG_INFINITY);
                     }
                 }
             }
