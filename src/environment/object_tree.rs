@@ -112,12 +112,22 @@ impl ObjectTree {
 
     /// Visits the objects that may be within a limit of a body, by their places and with a safe lower bound of the
     /// distance, nearer parts of the tree first. `visit` returns the limit from then on.
-    pub fn visit_near(&self, body: &Bounds, limit: f64, visit: impl FnMut(usize, f64) -> f64) {
+    pub fn visit_near(
+        &self,
+        body: &Bounds,
+        limit: f64,
+        scratch: &mut NearScratch,
+        visit: impl FnMut(usize, f64) -> f64,
+    ) {
         if !self.bounds.is_empty() {
-            with_widest(Descent::new(self, body, limit, visit));
+            with_widest(Descent::new(self, body, limit, &mut scratch.0, visit));
         }
     }
 }
+
+/// Memory of a descent, reused from one to the next.
+#[derive(Debug, Default)]
+pub struct NearScratch(Vec<(f32, u32)>);
 
 /// A body's way down the tree. Lengths in single precision are in units of a power of two next above the size of the two.
 struct Descent<'a, F> {
@@ -130,11 +140,18 @@ struct Descent<'a, F> {
     /// Bounds are lowered by this.
     slack: f64,
     limit: f64,
+    open: &'a mut Vec<(f32, u32)>,
     visit: F,
 }
 
 impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
-    fn new(objects: &'a ObjectTree, body: &Bounds, limit: f64, visit: F) -> Self {
+    fn new(
+        objects: &'a ObjectTree,
+        body: &Bounds,
+        limit: f64,
+        open: &'a mut Vec<(f32, u32)>,
+        visit: F,
+    ) -> Self {
         let tree = &objects.tree;
         let from_center = body.box_center - tree.center;
         let size = objects
@@ -153,6 +170,7 @@ impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
             slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
             tree,
             limit,
+            open,
             visit,
         }
     }
@@ -168,27 +186,32 @@ impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
 
     #[inline(always)]
     fn run(mut self) {
-        let mut open: Vec<(f32, u32)> = Vec::new();
-        let mut next = Some((f32::NEG_INFINITY, 0));
-        while let Some((bound, child)) = next {
-            if bound <= self.cutoff() {
-                if child & BOX != 0 {
-                    let lower = f64::from(bound) * self.scale - self.slack;
-                    self.limit = (self.visit)((child & !BOX) as usize, lower);
-                } else {
-                    let node = &self.tree.nodes[child as usize];
-                    let bounds = bounds(&node.boxes(self.unit), &self.one, &[0.0; 3]);
-                    let cutoff = self.cutoff();
-                    let first = open.len();
-                    for lane in 0..node.count as usize {
-                        if bounds.0[lane] <= cutoff {
-                            open.push((bounds.0[lane], node.children[lane]));
-                        }
+        self.open.clear();
+        self.open.push((f32::NEG_INFINITY, 0));
+        while let Some((bound, child)) = self.open.pop() {
+            if bound > self.cutoff() {
+                continue;
+            }
+            if child & BOX != 0 {
+                let lower = f64::from(bound) * self.scale - self.slack;
+                self.limit = (self.visit)((child & !BOX) as usize, lower);
+                continue;
+            }
+            let node = &self.tree.nodes[child as usize];
+            let bounds = bounds(&node.boxes(self.unit), &self.one, &[0.0; 3]);
+            let (first, cutoff) = (self.open.len(), self.cutoff());
+            for lane in 0..node.count as usize {
+                let bound = bounds.0[lane];
+                if bound <= cutoff {
+                    let mut place = self.open.len();
+                    self.open.push((bound, node.children[lane]));
+                    // The nearest goes on top.
+                    while place > first && self.open[place - 1].0 < bound {
+                        self.open.swap(place - 1, place);
+                        place -= 1;
                     }
-                    open[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
                 }
             }
-            next = open.pop();
         }
     }
 }

@@ -76,8 +76,8 @@ impl Visitor for Nearest {
 pub struct Within {
     pub margin: f64,
     pub threshold: f64,
-    /// The places of the first pair found, and the lower bound that decided.
-    pub found: Option<([u32; 2], f64)>,
+    /// The places of the first pair found.
+    pub found: Option<[u32; 2]>,
 }
 
 impl Visitor for Within {
@@ -88,7 +88,7 @@ impl Visitor for Within {
     fn visit(&mut self, met: &Met) -> ControlFlow<()> {
         let (_, lower) = measured(met, self.margin);
         if lower <= self.threshold {
-            self.found = Some((met.places, lower));
+            self.found = Some(met.places);
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

@@ -3,8 +3,8 @@
 use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
 use super::at_poses::{contact_at_witness, contact_records};
 use super::candidates::{Candidate, Configuration, Scene, Wanted};
-use super::context::{CacheKey, QueryContext};
-use super::search::{Found, Target};
+use super::context::QueryContext;
+use super::search::Found;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Hit;
@@ -32,36 +32,42 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(Wanted {
-            in_contact: true,
-            ..Wanted::within(0.0)
-        })?;
-        let targets = targets(&scene, &candidates);
-        let inside = targets.iter().map(|target| (target, 0.0));
-        if self.first_within(inside).is_some() {
-            return Ok(Class::Inside);
-        }
-        let in_contact = targets
-            .iter()
-            .zip(&candidates)
-            .map(|(target, candidate)| (target, candidate.options.contact_epsilon));
-        let contact = self.first_within(in_contact.filter(|(_, epsilon)| *epsilon > 0.0));
-        Ok(if contact.is_some() {
+        let candidates = scene.candidates(
+            Wanted {
+                in_contact: true,
+                ..Wanted::within(0.0)
+            },
+            &mut self.near,
+        )?;
+        Ok(if self.any_within(&candidates, |_| 0.0) {
+            Class::Inside
+        } else if self.any_in_contact(&candidates, 0.0) {
             Class::Contact
         } else {
             Class::Outside
         })
     }
 
+    /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
+    fn any_in_contact(&mut self, candidates: &[Candidate], lower: f64) -> bool {
+        let reaches = |c: &Candidate| {
+            let epsilon = c.options.contact_epsilon;
+            if epsilon > 0.0 && epsilon >= lower {
+                epsilon
+            } else {
+                // No distance is that small.
+                -1.0
+            }
+        };
+        candidates.iter().any(|c| reaches(c) >= 0.0) && self.any_within(candidates, reaches)
+    }
+
     /// Whether the distance may be at most `threshold`: doubt within rounding counts as within.
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(Wanted::within(threshold))?;
-        let targets = targets(&scene, &candidates);
-        Ok(self
-            .first_within(targets.iter().map(|target| (target, threshold)))
-            .is_some())
+        let candidates = scene.candidates(Wanted::within(threshold), &mut self.near)?;
+        Ok(self.any_within(&candidates, |_| threshold))
     }
 
     /// Operation 6: the distance from contact, up to `max_distance`, and the nearest primitive pair.
@@ -73,10 +79,13 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(Wanted {
-            nearest: Some(max_distance),
-            ..Wanted::within(0.0)
-        })?;
+        let candidates = scene.candidates(
+            Wanted {
+                nearest: Some(max_distance),
+                ..Wanted::within(0.0)
+            },
+            &mut self.near,
+        )?;
         self.distance_among(&scene, &candidates, max_distance)
     }
 
@@ -89,8 +98,8 @@ impl QueryContext {
         if scene.is_empty() {
             return Ok(Distance::empty(scene.version));
         }
-        let found = self.nearest(&targets(scene, candidates), max_distance);
-        let errors = candidates.iter().map(|c| c.pairing.precision.error);
+        let found = self.nearest(candidates, max_distance);
+        let errors = candidates.iter().map(|c| c.target.pairing.precision.error);
         let error = errors.fold(0.0, f64::max);
         Ok(Distance::from_found(
             &found,
@@ -101,7 +110,7 @@ impl QueryContext {
                 let candidate = by_rank(candidates)[hit.key.pair as usize];
                 (
                     witness(candidate, hit),
-                    &candidate.pairing,
+                    &candidate.target.pairing,
                     candidate.options.margin,
                 )
             },
@@ -118,7 +127,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(Wanted::within(epsilon))?;
+        let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
         Ok(self.list(&scene, &candidates, epsilon, max_count, false))
     }
 
@@ -132,7 +141,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates(Wanted::within(epsilon))?;
+        let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
         Ok(self.list(&scene, &candidates, epsilon, max_count, true))
     }
 
@@ -148,11 +157,14 @@ impl QueryContext {
     ) -> Result<PseudoNormal> {
         check_threshold(max_shell, "max_shell")?;
         let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates(Wanted {
-            in_contact: true,
-            nearest: Some(f64::INFINITY),
-            ..Wanted::within(max_shell)
-        })?;
+        let candidates = scene.candidates(
+            Wanted {
+                in_contact: true,
+                nearest: Some(f64::INFINITY),
+                ..Wanted::within(max_shell)
+            },
+            &mut self.near,
+        )?;
         let distance = self.distance_among(&scene, &candidates, f64::INFINITY)?;
         let mut list = self.list(&scene, &candidates, max_shell, max_count, true);
         if normalize && list.nv > 0 {
@@ -165,18 +177,10 @@ impl QueryContext {
         }
         let class = if distance.lower == 0.0 {
             Class::Inside
+        } else if self.any_in_contact(&candidates, distance.lower) {
+            Class::Contact
         } else {
-            let targets = targets(&scene, &candidates);
-            let in_contact = targets
-                .iter()
-                .zip(&candidates)
-                .map(|(target, candidate)| (target, candidate.options.contact_epsilon))
-                .filter(|(_, epsilon)| *epsilon >= distance.lower);
-            if self.first_within(in_contact).is_some() {
-                Class::Contact
-            } else {
-                Class::Outside
-            }
+            Class::Outside
         };
         Ok(PseudoNormal {
             class,
@@ -193,7 +197,7 @@ impl QueryContext {
         max_count: usize,
         with_gradients: bool,
     ) -> WitnessList {
-        let (hits, truncated) = self.collect(&targets(scene, candidates), epsilon, max_count);
+        let (hits, truncated) = self.collect(candidates, epsilon, max_count);
         let space = scene.cobject().space();
         let nv = space.coordinates().len();
         let mut list = WitnessList {
@@ -205,7 +209,8 @@ impl QueryContext {
         let ranked = by_rank(candidates);
         for hit in &hits {
             let candidate = ranked[hit.key.pair as usize];
-            let contacts = contact_records(&candidate.pairing, hit, candidate.options.margin);
+            let contacts =
+                contact_records(&candidate.target.pairing, hit, candidate.options.margin);
             let mut entry = witness(candidate, hit);
             entry.first_contact = list.contacts.len();
             entry.contact_count = contacts.len();
@@ -241,34 +246,20 @@ fn gradient(scene: &Scene, candidate: &Candidate, contact: &ContactRecord) -> Ve
     row
 }
 
-fn targets<'a>(scene: &Scene, candidates: &'a [Candidate<'a>]) -> Vec<Target<'a>> {
-    let space = scene.cobject().space().serial();
-    candidates
-        .iter()
-        .map(|candidate| Target {
-            pairing: &candidate.pairing,
-            key: CacheKey::Candidate {
-                space,
-                r_link: candidate.r_link,
-                s_side: candidate.s_side,
-                body: candidate.pairing.b.serial(),
-            },
-            rank: candidate.rank,
-            margin: candidate.options.margin,
-            bound: candidate.bound,
-        })
-        .collect()
-}
-
 /// The candidates in the order of their ranks, by which hits name them.
 fn by_rank<'a, 'b>(candidates: &'b [Candidate<'a>]) -> Vec<&'b Candidate<'a>> {
     let mut ranked: Vec<_> = candidates.iter().collect();
-    ranked.sort_unstable_by_key(|candidate| candidate.rank);
+    ranked.sort_unstable_by_key(|candidate| candidate.target.rank);
     ranked
 }
 
 fn witness(candidate: &Candidate, hit: &Hit) -> Witness {
-    Witness::of(candidate.r_link, candidate.s_side, &candidate.pairing, hit)
+    Witness::of(
+        candidate.r_link,
+        candidate.s_side,
+        &candidate.target.pairing,
+        hit,
+    )
 }
 
 impl Distance {

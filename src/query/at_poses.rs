@@ -30,7 +30,7 @@ fn pairing<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Pairing<'a>> {
     Ok(Pairing::new(a.0, a.1, b.0, b.1))
 }
 
-fn target<'a>(pairing: &'a Pairing<'a>) -> Target<'a> {
+fn target(pairing: Pairing) -> Target {
     Target {
         key: CacheKey::Bodies(pairing.a.serial(), pairing.b.serial()),
         rank: 0,
@@ -49,19 +49,17 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        let pairing = pairing(a, b)?;
-        let found = self.nearest(&[target(&pairing)], max_distance);
+        let target = target(pairing(a, b)?);
+        let found = self.nearest(std::slice::from_ref(&target), max_distance);
+        let pairing = &target.pairing;
         Ok(Distance::from_found(
             &found,
             max_distance,
             pairing.precision.error,
             0,
             |hit| {
-                (
-                    Witness::of(0, SSide::Object(0), &pairing, hit),
-                    &pairing,
-                    0.0,
-                )
+                let witness = Witness::of(0, SSide::Object(0), pairing, hit);
+                (witness, pairing, 0.0)
             },
         ))
     }
@@ -69,11 +67,8 @@ impl QueryContext {
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
     pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
-        let pairing = pairing(a, b)?;
-        let target = target(&pairing);
-        Ok(self
-            .first_within(std::iter::once((&target, threshold)))
-            .is_some())
+        let target = target(pairing(a, b)?);
+        Ok(self.any_within(&[target], |_| threshold))
     }
 
     /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
@@ -85,19 +80,20 @@ impl QueryContext {
         max_count: usize,
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
-        let pairing = pairing(a, b)?;
-        let (hits, truncated) = self.collect(&[target(&pairing)], epsilon, max_count);
+        let target = target(pairing(a, b)?);
+        let pairing = &target.pairing;
+        let (hits, truncated) = self.collect(std::slice::from_ref(&target), epsilon, max_count);
         let mut list = WitnessList {
             truncated,
             ..Default::default()
         };
         for hit in &hits {
-            let contacts = contact_records(&pairing, hit, 0.0);
+            let contacts = contact_records(pairing, hit, 0.0);
             list.witnesses.push(Witness {
                 first_contact: list.contacts.len(),
                 contact_count: contacts.len(),
                 overlapping: contacts.is_empty() && hit.apart == 0.0,
-                ..Witness::of(0, SSide::Object(0), &pairing, hit)
+                ..Witness::of(0, SSide::Object(0), pairing, hit)
             });
             list.contacts.extend(contacts);
         }

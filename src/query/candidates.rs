@@ -1,11 +1,14 @@
 //! The body pairs of a C-object at a configuration.
 
+use std::borrow::Borrow;
 use std::sync::Arc;
 
 use super::answer::SSide;
+use super::context::CacheKey;
+use super::search::Target;
 use crate::body::Body;
 use crate::cobject::{CObject, InducedOptions, SObjects, Term};
-use crate::environment::{Bounds, SObject, Snapshot};
+use crate::environment::{Bounds, NearScratch, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::pose::Pose;
@@ -29,12 +32,14 @@ pub struct Scene<'a> {
 pub struct Candidate<'a> {
     pub r_link: usize,
     pub s_side: SSide,
-    pub pairing: Pairing<'a>,
     pub options: InducedOptions,
-    /// Place in the order of ids.
-    pub rank: u32,
-    /// A safe lower bound of the distance less the margin.
-    pub bound: f64,
+    pub target: Target<'a>,
+}
+
+impl<'a> Borrow<Target<'a>> for Candidate<'a> {
+    fn borrow(&self) -> &Target<'a> {
+        &self.target
+    }
 }
 
 impl<'a> Scene<'a> {
@@ -121,7 +126,11 @@ impl<'a> Scene<'a> {
     }
 
     /// The body pairs that a search may need, each once, ranked by ids and sorted by bound.
-    pub fn candidates(&self, wanted: Wanted) -> Result<Vec<Candidate<'_>>> {
+    pub fn candidates(
+        &self,
+        wanted: Wanted,
+        scratch: &mut NearScratch,
+    ) -> Result<Vec<Candidate<'_>>> {
         let mut near = Near {
             wanted,
             nearest: f64::INFINITY,
@@ -145,7 +154,7 @@ impl<'a> Scene<'a> {
                         options,
                     },
                     Some(snapshot),
-                ) => self.offer_objects(links, objects, options, snapshot, &mut near)?,
+                ) => self.offer_objects(links, objects, options, snapshot, &mut near, scratch)?,
                 _ => {}
             }
         }
@@ -158,19 +167,32 @@ impl<'a> Scene<'a> {
             Some((r, s_side, pairing, options))
         });
         let found = without_repeats(found.flatten().collect());
+        let space = self.cobject.space().serial();
         let mut candidates: Vec<Candidate> = found
             .into_iter()
             .enumerate()
             .map(|(rank, (r_link, s_side, pairing, options))| Candidate {
-                bound: pairing.sphere_bound() - options.margin,
                 r_link,
                 s_side,
-                pairing,
                 options,
-                rank: rank as u32,
+                target: Target {
+                    key: CacheKey::Candidate {
+                        space,
+                        r_link,
+                        s_side,
+                        body: pairing.b.serial(),
+                    },
+                    rank: rank as u32,
+                    margin: options.margin,
+                    bound: pairing.sphere_bound() - options.margin,
+                    pairing,
+                },
             })
             .collect();
-        candidates.sort_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
+        candidates.sort_by(|a, b| {
+            let (a, b) = (&a.target, &b.target);
+            a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank))
+        });
         Ok(candidates)
     }
 
@@ -181,6 +203,7 @@ impl<'a> Scene<'a> {
         options: &InducedOptions,
         snapshot: &'s Snapshot,
         near: &mut Near<'s>,
+        scratch: &mut NearScratch,
     ) -> Result<()> {
         let tree = snapshot.tree();
         for &r in links {
@@ -201,7 +224,7 @@ impl<'a> Scene<'a> {
                 near.offer(r, side, [lower.max(bound), upper], options)
             };
             match objects {
-                SObjects::All(_) => tree.visit_near(&bounds, limit, offer),
+                SObjects::All(_) => tree.visit_near(&bounds, limit, scratch, offer),
                 SObjects::Some(_, ids) => {
                     for place in ids.iter().filter_map(|id| snapshot.place_of(*id)) {
                         offer(place, f64::NEG_INFINITY);

@@ -2,7 +2,10 @@
 
 use std::collections::HashMap;
 
+use foldhash::fast::RandomState;
+
 use super::answer::SSide;
+use crate::environment::NearScratch;
 use crate::pair::{Scratch, Statistics};
 
 /// Names a body pair across queries: a space and two of its parties, or two bodies.
@@ -22,7 +25,10 @@ pub(super) enum CacheKey {
 #[derive(Default)]
 pub struct QueryContext {
     pub(super) scratch: Scratch,
-    witnesses: HashMap<CacheKey, [u32; 2]>,
+    pub(super) near: NearScratch,
+    witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
+    /// The pair remembered last.
+    pub(super) recent: Option<CacheKey>,
 }
 
 impl QueryContext {
@@ -45,6 +51,7 @@ impl QueryContext {
     /// Forgets the witnesses of earlier queries.
     pub fn clear(&mut self) {
         self.witnesses.clear();
+        self.recent = None;
     }
 
     pub(super) fn remembered(&self, key: &CacheKey) -> Option<[u32; 2]> {
@@ -56,5 +63,6 @@ impl QueryContext {
             self.witnesses.clear();
         }
         self.witnesses.insert(key, primitives);
+        self.recent = Some(key);
     }
 }

@@ -1,11 +1,13 @@
 //! The searches over many body pairs that the queries share: nearest, within, all within.
 
+use std::borrow::Borrow;
+
 use super::context::{CacheKey, QueryContext};
 use crate::pair::{Collect, Hit, Nearest, Pairing, Visitor, Within, traverse, visit_pair};
 
 /// One body pair of a search: its geometry, its rank among all pairs, and the margin taken off its distances.
 pub(super) struct Target<'a> {
-    pub pairing: &'a Pairing<'a>,
+    pub pairing: Pairing<'a>,
     pub key: CacheKey,
     pub rank: u32,
     pub margin: f64,
@@ -20,29 +22,30 @@ pub(super) struct Found {
 }
 
 impl QueryContext {
-    pub(super) fn nearest(&mut self, targets: &[Target], limit: f64) -> Found {
+    pub(super) fn nearest<'a>(&mut self, targets: &[impl Borrow<Target<'a>>], limit: f64) -> Found {
         let mut visitor = Nearest::up_to(limit);
+        let targets = || targets.iter().map(Borrow::borrow);
         // The pairs last nearest between each two bodies bound the distance before any tree is walked.
-        for target in targets.iter().filter(|_| targets.len() > 1) {
+        for target in targets().filter(|_| targets().len() > 1) {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin > visitor.bound() {
                 break;
             }
             if let Some(places) = self.remembered(&target.key) {
-                let _ = visit_pair(target.pairing, places, &mut self.scratch, &mut visitor);
+                let _ = visit_pair(&target.pairing, places, &mut self.scratch, &mut visitor);
             }
         }
-        for target in targets {
+        for target in targets() {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin <= visitor.bound() {
                 let first = self.remembered(&target.key);
-                let _ = traverse(target.pairing, first, &mut self.scratch, &mut visitor);
+                let _ = traverse(&target.pairing, first, &mut self.scratch, &mut visitor);
             }
         }
         if let Some(hit) = &visitor.best
-            && let Some(target) = targets.iter().find(|target| target.rank == hit.key.pair)
+            && let Some(target) = targets().find(|target| target.rank == hit.key.pair)
         {
             self.remember(target.key, hit.places);
         }
@@ -52,44 +55,50 @@ impl QueryContext {
         }
     }
 
-    /// The lower bound that shows some primitive pair to be within its target's threshold, if there is one. The
-    /// thresholds may differ from target to target.
-    pub(super) fn first_within<'a>(
+    /// Whether some primitive pair is within the threshold, which may differ from target to target.
+    pub(super) fn any_within<'a, T: Borrow<Target<'a>>>(
         &mut self,
-        targets: impl Iterator<Item = (&'a Target<'a>, f64)>,
-    ) -> Option<f64> {
-        for (target, threshold) in targets {
+        targets: &[T],
+        threshold: impl Fn(&T) -> f64,
+    ) -> bool {
+        // Those last found to meet first.
+        let recent = self.recent;
+        let is_recent = |target: &&T| recent == Some((*target).borrow().key);
+        let first = targets.iter().filter(is_recent);
+        for target in first.chain(targets.iter().filter(|target| !is_recent(target))) {
+            let threshold = threshold(target);
+            let target = target.borrow();
+            if target.bound > threshold {
+                continue;
+            }
             let mut visitor = Within {
                 margin: target.margin,
                 threshold,
                 found: None,
             };
-            if target.bound > threshold {
-                continue;
-            }
             let first = self.remembered(&target.key);
-            let _ = traverse(target.pairing, first, &mut self.scratch, &mut visitor);
-            if let Some((places, lower)) = visitor.found {
+            let _ = traverse(&target.pairing, first, &mut self.scratch, &mut visitor);
+            if let Some(places) = visitor.found {
                 self.remember(target.key, places);
-                return Some(lower);
+                return true;
             }
         }
-        None
+        false
     }
 
     /// All primitive pairs within the threshold, nearest first, and whether there are more than `max_count`.
-    pub(super) fn collect(
+    pub(super) fn collect<'a>(
         &mut self,
-        targets: &[Target],
+        targets: &[impl Borrow<Target<'a>>],
         threshold: f64,
         max_count: usize,
     ) -> (Vec<Hit>, bool) {
         let mut visitor = Collect::new(threshold, max_count);
-        for target in targets {
+        for target in targets.iter().map(Borrow::borrow) {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
             if target.bound + target.margin <= visitor.bound() {
-                let _ = traverse(target.pairing, None, &mut self.scratch, &mut visitor);
+                let _ = traverse(&target.pairing, None, &mut self.scratch, &mut visitor);
             }
         }
         visitor.finish()
