@@ -18,6 +18,7 @@ typedef union answer {
     bool within;
     cstk_distance_result distance;
     cstk_witness_list list;
+    cstk_penetration_list penetrations;
 } answer;
 
 static cstk_status distance(const question *a, answer *out) {
@@ -35,9 +36,15 @@ static cstk_status witnesses(const question *a, answer *out) {
                                a->max_count, out ? &out->list : NULL);
 }
 
+static cstk_status penetration(const question *a, answer *out) {
+    return cstk_pair_penetration(a->query, a->body_a, a->pose_a, a->body_b, a->pose_b,
+                                 a->max_count, out ? &out->penetrations : NULL);
+}
+
 typedef struct form {
     const char *name;
     cstk_status (*ask)(const question *, answer *);
+    /* The name of its number; NULL if it has none. */
     const char *number;
 } form;
 
@@ -45,6 +52,7 @@ static const form forms[] = {
     {"distance", distance, "max_distance"},
     {"within", within, "threshold"},
     {"witnesses", witnesses, "epsilon"},
+    {"penetration", penetration, NULL},
 };
 
 static void refuse(const form *of, const question *a, cstk_status status, const char *culprit) {
@@ -99,7 +107,7 @@ static void poses(const fixture *f, const form *of) {
 static void numbers(const fixture *f, const form *of) {
     const double wrong[] = {NAN, -INFINITY, -1e-300};
     question a = good_question(f);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && of->number != NULL; ++i) {
         a.number = wrong[i];
         refuse(of, &a, i == 0 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT, of->number);
     }
@@ -155,6 +163,12 @@ static void scales(const fixture *f) {
                         d.distance, d.lower, d.upper, 2 * s);
                 ++check_failures;
             }
+            cstk_penetration_list deep;
+            CHECK_OK(cstk_pair_penetration(f->query, body, identity_pose, body, identity_pose, 1,
+                                           &deep));
+            CHECK(deep.count == 1 && deep.of_whole_bodies && !deep.truncated);
+            /* The least width of the tetrahedron, that along its slanted face. */
+            CHECK(fabs(deep.penetrations[0].depth - s / sqrt(3)) <= 1e-12 * s);
             CHECK_OK(cstk_body_release(body));
         } else {
             CHECK_FAILS(status, s < 1 ? CSTK_DEGENERATE : CSTK_INVALID_ARGUMENT, "polyhedron");

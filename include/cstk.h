@@ -971,6 +971,53 @@ typedef struct cstk_pseudo_normal_result {
 } cstk_pseudo_normal_result;
 
 /**
+ * A pair of primitives that meet, and the shortest translation that takes the two apart.
+ */
+typedef struct cstk_penetration {
+  /**
+   * The primitives' numbers in their bodies, and their tags.
+   */
+  uint32_t r_primitive;
+  uint32_t s_primitive;
+  uint64_t r_tag;
+  uint64_t s_tag;
+  /**
+   * How far; 0 for primitives that only touch, or have no inside in common.
+   */
+  double depth;
+  /**
+   * Which way body a has to go: a unit vector in the world, from body b to body a.
+   */
+  double direction[3];
+  /**
+   * A point of each, in the world, that the translation brings together: s_point = r_point + depth * direction.
+   */
+  double r_point[3];
+  double s_point[3];
+  uint64_t reserved[6];
+} cstk_penetration;
+
+/**
+ * Primitive pairs that meet, the deepest first. The array belongs to the query context and stays valid until its next
+ * call or its release.
+ */
+typedef struct cstk_penetration_list {
+  const struct cstk_penetration *penetrations;
+  size_t count;
+  /**
+   * Each body is one convex primitive: the first entry takes the bodies apart. Else an entry takes apart its two
+   * primitives only.
+   */
+  bool of_whole_bodies;
+  /**
+   * More pairs meet than max_count; these are the deepest.
+   */
+  bool truncated;
+  uint8_t reserved_bytes[6];
+  uint64_t reserved[5];
+} cstk_penetration_list;
+
+/**
  * How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
  */
 typedef struct cstk_slide_options {
@@ -1679,6 +1726,21 @@ cstk_status cstk_pair_witnesses(struct cstk_query *query,
                                 double epsilon,
                                 size_t max_count,
                                 struct cstk_witness_list *out);
+
+/**
+ * Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
+ * translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
+ * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding; the work for a pair of polyhedra
+ * grows with the product of their numbers of edges. Of more than `max_count` pairs, the deepest are given and `truncated`
+ * is set. The array stays valid until the next call with this query context.
+ */
+cstk_status cstk_pair_penetration(struct cstk_query *query,
+                                  const struct cstk_body *body_a,
+                                  const double *pose_a,
+                                  const struct cstk_body *body_b,
+                                  const double *pose_b,
+                                  size_t max_count,
+                                  struct cstk_penetration_list *out);
 
 /**
  * Writes the default options. `size` is sizeof(cstk_slide_options).

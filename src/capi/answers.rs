@@ -3,7 +3,7 @@
 use super::body::cstk_feature_kind;
 use crate::cobject::Class;
 use crate::convex::ContactMode;
-use crate::query::{ContactRecord, Distance, DistanceKind, SSide, Witness};
+use crate::query::{ContactRecord, Distance, DistanceKind, PrimitivePenetration, SSide, Witness};
 
 /// Stands for "no such number" in fields that hold a link's number.
 pub const CSTK_NONE: u32 = 0xFFFF_FFFF;
@@ -148,6 +148,58 @@ pub struct cstk_witness_list {
     pub reserved_bytes: [u8; 7],
     pub environment_version: u64,
     pub reserved: [u64; 8],
+}
+
+/// A pair of primitives that meet, and the shortest translation that takes the two apart.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_penetration {
+    /// The primitives' numbers in their bodies, and their tags.
+    pub r_primitive: u32,
+    pub s_primitive: u32,
+    pub r_tag: u64,
+    pub s_tag: u64,
+    /// How far; 0 for primitives that only touch, or have no inside in common.
+    pub depth: f64,
+    /// Which way body a has to go: a unit vector in the world, from body b to body a.
+    pub direction: [f64; 3],
+    /// A point of each, in the world, that the translation brings together: s_point = r_point + depth * direction.
+    pub r_point: [f64; 3],
+    pub s_point: [f64; 3],
+    pub reserved: [u64; 6],
+}
+
+/// Primitive pairs that meet, the deepest first. The array belongs to the query context and stays valid until its next
+/// call or its release.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_penetration_list {
+    pub penetrations: *const cstk_penetration,
+    pub count: usize,
+    /// Each body is one convex primitive: the first entry takes the bodies apart. Else an entry takes apart its two
+    /// primitives only.
+    pub of_whole_bodies: bool,
+    /// More pairs meet than max_count; these are the deepest.
+    pub truncated: bool,
+    pub reserved_bytes: [u8; 6],
+    pub reserved: [u64; 5],
+}
+
+impl From<&PrimitivePenetration> for cstk_penetration {
+    fn from(given: &PrimitivePenetration) -> Self {
+        let found = &given.penetration;
+        Self {
+            r_primitive: given.primitives[0],
+            s_primitive: given.primitives[1],
+            r_tag: given.tags[0],
+            s_tag: given.tags[1],
+            depth: found.depth,
+            direction: found.direction.into(),
+            r_point: found.points[0].into(),
+            s_point: found.points[1].into(),
+            reserved: [0; 6],
+        }
+    }
 }
 
 impl From<&ContactRecord> for cstk_contact {

@@ -1,6 +1,6 @@
 //! Queries of two bodies at two poses.
 
-use super::answers::{cstk_distance_result, cstk_witness_list};
+use super::answers::{cstk_distance_result, cstk_penetration_list, cstk_witness_list};
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle;
@@ -95,6 +95,30 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
         run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
             let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
             Ok(state.keep(list))
+        })
+    }
+}
+
+/// Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
+/// translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
+/// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding; the work for a pair of polyhedra
+/// grows with the product of their numbers of edges. Of more than `max_count` pairs, the deepest are given and `truncated`
+/// is set. The array stays valid until the next call with this query context.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pair_penetration(
+    query: *mut cstk_query,
+    body_a: *const cstk_body,
+    pose_a: *const f64,
+    body_b: *const cstk_body,
+    pose_b: *const f64,
+    max_count: usize,
+    out: *mut cstk_penetration_list,
+) -> cstk_status {
+    // SAFETY: the caller states the lengths.
+    unsafe {
+        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
+            let list = state.context.pair_penetration(a, b, max_count)?;
+            Ok(state.keep_penetrations(&list))
         })
     }
 }

@@ -3,7 +3,8 @@
 use std::sync::{Arc, Mutex};
 
 use super::answers::{
-    cstk_class, cstk_contact, cstk_distance_result, cstk_witness, cstk_witness_list,
+    cstk_class, cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list,
+    cstk_witness, cstk_witness_list,
 };
 use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
@@ -13,7 +14,7 @@ use super::input::{Output, slice};
 use super::robot::link_poses;
 use super::status::cstk_status;
 use crate::cobject::CObject;
-use crate::query::{Configuration, QueryContext, WitnessList};
+use crate::query::{Configuration, PenetrationList, QueryContext, WitnessList};
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
 /// time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
@@ -28,6 +29,7 @@ pub(super) struct State {
     witnesses: Vec<cstk_witness>,
     contacts: Vec<cstk_contact>,
     gradients: Vec<f64>,
+    penetrations: Vec<cstk_penetration>,
 }
 
 pub(super) struct Query(Mutex<State>);
@@ -38,19 +40,34 @@ impl Noun for Query {
     const NAME: &'static str = "cstk_query";
 }
 
+/// Where an array is; NULL if it is empty.
+fn start<T>(items: &[T]) -> *const T {
+    if items.is_empty() {
+        std::ptr::null()
+    } else {
+        items.as_ptr()
+    }
+}
+
 impl State {
+    /// Takes over a list and says where its array now is.
+    pub fn keep_penetrations(&mut self, list: &PenetrationList) -> cstk_penetration_list {
+        self.penetrations = list.penetrations.iter().map(From::from).collect();
+        cstk_penetration_list {
+            penetrations: start(&self.penetrations),
+            count: self.penetrations.len(),
+            of_whole_bodies: list.of_whole_bodies,
+            truncated: list.truncated,
+            reserved_bytes: [0; 6],
+            reserved: [0; 5],
+        }
+    }
+
     /// Takes over a list and says where its arrays now are.
     pub fn keep(&mut self, list: WitnessList) -> cstk_witness_list {
         self.witnesses = list.witnesses.iter().map(From::from).collect();
         self.contacts = list.contacts.iter().map(From::from).collect();
         self.gradients = list.gradients;
-        fn start<T>(items: &[T]) -> *const T {
-            if items.is_empty() {
-                std::ptr::null()
-            } else {
-                items.as_ptr()
-            }
-        }
         cstk_witness_list {
             witnesses: start(&self.witnesses),
             witness_count: self.witnesses.len(),

@@ -4,8 +4,8 @@ use super::hit::Hit;
 use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, Outline, Placed, PlacedBuffer, PolygonDistance, Precision,
-    closest_points, contacts, moved, polygon_closest, polygon_distance,
+    Closest, Contact, DistanceScratch, Outline, Penetration, Placed, PlacedBuffer, PolygonDistance,
+    Precision, closest_points, contacts, moved, penetration, polygon_closest, polygon_distance,
 };
 use crate::hierarchy::{MOST_CORNERS, PackedPrimitives};
 use crate::lanes::{F64x4, Points64};
@@ -186,6 +186,18 @@ impl<'a> Pairing<'a> {
                 contact,
             })
             .collect()
+    }
+
+    /// How deep a primitive pair that meets is in one another, in the world.
+    pub fn world_penetration(&self, primitives: [u32; 2]) -> Penetration {
+        let mut buffers: [PlacedBuffer; 2] = Default::default();
+        let [a, b] = self.place(primitives, &mut buffers);
+        let found = penetration(&a, &b, &self.precision);
+        Penetration {
+            depth: found.depth,
+            direction: self.frame.rotation * found.direction,
+            points: found.points.map(|p| self.frame.transform_point(&p)),
+        }
     }
 
     /// Both primitives in A's centred frame.

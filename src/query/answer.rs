@@ -1,6 +1,6 @@
 //! The answers' types.
 
-use crate::convex::ContactMode;
+use crate::convex::{ContactMode, Penetration};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
@@ -80,4 +80,24 @@ pub struct WitnessList {
     /// There are more witnesses than were asked for; these are the nearest.
     pub truncated: bool,
     pub version: u64,
+}
+
+/// A primitive pair that meets, and the shortest translation that takes the two apart.
+#[derive(Clone, Copy, Debug)]
+pub struct PrimitivePenetration {
+    pub primitives: [u32; 2],
+    pub tags: [u64; 2],
+    /// In the world.
+    pub penetration: Penetration,
+}
+
+/// All primitive pairs that meet, the deepest first.
+#[derive(Clone, Debug, Default)]
+pub struct PenetrationList {
+    pub penetrations: Vec<PrimitivePenetration>,
+    /// The bodies are one primitive each, so that the first entry takes the bodies apart; else each takes apart its two
+    /// primitives only.
+    pub of_whole_bodies: bool,
+    /// There are more than were asked for; these are the deepest.
+    pub truncated: bool,
 }

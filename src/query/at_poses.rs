@@ -1,6 +1,8 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
-use super::answer::{ContactRecord, Distance, SSide, Witness, WitnessList};
+use super::answer::{
+    ContactRecord, Distance, PenetrationList, PrimitivePenetration, SSide, Witness, WitnessList,
+};
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
 use super::search::Target;
@@ -98,6 +100,37 @@ impl QueryContext {
             list.contacts.extend(contacts);
         }
         Ok(list)
+    }
+
+    /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
+    /// deepest.
+    pub fn pair_penetration(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        max_count: usize,
+    ) -> Result<PenetrationList> {
+        let target = target(pairing(a, b)?);
+        let pairing = &target.pairing;
+        let (hits, _) = self.collect(std::slice::from_ref(&target), 0.0, usize::MAX);
+        let mut penetrations: Vec<PrimitivePenetration> = hits
+            .iter()
+            .map(|hit| PrimitivePenetration {
+                primitives: hit.key.primitives,
+                tags: Witness::of(0, SSide::Object(0), pairing, hit).tags,
+                penetration: pairing.world_penetration(hit.key.primitives),
+            })
+            .collect();
+        // Stable: those of equal depth stay in the order of their numbers.
+        penetrations.sort_by(|x, y| y.penetration.depth.total_cmp(&x.penetration.depth));
+        let truncated = penetrations.len() > max_count;
+        penetrations.truncate(max_count);
+        let is_one = |body: &Body| body.primitives().len() == 1;
+        Ok(PenetrationList {
+            penetrations,
+            of_whole_bodies: is_one(a.0) && is_one(b.0),
+            truncated,
+        })
     }
 }
 

@@ -11,7 +11,10 @@ mod search;
 mod segment;
 mod slide;
 
-pub use answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
+pub use answer::{
+    ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, SSide, Witness,
+    WitnessList,
+};
 pub use at_configuration::PseudoNormal;
 pub use candidates::Configuration;
 pub use context::QueryContext;
