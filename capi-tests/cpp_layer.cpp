@@ -194,6 +194,8 @@ static void queries() {
     REQUIRE(query.pair_distance(body, here, body, there).distance == 2.0);
     REQUIRE(query.pair_within(body, here, body, there, 2.0));
     REQUIRE(query.pair_witnesses(body, here, body, there, 2.0).contact_count == 4);
+    REQUIRE(query.pair_penetration(body, here, body, there).count == 0);
+    REQUIRE(query.pair_penetration(body, here, body, here, 1).count == 1);
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
             CSTK_INVALID_ARGUMENT);
     const char *file = "cpp_layer.glb";

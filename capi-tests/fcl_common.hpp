@@ -4,7 +4,7 @@
 #define CSTK_FCL_COMMON_HPP
 
 #include "fcl_models.hpp"
-#include "fcl_truth.hpp"
+#include "truth.hpp"
 
 #include <cstk.h>
 

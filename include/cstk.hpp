@@ -721,6 +721,15 @@ public:
         return out;
     }
 
+    cstk_penetration_list pair_penetration(const Body &a, const Pose &pose_a, const Body &b,
+                                           const Pose &pose_b,
+                                           std::size_t max_count = 4096) const {
+        cstk_penetration_list out;
+        check(cstk_pair_penetration(get(), a.get(), pose_a.data(), b.get(), pose_b.data(),
+                                    max_count, &out));
+        return out;
+    }
+
     cstk_query_statistics statistics(bool reset = false) const {
         cstk_query_statistics out;
         check(cstk_query_get_statistics(get(), reset, &out));

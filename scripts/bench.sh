@@ -1,15 +1,22 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE]; kernel also takes
-# [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text.
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE] | accuracy. kernel also takes
+# [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel) ;;
-  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick] [--seed N] [--only TEXT]" >&2; exit 2 ;;
+  hierarchies | kernel | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
+if [ "$name" = accuracy ]; then
+  scripts/setup.sh test
+  scripts/install.sh >/dev/null
+  cmake -S capi-tests -B build/capi-tests -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  cmake --build build/capi-tests --target accuracy >/dev/null
+  exec build/capi-tests/accuracy "${1:-1000000}" "${2:-1}"
+fi
 arguments=()
 while [ $# -gt 0 ]; do
   if [ "$1" = --csv ]; then

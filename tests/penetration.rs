@@ -1,6 +1,8 @@
 //! Penetration depths: closed forms for boxes, the definition itself for random solids, and the cases of other libraries'
 //! users.
 
+#![allow(clippy::excessive_precision)] // numbers stand as they were published
+
 mod common;
 
 use cstk::body::{Body, BodyBuilder};

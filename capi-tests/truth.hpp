@@ -1,8 +1,8 @@
 // The truth by brute force: distances of triangle soups in long double, by closed forms that look
 // at every pair of features. It is slow and simple on purpose, and shares nothing with the
 // libraries it judges.
-#ifndef CSTK_FCL_TRUTH_HPP
-#define CSTK_FCL_TRUTH_HPP
+#ifndef CSTK_TRUTH_HPP
+#define CSTK_TRUTH_HPP
 
 #include <algorithm>
 #include <array>
