@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel [--csv FILE] | accuracy. kernel also takes
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions [--csv FILE] | accuracy. kernel also takes
 # [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -30,9 +30,11 @@ while [ $# -gt 0 ]; do
   shift
 done
 scripts/setup.sh bench
-if [ "$name" = kernel ]; then
+if [ "$name" != hierarchies ]; then
   # A peer or a model that cannot be had is left out, and named.
   scripts/fetch_puma560.sh >/dev/null || true
+fi
+if [ "$name" = kernel ]; then
   coal=$(scripts/fetch_coal.sh) || coal=
   cmake -S benches/peers -B build/peers ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/peers -j2 >/dev/null

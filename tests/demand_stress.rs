@@ -200,7 +200,10 @@ fn a13_flat_polygons_are_measured_in_both_dimensions() {
             let found = query.pair_distance((&a.body, &here), (&b.body, &here), f64::INFINITY);
             found.unwrap().distance
         };
-        let flat = measure(&planar(&[a.clone()]), &planar(&[b.clone()]));
+        let flat = measure(
+            &planar(std::slice::from_ref(&a)),
+            &planar(std::slice::from_ref(&b)),
+        );
         let lying = measure(&hull(&a), &hull(&b));
         assert!(
             flat.is_finite() && (flat - lying).abs() <= 1e-14,

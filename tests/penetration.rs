@@ -220,8 +220,8 @@ fn a12_large_coordinates_in_both_dimensions() {
     );
     let here = Pose::identity();
     let (found, _) = depth(
-        (&planar(&[a.clone()]), &here),
-        (&planar(&[b.clone()]), &here),
+        (&planar(std::slice::from_ref(&a)), &here),
+        (&planar(std::slice::from_ref(&b)), &here),
     );
     assert!((found - 452.18875).abs() <= 5e-6, "{found}");
     // 300 high, they come apart upwards.

@@ -282,3 +282,37 @@ fn a_union_of_many_objects_is_the_least_of_all_pairs() {
         }
     }
 }
+
+/// What met last is asked first, as it is now: moved, deleted, or left out by another C-object, it decides nothing.
+#[test]
+fn what_met_last_counts_only_while_it_meets() {
+    let space = sliders(1);
+    let (environment, ids) = with_cubes(&[0.5, 20.0]);
+    let all = induced(&space, &environment, 0.0, 0.1);
+    let q = Configuration::Coordinates(&[0.0]);
+    let mut query = QueryContext::new();
+    let ask = |query: &mut QueryContext, cobject: &CObject| {
+        let class = query.classify(cobject, q).unwrap();
+        assert_eq!(
+            class == Class::Inside,
+            query.within(cobject, q, 0.0).unwrap()
+        );
+        class
+    };
+    assert_eq!(ask(&mut query, &all), Class::Inside);
+    let far_one = SObjects::Some(environment.clone(), vec![ids[1]]);
+    let options = InducedOptions::default();
+    let other = CObject::induced(space.clone(), &[], far_one, options).unwrap();
+    assert_eq!(ask(&mut query, &other), Class::Outside);
+    assert_eq!(ask(&mut query, &all), Class::Inside);
+    let moved = |x: f64| Change::Move {
+        id: ids[0],
+        pose: at(x),
+    };
+    environment.apply(&[moved(1.05)]).unwrap();
+    assert_eq!(ask(&mut query, &all), Class::Contact);
+    environment.apply(&[moved(1.0)]).unwrap();
+    assert_eq!(ask(&mut query, &all), Class::Inside);
+    environment.apply(&[Change::Delete { id: ids[0] }]).unwrap();
+    assert_eq!(ask(&mut query, &all), Class::Outside);
+}

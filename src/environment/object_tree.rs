@@ -198,7 +198,7 @@ impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
                 continue;
             }
             let node = &self.tree.nodes[child as usize];
-            let bounds = bounds(&node.boxes(self.unit), &self.one, &[0.0; 3]);
+            let bounds = bounds(&node.boxes(self.unit), &self.one);
             let (first, cutoff) = (self.open.len(), self.cutoff());
             for lane in 0..node.count as usize {
                 let bound = bounds.0[lane];

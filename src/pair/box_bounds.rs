@@ -58,11 +58,11 @@ impl Motion32 {
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do
-/// as a number below 0. `direction`, a unit vector from the eight to the one or zero, is tried for a better bound.
+/// as a number below 0.
 // Indices are those of the axes in the formulas.
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-pub fn bounds(eight: &EightBoxes, one: &PackedBox, direction: &[f32; 3]) -> F32x8 {
+pub fn bounds(eight: &EightBoxes, one: &PackedBox) -> F32x8 {
     let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k]);
     let halves = &eight.half;
     // The reach of the one along the axes of the eight, and of the eight along those of the one.
@@ -89,16 +89,24 @@ pub fn bounds(eight: &EightBoxes, one: &PackedBox, direction: &[f32; 3]) -> F32x
         let gap = gap.max(F32x8::splat(0.0));
         other = other + gap * gap;
     }
+    // Where no gap is above 0 the diagonal is 0.
+    let diagonal = square.max(other).sqrt() * UPRIGHT;
+    diagonal + deepest.min(F32x8::splat(0.0))
+}
+
+/// Lower bounds of the same distances along a unit vector from the eight to the one; negative where they may overlap.
+// Indices are those of the axes in the formulas.
+#[allow(clippy::needless_range_loop)]
+#[inline(always)]
+pub fn gaps_along(eight: &EightBoxes, one: &PackedBox, direction: &[f32; 3]) -> F32x8 {
+    let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k]);
     let mut reach = F32x8::splat(0.0);
     let mut across = 0.0;
     for i in 0..3 {
-        reach = reach + along32(&eight.axes[i], direction).abs() * halves[i];
+        reach = reach + along32(&eight.axes[i], direction).abs() * eight.half[i];
         across += dot(&one.axes[i], direction).abs() * one.half[i];
     }
-    let gap = along32(&apart, direction) - reach - F32x8::splat(across);
-    // Where no gap is above 0 the diagonal is 0.
-    let diagonal = square.max(other).sqrt() * UPRIGHT;
-    (diagonal + deepest.min(F32x8::splat(0.0))).max(gap)
+    along32(&apart, direction) - reach - F32x8::splat(across)
 }
 
 /// How far apart two boxes are along a unit vector from the first to the second, at least; negative where they may meet.

@@ -126,7 +126,8 @@ pub fn visit_pair(
 ) -> ControlFlow<()> {
     let state = &mut scratch.state;
     state.statistics.primitive_pairs += 1;
-    match pairing.distance(places, f64::INFINITY, &mut state.primitives) {
+    let cutoff = visitor.bound() + pairing.slack();
+    match pairing.distance(places, cutoff, &mut state.primitives) {
         Some(apart) => visitor.visit(&pairing.met(places, apart)),
         None => ControlFlow::Continue(()),
     }
@@ -314,8 +315,11 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let motion = &self.motions[opened];
         let one = motion.apply(&other_tree.bounding_box(other));
         let eight = node.boxes(self.unit(opened));
-        let direction = self.direction_from(opened);
-        let bounds = box_bounds::bounds(&eight, &one, &direction);
+        let mut bounds = box_bounds::bounds(&eight, &one);
+        if self.state.direction != Vec3::zeros() {
+            let direction = self.direction_from(opened);
+            bounds = bounds.max(box_bounds::gaps_along(&eight, &one, &direction));
+        }
         let count = node.count as usize;
         push_nearest_last(self.stack, &bounds, count, cutoff, |lane| {
             let child = tree.child(index, lane);

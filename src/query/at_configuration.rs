@@ -32,6 +32,9 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let scene = Scene::new(cobject, at)?;
+        if self.recent_is_within(&scene, 0.0) {
+            return Ok(Class::Inside);
+        }
         let candidates = scene.candidates(
             Wanted {
                 in_contact: true,
@@ -66,6 +69,9 @@ impl QueryContext {
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         let scene = Scene::new(cobject, at)?;
+        if self.recent_is_within(&scene, threshold) {
+            return Ok(true);
+        }
         let candidates = scene.candidates(Wanted::within(threshold), &mut self.near)?;
         Ok(self.any_within(&candidates, |_| threshold))
     }

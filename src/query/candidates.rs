@@ -196,6 +196,54 @@ impl<'a> Scene<'a> {
         Ok(candidates)
     }
 
+    /// The body pair that a key names, with the options of each term that holds it; empty if none does (any more).
+    pub fn find(&self, key: &CacheKey) -> Vec<(Pairing<'_>, InducedOptions)> {
+        let CacheKey::Candidate {
+            space,
+            r_link,
+            s_side,
+            ..
+        } = *key
+        else {
+            return Vec::new();
+        };
+        if space != self.cobject.space().serial() {
+            return Vec::new();
+        }
+        let terms = self.cobject.terms().iter().zip(&self.snapshots);
+        let pairing = |(term, snapshot)| -> Option<(Pairing<'_>, InducedOptions)> {
+            let term: &Arc<Term> = term;
+            let snapshot: &Option<Arc<Snapshot>> = snapshot;
+            let (options, body, pose) = match (&**term, s_side) {
+                (Term::Links { pairs, options }, SSide::Link(s)) => {
+                    pairs.contains(&[r_link, s]).then_some(())?;
+                    (options, self.body(s)?, &self.poses[s])
+                }
+                (
+                    Term::Objects {
+                        links,
+                        objects,
+                        options,
+                    },
+                    SSide::Object(id),
+                ) => {
+                    let is_chosen = match objects {
+                        SObjects::All(_) => true,
+                        SObjects::Some(_, ids) => ids.contains(&id),
+                    };
+                    (is_chosen && links.contains(&r_link)).then_some(())?;
+                    let object = snapshot.as_ref()?.find(id)?;
+                    (options, &*object.body, &object.pose)
+                }
+                _ => return None,
+            };
+            let a = self.body(r_link)?;
+            let fits = a.dimension() == body.dimension();
+            fits.then(|| (Pairing::new(a, &self.poses[r_link], body, pose), *options))
+        };
+        terms.filter_map(pairing).collect()
+    }
+
     fn offer_objects<'s>(
         &self,
         links: &[usize],

@@ -2,6 +2,7 @@
 
 use std::borrow::Borrow;
 
+use super::candidates::Scene;
 use super::context::{CacheKey, QueryContext};
 use crate::pair::{Collect, Hit, Nearest, Pairing, Visitor, Within, traverse, visit_pair};
 
@@ -53,6 +54,26 @@ impl QueryContext {
             lower: visitor.lower,
             hit: visitor.best,
         }
+    }
+
+    /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
+    /// then nothing else need be asked.
+    pub(super) fn recent_is_within(&mut self, scene: &Scene, threshold: f64) -> bool {
+        let Some((key, places)) = self
+            .recent
+            .and_then(|key| Some((key, self.remembered(&key)?)))
+        else {
+            return false;
+        };
+        scene.find(&key).iter().any(|(pairing, options)| {
+            let mut visitor = Within {
+                margin: options.margin,
+                threshold,
+                found: None,
+            };
+            let _ = visit_pair(pairing, places, &mut self.scratch, &mut visitor);
+            visitor.found.is_some()
+        })
     }
 
     /// Whether some primitive pair is within the threshold, which may differ from target to target.
