@@ -12,7 +12,7 @@ name=$1
 shift
 if [ "$name" = accuracy ]; then
   scripts/setup.sh test
-  scripts/install.sh >/dev/null
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
   cmake -S capi-tests -B build/capi-tests -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
   cmake --build build/capi-tests --target accuracy >/dev/null
   exec build/capi-tests/accuracy "${1:-1000000}" "${2:-1}"
