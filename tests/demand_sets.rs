@@ -13,35 +13,10 @@ use cstk::robot::JointKind;
 use common::oracle::hull_distance;
 use common::random::Random;
 use common::robots::{environment, link, robot, space};
-use common::shapes::{Shape, cuboid, mesh};
+use common::shapes::{Shape, cube_surface, cuboid};
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
     Pose::from_translation(Vec3::new(x, y, z))
-}
-
-/// A cube's surface in triangles, about the origin.
-fn triangulated(half: f64) -> Shape {
-    let corners: Vec<Vec3> = (0..8)
-        .map(|i| {
-            let sign = |axis: usize| if i >> axis & 1 == 0 { -half } else { half };
-            Vec3::new(sign(0), sign(1), sign(2))
-        })
-        .collect();
-    let faces = [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    mesh(&corners, &faces)
 }
 
 /// The pairs of primitives that are within epsilon by brute force, and those that are so near it that rounding decides.
@@ -76,7 +51,7 @@ fn witnesses(a: (&Shape, &Pose), b: (&Shape, &Pose), epsilon: f64) -> BTreeSet<[
 
 #[test]
 fn a22_parallel_faces_show_all_that_tie_and_choose_the_lowest() {
-    let (a, b) = (triangulated(1.0), triangulated(1.0));
+    let (a, b) = (cube_surface(2.0), cube_surface(2.0));
     let (here, above) = (Pose::identity(), at(0.1, 0.2, 2.5));
     let ties = witnesses((&a, &here), (&b, &above), 0.5 + 1e-12);
     assert!(ties.len() >= 4, "{ties:?}");
@@ -104,7 +79,7 @@ fn a22_parallel_faces_show_all_that_tie_and_choose_the_lowest() {
 
 #[test]
 fn a25_the_pairs_that_touch_are_those_of_brute_force() {
-    let (large, small) = (triangulated(1.0), triangulated(0.5));
+    let (large, small) = (cube_surface(2.0), cube_surface(1.0));
     let here = Pose::identity();
     for offset in [
         at(0.0, 0.0, 1.0),
@@ -186,7 +161,7 @@ fn a37_margins_reach_into_the_broad_phase() {
 
 #[test]
 fn a38_a_threshold_decides_at_the_gap() {
-    let (a, b) = (triangulated(0.5), triangulated(0.5));
+    let (a, b) = (cube_surface(1.0), cube_surface(1.0));
     let here = Pose::identity();
     let mut query = QueryContext::new();
     for gap in [0.3, 0.7, 0.95, 1.05] {

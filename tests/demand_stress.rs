@@ -6,28 +6,7 @@ use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::query::{DistanceKind, QueryContext};
 
 use common::random::Random;
-use common::shapes::{Shape, cuboid, hull, planar};
-
-/// The largest gap along the fifteen axes of two boxes: negative where they overlap, and their distance where a face is
-/// nearest.
-fn widest_gap(sides: [[f64; 3]; 2], poses: [&Pose; 2]) -> f64 {
-    let [a, b] = poses.map(|pose| [0, 1, 2].map(|k| pose.rotation.column(k).into_owned()));
-    let mut axes: Vec<Vec3> = a.iter().chain(&b).copied().collect();
-    for x in &a {
-        axes.extend(b.iter().filter_map(|y| x.cross(y).try_normalize(1e-8)));
-    }
-    let between = poses[1].translation - poses[0].translation;
-    axes.iter()
-        .map(|axis| {
-            let reach = |columns: &[Vec3; 3], sides: &[f64; 3]| {
-                (0..3)
-                    .map(|k| 0.5 * sides[k] * axis.dot(&columns[k]).abs())
-                    .sum::<f64>()
-            };
-            axis.dot(&between).abs() - reach(&a, &sides[0]) - reach(&b, &sides[1])
-        })
-        .fold(f64::NEG_INFINITY, f64::max)
-}
+use common::shapes::{Shape, cuboid, hull, planar, widest_gap};
 
 /// A6: boxes that almost touch or just overlap, face to face, edge to edge and corner to face, many of them turned alike.
 /// Each has an answer, and it is the truth.

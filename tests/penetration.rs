@@ -11,7 +11,7 @@ use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::query::{PenetrationList, QueryContext};
 
 use common::random::Random;
-use common::shapes::{Shape, cuboid, hull, mesh, planar};
+use common::shapes::{Shape, cube_surface, cuboid, hull, planar, widest_gap};
 
 fn penetration(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> PenetrationList {
     QueryContext::new()
@@ -65,27 +65,6 @@ fn depth(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> (f64, Vec3) {
     (found.depth, found.direction)
 }
 
-/// By the fifteen axes of two boxes.
-fn depth_of_boxes(sides: [[f64; 3]; 2], poses: [&Pose; 2]) -> f64 {
-    let columns = |pose: &Pose| [0, 1, 2].map(|k| pose.rotation.column(k).into_owned());
-    let [a, b] = poses.map(columns);
-    let mut axes: Vec<Vec3> = a.iter().chain(&b).copied().collect();
-    for x in &a {
-        axes.extend(b.iter().filter_map(|y| x.cross(y).try_normalize(1e-8)));
-    }
-    let between = poses[1].translation - poses[0].translation;
-    axes.iter()
-        .map(|axis| {
-            let reach = |columns: &[Vec3; 3], sides: &[f64; 3]| {
-                (0..3)
-                    .map(|k| 0.5 * sides[k] * axis.dot(&columns[k]).abs())
-                    .sum::<f64>()
-            };
-            reach(&a, &sides[0]) + reach(&b, &sides[1]) - axis.dot(&between).abs()
-        })
-        .fold(f64::INFINITY, f64::min)
-}
-
 #[test]
 fn random_boxes_are_as_deep_as_their_axes_say() {
     let mut random = Random::new(5);
@@ -94,7 +73,7 @@ fn random_boxes_are_as_deep_as_their_axes_say() {
         let mut sides = || [0, 1, 2].map(|_| random.within(0.2, 2.0));
         let sides = [sides(), sides()];
         let poses = [random.pose(0.7), random.pose(0.7)];
-        let want = depth_of_boxes(sides, [&poses[0], &poses[1]]);
+        let want = -widest_gap(sides, [&poses[0], &poses[1]]);
         let boxes = sides.map(cuboid);
         let list = penetration((&boxes[0], &poses[0]), (&boxes[1], &poses[1]));
         // No penetrating pair is missed (A11), and none is made up.
@@ -246,39 +225,10 @@ fn a23_a_small_cube_in_the_corner_of_a_large_one() {
     }
 }
 
-/// The eight triangulated sides of a box, as its surface.
-fn surface_of_box(half: f64, center: [f64; 3]) -> Shape {
-    let corners: Vec<Vec3> = (0..8)
-        .map(|i| {
-            let sign = |axis: usize| if i >> axis & 1 == 0 { -half } else { half };
-            Vec3::new(sign(0), sign(1), sign(2)) + Vec3::from(center)
-        })
-        .collect();
-    let faces = [
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    mesh(&corners, &faces)
-}
-
 #[test]
 fn a24_surfaces_that_share_a_face_are_not_deep() {
-    let boxes = [
-        surface_of_box(1.0, [-1., 0., 0.]),
-        surface_of_box(1.0, [1., 0., 0.]),
-    ];
-    let here = Pose::identity();
-    let list = penetration((&boxes[0], &here), (&boxes[1], &here));
+    let cube = cube_surface(2.0);
+    let list = penetration((&cube, &at(-1., 0., 0.)), (&cube, &at(1., 0., 0.)));
     assert!(!list.of_whole_bodies);
     assert!(list.penetrations.len() >= 4);
     for found in &list.penetrations {

@@ -305,7 +305,13 @@ impl Distance {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower: found.lower,
-            upper: hit.distance + error,
+            // Sets count as meeting up to the error, which that of the measured distance may hide once more.
+            upper: hit.distance
+                + if hit.distance == 0.0 {
+                    2.0 * error
+                } else {
+                    error
+                },
             witness: Some(witness),
             points: pairing.world_points(&pairing.closest(hit)),
             contact,

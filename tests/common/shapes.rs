@@ -79,6 +79,46 @@ pub fn cuboid(sides: [f64; 3]) -> Shape {
     hull(&box_corners(sides))
 }
 
+/// A cube's surface in triangles, around the origin.
+pub fn cube_surface(side: f64) -> Shape {
+    let faces = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    mesh(&box_corners([side; 3]), &faces)
+}
+
+/// The largest gap along the fifteen axes of two boxes: negative where they overlap, and their distance where a face is
+/// nearest.
+pub fn widest_gap(sides: [[f64; 3]; 2], poses: [&Pose; 2]) -> f64 {
+    let [a, b] = poses.map(|pose| [0, 1, 2].map(|k| pose.rotation.column(k).into_owned()));
+    let mut axes: Vec<Vec3> = a.iter().chain(&b).copied().collect();
+    for x in &a {
+        axes.extend(b.iter().filter_map(|y| x.cross(y).try_normalize(1e-8)));
+    }
+    let between = poses[1].translation - poses[0].translation;
+    axes.iter()
+        .map(|axis| {
+            let reach = |columns: &[Vec3; 3], sides: &[f64; 3]| {
+                (0..3)
+                    .map(|k| 0.5 * sides[k] * axis.dot(&columns[k]).abs())
+                    .sum::<f64>()
+            };
+            axis.dot(&between).abs() - reach(&a, &sides[0]) - reach(&b, &sides[1])
+        })
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// The vertices of a sphere by latitudes and longitudes. Those on the three axes are exact.
 pub fn sphere_points(radius: f64, quarter: usize) -> Vec<Vec3> {
     let circle = |i: usize| -> (f64, f64) {
