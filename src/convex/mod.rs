@@ -13,4 +13,6 @@ pub use contact::{Contact, ContactMode, contacts};
 pub use distance::{DistanceScratch, closest_points};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};
-pub use polygon_distance::{Outline, PolygonDistance, moved, polygon_closest, polygon_distance};
+pub use polygon_distance::{
+    MOST_CORNERS, Nearest, Outline, PolygonDistance, moved, polygon_closest, polygon_distance,
+};

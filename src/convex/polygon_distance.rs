@@ -6,6 +6,9 @@ use crate::pose::{Pose, Vec3};
 use crate::primitive::Feature;
 use crate::tolerance;
 
+/// Polygons of up to so many corners are measured four edges at a time.
+pub const MOST_CORNERS: usize = 64;
+
 /// A convex polygon in space: its corners in cyclic order, four at a time, the last four filled up with the first corner.
 #[derive(Clone, Copy)]
 pub struct Outline<'a> {
@@ -42,6 +45,18 @@ impl Outline<'_> {
         }
     }
 
+    /// A corner and the edge that leaves it, the same in all lanes.
+    #[inline(always)]
+    fn edge(&self, i: usize) -> (Points64, Points64) {
+        let next = if i + 1 == self.corners { 0 } else { i + 1 };
+        let corner = |i: usize| {
+            let block = &self.blocks[i / 4];
+            each3(|k| F64x4::splat(block[k].0[i % 4]))
+        };
+        let start = corner(i);
+        (start, sub64(&corner(next), &start))
+    }
+
     /// Corners and the edges that leave them.
     #[inline(always)]
     fn edges(&self) -> impl Iterator<Item = (Vec3, Vec3)> + '_ {
@@ -74,11 +89,66 @@ impl Outline<'_> {
         (low.least(), high.greatest())
     }
 
-    /// How far another polygon is from this one's plane; negative where it reaches over to both sides.
+    /// How far another polygon is from this one's plane, and on which side; negative where it reaches over to both, less
+    /// far to the other side.
     #[inline(always)]
-    fn plane_gap(&self, other: &Outline) -> f64 {
+    fn side(&self, other: &Outline) -> Side {
         let (low, high) = other.extent_along(&self.normal.into());
-        (low - self.offset).max(self.offset - high)
+        let (above, below) = (low - self.offset, self.offset - high);
+        Side {
+            gap: above.max(below),
+            extreme: if above > below { low } else { high },
+        }
+    }
+
+    /// The height of a point over the plane.
+    #[inline(always)]
+    fn height(&self, point: &Vec3) -> f64 {
+        self.normal.dot(&(point - self.corner(0)))
+    }
+
+    /// A corner whose product with a direction is as given, one of the extremes.
+    #[inline(always)]
+    fn corner_with(&self, direction: &[f64; 3], extreme: f64) -> usize {
+        for (block, corners) in self.blocks.iter().enumerate() {
+            let along = along64(corners, direction);
+            for lane in 0..4 {
+                if along.0[lane] == extreme {
+                    return 4 * block + lane;
+                }
+            }
+        }
+        0
+    }
+
+    /// The corner nearest to a point.
+    #[inline(always)]
+    fn corner_near(&self, point: &Vec3) -> usize {
+        let point = splat64(&[point.x, point.y, point.z]);
+        let (mut best, mut least) = (0, f64::INFINITY);
+        for (block, corners) in self.blocks.iter().enumerate() {
+            let apart = sub64(corners, &point);
+            let squares = dot64(&apart, &apart);
+            for lane in 0..4 {
+                if squares.0[lane] < least {
+                    (best, least) = (4 * block + lane, squares.0[lane]);
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether the foot of a point is inside.
+    #[inline(always)]
+    fn is_under(&self, point: &Vec3) -> bool {
+        let mut least = F64x4::splat(0.0);
+        let normal = splat64(&self.normal.into());
+        for (block, starts) in self.blocks.iter().enumerate() {
+            let inwards = cross64(&normal, &sub64(&self.following(block), starts));
+            let from_start = sub64(&splat64(&[point.x, point.y, point.z]), starts);
+            least = least.min(dot64(&from_start, &inwards));
+        }
+        least.least() >= 0.0
     }
 }
 
@@ -102,15 +172,51 @@ pub fn moved<'a>(outline: &Outline, pose: &Pose, buffer: &'a mut [Points64]) -> 
     }
 }
 
+/// Where a polygon is of another's plane: how far, and the product of the normal with its nearest corner.
+#[derive(Clone, Copy)]
+struct Side {
+    gap: f64,
+    extreme: f64,
+}
+
 /// What is known of the distance of two polygons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PolygonDistance {
     /// More than the cutoff.
     Beyond,
-    /// The distance, 0 where they surely cross.
-    Apart(f64),
+    /// The distance, and where.
+    Apart(f64, Nearest),
+    /// They surely cross.
+    Cross,
     /// They may cross.
     Doubt,
+}
+
+/// Where two polygons that do not cross are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Nearest {
+    /// At a corner of the first, over the second.
+    FirstCorner(usize),
+    /// At a corner of the second, over the first.
+    SecondCorner(usize),
+    /// At the best of four pairs of edges, by the squares of their distances. A pair is called
+    /// `MOST_CORNERS` * the block of the second's edges + the first's edge; the lane is the second's.
+    Edges { squares: F64x4, pairs: F64x4 },
+}
+
+impl Nearest {
+    /// The vector between the closest points, from the second polygon to the first.
+    #[inline(always)]
+    pub fn across(&self, a: &Outline, b: &Outline) -> Vec3 {
+        match *self {
+            Self::FirstCorner(corner) => b.normal * b.height(&a.corner(corner)),
+            Self::SecondCorner(corner) => a.normal * -a.height(&b.corner(corner)),
+            Self::Edges { squares, pairs } => {
+                let [on_a, on_b] = edge_points(a, b, &squares, &pairs, 0.0).points;
+                on_a - on_b
+            }
+        }
+    }
 }
 
 /// The distance of two polygons whose coordinates are at most `size`, unless it is above `cutoff`.
@@ -121,127 +227,246 @@ pub enum PolygonDistance {
 #[inline(always)]
 pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> PolygonDistance {
     let rounding = tolerance::INSIDE_DOUBT * size;
-    if a.plane_gap(b).max(b.plane_gap(a)) - rounding > cutoff {
+    let sides = [a.side(b), b.side(a)];
+    let apart = sides[0].gap.max(sides[1].gap);
+    if apart - rounding > cutoff {
         return PolygonDistance::Beyond;
     }
-    match cross(a, b, size) {
-        Some(false) => {}
-        Some(true) => return PolygonDistance::Apart(0.0),
-        None => return PolygonDistance::Doubt,
-    }
-    let mut least = F64x4::splat(f64::INFINITY);
-    for block in 0..b.blocks.len() {
-        let starts = &b.blocks[block];
-        let along = sub64(&b.following(block), starts);
-        for (start, edge) in a.edges() {
-            least = least.min(edge_distances(&start, &edge, starts, &along));
+    if apart < rounding {
+        match cross(a, b, size) {
+            Some(false) => {}
+            Some(true) => return PolygonDistance::Cross,
+            None => return PolygonDistance::Doubt,
         }
-        least = least.min(heights_over(a, starts));
     }
-    for block in a.blocks {
-        least = least.min(heights_over(b, block));
-    }
-    let distance = least.least().sqrt();
+    let (distance, nearest) = nearest(a, b, &sides, size);
     if distance - rounding > cutoff {
         PolygonDistance::Beyond
     } else {
-        PolygonDistance::Apart(distance)
+        PolygonDistance::Apart(distance, nearest)
     }
 }
 
 /// The closest points of polygons that do not cross, with the corners, edges and faces that hold them; `None` for those
 /// that may. A point no farther than `error` from a corner is held by that.
 pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Option<Closest> {
-    if cross(a, b, size) != Some(false) {
+    let PolygonDistance::Apart(distance, nearest) = polygon_distance(a, b, f64::INFINITY, size)
+    else {
         return None;
-    }
-    let mut best = Closest {
-        distance: f64::INFINITY,
-        points: [Vec3::zeros(); 2],
-        features: [Feature::interior(); 2],
     };
-    let mut least = f64::INFINITY;
-    for (i, (start, edge)) in a.edges().enumerate() {
-        for (block, starts) in b.blocks.iter().enumerate() {
-            let along = sub64(&b.following(block), starts);
-            let (s, t, squares) = edge_places(&start, &edge, starts, &along);
-            for lane in 0..4 {
-                if squares.0[lane] < least {
-                    least = squares.0[lane];
-                    let j = 4 * block + lane;
-                    let places = [
-                        a.on_edge(i, s.0[lane], error),
-                        b.on_edge(j, t.0[lane], error),
-                    ];
-                    best.points = places.map(|place| place.0);
-                    best.features = places.map(|place| place.1);
-                }
-            }
+    let over = |polygon: &Outline, other: &Outline, corner: usize| {
+        let point = other.corner(corner);
+        let foot = point - polygon.normal * polygon.height(&point);
+        let vertex = if corner < other.corners { corner } else { 0 };
+        ([foot, point], [Feature::face(0), Feature::vertex(vertex as u32)])
+    };
+    let (points, features) = match nearest {
+        Nearest::FirstCorner(corner) => {
+            let ([foot, point], [face, vertex]) = over(b, a, corner);
+            ([point, foot], [vertex, face])
         }
-    }
-    for (swapped, polygon, other) in [(false, a, b), (true, b, a)] {
-        for (block, corners) in other.blocks.iter().enumerate() {
-            let squares = heights_over(polygon, corners);
-            for lane in 0..4 {
-                if squares.0[lane] < least {
-                    least = squares.0[lane];
-                    let j = 4 * block + lane;
-                    let corner = other.corner(j);
-                    let height = polygon.normal.dot(&corner) - polygon.offset;
-                    let vertex = Feature::vertex(if j < other.corners { j as u32 } else { 0 });
-                    best.points = [corner - polygon.normal * height, corner];
-                    best.features = [Feature::face(0), vertex];
-                    if swapped {
-                        best.points.swap(0, 1);
-                        best.features.swap(0, 1);
-                    }
-                }
-            }
+        Nearest::SecondCorner(corner) => over(a, b, corner),
+        Nearest::Edges { squares, pairs } => {
+            let found = edge_points(a, b, &squares, &pairs, error);
+            (found.points, found.features)
         }
-    }
-    best.distance = least.sqrt();
-    Some(best)
+    };
+    Some(Closest {
+        distance,
+        points,
+        features,
+    })
 }
 
-/// The squared distances of an edge and of four others.
+/// The distance of polygons that do not cross, and where they are nearest.
+///
+/// If that is a corner over the other's inside, the plane there separates the two, and no corner is nearer to it. Of
+/// several such corners some are inside, or an edge from one to another passes over the outline as near.
 #[inline(always)]
-fn edge_distances(p: &Vec3, dp: &Vec3, q: &Points64, dq: &Points64) -> F64x4 {
-    edge_places(p, dp, q, dq).2
+fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Nearest) {
+    let rounding = tolerance::INSIDE_DOUBT * size;
+    if sides[0].gap >= rounding {
+        let corner = b.corner_with(&a.normal.into(), sides[0].extreme);
+        let point = b.corner(corner);
+        if a.is_under(&point) {
+            return (a.height(&point).abs(), Nearest::SecondCorner(corner));
+        }
+    }
+    if sides[1].gap >= rounding {
+        let corner = a.corner_with(&b.normal.into(), sides[1].extreme);
+        let point = a.corner(corner);
+        if b.is_under(&point) {
+            return (b.height(&point).abs(), Nearest::FirstCorner(corner));
+        }
+    }
+    let NearestEdges { squares, pairs } = nearest_edges(a, b, sides, size);
+    let by_edges = (squares.least().sqrt(), Nearest::Edges { squares, pairs });
+    if sides[0].gap < rounding && sides[1].gap < rounding {
+        nearest_corner(a, b, by_edges)
+    } else {
+        by_edges
+    }
 }
 
-/// Where an edge and each of four others are closest, as parameters along them, and how far apart, squared.
+/// The nearest pairs of edges so far, lane by lane (see `Nearest::Edges`).
+struct NearestEdges {
+    squares: F64x4,
+    pairs: F64x4,
+}
+
+impl NearestEdges {
+    /// Compares an edge of A with all of B's.
+    #[inline(always)]
+    fn offer(&mut self, a: &Outline, i: usize, b: &Outline) {
+        let (start, edge) = a.edge(i);
+        let inverse_square = inverse(dot64(&edge, &edge));
+        for block in 0..b.blocks.len() {
+            let starts = &b.blocks[block];
+            let along = sub64(&b.following(block), starts);
+            let (_, _, squares) = edge_places(&start, &edge, inverse_square, starts, &along);
+            let pair = F64x4::splat((MOST_CORNERS * block + i) as f64);
+            for lane in 0..4 {
+                let is_less = squares.0[lane] < self.squares.0[lane];
+                self.pairs.0[lane] = if is_less {
+                    pair.0[lane]
+                } else {
+                    self.pairs.0[lane]
+                };
+            }
+            self.squares = squares.min(self.squares);
+        }
+    }
+}
+
+/// The nearest edges of two polygons. `sides` are as for `nearest`.
+#[inline(always)]
+fn nearest_edges(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> NearestEdges {
+    let mut found = NearestEdges {
+        squares: F64x4::splat(f64::INFINITY),
+        pairs: F64x4::splat(0.0),
+    };
+    if a.corners <= 4 || !search_edges(a, b, sides, size, &mut found) {
+        for i in 0..a.corners {
+            found.offer(a, i, b);
+        }
+    }
+    found
+}
+
+/// Compares those edges of A that meet in corners which look nearest, until a plane proves that no others are nearer.
+#[inline(always)]
+fn search_edges(
+    a: &Outline,
+    b: &Outline,
+    sides: &[Side; 2],
+    size: f64,
+    found: &mut NearestEdges,
+) -> bool {
+    const TRIES: usize = 4;
+    let mut corner = if sides[1].gap > sides[0].gap {
+        a.corner_with(&b.normal.into(), sides[1].extreme)
+    } else {
+        let nearest = b.corner(b.corner_with(&a.normal.into(), sides[0].extreme));
+        a.corner_near(&nearest)
+    };
+    let mut compared = 0u64;
+    for _ in 0..TRIES {
+        let corner_in = if corner < a.corners { corner } else { 0 };
+        let before = if corner_in == 0 { a.corners } else { corner_in } - 1;
+        for edge in [before, corner_in] {
+            if compared >> edge & 1 == 0 {
+                compared |= 1 << edge;
+                found.offer(a, edge, b);
+            }
+        }
+        let closest = edge_points(a, b, &found.squares, &found.pairs, 0.0);
+        let across = closest.points[0] - closest.points[1];
+        let direction: [f64; 3] = across.into();
+        let nearest = a.extent_along(&direction).0;
+        let gap = nearest - b.extent_along(&direction).1;
+        let error = tolerance::CERTIFIED_GAP * size * closest.distance;
+        if gap >= across.norm_squared() - error {
+            return true;
+        }
+        corner = a.corner_with(&direction, nearest);
+    }
+    false
+}
+
+/// The nearer of what edges gave and of the corners over insides, when neither plane separates the polygons.
+#[inline(never)]
+fn nearest_corner(a: &Outline, b: &Outline, by_edges: (f64, Nearest)) -> (f64, Nearest) {
+    let (mut distance, mut found) = by_edges;
+    for (is_first, polygon, other) in [(false, a, b), (true, b, a)] {
+        for (block, corners) in other.blocks.iter().enumerate() {
+            let inside = innermost(polygon, corners);
+            for lane in 0..4 {
+                let corner = 4 * block + lane;
+                let height = polygon.height(&other.corner(corner)).abs();
+                if inside.0[lane] >= 0.0 && height < distance {
+                    distance = height;
+                    found = if is_first {
+                        Nearest::FirstCorner(corner)
+                    } else {
+                        Nearest::SecondCorner(corner)
+                    };
+                }
+            }
+        }
+    }
+    (distance, found)
+}
+
+/// The closest points of the best of four pairs of edges.
+#[inline(always)]
+fn edge_points(a: &Outline, b: &Outline, squares: &F64x4, pairs: &F64x4, error: f64) -> Closest {
+    let mut lane = 0;
+    for other in 1..4 {
+        if squares.0[other] < squares.0[lane] {
+            lane = other;
+        }
+    }
+    let pair = pairs.0[lane] as usize;
+    let (block, i) = (pair / MOST_CORNERS, pair % MOST_CORNERS);
+    let starts = &b.blocks[block];
+    let along = sub64(&b.following(block), starts);
+    let (start, edge) = a.edge(i);
+    let inverse_square = inverse(dot64(&edge, &edge));
+    let (s, t, _) = edge_places(&start, &edge, inverse_square, starts, &along);
+    let places = [
+        a.on_edge(i, s.0[lane], error),
+        b.on_edge(4 * block + lane, t.0[lane], error),
+    ];
+    Closest {
+        distance: squares.0[lane].sqrt(),
+        points: places.map(|place| place.0),
+        features: places.map(|place| place.1),
+    }
+}
+
+/// Where an edge, the same in all lanes, and each of four others are closest, as parameters along them, and how far apart,
+/// squared. `inverse_square` is of the first one's length.
 ///
 /// The places along the lines are formed with the cross product of the directions, see `closest_parameters`.
 #[inline(always)]
-fn edge_places(p: &Vec3, dp: &Vec3, q: &Points64, dq: &Points64) -> (F64x4, F64x4, F64x4) {
-    let p = splat64(&[p.x, p.y, p.z]);
-    let dp = splat64(&[dp.x, dp.y, dp.z]);
-    let between = sub64(q, &p);
-    let cross = cross64(&dp, dq);
+fn edge_places(
+    p: &Points64,
+    dp: &Points64,
+    inverse_square: F64x4,
+    q: &Points64,
+    dq: &Points64,
+) -> (F64x4, F64x4, F64x4) {
+    let between = sub64(q, p);
+    let cross = cross64(dp, dq);
     let square = dot64(&cross, &cross);
     let s = quotient(dot64(&cross64(&between, dq), &cross), square);
-    let (a, b, e) = (dot64(&dp, &dp), dot64(&dp, dq), dot64(dq, dq));
-    let (c, f) = (dot64(&dp, &between), dot64(dq, &between));
+    let (b, e) = (dot64(dp, dq), dot64(dq, dq));
+    let (c, f) = (dot64(dp, &between), dot64(dq, &between));
     // The best place on the other edge for s, then the best place on this one for that.
     let t = unit(quotient(b * unit(s) - f, e));
-    let s = unit(quotient(b * t + c, a));
+    let s = unit((b * t + c) * inverse_square);
     let apart = each3(|k| between[k] + dq[k] * t - dp[k] * s);
     (s, t, dot64(&apart, &apart))
-}
-
-/// The squared heights of four points over a polygon, infinite for those whose feet are outside.
-#[inline(always)]
-fn heights_over(polygon: &Outline, points: &Points64) -> F64x4 {
-    let normal: [f64; 3] = polygon.normal.into();
-    let origin: [f64; 3] = polygon.corner(0).into();
-    let height = along64(&sub64(points, &splat64(&origin)), &normal);
-    let inside = innermost(polygon, points);
-    (height * height).zip(
-        inside,
-        |square, inside| {
-            if inside >= 0.0 { square } else { f64::INFINITY }
-        },
-    )
 }
 
 /// The least of the areas that points span with the edges of a polygon, negative outside.
@@ -285,13 +510,10 @@ fn pierces(a: &Outline, b: &Outline, doubt: f64, rounding: f64) -> Option<bool> 
     }
 }
 
-/// Whether two polygons cross, as far as `pierces` can tell.
+/// Whether two polygons cross that neither plane separates, as far as `pierces` can tell.
 #[inline(always)]
 fn cross(a: &Outline, b: &Outline, size: f64) -> Option<bool> {
     let rounding = tolerance::INSIDE_DOUBT * size;
-    if a.plane_gap(b) >= rounding || b.plane_gap(a) >= rounding {
-        return Some(false);
-    }
     // An area, because the error of a short edge's direction grows with what it is compared to.
     let doubt = -rounding * size;
     match pierces(a, b, doubt, rounding) {
@@ -308,6 +530,12 @@ fn cross(a: &Outline, b: &Outline, size: f64) -> Option<bool> {
 #[inline(always)]
 fn quotient(a: F64x4, b: F64x4) -> F64x4 {
     a.zip(b, |a, b| if b != 0.0 { a / b } else { 0.0 })
+}
+
+/// 1 / a, and 0 where a is 0.
+#[inline(always)]
+fn inverse(a: F64x4) -> F64x4 {
+    quotient(F64x4::splat(1.0), a)
 }
 
 #[inline(always)]
@@ -366,11 +594,11 @@ mod tests {
             assert_eq!(plain, with_widest(Measure(a, b)), "step {step}");
             distances.push(plain);
         }
-        assert!(distances.contains(&PolygonDistance::Apart(0.0)));
+        assert!(distances.contains(&PolygonDistance::Cross));
         assert!(
             distances
                 .iter()
-                .any(|d| matches!(d, PolygonDistance::Apart(x) if *x > 1.0))
+                .any(|d| matches!(d, PolygonDistance::Apart(x, _) if *x > 1.0))
         );
     }
 }

@@ -41,7 +41,7 @@ pub use extent::Extent;
 use forest::Forest;
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use packed_box::PackedBox;
-pub use packed_primitives::{MOST_CORNERS, PackedPrimitive, PackedPrimitives};
+pub use packed_primitives::{PackedPrimitive, PackedPrimitives};
 pub use packed_tree::{PackedTree, Unit, power_of_two};
 pub use statistics::{LevelStatistics, TreeStatistics};
 pub use subset_tree::{Node, SubsetTree};

@@ -1,11 +1,9 @@
 //! The primitives in the order of the leaves, as the kernel's first tests read them.
 
+use crate::convex::MOST_CORNERS;
 use crate::lanes::{F64x4, Points64};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
-
-/// Polygons of up to so many corners are measured four edges at a time (see `convex::polygon_distance`).
-pub const MOST_CORNERS: usize = 64;
 
 /// A primitive, and where its outline is if it is a flat polygon of few corners.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,10 +4,10 @@ use super::hit::Hit;
 use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, Outline, Penetration, Placed, PlacedBuffer, PolygonDistance,
+    Closest, Contact, DistanceScratch, MOST_CORNERS, Nearest, Outline, Penetration, Placed, PlacedBuffer, PolygonDistance,
     Precision, closest_points, contacts, moved, penetration, polygon_closest, polygon_distance,
 };
-use crate::hierarchy::{MOST_CORNERS, PackedPrimitives};
+use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Points64};
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::tolerance;
@@ -35,6 +35,12 @@ pub struct PrimitiveScratch {
     distance: DistanceScratch,
     /// How many pairs had all their features compared.
     pub exact_pairs: u64,
+}
+
+/// How far two primitives are apart, and for polygons where.
+pub struct Apart {
+    pub distance: f64,
+    pub nearest: Option<Nearest>,
 }
 
 /// A contact with its points and normal in the world.
@@ -88,7 +94,8 @@ impl<'a> Pairing<'a> {
     ) -> Option<f64> {
         let mut buffer = EMPTY;
         let b = self.outline_b(places[1], &mut buffer);
-        self.distance_to(places, &b, cutoff, scratch)
+        let apart = self.distance_to(places, &b, cutoff, scratch)?;
+        Some(apart.distance)
     }
 
     #[inline(always)]
@@ -111,22 +118,23 @@ impl<'a> Pairing<'a> {
         outline_b: &Option<Outline>,
         cutoff: f64,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<f64> {
+    ) -> Option<Apart> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
-        let apart = match (&outline_a, outline_b) {
+        let (distance, nearest) = match (&outline_a, outline_b) {
             (Some(a), Some(b)) => match polygon_distance(a, b, cutoff, self.precision.size) {
                 PolygonDistance::Beyond => return None,
-                PolygonDistance::Apart(distance) => distance,
-                PolygonDistance::Doubt => self.closest_at(places, scratch).distance,
+                PolygonDistance::Apart(distance, nearest) => (distance, Some(nearest)),
+                PolygonDistance::Cross => (0.0, None),
+                PolygonDistance::Doubt => (self.closest_at(places, scratch).distance, None),
             },
-            _ => self.closest_at(places, scratch).distance,
+            _ => (self.closest_at(places, scratch).distance, None),
         };
-        let apart = if apart <= self.precision.error {
+        let distance = if distance <= self.precision.error {
             0.0
         } else {
-            apart
+            distance
         };
-        (apart <= cutoff).then_some(apart)
+        (distance <= cutoff).then_some(Apart { distance, nearest })
     }
 
     pub fn met(&self, places: [u32; 2], apart: f64) -> Met {

@@ -106,12 +106,14 @@ struct State {
 
 impl State {
     /// Takes the direction of a pair as the one to separate others by.
-    fn aim(&mut self, pairing: &Pairing, met: &Met) {
+    fn aim(&mut self, pairing: &Pairing, met: &Met, across: Option<Vec3>) {
         self.direction_at = met.apart;
         self.direction = Vec3::zeros();
         if met.apart > 0.0 {
-            let closest = pairing.closest(&met.hit(0, met.apart));
-            let across = closest.points[0] - closest.points[1];
+            let across = across.unwrap_or_else(|| {
+                let closest = pairing.closest(&met.hit(0, met.apart));
+                closest.points[0] - closest.points[1]
+            });
             self.direction = across.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         }
     }
@@ -155,7 +157,7 @@ pub fn traverse(
         if let Some(apart) = pairing.distance(places, cutoff, &mut state.primitives) {
             let met = pairing.met(places, apart);
             visitor.visit(&met)?;
-            state.aim(pairing, &met);
+            state.aim(pairing, &met, None);
         }
     }
     stack.clear();
@@ -338,7 +340,8 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
         self.state.statistics.primitive_pairs += 1;
         let outline = self.pairing.outline_b(places[1], self.buffer);
-        if let (Some(a), Some(b)) = (self.pairing.outline_a(places[0]), &outline) {
+        let outlines = self.pairing.outline_a(places[0]).zip(outline);
+        if let Some((a, b)) = &outlines {
             let direction: [f64; 3] = self.state.direction.into();
             if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
                 return ControlFlow::Continue(());
@@ -351,9 +354,11 @@ impl<'a, V: Visitor> Walk<'a, V> {
         else {
             return ControlFlow::Continue(());
         };
-        let met = self.pairing.met(places, apart);
-        if apart < self.state.direction_at {
-            self.state.aim(self.pairing, &met);
+        let met = self.pairing.met(places, apart.distance);
+        if apart.distance < self.state.direction_at {
+            let across = outlines.as_ref().zip(apart.nearest);
+            let across = across.map(|((a, b), nearest)| nearest.across(a, b));
+            self.state.aim(self.pairing, &met, across);
         }
         self.visitor.visit(&met)
     }
