@@ -5,8 +5,9 @@ mod common;
 
 use cstk::body::{Body, BodyBuilder};
 use cstk::convex::{DistanceScratch, PlacedBuffer, closest_points};
-use cstk::hierarchy::{Grouping, PackedBox, PackedTree, Unit};
-use cstk::pair::{Pairing, PrimitiveScratch};
+use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
+use cstk::lanes::{Instructions, Plain, Work, with_widest};
+use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, bounds};
 use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::tolerance::DISTANCE_ERROR;
 use cstk_scenes as scenes;
@@ -25,6 +26,19 @@ fn outside(bounds: &PackedBox, point: &Vec3) -> f64 {
     let places = axes.try_inverse().expect("axes") * from_center;
     let half = Vec3::from(bounds.half.map(f64::from));
     (along.abs() - half).sup(&(places.abs() - half)).max()
+}
+
+/// The axes, half sides and centres of a node's boxes, coordinates apart, in units of two.
+struct Decoded<'a>(&'a WideNode);
+
+impl Work for Decoded<'_> {
+    type Output = [[[f32; 8]; 3]; 5];
+
+    fn run<I: Instructions>(self, lanes: I) -> Self::Output {
+        let boxes = self.0.boxes(lanes, 0.5);
+        let [a, b, c] = boxes.axes;
+        [a, b, c, boxes.half, boxes.center].map(|three| three.map(|x| lanes.array(x)))
+    }
 }
 
 /// Checks the boxes of a unit and of all below, and counts the primitives met.
@@ -50,16 +64,17 @@ fn check_boxes(
         let node = tree.node(index);
         let count = node.count as usize;
         assert!((2..=8).contains(&count), "{count} children");
-        let eight = node.boxes(0.5);
+        let decoded = [with_widest(Decoded(node)), Decoded(node).run(Plain)];
         let met = (0..count)
             .map(|lane| {
                 let child = tree.child(index, lane);
                 let bounds = tree.bounding_box(child);
-                for i in 0..3 {
-                    assert_eq!(eight.center[i].0[lane], 0.5 * bounds.center[i]);
-                    assert_eq!(eight.half[i].0[lane], 0.5 * bounds.half[i]);
+                for [axis_a, axis_b, axis_c, half, center] in &decoded {
                     for k in 0..3 {
-                        assert_eq!(eight.axes[i][k].0[lane], bounds.axes[i][k]);
+                        assert!((center[k][lane] - 0.5 * bounds.center[k]).abs() <= 6e-8);
+                        assert_eq!(half[k][lane], 0.5 * bounds.half[k]);
+                        let axes = [axis_a, axis_b, axis_c].map(|axis| axis[k][lane]);
+                        assert_eq!(axes, bounds.axes.map(|axis| axis[k]));
                     }
                 }
                 assert!(tree.lowest(child) >= tree.lowest(unit));
@@ -220,4 +235,65 @@ fn answers_scale_with_the_world() {
     for other in answers.chunks_exact(20).skip(1) {
         assert_eq!(other, &answers[..20]);
     }
+}
+
+/// The bounds of a node's boxes from another, as they are and refined.
+struct Bounded<'a>(&'a WideNode, &'a PackedBox);
+
+impl Work for Bounded<'_> {
+    type Output = [[f32; 8]; 2];
+
+    fn run<I: Instructions>(self, lanes: I) -> Self::Output {
+        let eight = self.0.boxes(lanes, 1.0);
+        [false, true].map(|refined| lanes.array(bounds(lanes, &eight, self.1, refined)))
+    }
+}
+
+#[test]
+fn no_bound_is_above_the_distance_of_the_boxes() {
+    let corners = |given: &PackedBox| -> Vec<Vec3> {
+        let vector = |v: [f32; 3]| Vec3::from(v.map(f64::from));
+        let (center, half) = (vector(given.center), vector(given.half));
+        let axes = Mat3::from_columns(&given.axes.map(vector));
+        let signs = |i: usize| Vec3::from([0, 1, 2].map(|k| [-1.0, 1.0][i >> k & 1]));
+        let corner = |i| center + axes * half.component_mul(&signs(i));
+        (0..8).map(corner).collect()
+    };
+    let mut random = Random::new(71);
+    let (mut coarse_sum, mut refined_sum, mut exact_sum) = (0.0, 0.0, 0.0);
+    for step in 0..150 {
+        let half = [0.3, 0.1, 0.01][step % 3];
+        let mut held = || {
+            let center = random.point(0.5);
+            let points = random.points(6, half);
+            Held {
+                points: points.into_iter().map(|p| center + p).collect(),
+                excess: 0.0,
+                axes: random.rotation(),
+            }
+        };
+        let all: Vec<Held> = (0..1 + step % 8).map(|_| held()).collect();
+        let node = WideNode::new(&all);
+        let one = WideNode::new(&[held()]).get(0);
+        let found = [
+            with_widest(Bounded(&node, &one)),
+            Bounded(&node, &one).run(Plain),
+        ];
+        for lane in 0..all.len() {
+            let exact = hull_distance(&corners(&node.get(lane)), &corners(&one)).lower();
+            for [coarse, refined] in found {
+                let [coarse, refined] = [coarse, refined].map(|b| f64::from(b[lane]));
+                assert!(refined <= exact.max(0.0) + ROUNDING, "{refined} {exact}");
+                assert!(coarse <= refined);
+                coarse_sum += coarse.max(0.0);
+                refined_sum += refined.max(0.0);
+                exact_sum += exact.max(0.0);
+            }
+        }
+    }
+    let shares = [coarse_sum, refined_sum].map(|sum| sum / exact_sum);
+    assert!(
+        shares[0] > 0.8 && shares[1] > shares[0] + 0.02,
+        "{shares:?}"
+    );
 }

@@ -258,7 +258,10 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
         let point = other.corner(corner);
         let foot = point - polygon.normal * polygon.height(&point);
         let vertex = if corner < other.corners { corner } else { 0 };
-        ([foot, point], [Feature::face(0), Feature::vertex(vertex as u32)])
+        (
+            [foot, point],
+            [Feature::face(0), Feature::vertex(vertex as u32)],
+        )
     };
     let (points, features) = match nearest {
         Nearest::FirstCorner(corner) => {
@@ -546,7 +549,7 @@ fn unit(x: F64x4) -> F64x4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{Work, with_widest};
+    use crate::lanes::{Instructions, Plain, Work, with_widest};
 
     struct Measure<'a>(Outline<'a>, Outline<'a>);
 
@@ -554,7 +557,7 @@ mod tests {
         type Output = PolygonDistance;
 
         #[inline(always)]
-        fn run(self) -> PolygonDistance {
+        fn run<I: Instructions>(self, _: I) -> PolygonDistance {
             polygon_distance(&self.0, &self.1, f64::INFINITY, 4.0)
         }
     }
@@ -590,7 +593,7 @@ mod tests {
                 outline(Vec::leak(vec![a]), normal_a),
                 outline(Vec::leak(vec![b]), normal_b),
             );
-            let plain = Measure(a, b).run();
+            let plain = Measure(a, b).run(Plain);
             assert_eq!(plain, with_widest(Measure(a, b)), "step {step}");
             distances.push(plain);
         }

@@ -3,7 +3,7 @@
 use super::SObject;
 use crate::body::Body;
 use crate::hierarchy::{BOX, BoxTree, Extent, OrientedBox, PackedBox, power_of_two};
-use crate::lanes::{Work, each3, with_widest};
+use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
 use crate::pose::{Mat3, Pose, Vec3};
 use crate::tolerance;
@@ -185,7 +185,7 @@ impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
     type Output = ();
 
     #[inline(always)]
-    fn run(mut self) {
+    fn run<I: Instructions>(mut self, lanes: I) {
         self.open.clear();
         self.open.push((f32::NEG_INFINITY, 0));
         while let Some((bound, child)) = self.open.pop() {
@@ -198,13 +198,14 @@ impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
                 continue;
             }
             let node = &self.tree.nodes[child as usize];
-            let bounds = bounds(&node.boxes(self.unit), &self.one);
+            let eight = node.boxes(lanes, self.unit);
+            let bounds = lanes.array(bounds(lanes, &eight, &self.one, false));
             let (first, cutoff) = (self.open.len(), self.cutoff());
-            for lane in 0..node.count as usize {
-                let bound = bounds.0[lane];
+            let children = node.children.into_iter().zip(bounds);
+            for (child, bound) in children.take(node.count as usize) {
                 if bound <= cutoff {
                     let mut place = self.open.len();
-                    self.open.push((bound, node.children[lane]));
+                    self.open.push((bound, child));
                     // The nearest goes on top.
                     while place > first && self.open[place - 1].0 < bound {
                         self.open.swap(place - 1, place);

@@ -11,12 +11,24 @@ use crate::primitive::Convex;
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
 pub struct Unit(u32);
 
 /// Marks leaves, among units and children.
 const LEAF: u32 = 1 << 31;
 
 impl Unit {
+    /// As a number, for lanes of them.
+    #[inline(always)]
+    pub fn number(self) -> u32 {
+        self.0
+    }
+
+    #[inline(always)]
+    pub fn from_number(number: u32) -> Self {
+        Self(number)
+    }
+
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
         self.0 & LEAF != 0
@@ -33,6 +45,13 @@ impl Unit {
     fn above(self) -> usize {
         ((self.0 & !LEAF) >> 3) as usize
     }
+}
+
+/// The units below a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Children {
+    pub units: [Unit; 8],
+    pub count: usize,
 }
 
 /// Lengths are in units of `scale`, a power of two about as large as the body, so that they fit single precision.
@@ -159,6 +178,20 @@ impl PackedTree {
     pub fn child(&self, index: usize, lane: usize) -> Unit {
         let leaf = self.nodes[index].children[lane] & LEAF;
         Unit((index as u32) << 3 | lane as u32 | leaf)
+    }
+
+    /// The children of a node, as [`PackedTree::child`].
+    #[inline(always)]
+    pub fn children(&self, index: usize) -> Children {
+        let node = &self.nodes[index];
+        let mut units = [Unit(0); 8];
+        for ((lane, unit), child) in units.iter_mut().enumerate().zip(&node.children) {
+            *unit = Unit((child & LEAF) | (index as u32) << 3 | lane as u32);
+        }
+        Children {
+            units,
+            count: node.count as usize,
+        }
     }
 
     /// The place of a leaf's primitive among the packed ones.

@@ -4,7 +4,7 @@
 
 use super::oriented_box::span;
 use super::packed_box::PackedBox;
-use crate::lanes::{F32x8, Points32, each3};
+use crate::lanes::{Instructions, Triple, each3};
 use crate::pose::{Mat3, Vec3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
@@ -51,10 +51,10 @@ pub struct Held {
 }
 
 /// Eight boxes in single precision.
-pub struct EightBoxes {
-    pub axes: [Points32; 3],
-    pub center: Points32,
-    pub half: Points32,
+pub struct EightBoxes<I: Instructions> {
+    pub axes: [Triple<I>; 3],
+    pub center: Triple<I>,
+    pub half: Triple<I>,
 }
 
 impl WideNode {
@@ -206,39 +206,30 @@ impl WideNode {
         }
     }
 
-    /// All of the boxes, bit for bit as one at a time; in units that are `unit` of the tree's, a power of two.
+    /// All of the boxes, bit for bit as one at a time but for their centres; in units that are `unit` of the tree's, a
+    /// power of two.
     #[inline(always)]
-    pub fn boxes(&self, unit: f32) -> EightBoxes {
-        let axis = |i: usize| each3(|k| signed(&self.axes[i][k]) * AXIS_STEP);
-        let (a, b) = (axis(0), axis(1));
-        let c = [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ];
-        let step = self.step * unit;
+    pub fn boxes<I: Instructions>(&self, lanes: I, unit: f32) -> EightBoxes<I> {
+        let axis_step = lanes.splat(AXIS_STEP);
+        let step = lanes.splat(self.step * unit);
+        let axis = |numbers| lanes.mul(lanes.signed(numbers), axis_step);
+        let ([ax, ay, az], [bx, by, bz]) = (&self.axes[0], &self.axes[1]);
+        let a = [axis(ax), axis(ay), axis(az)];
+        let b = [axis(bx), axis(by), axis(bz)];
+        let [x, y, z] = &self.center;
+        let place = |numbers, origin: f32| {
+            lanes.mul_add(lanes.signed(numbers), step, lanes.splat(origin * unit))
+        };
+        let [i, j, k] = &self.half;
+        let half = |numbers| lanes.mul(lanes.unsigned(numbers), step);
         EightBoxes {
-            axes: [a, b, c],
-            center: each3(|k| signed(&self.center[k]) * step + F32x8::splat(self.origin[k] * unit)),
-            half: each3(|i| unsigned(&self.half[i]) * step),
+            axes: [a, b, lanes.cross(&a, &b)],
+            center: [
+                place(x, self.origin[0]),
+                place(y, self.origin[1]),
+                place(z, self.origin[2]),
+            ],
+            half: [half(i), half(j), half(k)],
         }
     }
-}
-
-#[inline(always)]
-fn signed(numbers: &[i16; 8]) -> F32x8 {
-    let mut result = F32x8::splat(0.0);
-    for (number, raw) in result.0.iter_mut().zip(numbers) {
-        *number = i32::from(*raw) as f32;
-    }
-    result
-}
-
-#[inline(always)]
-fn unsigned(numbers: &[u16; 8]) -> F32x8 {
-    let mut result = F32x8::splat(0.0);
-    for (number, raw) in result.0.iter_mut().zip(numbers) {
-        *number = i32::from(*raw) as f32;
-    }
-    result
 }

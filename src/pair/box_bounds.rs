@@ -2,25 +2,27 @@
 //!
 //! For a direction n, two sets are apart by at least |n . (c - c')| less what each reaches from its centre c, c' along n.
 //! Along the three axes of one box such gaps are the sides of a box between the sets, whose diagonal bounds the distance;
-//! the larger of the two diagonals counts.
+//! the larger of the two diagonals counts. It bounds the gap along its own direction too, by the sum of what the reaches
+//! along the axes make of it; refined, that gap is measured. Along n = sum of d_i axis_i the box of these axes reaches
+//! sum |d_i| half_i, the other's sum |n . axis_j| half_j.
 //!
 //! Axes: with those of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
 //! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the half sides say what a box reaches, along
 //! others the sum of what the sides do (see `PackedBox`), so each gap holds as it is. The diagonal of three may be too long
-//! by the root of 1 + e, for which [`UPRIGHT`] shortens it.
+//! by the root of 1 + e, for which [`UPRIGHT`] shortens it, and so may n.
 //!
 //! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most
-//! the radius of its body, so that the three of a box add up to at most 3 S. Axes, centres and half sides are what the
-//! boxes hold their points by; the motion's rotation and translation are within u of what they stand for in each component.
+//! the radius of its body, so that the three of a box add up to at most 3 S. Axes and half sides are what the boxes hold their
+//! points by, and centres to within u S; the motion's rotation and translation are within u of what they stand for in each component.
 //! Brought into the other frame, a centre takes three products and three sums: with the rounding of the motion, it is within
 //! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within
 //! 24 u S. An axis brought over is within 5 u in each component, its product with another within 13 u, so that the reach of
 //! a box is within 39 u S for those and 7 u S for the sum. A gap is thus within 70 u S, a diagonal within sqrt(3) times
-//! that. In all less than 140 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
+//! that; refined, within 42 u S for the centre and 3 S times 25 u for the reach, less than 125 u S. In all less than 140 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
 //! into a frame is within 6 u of unit length, its gap within 100 u S by the same count.
 
 use crate::hierarchy::{EightBoxes, PackedBox};
-use crate::lanes::{F32x8, Points32, along32, dot32, each3};
+use crate::lanes::{Instructions, Lanes8, Triple, each3};
 
 /// The rounding of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
@@ -58,66 +60,155 @@ impl Motion32 {
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do
-/// as a number below 0.
-// Indices are those of the axes in the formulas.
-#[allow(clippy::needless_range_loop)]
+/// as a number below 0. With `refined` they are sharper where boxes are apart.
 #[inline(always)]
-pub fn bounds(eight: &EightBoxes, one: &PackedBox) -> F32x8 {
-    let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k]);
-    let halves = &eight.half;
-    // The reach of the one along the axes of the eight, and of the eight along those of the one.
-    let mut reaches = [F32x8::splat(0.0); 3];
-    let mut square = F32x8::splat(0.0);
-    let mut deepest = F32x8::splat(f32::NEG_INFINITY);
+pub fn bounds<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+    refined: bool,
+) -> Lanes8<I> {
+    let apart = apart(lanes, eight, one);
+    let half = splat(lanes, &one.half);
+    // The products of the axes of the eight with those of the one.
+    let [x, y, z] = &one.axes;
+    let [a, b, c] = &eight.axes;
+    let [ax, ay, az] = [lanes.along(a, x), lanes.along(a, y), lanes.along(a, z)];
+    let [bx, by, bz] = [lanes.along(b, x), lanes.along(b, y), lanes.along(b, z)];
+    let [cx, cy, cz] = [lanes.along(c, x), lanes.along(c, y), lanes.along(c, z)];
+    let along = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]];
+    let places = [
+        lanes.dot(a, &apart),
+        lanes.dot(b, &apart),
+        lanes.dot(c, &apart),
+    ];
+    let first = gaps(lanes, &places, &eight.half, &half, &along, refined);
+    let along = [[ax, bx, cx], [ay, by, cy], [az, bz, cz]];
+    let places = [
+        lanes.along(&apart, x),
+        lanes.along(&apart, y),
+        lanes.along(&apart, z),
+    ];
+    let second = gaps(lanes, &places, &half, &eight.half, &along, refined);
+    // Where no gap is above 0 the others are 0.
+    let apart = lanes.max(first.apart, second.apart);
+    let deepest = lanes.max(first.deepest, second.deepest);
+    let depth = lanes.min(deepest, lanes.splat(0.0));
+    lanes.mul_add(apart, lanes.splat(UPRIGHT), depth)
+}
+
+struct Gaps<I: Instructions> {
+    /// The largest of the gaps along the axes of a box.
+    deepest: Lanes8<I>,
+    /// The gap along the diagonal of those that are above 0, or less.
+    apart: Lanes8<I>,
+}
+
+/// The gaps along the axes of a box, given where the other is along them, and the products of the axes.
+#[inline(always)]
+fn gaps<I: Instructions>(
+    lanes: I,
+    places: &Triple<I>,
+    half: &Triple<I>,
+    other_half: &Triple<I>,
+    along: &[Triple<I>; 3],
+    refined: bool,
+) -> Gaps<I> {
+    let mut deepest = lanes.splat(f32::NEG_INFINITY);
+    let mut beyond = *places;
+    let mut square = lanes.splat(0.0);
+    let mut own = lanes.splat(0.0);
     for i in 0..3 {
-        let axis = &eight.axes[i];
-        let mut reach = halves[i];
-        for j in 0..3 {
-            let along = along32(axis, &one.axes[j]).abs();
-            reach = reach + along * one.half[j];
-            reaches[j] = reaches[j] + along * halves[i];
+        let reach = reach(lanes, &along[i], other_half, half[i]);
+        let distance = lanes.abs(places[i]);
+        deepest = lanes.max(deepest, lanes.sub(distance, reach));
+        let below = lanes.sub(lanes.splat(0.0), reach);
+        let within = lanes.max(lanes.min(places[i], reach), below);
+        beyond[i] = lanes.sub(places[i], within);
+        square = lanes.mul_add(beyond[i], beyond[i], square);
+        if refined {
+            let outside = lanes.sub(distance, half[i]);
+            own = lanes.mul_add(outside, lanes.abs(beyond[i]), own);
         }
-        let gap = dot32(axis, &apart).abs() - reach;
-        deepest = deepest.max(gap);
-        let gap = gap.max(F32x8::splat(0.0));
-        square = square + gap * gap;
     }
-    let mut other = F32x8::splat(0.0);
-    for j in 0..3 {
-        let gap = along32(&apart, &one.axes[j]).abs() - reaches[j] - F32x8::splat(one.half[j]);
-        deepest = deepest.max(gap);
-        let gap = gap.max(F32x8::splat(0.0));
-        other = other + gap * gap;
+    let diagonal = lanes.sqrt(square);
+    if !refined {
+        return Gaps {
+            deepest,
+            apart: diagonal,
+        };
     }
-    // Where no gap is above 0 the diagonal is 0.
-    let diagonal = square.max(other).sqrt() * UPRIGHT;
-    diagonal + deepest.min(F32x8::splat(0.0))
+    let [a, b, c] = along;
+    let across = [
+        lanes.dot(&beyond, &[a[0], b[0], c[0]]),
+        lanes.dot(&beyond, &[a[1], b[1], c[1]]),
+        lanes.dot(&beyond, &[a[2], b[2], c[2]]),
+    ];
+    let reach = reach(lanes, &across, other_half, lanes.splat(0.0));
+    let refined = lanes.div(lanes.sub(own, reach), diagonal);
+    Gaps {
+        deepest,
+        // Not a number where the diagonal is 0.
+        apart: lanes.max(refined, diagonal),
+    }
 }
 
 /// Lower bounds of the same distances along a unit vector from the eight to the one; negative where they may overlap.
-// Indices are those of the axes in the formulas.
-#[allow(clippy::needless_range_loop)]
 #[inline(always)]
-pub fn gaps_along(eight: &EightBoxes, one: &PackedBox, direction: &[f32; 3]) -> F32x8 {
-    let apart: Points32 = each3(|k| F32x8::splat(one.center[k]) - eight.center[k]);
-    let mut reach = F32x8::splat(0.0);
-    let mut across = 0.0;
-    for i in 0..3 {
-        reach = reach + along32(&eight.axes[i], direction).abs() * eight.half[i];
-        across += dot(&one.axes[i], direction).abs() * one.half[i];
-    }
-    along32(&apart, direction) - reach - F32x8::splat(across)
+pub fn gaps_along<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+    direction: &[f32; 3],
+) -> Lanes8<I> {
+    let [a, b, c] = &eight.axes;
+    let along = [
+        lanes.along(a, direction),
+        lanes.along(b, direction),
+        lanes.along(c, direction),
+    ];
+    let across = lanes.splat(reach_of(one, direction));
+    let place = lanes.along(&apart(lanes, eight, one), direction);
+    lanes.sub(place, reach(lanes, &along, &eight.half, across))
+}
+
+/// From the centres of the eight to that of the one.
+#[inline(always)]
+fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Triple<I> {
+    let [x, y, z] = splat(lanes, &one.center);
+    let [a, b, c] = eight.center;
+    [lanes.sub(x, a), lanes.sub(y, b), lanes.sub(z, c)]
+}
+
+/// What boxes reach along a direction, given its products with their axes, beyond what is given.
+#[inline(always)]
+fn reach<I: Instructions>(
+    lanes: I,
+    along: &Triple<I>,
+    half: &Triple<I>,
+    beyond: Lanes8<I>,
+) -> Lanes8<I> {
+    let first = lanes.mul_add(lanes.abs(along[0]), half[0], beyond);
+    let second = lanes.mul_add(lanes.abs(along[1]), half[1], first);
+    lanes.mul_add(lanes.abs(along[2]), half[2], second)
+}
+
+#[inline(always)]
+fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
+    [lanes.splat(v[0]), lanes.splat(v[1]), lanes.splat(v[2])]
 }
 
 /// How far apart two boxes are along a unit vector from the first to the second, at least; negative where they may meet.
 #[inline(always)]
 pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &[f32; 3]) -> f32 {
-    let reach = |given: &PackedBox| {
-        let [x, y, z] = each3(|i| dot(&given.axes[i], direction).abs() * given.half[i]);
-        x + y + z
-    };
     let apart = each3(|k| second.center[k] - first.center[k]);
-    dot(&apart, direction) - reach(first) - reach(second)
+    dot(&apart, direction) - reach_of(first, direction) - reach_of(second, direction)
+}
+
+#[inline(always)]
+fn reach_of(given: &PackedBox, direction: &[f32; 3]) -> f32 {
+    let [x, y, z] = each3(|i| dot(&given.axes[i], direction).abs() * given.half[i]);
+    x + y + z
 }
 
 #[inline(always)]

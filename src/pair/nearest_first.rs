@@ -1,7 +1,7 @@
-//! The pairs that wait to be visited, nearest on top.
+//! The pairs that wait to be visited, of those found together the nearest on top.
 
-use crate::hierarchy::Unit;
-use crate::lanes::F32x8;
+use crate::hierarchy::{Children, Unit};
+use crate::lanes::{Instructions, Lanes8};
 
 /// A pair of units, with the bound of its distance in units of the pair.
 #[derive(Clone, Copy)]
@@ -11,31 +11,107 @@ pub struct Entry {
     pub b: Unit,
 }
 
-/// Puts those of up to eight pairs on the stack whose bound is at most the cutoff, the nearest on top.
-#[inline(always)]
-pub fn push_nearest_last(
-    stack: &mut Vec<Entry>,
-    bounds: &F32x8,
-    count: usize,
-    cutoff: f32,
-    pair: impl Fn(usize) -> [Unit; 2],
-) {
-    let mut kept = 0u32;
-    for lane in 0..8 {
-        kept |= u32::from(bounds.0[lane] <= cutoff) << lane;
+impl Entry {
+    #[inline(always)]
+    pub fn is_of_leaves(&self) -> bool {
+        self.a.is_leaf() && self.b.is_leaf()
     }
-    kept &= (1 << count) - 1;
-    let first = stack.len();
-    while kept != 0 {
-        let lane = kept.trailing_zeros() as usize;
-        kept &= kept - 1;
-        let bound = bounds.0[lane & 7];
-        let [a, b] = pair(lane);
-        let mut place = stack.len();
-        stack.push(Entry { bound, a, b });
-        while place > first && stack[place - 1].bound < bound {
-            stack.swap(place - 1, place);
-            place -= 1;
+}
+
+/// A stack of pairs.
+#[derive(Default)]
+pub struct Waiting {
+    bounds: Vec<f32>,
+    units: [Vec<Unit>; 2],
+    count: usize,
+}
+
+impl Waiting {
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    pub fn push(&mut self, entry: &Entry) {
+        if self.count == self.bounds.len() {
+            self.grow();
         }
+        self.bounds[self.count] = entry.bound;
+        self.units[0][self.count] = entry.a;
+        self.units[1][self.count] = entry.b;
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    pub fn top(&self) -> Option<Entry> {
+        let top = self.count.checked_sub(1)?;
+        Some(Entry {
+            bound: self.bounds[top],
+            a: self.units[0][top],
+            b: self.units[1][top],
+        })
+    }
+
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<Entry> {
+        let top = self.top()?;
+        self.count -= 1;
+        Some(top)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn grow(&mut self) {
+        let size = (2 * self.bounds.len()).max(256);
+        self.bounds.resize(size, 0.0);
+        for units in &mut self.units {
+            units.resize(size, Unit::from_number(0));
+        }
+    }
+
+    /// Takes those of up to eight pairs whose bound is at most the cutoff: the children of a node of body `opened`, each
+    /// with a unit of the other. Several are moved at once, as a loop would end where no processor expects it.
+    #[inline(always)]
+    pub fn push_nearest_last<I: Instructions>(
+        &mut self,
+        lanes: I,
+        bounds: Lanes8<I>,
+        cutoff: f32,
+        opened: usize,
+        children: &Children,
+        other: Unit,
+    ) {
+        let kept = lanes.at_most(bounds, cutoff) & ((1 << children.count) - 1);
+        if kept == 0 {
+            return;
+        }
+        if self.count + 8 >= self.bounds.len() {
+            self.grow();
+        }
+        let place = self.count;
+        let [units_a, units_b] = &mut self.units;
+        let (with_child, with_other) = if opened == 0 {
+            (units_a, units_b)
+        } else {
+            (units_b, units_a)
+        };
+        let array = lanes.array(bounds);
+        let mut nearest = kept.trailing_zeros() as usize & 7;
+        let mut last = place;
+        if kept & (kept - 1) != 0 {
+            let near = lanes.only(bounds, kept);
+            let least = lanes.least(near);
+            nearest = lanes.at_most(near, least).trailing_zeros() as usize & 7;
+            let others = kept & !(1 << nearest);
+            last += others.count_ones() as usize;
+            let bounds = lanes.gathered(&array.map(f32::to_bits), others);
+            let numbers = lanes.gathered(&children.units.map(Unit::number), others);
+            self.bounds[place..place + 8].copy_from_slice(&bounds.map(f32::from_bits));
+            with_child[place..place + 8].copy_from_slice(&numbers.map(Unit::from_number));
+            with_other[place..place + 8].fill(other);
+        }
+        self.bounds[last] = array[nearest];
+        with_child[last] = children.units[nearest];
+        with_other[last] = other;
+        self.count = last + 1;
     }
 }

@@ -4,8 +4,9 @@ use super::hit::Hit;
 use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MOST_CORNERS, Nearest, Outline, Penetration, Placed, PlacedBuffer, PolygonDistance,
-    Precision, closest_points, contacts, moved, penetration, polygon_closest, polygon_distance,
+    Closest, Contact, DistanceScratch, MOST_CORNERS, Nearest, Outline, Penetration, Placed,
+    PlacedBuffer, PolygonDistance, Precision, closest_points, contacts, moved, penetration,
+    polygon_closest, polygon_distance,
 };
 use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Points64};

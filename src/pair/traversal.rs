@@ -5,14 +5,17 @@ use std::ops::ControlFlow;
 
 use super::box_bounds::{self, Motion32, ROUNDING};
 use super::hit::{Hit, HitKey};
-use super::nearest_first::{Entry, push_nearest_last};
+use super::nearest_first::{Entry, Waiting};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
-use crate::lanes::{Work, each3, with_widest};
+use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::{Pose, Vec3};
 
 /// What a query wants from the walk.
 pub trait Visitor {
+    /// Whether sharper bounds are worth their price: where distances are compared with a bound that is about as large.
+    const REFINES: bool;
+
     /// Pairs that are farther apart than this are skipped; those at exactly this distance are not.
     fn bound(&self) -> f64;
 
@@ -65,7 +68,7 @@ pub struct Statistics {
 
 /// Memory of the walk, reused from query to query.
 pub struct Scratch {
-    stack: Vec<Entry>,
+    stack: Waiting,
     buffer: MovedOutline,
     state: State,
 }
@@ -73,7 +76,7 @@ pub struct Scratch {
 impl Default for Scratch {
     fn default() -> Self {
         Self {
-            stack: Vec::new(),
+            stack: Waiting::default(),
             buffer: EMPTY,
             state: State::default(),
         }
@@ -174,9 +177,11 @@ struct Walk<'a, V> {
     /// What the codes of sizes in B are above those in A.
     size_offset: i32,
     inverse_scale: f64,
+    /// In which the bodies were last seen nearest, from A in its frame and from B in its: unit vectors, or zero.
+    directions: [[f32; 3]; 2],
     /// Bounds are lowered by this.
     slack: f64,
-    stack: &'a mut Vec<Entry>,
+    stack: &'a mut Waiting,
     buffer: &'a mut MovedOutline,
     state: &'a mut State,
     visitor: &'a mut V,
@@ -186,21 +191,22 @@ impl<V: Visitor> Work for Walk<'_, V> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]
-    fn run(mut self) -> ControlFlow<()> {
+    fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
         self.aim_at_centers();
+        self.turn_direction();
         let [a, b] = self.trees.map(PackedTree::root);
         let bound = f32::NEG_INFINITY;
-        self.stack.push(Entry { bound, a, b });
-        while let Some(Entry { bound, a, b }) = self.stack.pop() {
+        self.stack.push(&Entry { bound, a, b });
+        while let Some(entry) = self.stack.pop() {
             let cutoff = self.cutoff();
-            if bound > cutoff || self.is_settled(a, b) {
+            if !self.matters(&entry, cutoff) {
                 continue;
             }
-            if a.is_leaf() && b.is_leaf() {
-                self.visit_leaves(a, b)?;
-            } else {
-                self.open(a, b, cutoff);
+            if entry.is_of_leaves() {
+                self.visit_leaves(entry.a, entry.b)?;
+                continue;
             }
+            self.open(lanes, &entry, cutoff);
         }
         ControlFlow::Continue(())
     }
@@ -210,7 +216,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
     fn new(
         pairing: &'a Pairing<'a>,
         state: &'a mut State,
-        stack: &'a mut Vec<Entry>,
+        stack: &'a mut Waiting,
         buffer: &'a mut MovedOutline,
         visitor: &'a mut V,
     ) -> Self {
@@ -234,6 +240,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             ],
             size_offset: SIZE_STEPS * (exponents[1] - exponents[0]),
             inverse_scale,
+            directions: [[0.0; 3]; 2],
             slack: pairing.slack() + ROUNDING * size,
             pairing,
             trees,
@@ -285,19 +292,17 @@ impl<'a, V: Visitor> Walk<'a, V> {
         }
     }
 
-    /// The direction in which the bodies were last seen nearest, from one of them, in its frame.
+    /// Takes up a new direction.
     #[inline(always)]
-    fn direction_from(&self, body: usize) -> [f32; 3] {
+    fn turn_direction(&mut self) {
         let direction = each3(|k| self.state.direction[k] as f32);
-        match body {
-            0 => each3(|k| -direction[k]),
-            _ => self.motions[1].turn(&direction),
-        }
+        self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
     }
 
     /// Opens the larger of two units, or the one that is no leaf.
     #[inline(always)]
-    fn open(&mut self, a: Unit, b: Unit, cutoff: f32) {
+    fn open<I: Instructions>(&mut self, lanes: I, entry: &Entry, cutoff: f32) {
+        let Entry { a, b, .. } = *entry;
         let [size_a, size_b] = [
             self.trees[0].size_code(a),
             self.trees[1].size_code(b) + self.size_offset,
@@ -314,24 +319,23 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let other_tree = self.trees[1 - opened];
         let index = tree.index(unit);
         let node = tree.node(index);
-        let motion = &self.motions[opened];
-        let one = motion.apply(&other_tree.bounding_box(other));
-        let eight = node.boxes(self.unit(opened));
-        let mut bounds = box_bounds::bounds(&eight, &one);
+        let one = self.motions[opened].apply(&other_tree.bounding_box(other));
+        let eight = node.boxes(lanes, self.unit(opened));
+        let mut bounds = box_bounds::bounds(lanes, &eight, &one, V::REFINES);
         if self.state.direction != Vec3::zeros() {
-            let direction = self.direction_from(opened);
-            bounds = bounds.max(box_bounds::gaps_along(&eight, &one, &direction));
+            let direction = &self.directions[opened];
+            let gaps = box_bounds::gaps_along(lanes, &eight, &one, direction);
+            bounds = lanes.max(bounds, gaps);
         }
-        let count = node.count as usize;
-        push_nearest_last(self.stack, &bounds, count, cutoff, |lane| {
-            let child = tree.child(index, lane);
-            if opened == 0 {
-                [child, other]
-            } else {
-                [other, child]
-            }
-        });
-        self.state.statistics.node_pairs += count as u64;
+        let children = tree.children(index);
+        self.state.statistics.node_pairs += children.count as u64;
+        self.stack
+            .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);
+    }
+
+    #[inline(always)]
+    fn matters(&self, entry: &Entry, cutoff: f32) -> bool {
+        entry.bound <= cutoff && !self.is_settled(entry.a, entry.b)
     }
 
     #[inline(always)]
@@ -359,6 +363,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             let across = outlines.as_ref().zip(apart.nearest);
             let across = across.map(|((a, b), nearest)| nearest.across(a, b));
             self.state.aim(self.pairing, &met, across);
+            self.turn_direction();
         }
         self.visitor.visit(&met)
     }

@@ -40,6 +40,8 @@ impl Nearest {
 }
 
 impl Visitor for Nearest {
+    const REFINES: bool = true;
+
     fn bound(&self) -> f64 {
         self.limit + self.margin
     }
@@ -81,6 +83,8 @@ pub struct Within {
 }
 
 impl Visitor for Within {
+    const REFINES: bool = false;
+
     fn bound(&self) -> f64 {
         self.threshold + self.margin
     }
@@ -140,6 +144,8 @@ impl Collect {
 }
 
 impl Visitor for Collect {
+    const REFINES: bool = true;
+
     fn bound(&self) -> f64 {
         self.threshold + self.margin
     }

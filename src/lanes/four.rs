@@ -1,0 +1,149 @@
+//! Four numbers in double precision: plain arrays, which the compiler turns into vector instructions.
+//!
+//! No operation fuses a product and a sum, so that every instruction set gives the same bits.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::each3;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct F64x4(pub [f64; 4]);
+
+impl F64x4 {
+    #[inline(always)]
+    pub fn splat(value: f64) -> Self {
+        Self([value; 4])
+    }
+
+    #[inline(always)]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut result = self;
+        for lane in 0..4 {
+            result.0[lane] = f(self.0[lane]);
+        }
+        result
+    }
+
+    #[inline(always)]
+    pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut result = self;
+        for lane in 0..4 {
+            result.0[lane] = f(self.0[lane], other.0[lane]);
+        }
+        result
+    }
+
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    /// Lane by lane the lesser; the second where either is not a number.
+    #[inline(always)]
+    pub fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    /// Lane by lane the greater; the second where either is not a number.
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    pub fn least(self) -> f64 {
+        let mut rest = self;
+        let mut count = 4;
+        while count > 1 {
+            count /= 2;
+            for lane in 0..count {
+                let (a, b) = (rest.0[lane], rest.0[lane + count]);
+                rest.0[lane] = if a < b { a } else { b };
+            }
+        }
+        rest.0[0]
+    }
+
+    #[inline(always)]
+    pub fn greatest(self) -> f64 {
+        -(-self).least()
+    }
+}
+
+impl Add for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl Sub for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl Mul for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Neg for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|a| -a)
+    }
+}
+
+impl Mul<f64> for F64x4 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        self.map(|a| a * factor)
+    }
+}
+
+/// Points or vectors, coordinates apart.
+pub type Points64 = [F64x4; 3];
+
+#[inline(always)]
+pub fn dot64(a: &Points64, b: &Points64) -> F64x4 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub fn along64(points: &Points64, direction: &[f64; 3]) -> F64x4 {
+    points[0] * direction[0] + points[1] * direction[1] + points[2] * direction[2]
+}
+
+#[inline(always)]
+pub fn cross64(a: &Points64, b: &Points64) -> Points64 {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[inline(always)]
+pub fn sub64(a: &Points64, b: &Points64) -> Points64 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+pub fn splat64(point: &[f64; 3]) -> Points64 {
+    each3(|k| F64x4::splat(point[k]))
+}

@@ -1,0 +1,41 @@
+//! Several numbers at once, and the choice between instruction sets at run time.
+
+mod eight;
+mod four;
+
+pub use eight::{Instructions, Lanes8, Plain, Triple};
+pub use four::{F64x4, Points64, along64, cross64, dot64, splat64, sub64};
+
+#[cfg(target_arch = "x86_64")]
+use eight::Avx2;
+
+/// Work that is compiled for several instruction sets. `run` and all it calls in its loops are to be inlined: closures that
+/// are called from several places may not be.
+pub trait Work {
+    type Output;
+
+    fn run<I: Instructions>(self, instructions: I) -> Self::Output;
+}
+
+/// Runs work with the widest instructions this processor has.
+#[inline]
+pub fn with_widest<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2,fma")]
+        fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
+            work.run(avx2)
+        }
+        if let Some(avx2) = Avx2::detected() {
+            // SAFETY: the processor was just found to have both.
+            return unsafe { with_avx2(work, avx2) };
+        }
+    }
+    work.run(Plain)
+}
+
+/// Something for each of the three axes. As `array::map`, which is not always inlined.
+#[inline(always)]
+pub fn each3<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
