@@ -293,7 +293,7 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
     }
     let shares = [coarse_sum, refined_sum].map(|sum| sum / exact_sum);
     assert!(
-        shares[0] > 0.8 && shares[1] > shares[0] + 0.02,
+        shares[0] > 0.95 && shares[1] > shares[0] + 0.01,
         "{shares:?}"
     );
 }

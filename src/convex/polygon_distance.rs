@@ -304,7 +304,7 @@ fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Near
     }
     let NearestEdges { squares, pairs } = nearest_edges(a, b, sides, size);
     let by_edges = (squares.least().sqrt(), Nearest::Edges { squares, pairs });
-    if sides[0].gap < rounding && sides[1].gap < rounding {
+    if sides.iter().any(|side| side.gap.abs() < rounding) {
         nearest_corner(a, b, by_edges)
     } else {
         by_edges

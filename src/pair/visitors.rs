@@ -37,6 +37,11 @@ impl Nearest {
             limit,
         }
     }
+
+    /// Pairs that are farther apart than this, less their margin, are of no interest.
+    pub fn limit(&self) -> f64 {
+        self.limit
+    }
 }
 
 impl Visitor for Nearest {
@@ -120,6 +125,11 @@ impl Collect {
             threshold,
             max_count,
         }
+    }
+
+    /// Pairs that are farther apart than this, less their margin, are of no interest.
+    pub fn limit(&self) -> f64 {
+        self.threshold
     }
 
     /// The pairs, nearest first.

@@ -7,7 +7,7 @@ use super::context::QueryContext;
 use super::search::Found;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
-use crate::pair::Hit;
+use crate::pair::{Hit, Pairing};
 
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
@@ -105,20 +105,15 @@ impl QueryContext {
             return Ok(Distance::empty(scene.version));
         }
         let found = self.nearest(candidates, max_distance);
-        let errors = candidates.iter().map(|c| c.target.pairing.precision.error);
-        let error = errors.fold(0.0, f64::max);
         Ok(Distance::from_found(
             &found,
             max_distance,
-            error,
             scene.version,
             |hit| {
                 let candidate = by_rank(candidates)[hit.key.pair as usize];
-                (
-                    witness(candidate, hit),
-                    &candidate.target.pairing,
-                    candidate.options.margin,
-                )
+                let pairing = candidate.target.pairing();
+                let witness = Witness::of(candidate.r_link, candidate.s_side, &pairing, hit);
+                (witness, pairing, candidate.options.margin)
             },
         ))
     }
@@ -215,9 +210,9 @@ impl QueryContext {
         let ranked = by_rank(candidates);
         for hit in &hits {
             let candidate = ranked[hit.key.pair as usize];
-            let contacts =
-                contact_records(&candidate.target.pairing, hit, candidate.options.margin);
-            let mut entry = witness(candidate, hit);
+            let pairing = candidate.target.pairing();
+            let contacts = contact_records(&pairing, hit, candidate.options.margin);
+            let mut entry = Witness::of(candidate.r_link, candidate.s_side, &pairing, hit);
             entry.first_contact = list.contacts.len();
             entry.contact_count = contacts.len();
             entry.overlapping = contacts.is_empty() && hit.apart == 0.0;
@@ -259,15 +254,6 @@ fn by_rank<'a, 'b>(candidates: &'b [Candidate<'a>]) -> Vec<&'b Candidate<'a>> {
     ranked
 }
 
-fn witness(candidate: &Candidate, hit: &Hit) -> Witness {
-    Witness::of(
-        candidate.r_link,
-        candidate.s_side,
-        &candidate.target.pairing,
-        hit,
-    )
-}
-
 impl Distance {
     pub(super) fn empty(version: u64) -> Self {
         Self {
@@ -282,14 +268,14 @@ impl Distance {
         }
     }
 
-    /// The answer to a search up to `max_distance` among pairs whose distances are known to `error`.
+    /// The answer to a search up to `max_distance`.
     pub(super) fn from_found<'a>(
         found: &Found,
         max_distance: f64,
-        error: f64,
         version: u64,
-        describe: impl FnOnce(&Hit) -> (Witness, &'a crate::pair::Pairing<'a>, f64),
+        describe: impl FnOnce(&Hit) -> (Witness, Pairing<'a>, f64),
     ) -> Self {
+        let error = found.error;
         let Some(hit) = &found.hit else {
             return Self {
                 kind: DistanceKind::BeyondMax,
@@ -298,7 +284,7 @@ impl Distance {
             };
         };
         let (mut witness, pairing, margin) = describe(hit);
-        let contact = contact_at_witness(pairing, hit, margin);
+        let contact = contact_at_witness(&pairing, hit, margin);
         witness.contact_count = usize::from(contact.is_some());
         witness.overlapping = contact.is_none() && hit.apart == 0.0;
         Self {

@@ -5,16 +5,12 @@ use super::answer::{
 };
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
-use super::search::Target;
+use super::search::{Placement, Target};
 use crate::body::Body;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};
-use crate::pose::Pose;
 
-/// A body at a pose.
-type Placement<'a> = (&'a Body, &'a Pose);
-
-fn pairing<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Pairing<'a>> {
+fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
     if a.0.dimension() != b.0.dimension() {
         return Err(Error::invalid(format!(
             "the bodies differ in dimension: {} and {}",
@@ -29,17 +25,13 @@ fn pairing<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Pairing<'a>> {
             )));
         }
     }
-    Ok(Pairing::new(a.0, a.1, b.0, b.1))
-}
-
-fn target(pairing: Pairing) -> Target {
-    Target {
-        key: CacheKey::Bodies(pairing.a.serial(), pairing.b.serial()),
+    Ok(Target {
+        sides: [a, b],
+        key: CacheKey::Bodies(a.0.serial(), b.0.serial()),
         rank: 0,
         margin: 0.0,
-        bound: pairing.sphere_bound(),
-        pairing,
-    }
+        bound: f64::NEG_INFINITY,
+    })
 }
 
 impl QueryContext {
@@ -51,25 +43,19 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        let target = target(pairing(a, b)?);
+        let target = target(a, b)?;
         let found = self.nearest(std::slice::from_ref(&target), max_distance);
-        let pairing = &target.pairing;
-        Ok(Distance::from_found(
-            &found,
-            max_distance,
-            pairing.precision.error,
-            0,
-            |hit| {
-                let witness = Witness::of(0, SSide::Object(0), pairing, hit);
-                (witness, pairing, 0.0)
-            },
-        ))
+        Ok(Distance::from_found(&found, max_distance, 0, |hit| {
+            let pairing = target.pairing();
+            let witness = Witness::of(0, SSide::Object(0), &pairing, hit);
+            (witness, pairing, 0.0)
+        }))
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
     pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
-        let target = target(pairing(a, b)?);
+        let target = target(a, b)?;
         Ok(self.any_within(&[target], |_| threshold))
     }
 
@@ -82,8 +68,8 @@ impl QueryContext {
         max_count: usize,
     ) -> Result<WitnessList> {
         check_threshold(epsilon, "epsilon")?;
-        let target = target(pairing(a, b)?);
-        let pairing = &target.pairing;
+        let target = target(a, b)?;
+        let pairing = &target.pairing();
         let (hits, truncated) = self.collect(std::slice::from_ref(&target), epsilon, max_count);
         let mut list = WitnessList {
             truncated,
@@ -110,8 +96,8 @@ impl QueryContext {
         b: Placement,
         max_count: usize,
     ) -> Result<PenetrationList> {
-        let target = target(pairing(a, b)?);
-        let pairing = &target.pairing;
+        let target = target(a, b)?;
+        let pairing = &target.pairing();
         let (hits, _) = self.collect(std::slice::from_ref(&target), 0.0, usize::MAX);
         let mut penetrations: Vec<PrimitivePenetration> = hits
             .iter()

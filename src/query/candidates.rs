@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::answer::SSide;
 use super::context::CacheKey;
-use super::search::Target;
+use super::search::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::{CObject, InducedOptions, SObjects, Term};
 use crate::environment::{Bounds, NearScratch, SObject, Snapshot};
@@ -158,42 +158,56 @@ impl<'a> Scene<'a> {
                 _ => {}
             }
         }
-        let found = near.finish().map(|(r, side, options)| {
-            let (s_side, body, pose) = match side {
-                Side::Link(s) => (SSide::Link(s), self.body(s)?, &self.poses[s]),
-                Side::Object(object) => (SSide::Object(object.id), &*object.body, &object.pose),
-            };
-            let pairing = Pairing::new(self.body(r)?, &self.poses[r], body, pose);
-            Some((r, s_side, pairing, options))
-        });
-        let found = without_repeats(found.flatten().collect());
+        let found = without_repeats(self.placed(near.finish()));
+        let mut order: Vec<(f64, usize)> = found.iter().map(|found| found.bound).zip(0..).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
         let space = self.cobject.space().serial();
-        let mut candidates: Vec<Candidate> = found
-            .into_iter()
-            .enumerate()
-            .map(|(rank, (r_link, s_side, pairing, options))| Candidate {
+        let candidate = |(_, rank): (f64, usize)| {
+            let Found {
+                r_link,
+                s_side,
+                sides,
+                options,
+                bound,
+            } = found[rank];
+            Candidate {
                 r_link,
                 s_side,
                 options,
                 target: Target {
+                    sides,
                     key: CacheKey::Candidate {
                         space,
                         r_link,
                         s_side,
-                        body: pairing.b.serial(),
+                        body: sides[1].0.serial(),
                     },
                     rank: rank as u32,
                     margin: options.margin,
-                    bound: pairing.sphere_bound() - options.margin,
-                    pairing,
+                    bound,
                 },
+            }
+        };
+        Ok(order.into_iter().map(candidate).collect())
+    }
+
+    /// The bodies of pairs.
+    fn placed<'s>(&'s self, pairs: impl Iterator<Item = Offered<'s>>) -> Vec<Found<'s>> {
+        let found = pairs.filter_map(|offered| {
+            let (s_side, body, pose) = match offered.side {
+                Side::Link(s) => (SSide::Link(s), self.body(s)?, &self.poses[s]),
+                Side::Object(object) => (SSide::Object(object.id), &*object.body, &object.pose),
+            };
+            let r_link = offered.r_link;
+            Some(Found {
+                r_link,
+                s_side,
+                sides: [(self.body(r_link)?, &self.poses[r_link]), (body, pose)],
+                options: offered.options,
+                bound: offered.lower,
             })
-            .collect();
-        candidates.sort_by(|a, b| {
-            let (a, b) = (&a.target, &b.target);
-            a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank))
         });
-        Ok(candidates)
+        found.collect()
     }
 
     /// The body pair that a key names, with the options of each term that holds it; empty if none does (any more).
@@ -319,12 +333,20 @@ enum Side<'s> {
     Object(&'s SObject),
 }
 
+/// A body pair of a C-object's term, with a safe lower bound of its distance less the margin.
+struct Offered<'s> {
+    lower: f64,
+    r_link: usize,
+    side: Side<'s>,
+    options: InducedOptions,
+}
+
 /// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
 struct Near<'s> {
     wanted: Wanted,
     /// No pair that is farther than this, less its margin, is nearest.
     nearest: f64,
-    found: Vec<(f64, usize, Side<'s>, InducedOptions)>,
+    found: Vec<Offered<'s>>,
 }
 
 impl<'s> Near<'s> {
@@ -338,8 +360,12 @@ impl<'s> Near<'s> {
     ) -> f64 {
         self.nearest = self.nearest.min(upper - options.margin);
         if lower - options.margin <= self.limit(options) {
-            self.found
-                .push((lower - options.margin, r_link, side, *options));
+            self.found.push(Offered {
+                lower: lower - options.margin,
+                r_link,
+                side,
+                options: *options,
+            });
         }
         self.limit(options) + options.margin
     }
@@ -357,40 +383,47 @@ impl<'s> Near<'s> {
         self.wanted.within.max(contact).max(nearest)
     }
 
-    fn finish(self) -> impl Iterator<Item = (usize, Side<'s>, InducedOptions)> {
-        let limits = self.found.iter().map(|(.., options)| self.limit(options));
-        let limits: Vec<f64> = limits.collect();
-        let found = self.found.into_iter().zip(limits);
-        found
-            .filter(|((lower, ..), limit)| lower <= limit)
-            .map(|((_, r_link, side, options), _)| (r_link, side, options))
+    fn finish(mut self) -> impl Iterator<Item = Offered<'s>> {
+        let found = std::mem::take(&mut self.found);
+        let matters = move |offered: &Offered| offered.lower <= self.limit(&offered.options);
+        found.into_iter().filter(matters)
     }
 }
 
-/// A body pair of a C-object's term.
-type Found<'a> = (usize, SSide, Pairing<'a>, InducedOptions);
+/// The same with its bodies.
+struct Found<'a> {
+    r_link: usize,
+    s_side: SSide,
+    sides: [Placement<'a>; 2],
+    options: InducedOptions,
+    bound: f64,
+}
 
 /// In order of ids, each pair once: where several terms hold a pair in one state, the most that any of them would call
 /// inside (the largest margin), and in contact, remains. An object that an environment and its snapshot hold in two states
 /// stands for two.
 fn without_repeats(mut found: Vec<Found>) -> Vec<Found> {
-    found.sort_by_key(|(r_link, s_side, ..)| (*r_link, *s_side));
+    let ids = |found: &Found| (found.r_link, found.s_side);
+    found.sort_by_key(ids);
+    if found.windows(2).all(|two| ids(&two[0]) != ids(&two[1])) {
+        return found;
+    }
     let mut kept: Vec<Found> = Vec::with_capacity(found.len());
-    for (r_link, s_side, pairing, options) in found {
-        let same_ids = kept
-            .iter_mut()
-            .rev()
-            .take_while(|(r, s, ..)| (*r, *s) == (r_link, s_side));
-        let known = same_ids.into_iter().find(|(_, _, other, _)| {
-            other.relative == pairing.relative && other.b.serial() == pairing.b.serial()
+    for next in found {
+        let same_ids = kept.iter_mut().rev().take_while(|k| ids(k) == ids(&next));
+        let known = same_ids.into_iter().find(|known| {
+            let [(body, pose), (other_body, other_pose)] = [known.sides[1], next.sides[1]];
+            pose == other_pose && body.serial() == other_body.serial()
         });
         match known {
-            None => kept.push((r_link, s_side, pairing, options)),
-            Some((_, _, _, merged)) => {
+            None => kept.push(next),
+            Some(known) => {
                 let reach = |o: &InducedOptions| o.margin + o.contact_epsilon;
-                let farthest = reach(merged).max(reach(&options));
-                merged.margin = merged.margin.max(options.margin);
+                let merged = &mut known.options;
+                let farthest = reach(merged).max(reach(&next.options));
+                merged.margin = merged.margin.max(next.options.margin);
                 merged.contact_epsilon = farthest - merged.margin;
+                known.bound = known.bound.min(next.bound);
             }
         }
     }

@@ -4,11 +4,17 @@ use std::borrow::Borrow;
 
 use super::candidates::Scene;
 use super::context::{CacheKey, QueryContext};
-use crate::pair::{Collect, Hit, Nearest, Pairing, Visitor, Within, traverse, visit_pair};
+use crate::body::Body;
+use crate::pair::{Collect, Hit, Nearest, Pairing, Within, traverse, visit_pair};
+use crate::pose::Pose;
 
-/// One body pair of a search: its geometry, its rank among all pairs, and the margin taken off its distances.
+/// A body at a pose.
+pub type Placement<'a> = (&'a Body, &'a Pose);
+
+/// One body pair of a search, its rank among all pairs, and the margin taken off its distances.
+#[derive(Clone, Copy)]
 pub(super) struct Target<'a> {
-    pub pairing: Pairing<'a>,
+    pub sides: [Placement<'a>; 2],
     pub key: CacheKey,
     pub rank: u32,
     pub margin: f64,
@@ -16,10 +22,29 @@ pub(super) struct Target<'a> {
     pub bound: f64,
 }
 
+impl<'a> Target<'a> {
+    /// The two in one frame: made when it is needed, as most targets turn out to be too far.
+    pub fn pairing(&self) -> Pairing<'a> {
+        let [a, b] = self.sides;
+        Pairing::new(a.0, a.1, b.0, b.1)
+    }
+
+    /// The same, unless the balls around the bodies are more than `limit` apart, less the margin.
+    fn pairing_within(&self, limit: f64) -> Option<Pairing<'a>> {
+        if self.bound > limit {
+            return None;
+        }
+        let pairing = self.pairing();
+        (pairing.sphere_bound() - self.margin <= limit).then_some(pairing)
+    }
+}
+
 /// The nearest primitive pair over all targets, which come sorted by bound, if one is within `limit`.
 pub(super) struct Found {
     pub hit: Option<Hit>,
     pub lower: f64,
+    /// To what the distance is known; without a hit, to what all are.
+    pub error: f64,
 }
 
 impl QueryContext {
@@ -30,27 +55,35 @@ impl QueryContext {
         for target in targets().filter(|_| targets().len() > 1) {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
-            if target.bound + target.margin > visitor.bound() {
+            if target.bound > visitor.limit() {
                 break;
             }
             if let Some(places) = self.remembered(&target.key) {
-                let _ = visit_pair(&target.pairing, places, &mut self.scratch, &mut visitor);
+                let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
             }
         }
         for target in targets() {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
-            if target.bound + target.margin <= visitor.bound() {
+            if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 let first = self.remembered(&target.key);
-                let _ = traverse(&target.pairing, first, &mut self.scratch, &mut visitor);
+                let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }
-        if let Some(hit) = &visitor.best
-            && let Some(target) = targets().find(|target| target.rank == hit.key.pair)
-        {
-            self.remember(target.key, hit.places);
-        }
+        let error = |target: &Target| target.pairing().precision.error;
+        let winner = visitor.best.as_ref().and_then(|hit| {
+            let target = targets().find(|target| target.rank == hit.key.pair)?;
+            Some((target, hit.places))
+        });
+        let error = match winner {
+            Some((target, places)) => {
+                self.remember(target.key, places);
+                error(target)
+            }
+            None => targets().map(error).fold(0.0, f64::max),
+        };
         Found {
+            error,
             lower: visitor.lower,
             hit: visitor.best,
         }
@@ -89,16 +122,16 @@ impl QueryContext {
         for target in first.chain(targets.iter().filter(|target| !is_recent(target))) {
             let threshold = threshold(target);
             let target = target.borrow();
-            if target.bound > threshold {
+            let Some(pairing) = target.pairing_within(threshold) else {
                 continue;
-            }
+            };
             let mut visitor = Within {
                 margin: target.margin,
                 threshold,
                 found: None,
             };
             let first = self.remembered(&target.key);
-            let _ = traverse(&target.pairing, first, &mut self.scratch, &mut visitor);
+            let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             if let Some(places) = visitor.found {
                 self.remember(target.key, places);
                 return true;
@@ -118,8 +151,8 @@ impl QueryContext {
         for target in targets.iter().map(Borrow::borrow) {
             visitor.margin = target.margin;
             visitor.pair = target.rank;
-            if target.bound + target.margin <= visitor.bound() {
-                let _ = traverse(&target.pairing, None, &mut self.scratch, &mut visitor);
+            if let Some(pairing) = target.pairing_within(visitor.limit()) {
+                let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
             }
         }
         visitor.finish()
