@@ -6,6 +6,7 @@ use super::packed_box::{PackedBox, fitted_axes};
 use super::packed_primitives::PackedPrimitives;
 use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
+use crate::lanes::{Instructions, Lanes8};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 
@@ -155,6 +156,12 @@ impl PackedTree {
     #[inline(always)]
     pub fn bounding_box(&self, unit: Unit) -> PackedBox {
         self.nodes[unit.above()].get(unit.lane())
+    }
+
+    /// The same in lanes (see [`WideNode::in_lanes`]).
+    #[inline(always)]
+    pub fn box_in_lanes<I: Instructions>(&self, lanes: I, unit: Unit) -> [Lanes8<I>; 2] {
+        self.nodes[unit.above()].in_lanes(lanes, unit.lane())
     }
 
     /// About the logarithm of a unit's size: `SIZE_STEPS` more for twice the size.

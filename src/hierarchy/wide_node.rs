@@ -4,7 +4,7 @@
 
 use super::oriented_box::span;
 use super::packed_box::PackedBox;
-use crate::lanes::{Instructions, Triple, each3};
+use crate::lanes::{Instructions, Lanes8, Triple, each3};
 use crate::pose::{Mat3, Vec3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
@@ -204,6 +204,44 @@ impl WideNode {
             center: each3(|k| f32::from(self.center[k][lane]) * self.step + self.origin[k]),
             half: each3(|i| f32::from(self.half[i][lane]) * self.step),
         }
+    }
+
+    /// One of the boxes in two times eight lanes: its first two axes, its centre and half sides, each with a lane unused.
+    #[inline(always)]
+    pub fn in_lanes<I: Instructions>(&self, lanes: I, lane: usize) -> [Lanes8<I>; 2] {
+        let lane = lane & 7;
+        let [[ax, ay, az], [bx, by, bz]] = &self.axes;
+        let axis = |numbers: &[i16; 8]| numbers[lane];
+        let axes = [
+            axis(ax),
+            axis(ay),
+            axis(az),
+            0,
+            axis(bx),
+            axis(by),
+            axis(bz),
+            0,
+        ];
+        let [cx, cy, cz] = &self.center;
+        let [hx, hy, hz] = &self.half;
+        let place = |numbers: &[i16; 8]| i32::from(numbers[lane]);
+        let half = |numbers: &[u16; 8]| i32::from(numbers[lane]);
+        let places = [
+            place(cx),
+            place(cy),
+            place(cz),
+            0,
+            half(hx),
+            half(hy),
+            half(hz),
+            0,
+        ];
+        let [ox, oy, oz] = self.origin;
+        let origin = lanes.load(&[ox, oy, oz, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        [
+            lanes.mul(lanes.signed(&axes), lanes.splat(AXIS_STEP)),
+            lanes.mul_add(lanes.whole(&places), lanes.splat(self.step), origin),
+        ]
     }
 
     /// All of the boxes, bit for bit as one at a time but for their centres; in units that are `unit` of the tree's, a

@@ -15,6 +15,8 @@ pub trait Instructions: Copy {
     fn splat(self, value: f32) -> Self::Numbers;
     fn signed(self, values: &[i16; 8]) -> Self::Numbers;
     fn unsigned(self, values: &[u16; 8]) -> Self::Numbers;
+    fn whole(self, values: &[i32; 8]) -> Self::Numbers;
+    fn load(self, values: &[f32; 8]) -> Self::Numbers;
     fn array(self, a: Self::Numbers) -> [f32; 8];
     fn add(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     fn sub(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
@@ -28,6 +30,12 @@ pub trait Instructions: Copy {
     fn min(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     /// Lane by lane the greater; the second where either is not a number.
     fn max(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
+    /// One of each four in the place of all.
+    fn spread<const LANE: i32>(self, a: Self::Numbers) -> Self::Numbers;
+    /// Of each four the first three moved around: the second, the third, the first.
+    fn rolled(self, a: Self::Numbers) -> Self::Numbers;
+    /// The last four, then the first four.
+    fn swapped(self, a: Self::Numbers) -> Self::Numbers;
     /// Which lanes are at most a limit, as bits.
     fn at_most(self, a: Self::Numbers, limit: f32) -> u32;
     /// Numbers with infinity for the lanes that are not in a set of bits.
@@ -124,6 +132,16 @@ impl Instructions for Plain {
     }
 
     #[inline(always)]
+    fn whole(self, values: &[i32; 8]) -> [f32; 8] {
+        values.map(|value| value as f32)
+    }
+
+    #[inline(always)]
+    fn load(self, values: &[f32; 8]) -> [f32; 8] {
+        *values
+    }
+
+    #[inline(always)]
     fn array(self, a: [f32; 8]) -> [f32; 8] {
         a
     }
@@ -172,6 +190,22 @@ impl Instructions for Plain {
     #[inline(always)]
     fn max(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
         zip(a, b, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn spread<const LANE: i32>(self, a: [f32; 8]) -> [f32; 8] {
+        let (x, y) = (a[LANE as usize & 3], a[4 + (LANE as usize & 3)]);
+        [x, x, x, x, y, y, y, y]
+    }
+
+    #[inline(always)]
+    fn rolled(self, a: [f32; 8]) -> [f32; 8] {
+        [a[1], a[2], a[0], a[3], a[5], a[6], a[4], a[7]]
+    }
+
+    #[inline(always)]
+    fn swapped(self, a: [f32; 8]) -> [f32; 8] {
+        [a[4], a[5], a[6], a[7], a[0], a[1], a[2], a[3]]
     }
 
     #[inline(always)]
@@ -251,6 +285,43 @@ mod x86_64 {
                     values.as_ptr().cast(),
                 )))
             }
+        }
+
+        #[inline(always)]
+        fn whole(self, values: &[i32; 8]) -> __m256 {
+            // SAFETY: eight numbers are read, and the processor has the instruction.
+            unsafe { _mm256_cvtepi32_ps(_mm256_loadu_si256(values.as_ptr().cast())) }
+        }
+
+        #[inline(always)]
+        fn load(self, values: &[f32; 8]) -> __m256 {
+            // SAFETY: eight numbers are read, and the processor has the instruction.
+            unsafe { _mm256_loadu_ps(values.as_ptr()) }
+        }
+
+        #[inline(always)]
+        fn spread<const LANE: i32>(self, a: __m256) -> __m256 {
+            // SAFETY: the processor has the instruction.
+            unsafe {
+                match LANE {
+                    0 => _mm256_permute_ps::<0b00_00_00_00>(a),
+                    1 => _mm256_permute_ps::<0b01_01_01_01>(a),
+                    2 => _mm256_permute_ps::<0b10_10_10_10>(a),
+                    _ => _mm256_permute_ps::<0b11_11_11_11>(a),
+                }
+            }
+        }
+
+        #[inline(always)]
+        fn rolled(self, a: __m256) -> __m256 {
+            // SAFETY: the processor has the instruction.
+            unsafe { _mm256_permute_ps::<0b11_00_10_01>(a) }
+        }
+
+        #[inline(always)]
+        fn swapped(self, a: __m256) -> __m256 {
+            // SAFETY: the processor has the instruction.
+            unsafe { _mm256_permute2f128_ps::<1>(a, a) }
         }
 
         #[inline(always)]

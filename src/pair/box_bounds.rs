@@ -14,11 +14,11 @@
 //! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most
 //! the radius of its body, so that the three of a box add up to at most 3 S. Axes and half sides are what the boxes hold their
 //! points by, and centres to within u S; the motion's rotation and translation are within u of what they stand for in each component.
-//! Brought into the other frame, a centre takes three products and three sums: with the rounding of the motion, it is within
+//! Brought into the other frame, a centre takes three products and three sums at most: with the rounding of the motion, it is within
 //! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within
-//! 24 u S. An axis brought over is within 5 u in each component, its product with another within 13 u, so that the reach of
-//! a box is within 39 u S for those and 7 u S for the sum. A gap is thus within 70 u S, a diagonal within sqrt(3) times
-//! that; refined, within 42 u S for the centre and 3 S times 25 u for the reach, less than 125 u S. In all less than 140 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
+//! 24 u S. An axis brought over is within 5 u in each component, the third, the cross product of two such, within 14 u, its product with another within 13 u, that of the third
+//! within 28 u, so that the reach of a box is within 60 u S for those and 7 u S for the sum. A gap is thus within 91 u S, a diagonal within sqrt(3) times
+//! that; refined, within 42 u S for the centre and 95 u S for the reach, less than 150 u S. In all less than 160 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
 //! into a frame is within 6 u of unit length, its gap within 100 u S by the same count.
 
 use crate::hierarchy::{EightBoxes, PackedBox};
@@ -47,16 +47,45 @@ impl Motion32 {
         each3(|k| x[k] * v[0] + y[k] * v[1] + z[k] * v[2])
     }
 
-    /// A box in the other frame, in units of the pair.
+    /// A box in the other frame, in units of the pair: given in lanes (see `WideNode::in_lanes`).
     #[inline(always)]
-    pub fn apply(&self, given: &PackedBox) -> PackedBox {
-        let center = self.turn(&each3(|k| given.center[k] * self.factor));
+    pub fn apply<I: Instructions>(&self, lanes: I, [axes, places]: [Lanes8<I>; 2]) -> PackedBox {
+        let axes = self.turn_lanes(lanes, axes, lanes.splat(0.0));
+        let others = lanes.swapped(axes);
+        let across = lanes.sub(
+            lanes.mul(axes, lanes.rolled(others)),
+            lanes.mul(lanes.rolled(axes), others),
+        );
+        let places = lanes.mul(places, lanes.splat(self.factor));
+        let [x, y, z] = self.translation;
+        let translation = lanes.load(&[x, y, z, 0.0, x, y, z, 0.0]);
+        let center = lanes.array(self.turn_lanes(lanes, places, translation));
+        let (axes, across) = (lanes.array(axes), lanes.array(lanes.rolled(across)));
+        let half = lanes.array(places);
         PackedBox {
-            axes: each3(|i| self.turn(&given.axes[i])),
-            center: each3(|k| center[k] + self.translation[k]),
-            half: each3(|i| given.half[i] * self.factor),
+            axes: [
+                [axes[0], axes[1], axes[2]],
+                [axes[4], axes[5], axes[6]],
+                [across[0], across[1], across[2]],
+            ],
+            center: [center[0], center[1], center[2]],
+            half: [half[4], half[5], half[6]],
         }
     }
+
+    /// Two vectors turned, plus two others.
+    #[inline(always)]
+    fn turn_lanes<I: Instructions>(&self, lanes: I, v: Lanes8<I>, plus: Lanes8<I>) -> Lanes8<I> {
+        let [x, y, z] = &self.rotation;
+        let first = lanes.mul_add(lanes.load(&twice(x)), lanes.spread::<0>(v), plus);
+        let second = lanes.mul_add(lanes.load(&twice(y)), lanes.spread::<1>(v), first);
+        lanes.mul_add(lanes.load(&twice(z)), lanes.spread::<2>(v), second)
+    }
+}
+
+#[inline(always)]
+fn twice([x, y, z]: &[f32; 3]) -> [f32; 8] {
+    [*x, *y, *z, 0.0, *x, *y, *z, 0.0]
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do

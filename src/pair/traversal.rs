@@ -192,7 +192,7 @@ impl<V: Visitor> Work for Walk<'_, V> {
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
-        self.aim_at_centers();
+        self.aim_at_centers(lanes);
         self.turn_direction();
         let [a, b] = self.trees.map(PackedTree::root);
         let bound = f32::NEG_INFINITY;
@@ -272,18 +272,19 @@ impl<'a, V: Visitor> Walk<'a, V> {
 
     /// The direction between the centres, if it separates the bodies by more than that of the pair visited first.
     #[inline(always)]
-    fn aim_at_centers(&mut self) {
+    fn aim_at_centers<I: Instructions>(&mut self, lanes: I) {
         let centers = -self.pairing.relative.translation;
         let Some(centers) = centers.try_normalize(0.0) else {
             return;
         };
-        let [a, b] = self.trees.map(|tree| tree.bounding_box(tree.root()));
+        let a = self.trees[0].bounding_box(self.trees[0].root());
         let a = PackedBox {
             axes: a.axes,
             center: each3(|k| a.center[k] * self.unit(0)),
             half: each3(|k| a.half[k] * self.unit(0)),
         };
-        let b = self.motions[0].apply(&b);
+        let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
+        let b = self.motions[0].apply(lanes, b);
         let [now, then] = [self.state.direction, centers]
             .map(|direction| box_bounds::gap_along(&b, &a, &each3(|k| direction[k] as f32)));
         let nothing_known = self.state.direction == Vec3::zeros();
@@ -319,7 +320,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let other_tree = self.trees[1 - opened];
         let index = tree.index(unit);
         let node = tree.node(index);
-        let one = self.motions[opened].apply(&other_tree.bounding_box(other));
+        let one = self.motions[opened].apply(lanes, other_tree.box_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let mut bounds = box_bounds::bounds(lanes, &eight, &one, V::REFINES);
         if self.state.direction != Vec3::zeros() {
