@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::lanes::F64x4;
 use crate::tolerance;
 
 pub type Vec3 = Vector3<f64>;
@@ -112,12 +113,12 @@ impl Pose {
     }
 
     pub fn transform_point(&self, point: &Vec3) -> Vec3 {
-        self.rotation * point + self.translation
+        turned(&self.rotation, point) + self.translation
     }
 
     pub fn compose(&self, child: &Pose) -> Pose {
         Pose {
-            rotation: self.rotation * child.rotation,
+            rotation: turned_axes(&self.rotation, &child.rotation),
             translation: self.transform_point(&child.translation),
         }
     }
@@ -126,7 +127,7 @@ impl Pose {
         let rotation = self.rotation.transpose();
         Pose {
             rotation,
-            translation: -(rotation * self.translation),
+            translation: -turned(&rotation, &self.translation),
         }
     }
 
@@ -203,61 +204,79 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
 /// The centres' difference in the world is summed in double-double arithmetic: bodies far from the world's origin, or
 /// modelled far from their own, would otherwise lose the digits that matter.
 pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -> Pose {
-    let mut difference = Vec3::zeros();
-    for i in 0..3 {
-        let mut sum = TwoFold::new(b.translation[i]);
-        sum.add(-a.translation[i]);
-        for j in 0..3 {
-            sum.add_product(b.rotation[(i, j)], center_b[j]);
-            sum.add_product(-a.rotation[(i, j)], center_a[j]);
-        }
-        difference[i] = sum.value();
+    let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
+    let mut sum = TwoFold::new(row(&b.translation));
+    sum.add(-row(&a.translation));
+    for j in 0..3 {
+        sum.add_product(row(&b.rotation.column(j).into_owned()), center_b[j]);
+        sum.add_product(row(&a.rotation.column(j).into_owned()), -center_a[j]);
     }
-    let inverse = a.rotation.transpose();
+    let [x, y, z, _] = sum.value().0;
+    let back = a.rotation.transpose();
     Pose {
-        rotation: inverse * b.rotation,
-        translation: inverse * difference,
+        rotation: turned_axes(&back, &b.rotation),
+        translation: turned(&back, &Vec3::new(x, y, z)),
     }
 }
 
-/// A sum kept as an unevaluated pair, after Dekker (1971) and Knuth's TwoSum.
+/// matrix * v, written out: the general product of small matrices takes several times as long.
+#[inline]
+fn turned(matrix: &Mat3, v: &Vec3) -> Vec3 {
+    let row = |i: usize| matrix[(i, 0)] * v.x + matrix[(i, 1)] * v.y + matrix[(i, 2)] * v.z;
+    Vec3::new(row(0), row(1), row(2))
+}
+
+/// matrix * axes, written out.
+#[inline]
+pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
+    let column = |j: usize| {
+        let v = Vec3::new(axes[(0, j)], axes[(1, j)], axes[(2, j)]);
+        turned(matrix, &v)
+    };
+    Mat3::from_columns(&[column(0), column(1), column(2)])
+}
+
+/// Sums kept as unevaluated pairs, after Dekker (1971) and Knuth's TwoSum.
 struct TwoFold {
-    high: f64,
-    low: f64,
+    high: F64x4,
+    low: F64x4,
 }
 
 impl TwoFold {
-    fn new(value: f64) -> Self {
+    fn new(value: F64x4) -> Self {
         Self {
             high: value,
-            low: 0.0,
+            low: F64x4::splat(0.0),
         }
     }
 
-    fn add(&mut self, x: f64) {
+    #[inline(always)]
+    fn add(&mut self, x: F64x4) {
         let sum = self.high + x;
         let part = sum - self.high;
-        self.low += (self.high - (sum - part)) + (x - part);
+        self.low = self.low + ((self.high - (sum - part)) + (x - part));
         self.high = sum;
     }
 
-    fn add_product(&mut self, x: f64, y: f64) {
-        if x == 0.0 || y == 0.0 {
+    #[inline(always)]
+    fn add_product(&mut self, x: F64x4, y: f64) {
+        if y == 0.0 {
             return;
         }
+        let y = F64x4::splat(y);
         let product = x * y;
-        let split = |v: f64| {
-            let scaled = 134_217_729.0 * v; // 2^27 + 1
+        let split = |v: F64x4| {
+            let scaled = v * 134_217_729.0; // 2^27 + 1
             let high = scaled - (scaled - v);
             (high, v - high)
         };
         let ((xh, xl), (yh, yl)) = (split(x), split(y));
         let error = ((xh * yh - product) + xh * yl + xl * yh) + xl * yl;
         self.add(product);
-        self.low += error;
+        self.low = self.low + error;
     }
 
-    fn value(&self) -> f64 {
+    fn value(&self) -> F64x4 {
         self.high + self.low
     }
 }

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::hierarchy::{BOX, BoxTree, Extent, OrientedBox, PackedBox, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
-use crate::pose::{Mat3, Pose, Vec3};
+use crate::pose::{Mat3, Pose, Vec3, turned_axes};
 use crate::tolerance;
 
 /// What bounds a body at a pose: a ball, and a box.
@@ -17,6 +17,8 @@ pub struct Bounds {
     /// Columns that are orthonormal to within 2^-12 (see `PackedBox`).
     axes: Mat3,
     half: Vec3,
+    /// No corner of the box is farther from its centre.
+    box_radius: f64,
     /// How far the body's primitives may be from what their features say (see `Body::deviation`).
     deviation: f64,
 }
@@ -35,18 +37,16 @@ pub struct ObjectTree {
 
 impl Bounds {
     pub fn of(body: &Body, pose: &Pose) -> Self {
-        let packed = body.packed();
-        let root = packed.bounding_box(packed.root());
-        let [x, y, z] = root.axes.map(|axis| Vec3::from(axis.map(f64::from)));
-        let scaled = |v: [f32; 3]| Vec3::from(v.map(f64::from)) * packed.scale();
+        let whole = body.packed().whole();
         let ball = body.tree().wrapper(0);
         let placed = |from_center: Vec3| pose.transform_point(&(body.center() + from_center));
         Self {
             center: placed(ball.center),
             radius: ball.radius,
-            box_center: placed(scaled(root.center)),
-            axes: pose.rotation * Mat3::from_columns(&[x, y, z]),
-            half: scaled(root.half),
+            box_center: placed(whole.center),
+            axes: turned_axes(&pose.rotation, &whole.axes),
+            half: whole.half,
+            box_radius: whole.radius,
             deviation: body.deviation(),
         }
     }
@@ -137,6 +137,7 @@ struct Descent<'a, F> {
     /// The unit of the tree, and that of the descent.
     unit: f32,
     scale: f64,
+    inverse_scale: f64,
     /// Bounds are lowered by this.
     slack: f64,
     limit: f64,
@@ -154,19 +155,19 @@ impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
     ) -> Self {
         let tree = &objects.tree;
         let from_center = body.box_center - tree.center;
-        let size = objects
-            .radius
-            .max(from_center.norm() + body.half.norm() * 1.001);
+        let size = objects.radius.max(from_center.norm() + body.box_radius);
         let scale = power_of_two(size);
+        let inverse_scale = 1.0 / scale;
         let reach = objects.reach.max(body.reach());
         Self {
             one: PackedBox {
                 axes: each3(|i| each3(|k| body.axes[(k, i)] as f32)),
-                center: each3(|k| (from_center[k] / scale) as f32),
-                half: each3(|i| ((body.half[i] / scale) as f32).next_up()),
+                center: each3(|k| (from_center[k] * inverse_scale) as f32),
+                half: each3(|i| ((body.half[i] * inverse_scale) as f32).next_up()),
             },
-            unit: (tree.scale / scale) as f32,
+            unit: (tree.scale * inverse_scale) as f32,
             scale,
+            inverse_scale,
             slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
             tree,
             limit,
@@ -177,7 +178,7 @@ impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
 
     #[inline(always)]
     fn cutoff(&self) -> f32 {
-        (((self.limit + self.slack) / self.scale) as f32).next_up()
+        (((self.limit + self.slack) * self.inverse_scale) as f32).next_up()
     }
 }
 

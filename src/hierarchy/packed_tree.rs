@@ -7,7 +7,7 @@ use super::packed_primitives::PackedPrimitives;
 use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
 use crate::lanes::{Instructions, Lanes8};
-use crate::pose::Vec3;
+use crate::pose::{Mat3, Vec3};
 use crate::primitive::Convex;
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
@@ -62,6 +62,18 @@ pub struct PackedTree {
     nodes: Vec<WideNode>,
     primitives: PackedPrimitives,
     scale: f64,
+    whole: WholeBox,
+}
+
+/// The box of all, in double precision and in the body's units: in both meanings of a [`PackedBox`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WholeBox {
+    /// As columns.
+    pub axes: Mat3,
+    pub center: Vec3,
+    pub half: Vec3,
+    /// No corner is farther from its centre.
+    pub radius: f64,
 }
 
 impl PackedTree {
@@ -72,7 +84,7 @@ impl PackedTree {
             packed: Self::empty(tree),
         };
         builder.build();
-        builder.packed.find_lowest();
+        builder.packed.finish();
         builder.packed
     }
 
@@ -91,7 +103,7 @@ impl PackedTree {
         }
         packed.nodes = nodes;
         packed.is_sound().then(|| {
-            packed.find_lowest();
+            packed.finish();
             packed
         })
     }
@@ -102,6 +114,7 @@ impl PackedTree {
             nodes: Vec::new(),
             primitives: PackedPrimitives::default(),
             scale: power_of_two(root.radius + root.center.norm()),
+            whole: WholeBox::default(),
         }
     }
 
@@ -126,6 +139,21 @@ impl PackedTree {
             && node_seen.iter().skip(1).chain(&leaf_seen).all(|&seen| seen)
     }
 
+    /// Fills in what follows from the nodes and primitives.
+    fn finish(&mut self) {
+        let root = self.bounding_box(self.root());
+        let scaled = |v: [f32; 3]| Vec3::from(v.map(f64::from)) * self.scale;
+        let half = scaled(root.half);
+        self.whole = WholeBox {
+            axes: Mat3::from_columns(&root.axes.map(|axis| Vec3::from(axis.map(f64::from)))),
+            center: scaled(root.center),
+            half,
+            // The axes are not quite upright.
+            radius: half.norm() * 1.001,
+        };
+        self.find_lowest();
+    }
+
     fn find_lowest(&mut self) {
         // Children come after their parents.
         for index in (0..self.nodes.len()).rev() {
@@ -147,6 +175,10 @@ impl PackedTree {
 
     pub fn scale(&self) -> f64 {
         self.scale
+    }
+
+    pub fn whole(&self) -> &WholeBox {
+        &self.whole
     }
 
     pub fn primitives(&self) -> &PackedPrimitives {

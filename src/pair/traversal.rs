@@ -225,10 +225,8 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let scale = power_of_two(size);
         let inverse_scale = 1.0 / scale;
         let motion = |pose: &Pose, moving: &PackedTree| Motion32 {
-            rotation: std::array::from_fn(|i| {
-                std::array::from_fn(|k| pose.rotation[(k, i)] as f32)
-            }),
-            translation: std::array::from_fn(|k| (pose.translation[k] * inverse_scale) as f32),
+            rotation: each3(|i| each3(|k| pose.rotation[(k, i)] as f32)),
+            translation: each3(|k| (pose.translation[k] * inverse_scale) as f32),
             factor: (moving.scale() * inverse_scale) as f32,
         };
         let inverse = pairing.relative.inverse();
