@@ -57,15 +57,6 @@ impl Outline<'_> {
         (start, sub64(&corner(next), &start))
     }
 
-    /// Corners and the edges that leave them.
-    #[inline(always)]
-    fn edges(&self) -> impl Iterator<Item = (Vec3, Vec3)> + '_ {
-        (0..self.corners).map(|i| {
-            let next = if i + 1 == self.corners { 0 } else { i + 1 };
-            (self.corner(i), self.corner(next) - self.corner(i))
-        })
-    }
-
     /// The corners of a block, each with the one after it: pairs of filled-up places have length 0.
     #[inline(always)]
     fn following(&self, block: usize) -> Points64 {
@@ -476,10 +467,14 @@ fn edge_places(
 #[inline(always)]
 fn innermost(polygon: &Outline, points: &Points64) -> F64x4 {
     let mut least = F64x4::splat(f64::INFINITY);
-    for (start, edge) in polygon.edges() {
-        let inwards: [f64; 3] = polygon.normal.cross(&edge).into();
-        let from_start = sub64(points, &splat64(&start.into()));
-        least = least.min(along64(&from_start, &inwards));
+    let normal = splat64(&polygon.normal.into());
+    for (block, starts) in polygon.blocks.iter().enumerate() {
+        let inwards = cross64(&normal, &sub64(&polygon.following(block), starts));
+        for lane in 0..(polygon.corners - 4 * block).min(4) {
+            let start = each3(|k| F64x4::splat(starts[k].0[lane]));
+            let inward = each3(|k| F64x4::splat(inwards[k].0[lane]));
+            least = least.min(dot64(&sub64(points, &start), &inward));
+        }
     }
     least
 }

@@ -26,9 +26,24 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
         fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }
+        // Twice the registers are what AVX-512 is for here: wider lanes gain nothing.
+        #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+        fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
+            work.run(avx2)
+        }
         if let Some(avx2) = Avx2::detected() {
-            // SAFETY: the processor was just found to have both.
-            return unsafe { with_avx2(work, avx2) };
+            let has_avx512 = std::arch::is_x86_feature_detected!("avx512f")
+                && std::arch::is_x86_feature_detected!("avx512vl")
+                && std::arch::is_x86_feature_detected!("avx512dq")
+                && std::arch::is_x86_feature_detected!("avx512bw");
+            // SAFETY: the processor was just found to have what either takes.
+            return unsafe {
+                if has_avx512 {
+                    with_avx512(work, avx2)
+                } else {
+                    with_avx2(work, avx2)
+                }
+            };
         }
     }
     work.run(Plain)
