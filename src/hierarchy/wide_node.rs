@@ -34,8 +34,8 @@ pub struct WideNode {
     half: [[u16; 8]; 3],
     /// What the children are, to the tree.
     pub children: [u32; 8],
-    origin: [f32; 3],
-    step: f32,
+    /// The origin, then the step.
+    frame: [f32; 4],
     sizes: [u8; 8],
     pub count: u32,
     /// The lowest primitive below.
@@ -65,8 +65,7 @@ impl WideNode {
             center: [[0; 8]; 3],
             half: [[0; 8]; 3],
             children: [0; 8],
-            origin: [0.0; 3],
-            step: 0.0,
+            frame: [0.0; 4],
             sizes: [0; 8],
             count: held.len() as u32,
             lowest: 0,
@@ -86,12 +85,12 @@ impl WideNode {
                 (low.inf(center), high.sup(center))
             });
         let origin = (low + high) * 0.5;
-        node.origin = each3(|k| origin[k] as f32);
+        let [x, y, z]: [f64; 3] = origin.into();
         let halves = spans.iter().map(|(_, half)| half.amax());
         let step = (0.5 * (high - low).amax() / MOST_PLACE)
             .max(halves.fold(0.0, f64::max) / MOST_HALF)
             .max(1e-30);
-        node.step = (step * (1.0 + 1e-6)) as f32;
+        node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
         for (lane, (held, (center, _))) in held.iter().zip(&spans).enumerate() {
             node.set(lane, held, center);
         }
@@ -104,7 +103,7 @@ impl WideNode {
                 let component = (held.axes[(k, i)] * 32768.0).round();
                 self.axes[i][k][lane] = component.clamp(-MOST_AXIS, MOST_AXIS) as i16;
             }
-            let place = (center[k] - f64::from(self.origin[k])) / f64::from(self.step);
+            let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
             self.center[k][lane] = place.round().clamp(-MOST_PLACE, MOST_PLACE) as i16;
         }
         // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
@@ -120,8 +119,8 @@ impl WideNode {
                 farthest.max(along).max(place)
             });
             let needed = farthest + held.excess * LONGEST_AXIS;
-            let mut half = (needed / f64::from(self.step)).ceil() as u16;
-            while f64::from(f32::from(half) * self.step) < needed {
+            let mut half = (needed / f64::from(self.step())).ceil() as u16;
+            while f64::from(f32::from(half) * self.step()) < needed {
                 half += 1;
             }
             self.half[i][lane] = half;
@@ -144,8 +143,7 @@ impl WideNode {
         let halves = self.half.as_flattened();
         halves.iter().for_each(|x| put(&x.to_le_bytes()));
         self.children.iter().for_each(|x| put(&x.to_le_bytes()));
-        self.origin.iter().for_each(|x| put(&x.to_le_bytes()));
-        put(&self.step.to_le_bytes());
+        self.frame.iter().for_each(|x| put(&x.to_le_bytes()));
         put(&self.sizes);
         put(&self.count.to_le_bytes());
         bytes
@@ -170,15 +168,19 @@ impl WideNode {
             center,
             half,
             children,
-            origin: [number(), number(), number()],
-            step: number(),
+            frame: [number(), number(), number(), number()],
             sizes: take(&mut rest),
             count: u32::from_le_bytes(take(&mut rest)),
             lowest: 0,
         };
         let sensible = |x: f32| x.abs() <= 4.0;
-        let is_sound = node.origin.into_iter().all(sensible) && sensible(node.step);
+        let is_sound = node.frame.into_iter().all(sensible);
         (is_sound && (1..=8).contains(&node.count)).then_some(node)
+    }
+
+    #[inline(always)]
+    fn step(&self) -> f32 {
+        self.frame[3]
     }
 
     /// About the logarithm of a box's size.
@@ -201,8 +203,8 @@ impl WideNode {
                     a[0] * b[1] - a[1] * b[0],
                 ],
             ],
-            center: each3(|k| f32::from(self.center[k][lane]) * self.step + self.origin[k]),
-            half: each3(|i| f32::from(self.half[i][lane]) * self.step),
+            center: each3(|k| f32::from(self.center[k][lane]) * self.step() + self.frame[k]),
+            half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
         }
     }
 
@@ -236,11 +238,13 @@ impl WideNode {
             half(hz),
             0,
         ];
-        let [ox, oy, oz] = self.origin;
-        let origin = lanes.load(&[ox, oy, oz, 0.0, 0.0, 0.0, 0.0, 0.0]);
         [
             lanes.mul(lanes.signed(&axes), lanes.splat(AXIS_STEP)),
-            lanes.mul_add(lanes.whole(&places), lanes.splat(self.step), origin),
+            lanes.mul_add(
+                lanes.whole(&places),
+                lanes.splat(self.step()),
+                lanes.four(&self.frame),
+            ),
         ]
     }
 
@@ -249,7 +253,7 @@ impl WideNode {
     #[inline(always)]
     pub fn boxes<I: Instructions>(&self, lanes: I, unit: f32) -> EightBoxes<I> {
         let axis_step = lanes.splat(AXIS_STEP);
-        let step = lanes.splat(self.step * unit);
+        let step = lanes.splat(self.step() * unit);
         let axis = |numbers| lanes.mul(lanes.signed(numbers), axis_step);
         let ([ax, ay, az], [bx, by, bz]) = (&self.axes[0], &self.axes[1]);
         let a = [axis(ax), axis(ay), axis(az)];
@@ -263,9 +267,9 @@ impl WideNode {
         EightBoxes {
             axes: [a, b, lanes.cross(&a, &b)],
             center: [
-                place(x, self.origin[0]),
-                place(y, self.origin[1]),
-                place(z, self.origin[2]),
+                place(x, self.frame[0]),
+                place(y, self.frame[1]),
+                place(z, self.frame[2]),
             ],
             half: [half(i), half(j), half(k)],
         }

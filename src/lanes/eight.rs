@@ -17,6 +17,8 @@ pub trait Instructions: Copy {
     fn unsigned(self, values: &[u16; 8]) -> Self::Numbers;
     fn whole(self, values: &[i32; 8]) -> Self::Numbers;
     fn load(self, values: &[f32; 8]) -> Self::Numbers;
+    /// Four numbers, then zeros.
+    fn four(self, values: &[f32; 4]) -> Self::Numbers;
     fn array(self, a: Self::Numbers) -> [f32; 8];
     fn add(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     fn sub(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
@@ -139,6 +141,11 @@ impl Instructions for Plain {
     #[inline(always)]
     fn load(self, values: &[f32; 8]) -> [f32; 8] {
         *values
+    }
+
+    #[inline(always)]
+    fn four(self, [x, y, z, w]: &[f32; 4]) -> [f32; 8] {
+        [*x, *y, *z, *w, 0.0, 0.0, 0.0, 0.0]
     }
 
     #[inline(always)]
@@ -297,6 +304,12 @@ mod x86_64 {
         fn load(self, values: &[f32; 8]) -> __m256 {
             // SAFETY: eight numbers are read, and the processor has the instruction.
             unsafe { _mm256_loadu_ps(values.as_ptr()) }
+        }
+
+        #[inline(always)]
+        fn four(self, values: &[f32; 4]) -> __m256 {
+            // SAFETY: four numbers are read, and the processor has the instruction.
+            unsafe { _mm256_zextps128_ps256(_mm_loadu_ps(values.as_ptr())) }
         }
 
         #[inline(always)]

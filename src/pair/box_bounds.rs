@@ -23,6 +23,7 @@
 
 use crate::hierarchy::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, each3};
+use crate::pose::Pose;
 
 /// The rounding of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
@@ -33,14 +34,29 @@ const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
 /// A rigid motion from one body's frame to the other's, in units of the pair.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion32 {
-    /// By columns.
-    pub rotation: [[f32; 3]; 3],
-    pub translation: [f32; 3],
+    /// By columns, each twice and with a 0 behind, as lanes take it.
+    rotation: [[f32; 8]; 3],
+    translation: [f32; 8],
     /// The unit of the body that moves, in units of the pair.
     pub factor: f32,
 }
 
 impl Motion32 {
+    /// Of a body whose unit is `unit`, in units of `scale`.
+    #[inline(always)]
+    pub fn new(pose: &Pose, unit: f64, scale: f64) -> Self {
+        let inverse = 1.0 / scale;
+        let twice = |v: [f64; 3]| {
+            let [x, y, z] = v.map(|x| x as f32);
+            [x, y, z, 0.0, x, y, z, 0.0]
+        };
+        Self {
+            rotation: each3(|i| twice(each3(|k| pose.rotation[(k, i)]))),
+            translation: twice(each3(|k| pose.translation[k] * inverse)),
+            factor: (unit * inverse) as f32,
+        }
+    }
+
     #[inline(always)]
     pub fn turn(&self, v: &[f32; 3]) -> [f32; 3] {
         let [x, y, z] = &self.rotation;
@@ -57,8 +73,7 @@ impl Motion32 {
             lanes.mul(lanes.rolled(axes), others),
         );
         let places = lanes.mul(places, lanes.splat(self.factor));
-        let [x, y, z] = self.translation;
-        let translation = lanes.load(&[x, y, z, 0.0, x, y, z, 0.0]);
+        let translation = lanes.load(&self.translation);
         let center = lanes.array(self.turn_lanes(lanes, places, translation));
         let (axes, across) = (lanes.array(axes), lanes.array(lanes.rolled(across)));
         let half = lanes.array(places);
@@ -77,15 +92,10 @@ impl Motion32 {
     #[inline(always)]
     fn turn_lanes<I: Instructions>(&self, lanes: I, v: Lanes8<I>, plus: Lanes8<I>) -> Lanes8<I> {
         let [x, y, z] = &self.rotation;
-        let first = lanes.mul_add(lanes.load(&twice(x)), lanes.spread::<0>(v), plus);
-        let second = lanes.mul_add(lanes.load(&twice(y)), lanes.spread::<1>(v), first);
-        lanes.mul_add(lanes.load(&twice(z)), lanes.spread::<2>(v), second)
+        let first = lanes.mul_add(lanes.load(x), lanes.spread::<0>(v), plus);
+        let second = lanes.mul_add(lanes.load(y), lanes.spread::<1>(v), first);
+        lanes.mul_add(lanes.load(z), lanes.spread::<2>(v), second)
     }
-}
-
-#[inline(always)]
-fn twice([x, y, z]: &[f32; 3]) -> [f32; 8] {
-    [*x, *y, *z, 0.0, *x, *y, *z, 0.0]
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do

@@ -9,7 +9,7 @@ use super::nearest_first::{Entry, Waiting};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
-use crate::pose::{Pose, Vec3};
+use crate::pose::Vec3;
 
 /// What a query wants from the walk.
 pub trait Visitor {
@@ -224,17 +224,12 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let size = pairing.precision.size;
         let scale = power_of_two(size);
         let inverse_scale = 1.0 / scale;
-        let motion = |pose: &Pose, moving: &PackedTree| Motion32 {
-            rotation: each3(|i| each3(|k| pose.rotation[(k, i)] as f32)),
-            translation: each3(|k| (pose.translation[k] * inverse_scale) as f32),
-            factor: (moving.scale() * inverse_scale) as f32,
-        };
         let inverse = pairing.relative.inverse();
         let exponents = trees.map(|tree| (tree.scale().to_bits() >> 52) as i32);
         Self {
             motions: [
-                motion(&pairing.relative, trees[1]),
-                motion(&inverse, trees[0]),
+                Motion32::new(&pairing.relative, trees[1].scale(), scale),
+                Motion32::new(&inverse, trees[0].scale(), scale),
             ],
             size_offset: SIZE_STEPS * (exponents[1] - exponents[0]),
             inverse_scale,
