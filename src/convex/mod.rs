@@ -4,15 +4,17 @@ mod closest;
 mod contact;
 mod contact_normal;
 mod distance;
+mod nearest_edges;
+mod outline;
 mod penetration;
 mod placed;
+mod polygon_crossing;
 mod polygon_distance;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts};
 pub use distance::{DistanceScratch, closest_points};
+pub use outline::{MOST_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};
-pub use polygon_distance::{
-    MOST_CORNERS, Nearest, Outline, PolygonDistance, moved, polygon_closest, polygon_distance,
-};
+pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};

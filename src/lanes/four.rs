@@ -56,6 +56,24 @@ impl F64x4 {
         self.zip(other, |a, b| if a > b { a } else { b })
     }
 
+    /// The quotient, and 0 where the divisor is 0.
+    #[inline(always)]
+    pub fn quotient(self, divisor: Self) -> Self {
+        self.zip(divisor, |a, b| if b != 0.0 { a / b } else { 0.0 })
+    }
+
+    /// One over it, and 0 where it is 0.
+    #[inline(always)]
+    pub fn inverse(self) -> Self {
+        Self::splat(1.0).quotient(self)
+    }
+
+    /// The nearest numbers from 0 to 1.
+    #[inline(always)]
+    pub fn unit(self) -> Self {
+        self.min(Self::splat(1.0)).max(Self::splat(0.0))
+    }
+
     #[inline(always)]
     pub fn least(self) -> f64 {
         let mut rest = self;

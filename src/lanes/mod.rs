@@ -1,13 +1,17 @@
 //! Several numbers at once, and the choice between instruction sets at run time.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
 mod eight;
 mod four;
+mod plain;
 
-pub use eight::{Instructions, Lanes8, Plain, Triple};
+pub use eight::{Instructions, Lanes8, Triple};
 pub use four::{F64x4, Points64, along64, cross64, dot64, splat64, sub64};
+pub use plain::Plain;
 
 #[cfg(target_arch = "x86_64")]
-use eight::Avx2;
+use avx2::Avx2;
 
 /// Work that is compiled for several instruction sets. `run` and all it calls in its loops are to be inlined: closures that
 /// are called from several places may not be.

@@ -1,0 +1,150 @@
+//! The nearest edges of two polygons, four pairs at a time.
+
+use super::closest::Closest;
+use super::outline::{MOST_CORNERS, Outline, Side};
+use crate::lanes::{F64x4, Points64, cross64, dot64, each3, sub64};
+use crate::tolerance;
+
+/// The best of four pairs of edges, by the squares of their distances. A pair is called `MOST_CORNERS` * the block of the
+/// second's edges + the first's edge; the lane is the second's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestEdges {
+    squares: F64x4,
+    pairs: F64x4,
+}
+
+impl NearestEdges {
+    /// Compares an edge of A with all of B's.
+    #[inline(always)]
+    fn offer(&mut self, a: &Outline, i: usize, b: &Outline) {
+        let (start, edge) = a.edge(i);
+        let inverse_square = dot64(&edge, &edge).inverse();
+        for block in 0..b.blocks.len() {
+            let starts = &b.blocks[block];
+            let along = sub64(&b.following(block), starts);
+            let (_, _, squares) = edge_places(&start, &edge, inverse_square, starts, &along);
+            let pair = F64x4::splat((MOST_CORNERS * block + i) as f64);
+            for lane in 0..4 {
+                let is_less = squares.0[lane] < self.squares.0[lane];
+                self.pairs.0[lane] = if is_less {
+                    pair.0[lane]
+                } else {
+                    self.pairs.0[lane]
+                };
+            }
+            self.squares = squares.min(self.squares);
+        }
+    }
+
+    #[inline(always)]
+    pub fn distance(&self) -> f64 {
+        self.squares.least().sqrt()
+    }
+
+    /// The closest points. One no farther than `error` from a corner is held by that.
+    #[inline(always)]
+    pub fn points(&self, a: &Outline, b: &Outline, error: f64) -> Closest {
+        let mut lane = 0;
+        for other in 1..4 {
+            if self.squares.0[other] < self.squares.0[lane] {
+                lane = other;
+            }
+        }
+        let pair = self.pairs.0[lane] as usize;
+        let (block, i) = (pair / MOST_CORNERS, pair % MOST_CORNERS);
+        let starts = &b.blocks[block];
+        let along = sub64(&b.following(block), starts);
+        let (start, edge) = a.edge(i);
+        let inverse_square = dot64(&edge, &edge).inverse();
+        let (s, t, _) = edge_places(&start, &edge, inverse_square, starts, &along);
+        let places = [
+            a.on_edge(i, s.0[lane], error),
+            b.on_edge(4 * block + lane, t.0[lane], error),
+        ];
+        Closest {
+            distance: self.squares.0[lane].sqrt(),
+            points: places.map(|place| place.0),
+            features: places.map(|place| place.1),
+        }
+    }
+}
+
+/// The nearest edges of two polygons, given where each is of the other's plane.
+#[inline(always)]
+pub fn nearest_edges(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> NearestEdges {
+    let mut found = NearestEdges {
+        squares: F64x4::splat(f64::INFINITY),
+        pairs: F64x4::splat(0.0),
+    };
+    if a.corners <= 4 || !search_edges(a, b, sides, size, &mut found) {
+        for i in 0..a.corners {
+            found.offer(a, i, b);
+        }
+    }
+    found
+}
+
+/// Compares those edges of A that meet in corners which look nearest, until a plane proves that no others are nearer.
+#[inline(always)]
+fn search_edges(
+    a: &Outline,
+    b: &Outline,
+    sides: &[Side; 2],
+    size: f64,
+    found: &mut NearestEdges,
+) -> bool {
+    const TRIES: usize = 4;
+    let mut corner = if sides[1].gap > sides[0].gap {
+        a.corner_with(&b.normal.into(), sides[1].extreme)
+    } else {
+        let nearest = b.corner(b.corner_with(&a.normal.into(), sides[0].extreme));
+        a.corner_near(&nearest)
+    };
+    let mut compared = 0u64;
+    for _ in 0..TRIES {
+        let corner_in = if corner < a.corners { corner } else { 0 };
+        let before = if corner_in == 0 { a.corners } else { corner_in } - 1;
+        for edge in [before, corner_in] {
+            if compared >> edge & 1 == 0 {
+                compared |= 1 << edge;
+                found.offer(a, edge, b);
+            }
+        }
+        let closest = found.points(a, b, 0.0);
+        let across = closest.points[0] - closest.points[1];
+        let direction: [f64; 3] = across.into();
+        let nearest = a.extent_along(&direction).0;
+        let gap = nearest - b.extent_along(&direction).1;
+        let error = tolerance::CERTIFIED_GAP * size * closest.distance;
+        if gap >= across.norm_squared() - error {
+            return true;
+        }
+        corner = a.corner_with(&direction, nearest);
+    }
+    false
+}
+
+/// Where an edge, the same in all lanes, and each of four others are closest, as parameters along them, and how far apart,
+/// squared. `inverse_square` is of the first one's length.
+///
+/// The places along the lines are formed with the cross product of the directions, see `closest_parameters`.
+#[inline(always)]
+fn edge_places(
+    p: &Points64,
+    dp: &Points64,
+    inverse_square: F64x4,
+    q: &Points64,
+    dq: &Points64,
+) -> (F64x4, F64x4, F64x4) {
+    let between = sub64(q, p);
+    let cross = cross64(dp, dq);
+    let square = dot64(&cross, &cross);
+    let s = dot64(&cross64(&between, dq), &cross).quotient(square);
+    let (b, e) = (dot64(dp, dq), dot64(dq, dq));
+    let (c, f) = (dot64(dp, &between), dot64(dq, &between));
+    // The best place on the other edge for s, then the best place on this one for that.
+    let t = (b * s.unit() - f).quotient(e).unit();
+    let s = ((b * t + c) * inverse_square).unit();
+    let apart = each3(|k| between[k] + dq[k] * t - dp[k] * s);
+    (s, t, dot64(&apart, &apart))
+}

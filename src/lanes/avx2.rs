@@ -1,0 +1,180 @@
+//! Eight numbers with AVX2 and FMA. An [`Avx2`] is made only where the processor was found to have both: that makes its
+//! operations safe.
+
+use std::arch::x86_64::*;
+
+use super::eight::{Instructions, LANES_OF};
+
+/// AVX2 and FMA.
+#[derive(Clone, Copy)]
+pub struct Avx2(());
+
+impl Avx2 {
+    #[inline]
+    pub fn detected() -> Option<Self> {
+        let has_both = std::arch::is_x86_feature_detected!("avx2")
+            && std::arch::is_x86_feature_detected!("fma");
+        has_both.then_some(Self(()))
+    }
+}
+
+impl Instructions for Avx2 {
+    type Numbers = __m256;
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_set1_ps(value) }
+    }
+
+    #[inline(always)]
+    fn signed(self, values: &[i16; 8]) -> __m256 {
+        // SAFETY: eight numbers are read, and the processor has the instruction.
+        unsafe {
+            _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(
+                values.as_ptr().cast(),
+            )))
+        }
+    }
+
+    #[inline(always)]
+    fn unsigned(self, values: &[u16; 8]) -> __m256 {
+        // SAFETY: eight numbers are read, and the processor has the instruction.
+        unsafe {
+            _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(
+                values.as_ptr().cast(),
+            )))
+        }
+    }
+
+    #[inline(always)]
+    fn whole(self, values: &[i32; 8]) -> __m256 {
+        // SAFETY: eight numbers are read, and the processor has the instruction.
+        unsafe { _mm256_cvtepi32_ps(_mm256_loadu_si256(values.as_ptr().cast())) }
+    }
+
+    #[inline(always)]
+    fn load(self, values: &[f32; 8]) -> __m256 {
+        // SAFETY: eight numbers are read, and the processor has the instruction.
+        unsafe { _mm256_loadu_ps(values.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn four(self, values: &[f32; 4]) -> __m256 {
+        // SAFETY: four numbers are read, and the processor has the instruction.
+        unsafe { _mm256_zextps128_ps256(_mm_loadu_ps(values.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn spread<const LANE: i32>(self, a: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe {
+            match LANE {
+                0 => _mm256_permute_ps::<0b00_00_00_00>(a),
+                1 => _mm256_permute_ps::<0b01_01_01_01>(a),
+                2 => _mm256_permute_ps::<0b10_10_10_10>(a),
+                _ => _mm256_permute_ps::<0b11_11_11_11>(a),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn rolled(self, a: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_permute_ps::<0b11_00_10_01>(a) }
+    }
+
+    #[inline(always)]
+    fn swapped(self, a: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_permute2f128_ps::<1>(a, a) }
+    }
+
+    #[inline(always)]
+    fn array(self, a: __m256) -> [f32; 8] {
+        // SAFETY: both are eight numbers, and the processor has the instruction.
+        unsafe { std::mem::transmute::<__m256, [f32; 8]>(a) }
+    }
+
+    #[inline(always)]
+    fn add(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_add_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn sub(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_sub_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn mul(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_mul_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn div(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_div_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_fmadd_ps(a, b, c) }
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_sqrt_ps(a) }
+    }
+
+    #[inline(always)]
+    fn abs(self, a: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), a) }
+    }
+
+    #[inline(always)]
+    fn min(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_min_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn max(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_max_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn at_most(self, a: __m256, limit: f32) -> u32 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, _mm256_set1_ps(limit))) as u32 }
+    }
+
+    #[inline(always)]
+    fn only(self, a: __m256, lanes: u32) -> __m256 {
+        // SAFETY: the processor has the instructions.
+        unsafe {
+            let bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let chosen = _mm256_and_si256(_mm256_set1_epi32(lanes as i32), bit);
+            let is_chosen = _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, bit));
+            _mm256_blendv_ps(_mm256_set1_ps(f32::INFINITY), a, is_chosen)
+        }
+    }
+
+    #[inline(always)]
+    fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
+        let order = &LANES_OF[(lanes & 255) as usize];
+        // SAFETY: eight bytes and eight numbers are read, and the processor has the instructions.
+        unsafe {
+            let order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(order.as_ptr().cast()));
+            let values = _mm256_loadu_si256(values.as_ptr().cast());
+            std::mem::transmute::<__m256i, [u32; 8]>(_mm256_permutevar8x32_epi32(values, order))
+        }
+    }
+}

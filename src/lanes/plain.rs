@@ -1,0 +1,143 @@
+//! Eight numbers as every processor can have them.
+
+use super::eight::{Instructions, LANES_OF};
+
+/// What every processor has.
+#[derive(Clone, Copy)]
+pub struct Plain;
+
+#[inline(always)]
+fn zip(a: [f32; 8], b: [f32; 8], f: impl Fn(f32, f32) -> f32) -> [f32; 8] {
+    let mut result = a;
+    for lane in 0..8 {
+        result[lane] = f(a[lane], b[lane]);
+    }
+    result
+}
+
+impl Instructions for Plain {
+    type Numbers = [f32; 8];
+
+    #[inline(always)]
+    fn splat(self, value: f32) -> [f32; 8] {
+        [value; 8]
+    }
+
+    #[inline(always)]
+    fn signed(self, values: &[i16; 8]) -> [f32; 8] {
+        values.map(|value| i32::from(value) as f32)
+    }
+
+    #[inline(always)]
+    fn unsigned(self, values: &[u16; 8]) -> [f32; 8] {
+        values.map(|value| i32::from(value) as f32)
+    }
+
+    #[inline(always)]
+    fn whole(self, values: &[i32; 8]) -> [f32; 8] {
+        values.map(|value| value as f32)
+    }
+
+    #[inline(always)]
+    fn load(self, values: &[f32; 8]) -> [f32; 8] {
+        *values
+    }
+
+    #[inline(always)]
+    fn four(self, [x, y, z, w]: &[f32; 4]) -> [f32; 8] {
+        [*x, *y, *z, *w, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    fn array(self, a: [f32; 8]) -> [f32; 8] {
+        a
+    }
+
+    #[inline(always)]
+    fn add(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    fn sub(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| a - b)
+    }
+
+    #[inline(always)]
+    fn mul(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| a * b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {
+        // Not fused: without an instruction for it that is a call.
+        self.add(self.mul(a, b), c)
+    }
+
+    #[inline(always)]
+    fn sqrt(self, a: [f32; 8]) -> [f32; 8] {
+        zip(a, a, |a, _| a.sqrt())
+    }
+
+    #[inline(always)]
+    fn abs(self, a: [f32; 8]) -> [f32; 8] {
+        zip(a, a, |a, _| a.abs())
+    }
+
+    #[inline(always)]
+    fn min(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn max(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        zip(a, b, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn spread<const LANE: i32>(self, a: [f32; 8]) -> [f32; 8] {
+        let (x, y) = (a[LANE as usize & 3], a[4 + (LANE as usize & 3)]);
+        [x, x, x, x, y, y, y, y]
+    }
+
+    #[inline(always)]
+    fn rolled(self, a: [f32; 8]) -> [f32; 8] {
+        [a[1], a[2], a[0], a[3], a[5], a[6], a[4], a[7]]
+    }
+
+    #[inline(always)]
+    fn swapped(self, a: [f32; 8]) -> [f32; 8] {
+        [a[4], a[5], a[6], a[7], a[0], a[1], a[2], a[3]]
+    }
+
+    #[inline(always)]
+    fn at_most(self, a: [f32; 8], limit: f32) -> u32 {
+        let mut lanes = 0;
+        for (lane, value) in a.into_iter().enumerate() {
+            lanes |= u32::from(value <= limit) << lane;
+        }
+        lanes
+    }
+
+    #[inline(always)]
+    fn only(self, a: [f32; 8], lanes: u32) -> [f32; 8] {
+        let mut result = a;
+        for (lane, value) in result.iter_mut().enumerate() {
+            if lanes >> lane & 1 == 0 {
+                *value = f32::INFINITY;
+            }
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
+        let order = &LANES_OF[(lanes & 255) as usize];
+        order.map(|lane| values[usize::from(lane & 7)])
+    }
+}
