@@ -149,6 +149,13 @@ impl<'a> Pairing<'a> {
         }
     }
 
+    /// The vector between the closest points of primitives that are apart, from B to A.
+    #[inline(never)]
+    pub fn across(&self, met: &Met) -> Vec3 {
+        let closest = self.closest(&met.hit(0, met.apart));
+        closest.points[0] - closest.points[1]
+    }
+
     #[inline(never)]
     fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
         scratch.exact_pairs += 1;

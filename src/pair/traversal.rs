@@ -107,21 +107,6 @@ struct State {
     statistics: Statistics,
 }
 
-impl State {
-    /// Takes the direction of a pair as the one to separate others by.
-    fn aim(&mut self, pairing: &Pairing, met: &Met, across: Option<Vec3>) {
-        self.direction_at = met.apart;
-        self.direction = Vec3::zeros();
-        if met.apart > 0.0 {
-            let across = across.unwrap_or_else(|| {
-                let closest = pairing.closest(&met.hit(0, met.apart));
-                closest.points[0] - closest.points[1]
-            });
-            self.direction = across.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-        }
-    }
-}
-
 /// Shows the visitor the primitives at two places.
 pub fn visit_pair(
     pairing: &Pairing,
@@ -129,13 +114,8 @@ pub fn visit_pair(
     scratch: &mut Scratch,
     visitor: &mut impl Visitor,
 ) -> ControlFlow<()> {
-    let state = &mut scratch.state;
-    state.statistics.primitive_pairs += 1;
-    let cutoff = visitor.bound() + pairing.slack();
-    match pairing.distance(places, cutoff, &mut state.primitives) {
-        Some(apart) => visitor.visit(&pairing.met(places, apart)),
-        None => ControlFlow::Continue(()),
-    }
+    let meetings = Meetings::new(pairing, &mut scratch.buffer, &mut scratch.state, visitor);
+    with_widest(OneMeeting { meetings, places })
 }
 
 /// Walks both trees from their roots, nearer children first, after the primitives at two places if any are given.
@@ -151,26 +131,93 @@ pub fn traverse(
         buffer,
         state,
     } = scratch;
-    state.direction = Vec3::zeros();
-    state.direction_at = f64::INFINITY;
-    if let Some(places) = first {
-        state.statistics.cache_hits += 1;
-        state.statistics.primitive_pairs += 1;
-        let cutoff = visitor.bound() + pairing.slack();
-        if let Some(apart) = pairing.distance(places, cutoff, &mut state.primitives) {
-            let met = pairing.met(places, apart);
-            visitor.visit(&met)?;
-            state.aim(pairing, &met, None);
+    let meetings = Meetings::new(pairing, buffer, state, visitor);
+    with_widest(Walk::new(meetings, first, stack))
+}
+
+/// Primitive pairs of two bodies as the visitor meets them.
+struct Meetings<'a, V> {
+    pairing: &'a Pairing<'a>,
+    buffer: &'a mut MovedOutline,
+    state: &'a mut State,
+    visitor: &'a mut V,
+}
+
+impl<'a, V: Visitor> Meetings<'a, V> {
+    fn new(
+        pairing: &'a Pairing<'a>,
+        buffer: &'a mut MovedOutline,
+        state: &'a mut State,
+        visitor: &'a mut V,
+    ) -> Self {
+        state.direction = Vec3::zeros();
+        state.direction_at = f64::INFINITY;
+        Self {
+            pairing,
+            buffer,
+            state,
+            visitor,
         }
     }
-    stack.clear();
-    with_widest(Walk::new(pairing, state, stack, buffer, visitor))
+
+    /// Shows the visitor the primitives at two places, if they may matter to it. The nearest so far become the direction
+    /// to separate others by.
+    #[inline(always)]
+    fn visit(&mut self, places: [u32; 2]) -> ControlFlow<()> {
+        let cutoff = self.visitor.bound() + self.pairing.slack();
+        self.state.statistics.primitive_pairs += 1;
+        let outline = self.pairing.outline_b(places[1], self.buffer);
+        let outlines = self.pairing.outline_a(places[0]).zip(outline);
+        if let Some((a, b)) = &outlines {
+            let direction: [f64; 3] = self.state.direction.into();
+            if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
+                return ControlFlow::Continue(());
+            }
+        }
+        let primitives = &mut self.state.primitives;
+        let Some(apart) = self
+            .pairing
+            .distance_to(places, &outline, cutoff, primitives)
+        else {
+            return ControlFlow::Continue(());
+        };
+        let met = self.pairing.met(places, apart.distance);
+        if apart.distance < self.state.direction_at {
+            self.state.direction_at = apart.distance;
+            self.state.direction = if apart.distance > 0.0 {
+                let across = match outlines.as_ref().zip(apart.nearest) {
+                    Some(((a, b), nearest)) => nearest.across(a, b),
+                    None => self.pairing.across(&met),
+                };
+                across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+            } else {
+                Vec3::zeros()
+            };
+        }
+        self.visitor.visit(&met)
+    }
+}
+
+struct OneMeeting<'a, V> {
+    meetings: Meetings<'a, V>,
+    places: [u32; 2],
+}
+
+impl<V: Visitor> Work for OneMeeting<'_, V> {
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
+        self.meetings.visit(self.places)
+    }
 }
 
 /// The two bodies as the walk sees them. Lengths in single precision are in units of `scale`, a power of two next above
 /// the pair's size.
 struct Walk<'a, V> {
-    pairing: &'a Pairing<'a>,
+    meetings: Meetings<'a, V>,
+    /// The places to visit first.
+    first: Option<[u32; 2]>,
     trees: [&'a PackedTree; 2],
     /// Into A's frame, and into B's.
     motions: [Motion32; 2],
@@ -182,9 +229,6 @@ struct Walk<'a, V> {
     /// Bounds are lowered by this.
     slack: f64,
     stack: &'a mut Waiting,
-    buffer: &'a mut MovedOutline,
-    state: &'a mut State,
-    visitor: &'a mut V,
 }
 
 impl<V: Visitor> Work for Walk<'_, V> {
@@ -192,9 +236,14 @@ impl<V: Visitor> Work for Walk<'_, V> {
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
+        if let Some(places) = self.first {
+            self.meetings.state.statistics.cache_hits += 1;
+            self.meetings.visit(places)?;
+        }
         self.aim_at_centers(lanes);
         self.turn_direction();
         let [a, b] = self.trees.map(PackedTree::root);
+        self.stack.clear();
         let bound = f32::NEG_INFINITY;
         self.stack.push(&Entry { bound, a, b });
         while let Some(entry) = self.stack.pop() {
@@ -213,13 +262,8 @@ impl<V: Visitor> Work for Walk<'_, V> {
 }
 
 impl<'a, V: Visitor> Walk<'a, V> {
-    fn new(
-        pairing: &'a Pairing<'a>,
-        state: &'a mut State,
-        stack: &'a mut Waiting,
-        buffer: &'a mut MovedOutline,
-        visitor: &'a mut V,
-    ) -> Self {
+    fn new(meetings: Meetings<'a, V>, first: Option<[u32; 2]>, stack: &'a mut Waiting) -> Self {
+        let pairing = meetings.pairing;
         let trees = [pairing.a.packed(), pairing.b.packed()];
         let size = pairing.precision.size;
         let scale = power_of_two(size);
@@ -235,24 +279,23 @@ impl<'a, V: Visitor> Walk<'a, V> {
             inverse_scale,
             directions: [[0.0; 3]; 2],
             slack: pairing.slack() + ROUNDING * size,
-            pairing,
+            meetings,
+            first,
             trees,
             stack,
-            buffer,
-            state,
-            visitor,
         }
     }
 
     /// Bounds above this, in units of the pair, tell that a pair does not matter.
     #[inline(always)]
     fn cutoff(&self) -> f32 {
-        (((self.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
+        (((self.meetings.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
     }
 
     #[inline(always)]
     fn is_settled(&self, a: Unit, b: Unit) -> bool {
-        self.visitor
+        self.meetings
+            .visitor
             .settled_from()
             .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
     }
@@ -266,7 +309,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
     /// The direction between the centres, if it separates the bodies by more than that of the pair visited first.
     #[inline(always)]
     fn aim_at_centers<I: Instructions>(&mut self, lanes: I) {
-        let centers = -self.pairing.relative.translation;
+        let centers = -self.meetings.pairing.relative.translation;
         let Some(centers) = centers.try_normalize(0.0) else {
             return;
         };
@@ -278,18 +321,18 @@ impl<'a, V: Visitor> Walk<'a, V> {
         };
         let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
         let b = self.motions[0].apply(lanes, b);
-        let [now, then] = [self.state.direction, centers]
+        let [now, then] = [self.meetings.state.direction, centers]
             .map(|direction| box_bounds::gap_along(&b, &a, &each3(|k| direction[k] as f32)));
-        let nothing_known = self.state.direction == Vec3::zeros();
+        let nothing_known = self.meetings.state.direction == Vec3::zeros();
         if nothing_known || (now <= 0.0 && then > 0.0) {
-            self.state.direction = centers;
+            self.meetings.state.direction = centers;
         }
     }
 
     /// Takes up a new direction.
     #[inline(always)]
     fn turn_direction(&mut self) {
-        let direction = each3(|k| self.state.direction[k] as f32);
+        let direction = each3(|k| self.meetings.state.direction[k] as f32);
         self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
     }
 
@@ -316,13 +359,13 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let one = self.motions[opened].apply(lanes, other_tree.box_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let mut bounds = box_bounds::bounds(lanes, &eight, &one, V::REFINES);
-        if self.state.direction != Vec3::zeros() {
+        if self.meetings.state.direction != Vec3::zeros() {
             let direction = &self.directions[opened];
             let gaps = box_bounds::gaps_along(lanes, &eight, &one, direction);
             bounds = lanes.max(bounds, gaps);
         }
         let children = tree.children(index);
-        self.state.statistics.node_pairs += children.count as u64;
+        self.meetings.state.statistics.node_pairs += children.count as u64;
         self.stack
             .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);
     }
@@ -334,31 +377,13 @@ impl<'a, V: Visitor> Walk<'a, V> {
 
     #[inline(always)]
     fn visit_leaves(&mut self, a: Unit, b: Unit) -> ControlFlow<()> {
-        let places = [self.trees[0].place(a), self.trees[1].place(b)];
-        let cutoff = self.visitor.bound() + self.pairing.slack();
-        self.state.statistics.primitive_pairs += 1;
-        let outline = self.pairing.outline_b(places[1], self.buffer);
-        let outlines = self.pairing.outline_a(places[0]).zip(outline);
-        if let Some((a, b)) = &outlines {
-            let direction: [f64; 3] = self.state.direction.into();
-            if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
-                return ControlFlow::Continue(());
-            }
-        }
-        let primitives = &mut self.state.primitives;
-        let Some(apart) = self
-            .pairing
-            .distance_to(places, &outline, cutoff, primitives)
-        else {
-            return ControlFlow::Continue(());
-        };
-        let met = self.pairing.met(places, apart.distance);
-        if apart.distance < self.state.direction_at {
-            let across = outlines.as_ref().zip(apart.nearest);
-            let across = across.map(|((a, b), nearest)| nearest.across(a, b));
-            self.state.aim(self.pairing, &met, across);
+        let nearest = self.meetings.state.direction_at;
+        let visited = self
+            .meetings
+            .visit([self.trees[0].place(a), self.trees[1].place(b)]);
+        if self.meetings.state.direction_at < nearest {
             self.turn_direction();
         }
-        self.visitor.visit(&met)
+        visited
     }
 }

@@ -210,22 +210,20 @@ impl<'a> Scene<'a> {
         found.collect()
     }
 
-    /// The body pair that a key names, with the options of each term that holds it; empty if none does (any more).
-    pub fn find(&self, key: &CacheKey) -> Vec<(Pairing<'_>, InducedOptions)> {
-        let CacheKey::Candidate {
-            space,
-            r_link,
-            s_side,
-            ..
-        } = *key
-        else {
-            return Vec::new();
+    /// The body pair that a key names, with the options of each term that holds it; nothing if none does (any more).
+    pub fn find(&self, key: &CacheKey) -> impl Iterator<Item = (Pairing<'_>, InducedOptions)> {
+        let named = match *key {
+            CacheKey::Candidate {
+                space,
+                r_link,
+                s_side,
+                ..
+            } if space == self.cobject.space().serial() => Some((r_link, s_side)),
+            _ => None,
         };
-        if space != self.cobject.space().serial() {
-            return Vec::new();
-        }
         let terms = self.cobject.terms().iter().zip(&self.snapshots);
-        let pairing = |(term, snapshot)| -> Option<(Pairing<'_>, InducedOptions)> {
+        let pairing = move |(term, snapshot)| -> Option<(Pairing<'_>, InducedOptions)> {
+            let (r_link, s_side) = named?;
             let term: &Arc<Term> = term;
             let snapshot: &Option<Arc<Snapshot>> = snapshot;
             let (options, body, pose) = match (&**term, s_side) {
@@ -255,7 +253,7 @@ impl<'a> Scene<'a> {
             let fits = a.dimension() == body.dimension();
             fits.then(|| (Pairing::new(a, &self.poses[r_link], body, pose), *options))
         };
-        terms.filter_map(pairing).collect()
+        terms.filter_map(pairing)
     }
 
     fn offer_objects<'s>(

@@ -98,13 +98,13 @@ impl QueryContext {
         else {
             return false;
         };
-        scene.find(&key).iter().any(|(pairing, options)| {
+        scene.find(&key).any(|(pairing, options)| {
             let mut visitor = Within {
                 margin: options.margin,
                 threshold,
                 found: None,
             };
-            let _ = visit_pair(pairing, places, &mut self.scratch, &mut visitor);
+            let _ = visit_pair(&pairing, places, &mut self.scratch, &mut visitor);
             visitor.found.is_some()
         })
     }
