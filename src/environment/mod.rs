@@ -6,5 +6,5 @@ mod object_tree;
 mod snapshot;
 
 pub use environment::{Change, Environment};
-pub use object_tree::{Bounds, NearScratch, ObjectTree};
+pub use object_tree::{Bounds, Named, NearScratch, ObjectTree};
 pub use snapshot::{SObject, Snapshot};

@@ -3,9 +3,9 @@
 use super::SObject;
 use crate::body::Body;
 use crate::hierarchy::{BOX, BoxTree, Extent, OrientedBox, PackedBox, power_of_two};
-use crate::lanes::{Instructions, Work, each3, with_widest};
+use crate::lanes::{Instructions, Work, along64, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
-use crate::pose::{Mat3, Pose, Vec3, turned_axes};
+use crate::pose::{Mat3, Pose, Vec3};
 use crate::tolerance;
 
 /// What bounds a body at a pose: a ball, and a box.
@@ -14,8 +14,8 @@ pub struct Bounds {
     center: Vec3,
     radius: f64,
     box_center: Vec3,
-    /// Columns that are orthonormal to within 2^-12 (see `PackedBox`).
-    axes: Mat3,
+    /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
+    axes: [Vec3; 2],
     half: Vec3,
     /// No corner of the box is farther from its centre.
     box_radius: f64,
@@ -36,15 +36,20 @@ pub struct ObjectTree {
 }
 
 impl Bounds {
+    #[inline(always)]
     pub fn of(body: &Body, pose: &Pose) -> Self {
         let whole = body.packed().whole();
-        let ball = body.tree().wrapper(0);
-        let placed = |from_center: Vec3| pose.transform_point(&(body.center() + from_center));
+        let origin = pose.transform_point(body.center());
+        let turned = each3(|k| {
+            let row = each3(|j| pose.rotation[(k, j)]);
+            along64(&whole.frame, &row).0
+        });
+        let column = |i: usize| Vec3::new(turned[0][i], turned[1][i], turned[2][i]);
         Self {
-            center: placed(ball.center),
-            radius: ball.radius,
-            box_center: placed(whole.center),
-            axes: turned_axes(&pose.rotation, &whole.axes),
+            center: origin + column(3),
+            radius: whole.ball_radius,
+            box_center: origin + column(2),
+            axes: [column(0), column(1)],
             half: whole.half,
             box_radius: whole.radius,
             deviation: body.deviation(),
@@ -56,6 +61,7 @@ impl Bounds {
     }
 
     /// A safe lower and a safe upper bound of the distance of two bodies, by their balls.
+    #[inline(always)]
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
@@ -69,11 +75,12 @@ impl Bounds {
             low: -self.half,
             high: self.half,
         };
-        let x = self.axes.column(0).normalize();
-        let y = self.axes.column(1).into_owned();
+        let [x, y] = self.axes;
+        let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
+        let x = x.normalize();
         let y = (y - x * x.dot(&y)).normalize();
         OrientedBox {
-            corners: whole.corners().map(|c| self.box_center + self.axes * c),
+            corners: whole.corners().map(|c| self.box_center + axes * c),
             axes: Mat3::from_columns(&[x, y, x.cross(&y)]),
         }
     }
@@ -81,6 +88,7 @@ impl Bounds {
 
 /// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
 /// error of the distances on both sides of a comparison (see `Pairing::slack`).
+#[inline(always)]
 fn slack(reach: f64, deviation: f64) -> f64 {
     let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
     4.0 * rounding * reach + 2.0 * deviation
@@ -110,17 +118,24 @@ impl ObjectTree {
         &self.bounds[place]
     }
 
-    /// Visits the objects that may be within a limit of a body, by their places and with a safe lower bound of the
-    /// distance, nearer parts of the tree first. `visit` returns the limit from then on.
-    pub fn visit_near(
+    /// Visits, for each of some bodies, the objects that may be within a limit of it: by the body's name and pose, what
+    /// bounds it, the object's place, and a safe lower bound of the distance; nearer parts of the tree first. `visit`
+    /// returns the limit from then on.
+    pub fn visit_near<'b>(
         &self,
-        body: &Bounds,
+        bodies: impl Iterator<Item = Named<'b>>,
         limit: f64,
         scratch: &mut NearScratch,
-        visit: impl FnMut(usize, f64) -> f64,
+        visit: impl FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
     ) {
         if !self.bounds.is_empty() {
-            with_widest(Descent::new(self, body, limit, &mut scratch.0, visit));
+            with_widest(Visit {
+                objects: self,
+                bodies,
+                limit,
+                open: &mut scratch.0,
+                visit,
+            });
         }
     }
 }
@@ -129,84 +144,54 @@ impl ObjectTree {
 #[derive(Debug, Default)]
 pub struct NearScratch(Vec<(f32, u32)>);
 
-/// A body's way down the tree. Lengths in single precision are in units of a power of two next above the size of the two.
-struct Descent<'a, F> {
-    tree: &'a BoxTree,
-    /// The body's box, from the tree's centre.
-    one: PackedBox,
-    /// The unit of the tree, and that of the descent.
-    unit: f32,
-    scale: f64,
-    inverse_scale: f64,
-    /// Bounds are lowered by this.
-    slack: f64,
+/// A name, a body and its pose.
+pub type Named<'b> = (usize, &'b Body, &'b Pose);
+
+struct Visit<'a, B, V> {
+    objects: &'a ObjectTree,
+    bodies: B,
     limit: f64,
     open: &'a mut Vec<(f32, u32)>,
-    visit: F,
+    visit: V,
 }
 
-impl<'a, F: FnMut(usize, f64) -> f64> Descent<'a, F> {
-    fn new(
-        objects: &'a ObjectTree,
-        body: &Bounds,
-        limit: f64,
-        open: &'a mut Vec<(f32, u32)>,
-        visit: F,
-    ) -> Self {
-        let tree = &objects.tree;
-        let from_center = body.box_center - tree.center;
-        let size = objects.radius.max(from_center.norm() + body.box_radius);
-        let scale = power_of_two(size);
-        let inverse_scale = 1.0 / scale;
-        let reach = objects.reach.max(body.reach());
-        Self {
-            one: PackedBox {
-                axes: each3(|i| each3(|k| body.axes[(k, i)] as f32)),
-                center: each3(|k| (from_center[k] * inverse_scale) as f32),
-                half: each3(|i| ((body.half[i] * inverse_scale) as f32).next_up()),
-            },
-            unit: (tree.scale * inverse_scale) as f32,
-            scale,
-            inverse_scale,
-            slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
-            tree,
-            limit,
-            open,
-            visit,
-        }
-    }
-
-    #[inline(always)]
-    fn cutoff(&self) -> f32 {
-        (((self.limit + self.slack) * self.inverse_scale) as f32).next_up()
-    }
-}
-
-impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
+impl<'b, B, V> Work for Visit<'_, B, V>
+where
+    B: Iterator<Item = Named<'b>>,
+    V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
+{
     type Output = ();
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        self.open.clear();
-        self.open.push((f32::NEG_INFINITY, 0));
-        while let Some((bound, child)) = self.open.pop() {
-            if bound > self.cutoff() {
-                continue;
-            }
-            if child & BOX != 0 {
-                let lower = f64::from(bound) * self.scale - self.slack;
-                self.limit = (self.visit)((child & !BOX) as usize, lower);
-                continue;
-            }
-            let node = &self.tree.nodes[child as usize];
-            let eight = node.boxes(lanes, self.unit);
-            let bounds = lanes.array(bounds(lanes, &eight, &self.one, false));
-            let (first, cutoff) = (self.open.len(), self.cutoff());
-            let children = node.children.into_iter().zip(bounds);
-            for (child, bound) in children.take(node.count as usize) {
-                if bound <= cutoff {
+        let tree = &self.objects.tree;
+        for named in self.bodies {
+            let body = Bounds::of(named.1, named.2);
+            let descent = Descent::new(self.objects, &body);
+            self.open.clear();
+            self.open.push((f32::NEG_INFINITY, 0));
+            while let Some((bound, child)) = self.open.pop() {
+                let cutoff = descent.cutoff(self.limit);
+                if bound > cutoff {
+                    continue;
+                }
+                if child & BOX != 0 {
+                    let place = (child & !BOX) as usize;
+                    self.limit = (self.visit)(&named, &body, place, descent.lower(bound));
+                    continue;
+                }
+                let node = &tree.nodes[child as usize];
+                let eight = node.boxes(lanes, descent.unit);
+                let bounds = bounds(lanes, &eight, &descent.one, false);
+                let mut near = lanes.at_most(bounds, cutoff) & ((1 << node.count) - 1);
+                let bounds = lanes.array(bounds);
+                let first = self.open.len();
+                while near != 0 {
+                    let lane = near.trailing_zeros() as usize & 7;
+                    near &= near - 1;
+                    let bound = bounds[lane];
                     let mut place = self.open.len();
-                    self.open.push((bound, child));
+                    self.open.push((bound, node.children[lane]));
                     // The nearest goes on top.
                     while place > first && self.open[place - 1].0 < bound {
                         self.open.swap(place - 1, place);
@@ -215,5 +200,60 @@ impl<F: FnMut(usize, f64) -> f64> Work for Descent<'_, F> {
                 }
             }
         }
+    }
+}
+
+/// A body as it goes down the tree. Lengths in single precision are in units of a power of two next above the size of the
+/// two.
+struct Descent {
+    /// The body's box, from the tree's centre.
+    one: PackedBox,
+    /// The unit of the tree, and that of the descent.
+    unit: f32,
+    scale: f64,
+    inverse_scale: f64,
+    /// Bounds are lowered by this.
+    slack: f64,
+}
+
+impl Descent {
+    #[inline(always)]
+    fn new(objects: &ObjectTree, body: &Bounds) -> Self {
+        let tree = &objects.tree;
+        let from_center = body.box_center - tree.center;
+        let size = objects.radius.max(from_center.norm() + body.box_radius);
+        let scale = power_of_two(size);
+        let inverse_scale = 1.0 / scale;
+        let reach = objects.reach.max(body.reach());
+        let [x, y] = [&body.axes[0], &body.axes[1]];
+        let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
+        let cross = [
+            x[1] * y[2] - x[2] * y[1],
+            x[2] * y[0] - x[0] * y[2],
+            x[0] * y[1] - x[1] * y[0],
+        ];
+        Self {
+            one: PackedBox {
+                axes: [x, y, cross],
+                center: each3(|k| (from_center[k] * inverse_scale) as f32),
+                half: each3(|i| ((body.half[i] * inverse_scale) as f32).next_up()),
+            },
+            unit: (tree.scale * inverse_scale) as f32,
+            scale,
+            inverse_scale,
+            slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
+        }
+    }
+
+    /// Bounds above this tell that a distance is above a limit.
+    #[inline(always)]
+    fn cutoff(&self, limit: f64) -> f32 {
+        (((limit + self.slack) * self.inverse_scale) as f32).next_up()
+    }
+
+    /// The distance that a bound tells of, at least.
+    #[inline(always)]
+    fn lower(&self, bound: f32) -> f64 {
+        f64::from(bound) * self.scale - self.slack
     }
 }

@@ -42,7 +42,7 @@ use forest::Forest;
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use packed_box::PackedBox;
 pub use packed_primitives::{PackedPrimitive, PackedPrimitives};
-pub use packed_tree::{Children, PackedTree, Unit, WholeBox, power_of_two};
+pub use packed_tree::{Children, PackedTree, Unit, Whole, power_of_two};
 pub use statistics::{LevelStatistics, TreeStatistics};
 pub use subset_tree::{Node, SubsetTree};
 pub use wide_node::{EightBoxes, Held, NODE_BYTES, SIZE_STEPS, WideNode};

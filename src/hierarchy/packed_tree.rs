@@ -6,8 +6,8 @@ use super::packed_box::{PackedBox, fitted_axes};
 use super::packed_primitives::PackedPrimitives;
 use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
-use crate::lanes::{Instructions, Lanes8};
-use crate::pose::{Mat3, Vec3};
+use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
+use crate::pose::Vec3;
 use crate::primitive::Convex;
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
@@ -62,18 +62,19 @@ pub struct PackedTree {
     nodes: Vec<WideNode>,
     primitives: PackedPrimitives,
     scale: f64,
-    whole: WholeBox,
+    whole: Whole,
 }
 
-/// The box of all, in double precision and in the body's units: in both meanings of a [`PackedBox`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct WholeBox {
-    /// As columns.
-    pub axes: Mat3,
-    pub center: Vec3,
+/// The box and the ball of all, in double precision and in the body's units: the box in both meanings of a [`PackedBox`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Whole {
+    /// Side by side the first two axes of the box, its centre, and that of the ball. The third axis is the cross product of
+    /// the first two.
+    pub frame: Points64,
     pub half: Vec3,
-    /// No corner is farther from its centre.
+    /// No corner is farther from the box's centre.
     pub radius: f64,
+    pub ball_radius: f64,
 }
 
 impl PackedTree {
@@ -84,7 +85,7 @@ impl PackedTree {
             packed: Self::empty(tree),
         };
         builder.build();
-        builder.packed.finish();
+        builder.packed.finish(tree);
         builder.packed
     }
 
@@ -103,7 +104,7 @@ impl PackedTree {
         }
         packed.nodes = nodes;
         packed.is_sound().then(|| {
-            packed.finish();
+            packed.finish(tree);
             packed
         })
     }
@@ -114,7 +115,12 @@ impl PackedTree {
             nodes: Vec::new(),
             primitives: PackedPrimitives::default(),
             scale: power_of_two(root.radius + root.center.norm()),
-            whole: WholeBox::default(),
+            whole: Whole {
+                frame: [F64x4::splat(0.0); 3],
+                half: Vec3::zeros(),
+                radius: 0.0,
+                ball_radius: 0.0,
+            },
         }
     }
 
@@ -140,16 +146,21 @@ impl PackedTree {
     }
 
     /// Fills in what follows from the nodes and primitives.
-    fn finish(&mut self) {
+    fn finish(&mut self, tree: &WrapperTree) {
         let root = self.bounding_box(self.root());
-        let scaled = |v: [f32; 3]| Vec3::from(v.map(f64::from)) * self.scale;
-        let half = scaled(root.half);
-        self.whole = WholeBox {
-            axes: Mat3::from_columns(&root.axes.map(|axis| Vec3::from(axis.map(f64::from)))),
-            center: scaled(root.center),
+        let ball = tree.wrapper(0);
+        let [x, y, _] = root.axes;
+        let [center, half] = [root.center, root.half].map(|v| v.map(f64::from));
+        let half = Vec3::from(half) * self.scale;
+        self.whole = Whole {
+            frame: each3(|k| {
+                let [x, y] = [x[k], y[k]].map(f64::from);
+                F64x4([x, y, center[k] * self.scale, ball.center[k]])
+            }),
             half,
             // The axes are not quite upright.
             radius: half.norm() * 1.001,
+            ball_radius: ball.radius,
         };
         self.find_lowest();
     }
@@ -177,7 +188,7 @@ impl PackedTree {
         self.scale
     }
 
-    pub fn whole(&self) -> &WholeBox {
+    pub fn whole(&self) -> &Whole {
         &self.whole
     }
 

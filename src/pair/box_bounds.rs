@@ -47,7 +47,7 @@ impl Motion32 {
     pub fn new(pose: &Pose, unit: f64, scale: f64) -> Self {
         let inverse = 1.0 / scale;
         let twice = |v: [f64; 3]| {
-            let [x, y, z] = v.map(|x| x as f32);
+            let [x, y, z] = each3(|k| v[k] as f32);
             [x, y, z, 0.0, x, y, z, 0.0]
         };
         Self {

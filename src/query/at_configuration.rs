@@ -2,12 +2,13 @@
 
 use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
 use super::at_poses::{contact_at_witness, contact_records};
-use super::candidates::{Candidate, Configuration, Scene, Wanted};
+use super::candidates::Wanted;
 use super::context::QueryContext;
+use super::scene::{Configuration, Scene};
 use super::search::Found;
+use super::target::Target;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
-use crate::pair::{Hit, Pairing};
 
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
@@ -52,8 +53,8 @@ impl QueryContext {
     }
 
     /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
-    fn any_in_contact(&mut self, candidates: &[Candidate], lower: f64) -> bool {
-        let reaches = |c: &Candidate| {
+    fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> bool {
+        let reaches = |c: &Target| {
             let epsilon = c.options.contact_epsilon;
             if epsilon > 0.0 && epsilon >= lower {
                 epsilon
@@ -98,24 +99,17 @@ impl QueryContext {
     fn distance_among(
         &mut self,
         scene: &Scene,
-        candidates: &[Candidate],
+        candidates: &[Target],
         max_distance: f64,
     ) -> Result<Distance> {
         if scene.is_empty() {
             return Ok(Distance::empty(scene.version));
         }
         let found = self.nearest(candidates, max_distance);
-        Ok(Distance::from_found(
-            &found,
-            max_distance,
-            scene.version,
-            |hit| {
-                let candidate = by_rank(candidates)[hit.key.pair as usize];
-                let pairing = candidate.target.pairing();
-                let witness = Witness::of(candidate.r_link, candidate.s_side, &pairing, hit);
-                (witness, pairing, candidate.options.margin)
-            },
-        ))
+        Ok(Distance {
+            version: scene.version,
+            ..Distance::from_found(&found, candidates, max_distance)
+        })
     }
 
     /// Operation 7: all primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
@@ -193,7 +187,7 @@ impl QueryContext {
     fn list(
         &mut self,
         scene: &Scene,
-        candidates: &[Candidate],
+        candidates: &[Target],
         epsilon: f64,
         max_count: usize,
         with_gradients: bool,
@@ -209,17 +203,17 @@ impl QueryContext {
         };
         let ranked = by_rank(candidates);
         for hit in &hits {
-            let candidate = ranked[hit.key.pair as usize];
-            let pairing = candidate.target.pairing();
-            let contacts = contact_records(&pairing, hit, candidate.options.margin);
-            let mut entry = Witness::of(candidate.r_link, candidate.s_side, &pairing, hit);
+            let target = ranked[hit.key.pair as usize];
+            let pairing = target.pairing();
+            let contacts = contact_records(&pairing, hit, target.options.margin);
+            let mut entry = Witness::of(target, hit);
             entry.first_contact = list.contacts.len();
             entry.contact_count = contacts.len();
             entry.overlapping = contacts.is_empty() && hit.apart == 0.0;
             list.witnesses.push(entry);
             if with_gradients {
                 for contact in &contacts {
-                    list.gradients.extend(gradient(scene, candidate, contact));
+                    list.gradients.extend(gradient(scene, target, contact));
                 }
             }
             list.contacts.extend(contacts);
@@ -229,28 +223,22 @@ impl QueryContext {
 }
 
 /// One row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
-fn gradient(scene: &Scene, candidate: &Candidate, contact: &ContactRecord) -> Vec<f64> {
+fn gradient(scene: &Scene, target: &Target, contact: &ContactRecord) -> Vec<f64> {
     let space = scene.cobject().space();
     let mut row = vec![0.0; space.coordinates().len()];
     let [on_r, on_s] = &contact.points;
-    space.add_gradient(
-        &scene.poses,
-        candidate.r_link,
-        on_r,
-        &contact.normal,
-        1.0,
-        &mut row,
-    );
-    if let SSide::Link(s) = candidate.s_side {
+    let (r_link, s_side) = target.parties();
+    space.add_gradient(&scene.poses, r_link, on_r, &contact.normal, 1.0, &mut row);
+    if let SSide::Link(s) = s_side {
         space.add_gradient(&scene.poses, s, on_s, &contact.normal, -1.0, &mut row);
     }
     row
 }
 
 /// The candidates in the order of their ranks, by which hits name them.
-fn by_rank<'a, 'b>(candidates: &'b [Candidate<'a>]) -> Vec<&'b Candidate<'a>> {
+fn by_rank<'t, 'a>(candidates: &'t [Target<'a>]) -> Vec<&'t Target<'a>> {
     let mut ranked: Vec<_> = candidates.iter().collect();
-    ranked.sort_unstable_by_key(|candidate| candidate.target.rank);
+    ranked.sort_unstable_by_key(|candidate| candidate.rank);
     ranked
 }
 
@@ -268,25 +256,24 @@ impl Distance {
         }
     }
 
-    /// The answer to a search up to `max_distance`.
-    pub(super) fn from_found<'a>(
-        found: &Found,
-        max_distance: f64,
-        version: u64,
-        describe: impl FnOnce(&Hit) -> (Witness, Pairing<'a>, f64),
-    ) -> Self {
-        let error = found.error;
-        let Some(hit) = &found.hit else {
+    /// The answer to a search among targets up to `max_distance`.
+    pub(super) fn from_found(found: &Found, targets: &[Target], max_distance: f64) -> Self {
+        let Some((hit, target)) = &found.hit else {
+            let errors = targets.iter().map(|t| t.pairing().precision.error);
             return Self {
                 kind: DistanceKind::BeyondMax,
-                lower: (max_distance - error).max(0.0),
-                ..Self::empty(version)
+                lower: (max_distance - errors.fold(0.0, f64::max)).max(0.0),
+                ..Self::empty(0)
             };
         };
-        let (mut witness, pairing, margin) = describe(hit);
-        let contact = contact_at_witness(&pairing, hit, margin);
-        witness.contact_count = usize::from(contact.is_some());
-        witness.overlapping = contact.is_none() && hit.apart == 0.0;
+        let pairing = target.pairing();
+        let error = pairing.precision.error;
+        let contact = contact_at_witness(&pairing, hit, target.options.margin);
+        let witness = Witness {
+            contact_count: usize::from(contact.is_some()),
+            overlapping: contact.is_none() && hit.apart == 0.0,
+            ..Witness::of(target, hit)
+        };
         Self {
             kind: DistanceKind::Exact,
             distance: hit.distance,
@@ -301,7 +288,7 @@ impl Distance {
             witness: Some(witness),
             points: pairing.world_points(&pairing.closest(hit)),
             contact,
-            version,
+            version: 0,
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
 use super::answer::{
-    ContactRecord, Distance, PenetrationList, PrimitivePenetration, SSide, Witness, WitnessList,
+    ContactRecord, Distance, PenetrationList, PrimitivePenetration, Witness, WitnessList,
 };
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
-use super::search::{Placement, Target};
+use super::target::{Placement, Target};
 use crate::body::Body;
+use crate::cobject::InducedOptions;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};
 
@@ -28,8 +29,8 @@ fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
     Ok(Target {
         sides: [a, b],
         key: CacheKey::Bodies(a.0.serial(), b.0.serial()),
+        options: InducedOptions::default(),
         rank: 0,
-        margin: 0.0,
         bound: f64::NEG_INFINITY,
     })
 }
@@ -43,13 +44,9 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        let target = target(a, b)?;
-        let found = self.nearest(std::slice::from_ref(&target), max_distance);
-        Ok(Distance::from_found(&found, max_distance, 0, |hit| {
-            let pairing = target.pairing();
-            let witness = Witness::of(0, SSide::Object(0), &pairing, hit);
-            (witness, pairing, 0.0)
-        }))
+        let targets = [target(a, b)?];
+        let found = self.nearest(&targets, max_distance);
+        Ok(Distance::from_found(&found, &targets, max_distance))
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
@@ -81,7 +78,7 @@ impl QueryContext {
                 first_contact: list.contacts.len(),
                 contact_count: contacts.len(),
                 overlapping: contacts.is_empty() && hit.apart == 0.0,
-                ..Witness::of(0, SSide::Object(0), pairing, hit)
+                ..Witness::of(&target, hit)
             });
             list.contacts.extend(contacts);
         }
@@ -103,7 +100,7 @@ impl QueryContext {
             .iter()
             .map(|hit| PrimitivePenetration {
                 primitives: hit.key.primitives,
-                tags: Witness::of(0, SSide::Object(0), pairing, hit).tags,
+                tags: Witness::of(&target, hit).tags,
                 penetration: pairing.world_penetration(hit.key.primitives),
             })
             .collect();
@@ -122,13 +119,15 @@ impl QueryContext {
 
 impl Witness {
     /// A witness whose contacts are not known yet.
-    pub(super) fn of(r_link: usize, s_side: SSide, pairing: &Pairing, hit: &Hit) -> Self {
+    pub(super) fn of(target: &Target, hit: &Hit) -> Self {
+        let (r_link, s_side) = target.parties();
+        let [(a, _), (b, _)] = target.sides;
         let [on_a, on_b] = hit.key.primitives;
         Self {
             r_link,
             s_side,
             primitives: hit.key.primitives,
-            tags: [pairing.a.tag(on_a), pairing.b.tag(on_b)],
+            tags: [a.tag(on_a), b.tag(on_b)],
             distance: hit.distance,
             first_contact: 0,
             contact_count: 0,

@@ -7,15 +7,17 @@ mod at_poses;
 mod candidates;
 mod context;
 mod half_spaces;
+mod scene;
 mod search;
 mod segment;
 mod slide;
+mod target;
 
 pub use answer::{
     ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, SSide, Witness,
     WitnessList,
 };
 pub use at_configuration::PseudoNormal;
-pub use candidates::Configuration;
 pub use context::QueryContext;
+pub use scene::Configuration;
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};

@@ -1,59 +1,29 @@
 //! The searches over many body pairs that the queries share: nearest, within, all within.
 
-use std::borrow::Borrow;
+use super::context::QueryContext;
+use super::scene::Scene;
+use super::target::Target;
+use crate::pair::{Collect, Hit, Nearest, Within, traverse, visit_pair};
 
-use super::candidates::Scene;
-use super::context::{CacheKey, QueryContext};
-use crate::body::Body;
-use crate::pair::{Collect, Hit, Nearest, Pairing, Within, traverse, visit_pair};
-use crate::pose::Pose;
-
-/// A body at a pose.
-pub type Placement<'a> = (&'a Body, &'a Pose);
-
-/// One body pair of a search, its rank among all pairs, and the margin taken off its distances.
-#[derive(Clone, Copy)]
-pub(super) struct Target<'a> {
-    pub sides: [Placement<'a>; 2],
-    pub key: CacheKey,
-    pub rank: u32,
-    pub margin: f64,
-    /// A safe lower bound of the distance less the margin.
-    pub bound: f64,
-}
-
-impl<'a> Target<'a> {
-    /// The two in one frame: made when it is needed, as most targets turn out to be too far.
-    pub fn pairing(&self) -> Pairing<'a> {
-        let [a, b] = self.sides;
-        Pairing::new(a.0, a.1, b.0, b.1)
-    }
-
-    /// The same, unless the balls around the bodies are more than `limit` apart, less the margin.
-    fn pairing_within(&self, limit: f64) -> Option<Pairing<'a>> {
-        if self.bound > limit {
-            return None;
-        }
-        let pairing = self.pairing();
-        (pairing.sphere_bound() - self.margin <= limit).then_some(pairing)
-    }
-}
-
-/// The nearest primitive pair over all targets, which come sorted by bound, if one is within `limit`.
-pub(super) struct Found {
-    pub hit: Option<Hit>,
+/// The nearest primitive pair over all targets.
+pub(super) struct Found<'t, 'a> {
+    /// With its body pair, if one is within the limit.
+    pub hit: Option<(Hit, &'t Target<'a>)>,
+    /// No primitive pair seen is nearer than this; safe against rounding.
     pub lower: f64,
-    /// To what the distance is known; without a hit, to what all are.
-    pub error: f64,
 }
 
 impl QueryContext {
-    pub(super) fn nearest<'a>(&mut self, targets: &[impl Borrow<Target<'a>>], limit: f64) -> Found {
+    /// The nearest primitive pair over all targets, which come sorted by bound, if one is within `limit`.
+    pub(super) fn nearest<'t, 'a>(
+        &mut self,
+        targets: &'t [Target<'a>],
+        limit: f64,
+    ) -> Found<'t, 'a> {
         let mut visitor = Nearest::up_to(limit);
-        let targets = || targets.iter().map(Borrow::borrow);
         // The pairs last nearest between each two bodies bound the distance before any tree is walked.
-        for target in targets().filter(|_| targets().len() > 1) {
-            visitor.margin = target.margin;
+        for target in targets.iter().filter(|_| targets.len() > 1) {
+            visitor.margin = target.options.margin;
             visitor.pair = target.rank;
             if target.bound > visitor.limit() {
                 break;
@@ -62,31 +32,21 @@ impl QueryContext {
                 let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
             }
         }
-        for target in targets() {
-            visitor.margin = target.margin;
+        for target in targets {
+            visitor.margin = target.options.margin;
             visitor.pair = target.rank;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 let first = self.remembered(&target.key);
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }
-        let error = |target: &Target| target.pairing().precision.error;
-        let winner = visitor.best.as_ref().and_then(|hit| {
-            let target = targets().find(|target| target.rank == hit.key.pair)?;
-            Some((target, hit.places))
+        let lower = visitor.lower;
+        let hit = visitor.best.and_then(|hit| {
+            let target = targets.iter().find(|target| target.rank == hit.key.pair)?;
+            self.remember(target.key, hit.places);
+            Some((hit, target))
         });
-        let error = match winner {
-            Some((target, places)) => {
-                self.remember(target.key, places);
-                error(target)
-            }
-            None => targets().map(error).fold(0.0, f64::max),
-        };
-        Found {
-            error,
-            lower: visitor.lower,
-            hit: visitor.best,
-        }
+        Found { hit, lower }
     }
 
     /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
@@ -110,23 +70,22 @@ impl QueryContext {
     }
 
     /// Whether some primitive pair is within the threshold, which may differ from target to target.
-    pub(super) fn any_within<'a, T: Borrow<Target<'a>>>(
+    pub(super) fn any_within(
         &mut self,
-        targets: &[T],
-        threshold: impl Fn(&T) -> f64,
+        targets: &[Target],
+        threshold: impl Fn(&Target) -> f64,
     ) -> bool {
         // Those last found to meet first.
         let recent = self.recent;
-        let is_recent = |target: &&T| recent == Some((*target).borrow().key);
+        let is_recent = |target: &&Target| recent == Some(target.key);
         let first = targets.iter().filter(is_recent);
         for target in first.chain(targets.iter().filter(|target| !is_recent(target))) {
             let threshold = threshold(target);
-            let target = target.borrow();
             let Some(pairing) = target.pairing_within(threshold) else {
                 continue;
             };
             let mut visitor = Within {
-                margin: target.margin,
+                margin: target.options.margin,
                 threshold,
                 found: None,
             };
@@ -141,15 +100,15 @@ impl QueryContext {
     }
 
     /// All primitive pairs within the threshold, nearest first, and whether there are more than `max_count`.
-    pub(super) fn collect<'a>(
+    pub(super) fn collect(
         &mut self,
-        targets: &[impl Borrow<Target<'a>>],
+        targets: &[Target],
         threshold: f64,
         max_count: usize,
     ) -> (Vec<Hit>, bool) {
         let mut visitor = Collect::new(threshold, max_count);
-        for target in targets.iter().map(Borrow::borrow) {
-            visitor.margin = target.margin;
+        for target in targets {
+            visitor.margin = target.options.margin;
             visitor.pair = target.rank;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);

@@ -1,7 +1,7 @@
 //! A proof that a straight segment of C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4).
 
-use super::candidates::Configuration;
 use super::context::QueryContext;
+use super::scene::Configuration;
 use crate::cobject::{CObject, Term};
 use crate::error::Result;
 

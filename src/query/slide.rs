@@ -3,9 +3,9 @@
 
 use super::answer::Distance;
 use super::at_configuration::check_threshold;
-use super::candidates::Configuration;
 use super::context::QueryContext;
 use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
+use super::scene::Configuration;
 use super::segment::motion_bound;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
