@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_finite};
-use crate::lanes::F64x4;
+use crate::lanes::{F64x4, Instructions, Work, along64, each3, with_widest};
 use crate::tolerance;
 
 pub type Vec3 = Vector3<f64>;
@@ -204,18 +204,48 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
 /// The centres' difference in the world is summed in double-double arithmetic: bodies far from the world's origin, or
 /// modelled far from their own, would otherwise lose the digits that matter.
 pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -> Pose {
-    let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
-    let mut sum = TwoFold::new(row(&b.translation));
-    sum.add(-row(&a.translation));
-    for j in 0..3 {
-        sum.add_product(row(&b.rotation.column(j).into_owned()), center_b[j]);
-        sum.add_product(row(&a.rotation.column(j).into_owned()), -center_a[j]);
-    }
-    let [x, y, z, _] = sum.value().0;
-    let back = a.rotation.transpose();
-    Pose {
-        rotation: turned_axes(&back, &b.rotation),
-        translation: turned(&back, &Vec3::new(x, y, z)),
+    with_widest(Relative {
+        poses: [a, b],
+        centers: [center_a, center_b],
+    })
+}
+
+struct Relative<'a> {
+    poses: [&'a Pose; 2],
+    centers: [&'a Vec3; 2],
+}
+
+impl Work for Relative<'_> {
+    type Output = Pose;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> Pose {
+        let [a, b] = self.poses;
+        let column = |pose: &Pose, j: usize| {
+            let r = &pose.rotation;
+            F64x4([r[(0, j)], r[(1, j)], r[(2, j)], 0.0])
+        };
+        let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
+        let mut sum = TwoFold::new(row(&b.translation));
+        sum.add(-row(&a.translation));
+        for j in 0..3 {
+            sum.add_product(lanes, column(b, j), self.centers[1][j]);
+            sum.add_product(lanes, column(a, j), -self.centers[0][j]);
+        }
+        let apart = sum.value().0;
+        // The axes of B and the vector between the centres side by side, turned back by A.
+        let in_world = each3(|k| {
+            let r = &b.rotation;
+            F64x4([r[(k, 0)], r[(k, 1)], r[(k, 2)], apart[k]])
+        });
+        let [x, y, z] = each3(|i| {
+            let axis = each3(|k| a.rotation[(k, i)]);
+            along64(&in_world, &axis).0
+        });
+        Pose {
+            rotation: Mat3::new(x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]),
+            translation: Vec3::new(x[3], y[3], z[3]),
+        }
     }
 }
 
@@ -243,6 +273,7 @@ struct TwoFold {
 }
 
 impl TwoFold {
+    #[inline(always)]
     fn new(value: F64x4) -> Self {
         Self {
             high: value,
@@ -259,23 +290,14 @@ impl TwoFold {
     }
 
     #[inline(always)]
-    fn add_product(&mut self, x: F64x4, y: f64) {
-        if y == 0.0 {
-            return;
-        }
+    fn add_product<I: Instructions>(&mut self, lanes: I, x: F64x4, y: f64) {
         let y = F64x4::splat(y);
         let product = x * y;
-        let split = |v: F64x4| {
-            let scaled = v * 134_217_729.0; // 2^27 + 1
-            let high = scaled - (scaled - v);
-            (high, v - high)
-        };
-        let ((xh, xl), (yh, yl)) = (split(x), split(y));
-        let error = ((xh * yh - product) + xh * yl + xl * yh) + xl * yl;
         self.add(product);
-        self.low = self.low + error;
+        self.low = self.low + lanes.product_error(x, y, product);
     }
 
+    #[inline(always)]
     fn value(&self) -> F64x4 {
         self.high + self.low
     }

@@ -3,6 +3,7 @@
 
 use std::arch::x86_64::*;
 
+use super::F64x4;
 use super::eight::{Instructions, LANES_OF};
 
 /// AVX2 and FMA.
@@ -176,5 +177,14 @@ impl Instructions for Avx2 {
             let values = _mm256_loadu_si256(values.as_ptr().cast());
             std::mem::transmute::<__m256i, [u32; 8]>(_mm256_permutevar8x32_epi32(values, order))
         }
+    }
+
+    #[inline(always)]
+    fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4 {
+        let mut error = product;
+        for lane in 0..4 {
+            error.0[lane] = x.0[lane].mul_add(y.0[lane], -product.0[lane]);
+        }
+        error
     }
 }

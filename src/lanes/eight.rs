@@ -1,6 +1,8 @@
 //! Eight numbers in single precision, for bounds: they say only what is worth a look, so products and sums are fused where
 //! that is cheap, and different instruction sets may give different bits.
 
+use super::F64x4;
+
 /// Numbers of an instruction set.
 pub type Lanes8<I> = <I as Instructions>::Numbers;
 
@@ -44,6 +46,9 @@ pub trait Instructions: Copy {
     fn only(self, a: Self::Numbers, lanes: u32) -> Self::Numbers;
     /// The values of the lanes in a set of bits, one after the other; what follows them means nothing.
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8];
+
+    /// x * y - product without rounding, where that is representable: what rounding took off the product.
+    fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
 
     /// The least of all lanes.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Eight numbers as every processor can have them.
 
+use super::F64x4;
 use super::eight::{Instructions, LANES_OF};
 
 /// What every processor has.
@@ -139,5 +140,17 @@ impl Instructions for Plain {
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
         let order = &LANES_OF[(lanes & 255) as usize];
         order.map(|lane| values[usize::from(lane & 7)])
+    }
+
+    /// After Dekker (1971).
+    #[inline(always)]
+    fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4 {
+        let split = |v: F64x4| {
+            let scaled = v * 134_217_729.0; // 2^27 + 1
+            let high = scaled - (scaled - v);
+            (high, v - high)
+        };
+        let ((xh, xl), (yh, yl)) = (split(x), split(y));
+        ((xh * yh - product) + xh * yl + xl * yh) + xl * yl
     }
 }

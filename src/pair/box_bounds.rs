@@ -23,7 +23,7 @@
 
 use crate::hierarchy::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, each3};
-use crate::pose::Pose;
+use crate::pose::{Pose, Vec3};
 
 /// The rounding of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
@@ -239,7 +239,8 @@ fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
 
 /// How far apart two boxes are along a unit vector from the first to the second, at least; negative where they may meet.
 #[inline(always)]
-pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &[f32; 3]) -> f32 {
+pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
+    let direction = &each3(|k| direction[k] as f32);
     let apart = each3(|k| second.center[k] - first.center[k]);
     dot(&apart, direction) - reach_of(first, direction) - reach_of(second, direction)
 }

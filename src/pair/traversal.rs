@@ -132,7 +132,11 @@ pub fn traverse(
         state,
     } = scratch;
     let meetings = Meetings::new(pairing, buffer, state, visitor);
-    with_widest(Walk::new(meetings, first, stack))
+    with_widest(Traversal {
+        meetings,
+        first,
+        stack,
+    })
 }
 
 /// Primitive pairs of two bodies as the visitor meets them.
@@ -212,12 +216,29 @@ impl<V: Visitor> Work for OneMeeting<'_, V> {
     }
 }
 
+struct Traversal<'a, V> {
+    meetings: Meetings<'a, V>,
+    first: Option<[u32; 2]>,
+    stack: &'a mut Waiting,
+}
+
+impl<V: Visitor> Work for Traversal<'_, V> {
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
+        if let Some(places) = self.first {
+            self.meetings.state.statistics.cache_hits += 1;
+            self.meetings.visit(places)?;
+        }
+        Walk::new(self.meetings, self.stack).run(lanes)
+    }
+}
+
 /// The two bodies as the walk sees them. Lengths in single precision are in units of `scale`, a power of two next above
 /// the pair's size.
 struct Walk<'a, V> {
     meetings: Meetings<'a, V>,
-    /// The places to visit first.
-    first: Option<[u32; 2]>,
     trees: [&'a PackedTree; 2],
     /// Into A's frame, and into B's.
     motions: [Motion32; 2],
@@ -231,18 +252,35 @@ struct Walk<'a, V> {
     stack: &'a mut Waiting,
 }
 
-impl<V: Visitor> Work for Walk<'_, V> {
-    type Output = ControlFlow<()>;
+impl<'a, V: Visitor> Walk<'a, V> {
+    #[inline(always)]
+    fn new(meetings: Meetings<'a, V>, stack: &'a mut Waiting) -> Self {
+        let pairing = meetings.pairing;
+        let [a, b] = [pairing.a.packed(), pairing.b.packed()];
+        let size = pairing.precision.size;
+        let scale = power_of_two(size);
+        let inverse_scale = 1.0 / scale;
+        let exponent = |tree: &PackedTree| (tree.scale().to_bits() >> 52) as i32;
+        Self {
+            motions: [
+                Motion32::new(&pairing.relative, b.scale(), scale),
+                Motion32::new(&pairing.relative.inverse(), a.scale(), scale),
+            ],
+            size_offset: SIZE_STEPS * (exponent(b) - exponent(a)),
+            inverse_scale,
+            directions: [[0.0; 3]; 2],
+            slack: pairing.slack() + ROUNDING * size,
+            meetings,
+            trees: [a, b],
+            stack,
+        }
+    }
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
-        if let Some(places) = self.first {
-            self.meetings.state.statistics.cache_hits += 1;
-            self.meetings.visit(places)?;
-        }
         self.aim_at_centers(lanes);
         self.turn_direction();
-        let [a, b] = self.trees.map(PackedTree::root);
+        let [a, b] = [self.trees[0].root(), self.trees[1].root()];
         self.stack.clear();
         let bound = f32::NEG_INFINITY;
         self.stack.push(&Entry { bound, a, b });
@@ -258,32 +296,6 @@ impl<V: Visitor> Work for Walk<'_, V> {
             self.open(lanes, &entry, cutoff);
         }
         ControlFlow::Continue(())
-    }
-}
-
-impl<'a, V: Visitor> Walk<'a, V> {
-    fn new(meetings: Meetings<'a, V>, first: Option<[u32; 2]>, stack: &'a mut Waiting) -> Self {
-        let pairing = meetings.pairing;
-        let trees = [pairing.a.packed(), pairing.b.packed()];
-        let size = pairing.precision.size;
-        let scale = power_of_two(size);
-        let inverse_scale = 1.0 / scale;
-        let inverse = pairing.relative.inverse();
-        let exponents = trees.map(|tree| (tree.scale().to_bits() >> 52) as i32);
-        Self {
-            motions: [
-                Motion32::new(&pairing.relative, trees[1].scale(), scale),
-                Motion32::new(&inverse, trees[0].scale(), scale),
-            ],
-            size_offset: SIZE_STEPS * (exponents[1] - exponents[0]),
-            inverse_scale,
-            directions: [[0.0; 3]; 2],
-            slack: pairing.slack() + ROUNDING * size,
-            meetings,
-            first,
-            trees,
-            stack,
-        }
     }
 
     /// Bounds above this, in units of the pair, tell that a pair does not matter.
@@ -306,27 +318,30 @@ impl<'a, V: Visitor> Walk<'a, V> {
         self.motions[1 - body].factor
     }
 
-    /// The direction between the centres, if it separates the bodies by more than that of the pair visited first.
+    /// Starts with the direction between the centres, unless that of the pair visited first does better.
     #[inline(always)]
     fn aim_at_centers<I: Instructions>(&mut self, lanes: I) {
         let centers = -self.meetings.pairing.relative.translation;
         let Some(centers) = centers.try_normalize(0.0) else {
             return;
         };
-        let a = self.trees[0].bounding_box(self.trees[0].root());
-        let a = PackedBox {
-            axes: a.axes,
-            center: each3(|k| a.center[k] * self.unit(0)),
-            half: each3(|k| a.half[k] * self.unit(0)),
-        };
-        let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
-        let b = self.motions[0].apply(lanes, b);
-        let [now, then] = [self.meetings.state.direction, centers]
-            .map(|direction| box_bounds::gap_along(&b, &a, &each3(|k| direction[k] as f32)));
-        let nothing_known = self.meetings.state.direction == Vec3::zeros();
-        if nothing_known || (now <= 0.0 && then > 0.0) {
-            self.meetings.state.direction = centers;
+        let first = self.meetings.state.direction;
+        if first != Vec3::zeros() {
+            let a = self.trees[0].bounding_box(self.trees[0].root());
+            let a = PackedBox {
+                axes: a.axes,
+                center: each3(|k| a.center[k] * self.unit(0)),
+                half: each3(|k| a.half[k] * self.unit(0)),
+            };
+            let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
+            let b = self.motions[0].apply(lanes, b);
+            if box_bounds::gap_along(&b, &a, &first) > 0.0
+                || box_bounds::gap_along(&b, &a, &centers) <= 0.0
+            {
+                return;
+            }
         }
+        self.meetings.state.direction = centers;
     }
 
     /// Takes up a new direction.
