@@ -237,7 +237,7 @@ fn answers_scale_with_the_world() {
     }
 }
 
-/// The bounds of a node's boxes from another, as they are and refined.
+/// The bounds of a node's boxes from another, coarse and refined.
 struct Bounded<'a>(&'a WideNode, &'a PackedBox);
 
 impl Work for Bounded<'_> {
@@ -284,7 +284,11 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
             for [coarse, refined] in found {
                 let [coarse, refined] = [coarse, refined].map(|b| f64::from(b[lane]));
                 assert!(refined <= exact.max(0.0) + ROUNDING, "{refined} {exact}");
-                assert!(coarse <= refined);
+                // A diagonal is shortened by what axes that are not quite upright may add to it.
+                assert!(
+                    coarse - coarse.abs() / 4096.0 <= refined,
+                    "{coarse} {refined}"
+                );
                 coarse_sum += coarse.max(0.0);
                 refined_sum += refined.max(0.0);
                 exact_sum += exact.max(0.0);
@@ -292,8 +296,6 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
         }
     }
     let shares = [coarse_sum, refined_sum].map(|sum| sum / exact_sum);
-    assert!(
-        shares[0] > 0.95 && shares[1] > shares[0] + 0.01,
-        "{shares:?}"
-    );
+    // The largest gap alone is short of distances between corners.
+    assert!(shares[0] > 0.88 && shares[1] > 0.98, "{shares:?}");
 }

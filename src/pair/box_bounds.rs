@@ -1,10 +1,10 @@
 //! Lower bounds of the distance between one oriented box and eight others, in single precision.
 //!
 //! For a direction n, two sets are apart by at least |n . (c - c')| less what each reaches from its centre c, c' along n.
-//! Along the three axes of one box such gaps are the sides of a box between the sets, whose diagonal bounds the distance;
-//! the larger of the two diagonals counts. It bounds the gap along its own direction too, by the sum of what the reaches
-//! along the axes make of it; refined, that gap is measured. Along n = sum of d_i axis_i the box of these axes reaches
-//! sum |d_i| half_i, the other's sum |n . axis_j| half_j.
+//! The largest such gap along the three axes of one box and of the other is a bound. Refined, the gaps along the axes of a
+//! box are the sides of a box between the sets, whose diagonal bounds the distance; it bounds the gap along its own
+//! direction too, by the sum of what the reaches along the axes make of it, and that gap is measured. Along n = sum of
+//! d_i axis_i the box of these axes reaches sum |d_i| half_i, the other's sum |n . axis_j| half_j.
 //!
 //! Axes: with those of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
 //! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the half sides say what a box reaches, along
@@ -115,80 +115,94 @@ pub fn bounds<I: Instructions>(
     let [ax, ay, az] = [lanes.along(a, x), lanes.along(a, y), lanes.along(a, z)];
     let [bx, by, bz] = [lanes.along(b, x), lanes.along(b, y), lanes.along(b, z)];
     let [cx, cy, cz] = [lanes.along(c, x), lanes.along(c, y), lanes.along(c, z)];
-    let along = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]];
-    let places = [
-        lanes.dot(a, &apart),
-        lanes.dot(b, &apart),
-        lanes.dot(c, &apart),
-    ];
-    let first = gaps(lanes, &places, &eight.half, &half, &along, refined);
-    let along = [[ax, bx, cx], [ay, by, cy], [az, bz, cz]];
-    let places = [
-        lanes.along(&apart, x),
-        lanes.along(&apart, y),
-        lanes.along(&apart, z),
-    ];
-    let second = gaps(lanes, &places, &half, &eight.half, &along, refined);
-    // Where no gap is above 0 the others are 0.
-    let apart = lanes.max(first.apart, second.apart);
-    let deepest = lanes.max(first.deepest, second.deepest);
-    let depth = lanes.min(deepest, lanes.splat(0.0));
-    lanes.mul_add(apart, lanes.splat(UPRIGHT), depth)
+    let first = Gaps {
+        places: [
+            lanes.dot(a, &apart),
+            lanes.dot(b, &apart),
+            lanes.dot(c, &apart),
+        ],
+        half: &eight.half,
+        other_half: &half,
+        along: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]],
+    };
+    let second = Gaps {
+        places: [
+            lanes.along(&apart, x),
+            lanes.along(&apart, y),
+            lanes.along(&apart, z),
+        ],
+        half: &half,
+        other_half: &eight.half,
+        along: [[ax, bx, cx], [ay, by, cy], [az, bz, cz]],
+    };
+    let first = first.largest_and_diagonal(lanes, refined);
+    let second = second.largest_and_diagonal(lanes, refined);
+    let largest = lanes.max(first[0], second[0]);
+    if !refined {
+        return largest;
+    }
+    let diagonal = lanes.max(first[1], second[1]);
+    // Where no gap is above 0 the diagonal is 0.
+    let depth = lanes.min(largest, lanes.splat(0.0));
+    lanes.mul_add(diagonal, lanes.splat(UPRIGHT), depth)
 }
 
-struct Gaps<I: Instructions> {
-    /// The largest of the gaps along the axes of a box.
-    deepest: Lanes8<I>,
-    /// The gap along the diagonal of those that are above 0, or less.
-    apart: Lanes8<I>,
+/// What the gaps along the axes of a box follow from.
+struct Gaps<'a, I: Instructions> {
+    /// Where the other box is along the axes.
+    places: Triple<I>,
+    half: &'a Triple<I>,
+    other_half: &'a Triple<I>,
+    /// The products of the axes with those of the other box.
+    along: [Triple<I>; 3],
 }
 
-/// The gaps along the axes of a box, given where the other is along them, and the products of the axes.
-#[inline(always)]
-fn gaps<I: Instructions>(
-    lanes: I,
-    places: &Triple<I>,
-    half: &Triple<I>,
-    other_half: &Triple<I>,
-    along: &[Triple<I>; 3],
-    refined: bool,
-) -> Gaps<I> {
-    let mut deepest = lanes.splat(f32::NEG_INFINITY);
-    let mut beyond = *places;
-    let mut square = lanes.splat(0.0);
-    let mut own = lanes.splat(0.0);
-    for i in 0..3 {
-        let reach = reach(lanes, &along[i], other_half, half[i]);
-        let distance = lanes.abs(places[i]);
-        deepest = lanes.max(deepest, lanes.sub(distance, reach));
-        let below = lanes.sub(lanes.splat(0.0), reach);
-        let within = lanes.max(lanes.min(places[i], reach), below);
-        beyond[i] = lanes.sub(places[i], within);
-        square = lanes.mul_add(beyond[i], beyond[i], square);
-        if refined {
-            let outside = lanes.sub(distance, half[i]);
+impl<I: Instructions> Gaps<'_, I> {
+    /// The largest gap along an axis, and if refined that along the diagonal.
+    #[inline(always)]
+    fn largest_and_diagonal(&self, lanes: I, refined: bool) -> [Lanes8<I>; 2] {
+        let [a, b, c] = &self.along;
+        // What both boxes reach along the axes.
+        let reaches = [
+            reach(lanes, a, self.other_half, self.half[0]),
+            reach(lanes, b, self.other_half, self.half[1]),
+            reach(lanes, c, self.other_half, self.half[2]),
+        ];
+        let gap = |i: usize| lanes.sub(lanes.abs(self.places[i]), reaches[i]);
+        let [x, y, z] = each3(gap);
+        let largest = lanes.max(lanes.max(x, y), z);
+        if !refined {
+            return [largest; 2];
+        }
+        [largest, self.along_diagonal(lanes, &reaches)]
+    }
+
+    /// The gap along the diagonal of those that are above 0, or less; 0 if there is none.
+    #[inline(always)]
+    fn along_diagonal(&self, lanes: I, reaches: &Triple<I>) -> Lanes8<I> {
+        let mut beyond = self.places;
+        let mut square = lanes.splat(0.0);
+        let mut own = lanes.splat(0.0);
+        for i in 0..3 {
+            let (place, reach) = (self.places[i], reaches[i]);
+            let below = lanes.sub(lanes.splat(0.0), reach);
+            let within = lanes.max(lanes.min(place, reach), below);
+            beyond[i] = lanes.sub(place, within);
+            square = lanes.mul_add(beyond[i], beyond[i], square);
+            let outside = lanes.sub(lanes.abs(place), self.half[i]);
             own = lanes.mul_add(outside, lanes.abs(beyond[i]), own);
         }
-    }
-    let diagonal = lanes.sqrt(square);
-    if !refined {
-        return Gaps {
-            deepest,
-            apart: diagonal,
-        };
-    }
-    let [a, b, c] = along;
-    let across = [
-        lanes.dot(&beyond, &[a[0], b[0], c[0]]),
-        lanes.dot(&beyond, &[a[1], b[1], c[1]]),
-        lanes.dot(&beyond, &[a[2], b[2], c[2]]),
-    ];
-    let reach = reach(lanes, &across, other_half, lanes.splat(0.0));
-    let refined = lanes.div(lanes.sub(own, reach), diagonal);
-    Gaps {
-        deepest,
+        let diagonal = lanes.sqrt(square);
+        let [a, b, c] = &self.along;
+        let across = [
+            lanes.dot(&beyond, &[a[0], b[0], c[0]]),
+            lanes.dot(&beyond, &[a[1], b[1], c[1]]),
+            lanes.dot(&beyond, &[a[2], b[2], c[2]]),
+        ];
+        let reach = reach(lanes, &across, self.other_half, lanes.splat(0.0));
+        let refined = lanes.div(lanes.sub(own, reach), diagonal);
         // Not a number where the diagonal is 0.
-        apart: lanes.max(refined, diagonal),
+        lanes.max(refined, diagonal)
     }
 }
 
