@@ -1,4 +1,4 @@
-//! The pairs that wait to be visited, of those found together the nearest on top.
+//! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of all.
 
 use crate::hierarchy::{Children, Unit};
 use crate::lanes::{Instructions, Lanes8};
@@ -56,6 +56,36 @@ impl Waiting {
         let top = self.top()?;
         self.count -= 1;
         Some(top)
+    }
+
+    /// Puts the nearest of all on top.
+    #[inline(always)]
+    pub fn raise_nearest<I: Instructions>(&mut self, lanes: I) {
+        let Some(top) = self.count.checked_sub(1) else {
+            return;
+        };
+        if self.count + 8 >= self.bounds.len() {
+            self.grow();
+        }
+        // Eight at a time, the last ones with what fills them up.
+        self.bounds[self.count..self.count + 8].fill(f32::INFINITY);
+        let (eights, _) = self.bounds[..self.count + 7].as_chunks::<8>();
+        let mut least = lanes.splat(f32::INFINITY);
+        for eight in eights {
+            least = lanes.min(lanes.load(eight), least);
+        }
+        let least = lanes.least(least);
+        let mut place = top;
+        for (eight, first) in eights.iter().zip((0..).step_by(8)) {
+            let found = lanes.at_most(lanes.load(eight), least);
+            if found != 0 {
+                place = first + found.trailing_zeros() as usize;
+                break;
+            }
+        }
+        self.bounds.swap(place, top);
+        self.units[0].swap(place, top);
+        self.units[1].swap(place, top);
     }
 
     #[cold]

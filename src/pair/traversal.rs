@@ -290,7 +290,12 @@ impl<'a, V: Visitor> Walk<'a, V> {
                 continue;
             }
             if entry.is_of_leaves() {
+                let before = self.meetings.visitor.bound();
                 self.visit_leaves(entry.a, entry.b)?;
+                // What is near a nearer pair need not be nearest: the next way down starts from the best that waits.
+                if self.meetings.visitor.bound() < before {
+                    self.stack.raise_nearest(lanes);
+                }
                 continue;
             }
             self.open(lanes, &entry, cutoff);
