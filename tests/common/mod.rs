@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // every test file uses a part of this module
 
+pub mod checked;
 pub mod containment;
 pub mod differences;
 pub mod expansion;
@@ -11,3 +12,4 @@ pub mod oracle;
 pub mod random;
 pub mod robots;
 pub mod shapes;
+pub mod trees;
