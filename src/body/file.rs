@@ -4,29 +4,17 @@
 use std::fs;
 use std::path::Path;
 
+use super::file_reader::Reader;
+use super::file_writer::{LEAF, Writer};
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{
-    BuildTimes, Frame, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperKind, WrapperTree,
-};
-use crate::pose::{Vec3, check_dimension};
-use crate::primitive::{Convex, Face};
-use crate::tolerance;
+use crate::hierarchy::BuildTimes;
+use crate::pose::check_dimension;
 use crate::whole_file::write_whole;
 
 const MAGIC: [u8; 8] = *b"cstkbody";
 const VERSION: u32 = 2;
 const HEADER_BYTES: usize = 32;
-const LEAF: u32 = 1 << 31;
-
-/// The kinds of wrappers by their numbers in files.
-const KINDS: [WrapperKind; 5] = [
-    WrapperKind::Hull,
-    WrapperKind::OrientedBox,
-    WrapperKind::AlignedBox,
-    WrapperKind::TightSphere,
-    WrapperKind::MergedSphere,
-];
 
 impl Body {
     /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is.
@@ -164,277 +152,14 @@ fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
     Ok(payload)
 }
 
-#[derive(Default)]
-struct Writer(Vec<u8>);
-
-impl Writer {
-    fn u32(&mut self, value: u32) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    fn u64(&mut self, value: u64) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    fn f64(&mut self, value: f64) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    fn count(&mut self, value: usize) {
-        self.u64(value as u64);
-    }
-
-    fn vector(&mut self, vector: &Vec3) {
-        for &x in vector.iter() {
-            self.f64(x);
-        }
-    }
-
-    fn primitive(&mut self, primitive: &Convex) {
-        self.u32(primitive.vertices.len() as u32);
-        self.u32(primitive.edges.len() as u32);
-        self.u32(primitive.faces.len() as u32);
-        self.f64(primitive.deviation);
-        for vertex in &primitive.vertices {
-            self.vector(vertex);
-        }
-        for &i in primitive.edges.as_flattened() {
-            self.u32(i);
-        }
-        for face in &primitive.faces {
-            self.vector(&face.normal);
-            self.u32(face.vertices.len() as u32);
-            for &i in &face.vertices {
-                self.u32(i);
-            }
-        }
-    }
-
-    fn tree(&mut self, tree: &WrapperTree) {
-        let kind = KINDS.iter().position(|&kind| kind == tree.kind());
-        self.u32(kind.unwrap_or(0) as u32);
-        self.count(tree.subsets().nodes.len());
-        self.count(tree.pieces().len());
-        for (i, node) in tree.subsets().nodes.iter().enumerate() {
-            self.u32(match *node {
-                Node::Leaf { primitive } => LEAF | primitive,
-                Node::Interior { children } => children[1],
-            });
-            let wrapper = tree.wrapper(i as u32);
-            self.u32(wrapper.corners.len() as u32);
-            self.f64(wrapper.excess);
-            self.vector(&wrapper.center);
-            self.f64(wrapper.radius);
-            for corner in wrapper.corners {
-                self.vector(corner);
-            }
-        }
-        for &piece in tree.pieces() {
-            self.u32(piece);
-        }
-    }
-
-    fn packed(&mut self, packed: &PackedTree) {
-        self.count(packed.primitives().len());
-        for entry in packed.primitives().entries() {
-            self.u32(entry.primitive);
-        }
-        self.count(packed.nodes().len());
-        for node in packed.nodes() {
-            self.0.extend(node.to_bytes());
-        }
-    }
-}
-
-/// Reads a payload that passed its checksum; what it says is still not trusted.
-struct Reader<'a> {
-    payload: &'a [u8],
-    /// Where in the file the rest begins, for messages.
-    place: usize,
-}
-
-impl Reader<'_> {
-    fn damaged(&self, what: &str) -> Error {
-        Error::new(
-            ErrorKind::Parse,
-            format!("{what} cannot be right (before byte {})", self.place),
-        )
-    }
-
-    fn take<const N: usize>(&mut self) -> Result<[u8; N]> {
-        let (taken, rest) = self
-            .payload
-            .split_first_chunk::<N>()
-            .ok_or_else(|| self.damaged("the length of the content"))?;
-        self.payload = rest;
-        self.place += N;
-        Ok(*taken)
-    }
-
-    fn u32(&mut self) -> Result<u32> {
-        Ok(u32::from_le_bytes(self.take()?))
-    }
-
-    fn u64(&mut self) -> Result<u64> {
-        Ok(u64::from_le_bytes(self.take()?))
-    }
-
-    fn f64(&mut self) -> Result<f64> {
-        let value = f64::from_le_bytes(self.take()?);
-        if value.is_finite() && value.abs() <= 4.0 * tolerance::LARGEST_COORDINATE {
-            Ok(value)
-        } else {
-            Err(self.damaged("a number"))
-        }
-    }
-
-    fn length(&mut self) -> Result<f64> {
-        let value = self.f64()?;
-        if value >= 0.0 {
-            Ok(value)
-        } else {
-            Err(self.damaged("a length"))
-        }
-    }
-
-    fn vector(&mut self) -> Result<Vec3> {
-        Ok(Vec3::new(self.f64()?, self.f64()?, self.f64()?))
-    }
-
-    /// A number of things of which each takes `bytes` at least, so that it cannot ask for more memory than the file has.
-    fn fitting(&self, count: u64, bytes: usize) -> Result<usize> {
-        usize::try_from(count)
-            .ok()
-            .filter(|&count| count <= self.payload.len() / bytes)
-            .ok_or_else(|| self.damaged("a count"))
-    }
-
-    fn count(&mut self, bytes: usize) -> Result<usize> {
-        let count = self.u64()?;
-        self.fitting(count, bytes)
-    }
-
-    fn short_count(&mut self, bytes: usize) -> Result<usize> {
-        let count = self.u32()?;
-        self.fitting(count.into(), bytes)
-    }
-
-    fn index(&mut self, below: usize) -> Result<u32> {
-        let index = self.u32()?;
-        if (index as usize) < below {
-            Ok(index)
-        } else {
-            Err(self.damaged("an index"))
-        }
-    }
-
-    fn primitive(&mut self) -> Result<Convex> {
-        let (vertices, edges, faces) = (
-            self.short_count(24)?,
-            self.short_count(8)?,
-            self.short_count(28)?,
-        );
-        let deviation = self.length()?;
-        if vertices == 0 || edges == 0 {
-            return Err(self.damaged("a primitive"));
-        }
-        let vertices: Vec<Vec3> = (0..vertices)
-            .map(|_| self.vector())
-            .collect::<Result<_>>()?;
-        let edges: Vec<[u32; 2]> = (0..edges)
-            .map(|_| Ok([self.index(vertices.len())?, self.index(vertices.len())?]))
-            .collect::<Result<_>>()?;
-        let faces: Vec<Face> = (0..faces)
-            .map(|_| {
-                let normal = self.vector()?;
-                let corners = self.short_count(4)?;
-                if corners < 3 || (normal.norm() - 1.0).abs() > 1e-9 {
-                    return Err(self.damaged("a face"));
-                }
-                let corners = (0..corners).map(|_| self.index(vertices.len()));
-                Ok(Face {
-                    vertices: corners.collect::<Result<_>>()?,
-                    normal,
-                })
-            })
-            .collect::<Result<_>>()?;
-        Ok(Convex {
-            vertices,
-            edges,
-            faces,
-            deviation,
-        })
-    }
-
-    fn tree(&mut self, primitives: usize) -> Result<WrapperTree> {
-        let kind = *KINDS
-            .get(self.u32()? as usize)
-            .ok_or_else(|| self.damaged("the kind of wrappers"))?;
-        let count = self.count(48)?;
-        let pieces = self.count(4)?;
-        let mut nodes = Vec::with_capacity(count);
-        let mut frames = Vec::with_capacity(count);
-        let mut corners = Vec::new();
-        for i in 0..count {
-            let code = self.u32()?;
-            nodes.push(if code & LEAF != 0 {
-                Node::Leaf {
-                    primitive: code & !LEAF,
-                }
-            } else {
-                Node::Interior {
-                    children: [i as u32 + 1, code],
-                }
-            });
-            let corner_count = self.short_count(24)?;
-            frames.push(Frame {
-                first_corner: corners.len(),
-                corner_count,
-                excess: self.length()?,
-                center: self.vector()?,
-                radius: self.length()?,
-            });
-            if corner_count == 0 {
-                return Err(self.damaged("a wrapper"));
-            }
-            for _ in 0..corner_count {
-                corners.push(self.vector()?);
-            }
-        }
-        let pieces: Vec<u32> = (0..pieces)
-            .map(|_| self.index(count))
-            .collect::<Result<_>>()?;
-        let subsets = SubsetTree { nodes };
-        if !subsets.is_sound(primitives) || !pieces.is_sorted_by(|a, b| a < b) {
-            return Err(self.damaged("the tree"));
-        }
-        Ok(WrapperTree::from_parts(
-            subsets, frames, corners, kind, pieces,
-        ))
-    }
-
-    fn packed(&mut self, primitives: &[Convex], tree: &WrapperTree) -> Result<PackedTree> {
-        let leaves = self.count(4)?;
-        let order: Vec<u32> = (0..leaves)
-            .map(|_| self.index(primitives.len()))
-            .collect::<Result<_>>()?;
-        let count = self.count(NODE_BYTES)?;
-        let nodes: Vec<WideNode> = (0..count)
-            .map(|_| {
-                let bytes = self.take()?;
-                WideNode::from_bytes(&bytes).ok_or_else(|| self.damaged("a node of boxes"))
-            })
-            .collect::<Result<_>>()?;
-        PackedTree::from_parts(nodes, &order, primitives, tree)
-            .ok_or_else(|| self.damaged("the tree of boxes"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::body::BodyBuilder;
+    use crate::body::file_writer::KINDS;
     use crate::hierarchy::HierarchyOptions;
+    use crate::hierarchy::WrapperKind;
+    use crate::pose::Vec3;
 
     fn steps(wrapper: WrapperKind) -> Body {
         let mut builder = BodyBuilder::new(3).unwrap();

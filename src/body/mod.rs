@@ -4,6 +4,8 @@
 mod body;
 mod builder;
 mod file;
+mod file_reader;
+mod file_writer;
 mod mesh_file;
 
 pub use body::{Body, BodyStatistics};
