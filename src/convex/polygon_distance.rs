@@ -76,6 +76,7 @@ pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> Pol
 
 /// The closest points of polygons that do not cross, with the corners, edges and faces that hold them; `None` for those
 /// that may. A point no farther than `error` from a corner is held by that.
+#[inline(always)]
 pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Option<Closest> {
     let PolygonDistance::Apart(distance, nearest) = polygon_distance(a, b, f64::INFINITY, size)
     else {

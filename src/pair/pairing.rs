@@ -9,7 +9,7 @@ use crate::convex::{
     polygon_closest, polygon_distance,
 };
 use crate::hierarchy::PackedPrimitives;
-use crate::lanes::{F64x4, Points64};
+use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::tolerance;
 
@@ -186,7 +186,12 @@ impl<'a> Pairing<'a> {
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let is_plain = entries.iter().all(|entry| entry.is_plain);
         is_plain
-            .then(|| polygon_closest(&a, &b, self.precision.size, self.precision.error))
+            .then(|| {
+                with_widest(ClosestOutlines {
+                    outlines: [a, b],
+                    precision: &self.precision,
+                })
+            })
             .flatten()
     }
 
@@ -234,6 +239,21 @@ impl<'a> Pairing<'a> {
     /// The closest points in the world.
     pub fn world_points(&self, closest: &Closest) -> [Vec3; 2] {
         closest.points.map(|p| self.frame.transform_point(&p))
+    }
+}
+
+struct ClosestOutlines<'a> {
+    outlines: [Outline<'a>; 2],
+    precision: &'a Precision,
+}
+
+impl Work for ClosestOutlines<'_> {
+    type Output = Option<Closest>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<Closest> {
+        let [a, b] = &self.outlines;
+        polygon_closest(a, b, self.precision.size, self.precision.error)
     }
 }
 

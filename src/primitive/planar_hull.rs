@@ -56,8 +56,25 @@ pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance
     hull
 }
 
-/// Indices of points farther than the tolerance from all kept before them, by a grid of cells of that size.
+/// Indices of points farther than the tolerance from all kept before them.
 fn without_near_points(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
+    // So few are compared with one another faster than they are hashed.
+    const FEW: usize = 16;
+    if points.len() > FEW {
+        return without_near_points_of_many(points, tolerance);
+    }
+    let mut kept: Vec<u32> = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        let near = |other: &u32| (points[*other as usize] - point).norm() <= tolerance;
+        if !kept.iter().any(near) {
+            kept.push(i as u32);
+        }
+    }
+    kept
+}
+
+/// The same by a grid of cells of the tolerance's size.
+fn without_near_points_of_many(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     let cell = tolerance.max(f64::MIN_POSITIVE);
     let mut grid: HashMap<(i64, i64), Vec<u32>> = HashMap::new();
     let mut kept = Vec::with_capacity(points.len());

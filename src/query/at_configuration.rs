@@ -1,7 +1,7 @@
 //! Queries at a configuration: operations 4 to 8 of §2.2.4 and `cstk-pseudo-normal` of Appendix A.
 
 use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
-use super::at_poses::{contact_at_witness, contact_records};
+use super::at_poses::contact_records;
 use super::candidates::Wanted;
 use super::context::QueryContext;
 use super::scene::{Configuration, Scene};
@@ -205,7 +205,8 @@ impl QueryContext {
         for hit in &hits {
             let target = ranked[hit.key.pair as usize];
             let pairing = target.pairing();
-            let contacts = contact_records(&pairing, hit, target.options.margin);
+            let contacts =
+                contact_records(&pairing, hit, &pairing.closest(hit), target.options.margin);
             let mut entry = Witness::of(target, hit);
             entry.first_contact = list.contacts.len();
             entry.contact_count = contacts.len();
@@ -268,7 +269,10 @@ impl Distance {
         };
         let pairing = target.pairing();
         let error = pairing.precision.error;
-        let contact = contact_at_witness(&pairing, hit, target.options.margin);
+        let closest = pairing.closest(hit);
+        // The first is that at the closest points.
+        let contacts = contact_records(&pairing, hit, &closest, target.options.margin);
+        let contact = contacts.into_iter().next();
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.apart == 0.0,
@@ -286,7 +290,7 @@ impl Distance {
                     error
                 },
             witness: Some(witness),
-            points: pairing.world_points(&pairing.closest(hit)),
+            points: pairing.world_points(&closest),
             contact,
             version: 0,
         }

@@ -8,6 +8,7 @@ use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::InducedOptions;
+use crate::convex::Closest;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};
 
@@ -73,7 +74,7 @@ impl QueryContext {
             ..Default::default()
         };
         for hit in &hits {
-            let contacts = contact_records(pairing, hit, 0.0);
+            let contacts = contact_records(pairing, hit, &pairing.closest(hit), 0.0);
             list.witnesses.push(Witness {
                 first_contact: list.contacts.len(),
                 contact_count: contacts.len(),
@@ -136,10 +137,15 @@ impl Witness {
     }
 }
 
-/// The contacts of a primitive pair, distances less the margin.
-pub(super) fn contact_records(pairing: &Pairing, hit: &Hit, margin: f64) -> Vec<ContactRecord> {
+/// The contacts of a primitive pair, given its closest points; distances less the margin.
+pub(super) fn contact_records(
+    pairing: &Pairing,
+    hit: &Hit,
+    closest: &Closest,
+    margin: f64,
+) -> Vec<ContactRecord> {
     pairing
-        .world_contacts(hit.key.primitives, &pairing.closest(hit))
+        .world_contacts(hit.key.primitives, closest)
         .into_iter()
         .map(|found| ContactRecord {
             points: found.points,
@@ -150,13 +156,4 @@ pub(super) fn contact_records(pairing: &Pairing, hit: &Hit, margin: f64) -> Vec<
             features: found.contact.features,
         })
         .collect()
-}
-
-/// The contact at the closest points.
-pub(super) fn contact_at_witness(
-    pairing: &Pairing,
-    hit: &Hit,
-    margin: f64,
-) -> Option<ContactRecord> {
-    contact_records(pairing, hit, margin).into_iter().next()
 }
