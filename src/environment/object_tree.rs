@@ -3,7 +3,7 @@
 use super::SObject;
 use crate::body::Body;
 use crate::hierarchy::{BOX, BoxTree, Extent, OrientedBox, PackedBox, power_of_two};
-use crate::lanes::{Instructions, Work, along64, each3, with_widest};
+use crate::lanes::{Instructions, Work, along64, cross3, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
 use crate::pose::{Mat3, Pose, Vec3};
 use crate::tolerance;
@@ -21,6 +21,8 @@ pub struct Bounds {
     box_radius: f64,
     /// How far the body's primitives may be from what their features say (see `Body::deviation`).
     deviation: f64,
+    /// No coordinate that went into these is larger: their rounding is in proportion to it.
+    reach: f64,
 }
 
 /// The objects of one state of an environment, by their places in it.
@@ -31,7 +33,7 @@ pub struct ObjectTree {
     deviation: f64,
     /// No corner of a box is farther from the tree's centre.
     radius: f64,
-    /// The largest coordinate in the world.
+    /// No coordinate of an object, in the world or on its way there, is larger.
     reach: f64,
 }
 
@@ -53,11 +55,8 @@ impl Bounds {
             half: whole.half,
             box_radius: whole.radius,
             deviation: body.deviation(),
+            reach: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
         }
-    }
-
-    fn reach(&self) -> f64 {
-        self.center.amax() + self.radius
     }
 
     /// A safe lower and a safe upper bound of the distance of two bodies, by their balls.
@@ -65,7 +64,7 @@ impl Bounds {
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
-        let reach = self.reach().max(other.reach());
+        let reach = self.reach.max(other.reach);
         let slack = slack(reach, self.deviation + other.deviation);
         [apart - radii - slack, apart + radii + slack]
     }
@@ -84,6 +83,11 @@ impl Bounds {
             axes: Mat3::from_columns(&[x, y, x.cross(&y)]),
         }
     }
+}
+
+#[inline(always)]
+fn l1_norm(v: &Vec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
 }
 
 /// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
@@ -107,7 +111,7 @@ impl ObjectTree {
         Self {
             radius: largest(&mut corners.clone().map(|c| (c - tree.center).norm())),
             reach: largest(&mut corners.map(|c| c.amax()))
-                .max(largest(&mut bounds.iter().map(Bounds::reach))),
+                .max(largest(&mut bounds.iter().map(|b| b.reach))),
             deviation: largest(&mut bounds.iter().map(|b| b.deviation)),
             tree,
             bounds,
@@ -224,17 +228,12 @@ impl Descent {
         let size = objects.radius.max(from_center.norm() + body.box_radius);
         let scale = power_of_two(size);
         let inverse_scale = 1.0 / scale;
-        let reach = objects.reach.max(body.reach());
+        let reach = objects.reach.max(body.reach);
         let [x, y] = [&body.axes[0], &body.axes[1]];
         let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
-        let cross = [
-            x[1] * y[2] - x[2] * y[1],
-            x[2] * y[0] - x[0] * y[2],
-            x[0] * y[1] - x[1] * y[0],
-        ];
         Self {
             one: PackedBox {
-                axes: [x, y, cross],
+                axes: [x, y, cross3(&x, &y)],
                 center: each3(|k| (from_center[k] * inverse_scale) as f32),
                 half: each3(|i| ((body.half[i] * inverse_scale) as f32).next_up()),
             },

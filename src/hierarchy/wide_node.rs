@@ -4,7 +4,7 @@
 
 use super::oriented_box::span;
 use super::packed_box::PackedBox;
-use crate::lanes::{Instructions, Lanes8, Triple, each3};
+use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
@@ -194,15 +194,7 @@ impl WideNode {
     pub fn get(&self, lane: usize) -> PackedBox {
         let [a, b] = [0, 1].map(|i: usize| each3(|k| f32::from(self.axes[i][k][lane]) * AXIS_STEP));
         PackedBox {
-            axes: [
-                a,
-                b,
-                [
-                    a[1] * b[2] - a[2] * b[1],
-                    a[2] * b[0] - a[0] * b[2],
-                    a[0] * b[1] - a[1] * b[0],
-                ],
-            ],
+            axes: [a, b, cross3(&a, &b)],
             center: each3(|k| f32::from(self.center[k][lane]) * self.step() + self.frame[k]),
             half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
         }

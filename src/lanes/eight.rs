@@ -47,7 +47,8 @@ pub trait Instructions: Copy {
     /// The values of the lanes in a set of bits, one after the other; what follows them means nothing.
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8];
 
-    /// x * y - product without rounding, where that is representable: what rounding took off the product.
+    /// What rounding took off a product, in double precision. It is exact, and so the same on every instruction set, but
+    /// for numbers near the ends of their range.
     fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
 
     /// The least of all lanes.

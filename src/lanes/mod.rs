@@ -58,3 +58,13 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
 pub fn each3<T>(f: impl Fn(usize) -> T) -> [T; 3] {
     [f(0), f(1), f(2)]
 }
+
+/// The cross product in single precision.
+#[inline(always)]
+pub fn cross3(a: &[f32; 3], b: &[f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}

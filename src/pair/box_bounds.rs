@@ -1,6 +1,6 @@
 //! Lower bounds of the distance between one oriented box and eight others, in single precision.
 //!
-//! For a direction n, two sets are apart by at least |n . (c - c')| less what each reaches from its centre c, c' along n.
+//! For a unit vector n, two sets are apart by at least |n . (c - c')| less what each reaches from its centre c, c' along n.
 //! The largest such gap along the three axes of one box and of the other is a bound. Refined, the gaps along the axes of a
 //! box are the sides of a box between the sets, whose diagonal bounds the distance; it bounds the gap along its own
 //! direction too, by the sum of what the reaches along the axes make of it, and that gap is measured. Along n = sum of
@@ -8,18 +8,23 @@
 //!
 //! Axes: with those of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
 //! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the half sides say what a box reaches, along
-//! others the sum of what the sides do (see `PackedBox`), so each gap holds as it is. The diagonal of three may be too long
-//! by the root of 1 + e, for which [`UPRIGHT`] shortens it, and so may n.
+//! others the sum of what the sides do (see `PackedBox`), so each gap holds but for the length of its axis, and a diagonal
+//! but for that of n: either may be too long by the root of 1 + e, for which [`UPRIGHT`] shortens it.
 //!
 //! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most
-//! the radius of its body, so that the three of a box add up to at most 3 S. Axes and half sides are what the boxes hold their
-//! points by, and centres to within u S; the motion's rotation and translation are within u of what they stand for in each component.
-//! Brought into the other frame, a centre takes three products and three sums at most: with the rounding of the motion, it is within
-//! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within
-//! 24 u S. An axis brought over is within 5 u in each component, the third, the cross product of two such, within 14 u, its product with another within 13 u, that of the third
-//! within 28 u, so that the reach of a box is within 60 u S for those and 7 u S for the sum. A gap is thus within 91 u S, a diagonal within sqrt(3) times
-//! that; refined, within 42 u S for the centre and 95 u S for the reach, less than 150 u S. In all less than 160 u S, for which [`ROUNDING`] is taken off. A direction given in double precision and turned
-//! into a frame is within 6 u of unit length, its gap within 100 u S by the same count.
+//! the radius of its body, so that the three of a box add up to at most 3 S. Axes and half sides are what the boxes hold
+//! their points by, and centres to within u S; the motion's rotation and translation are within u of what they stand for
+//! in each component. Brought into the other frame, a centre takes three products and three sums at most: with the rounding
+//! of the motion, it is within 8 u S, its difference from another centre within 9 u S in each component, and the projection
+//! of that on an axis within 24 u S. An axis brought over is within 5 u in each component, the third, the cross product of
+//! two such, within 14 u, its product with another within 13 u, that of the third within 28 u, so that the reach of a box is
+//! within 60 u S for those and 7 u S for the sum. A gap is thus within 91 u S, a diagonal within sqrt(3) times that; refined,
+//! within 42 u S for the centre and 95 u S for the reach, less than 150 u S. In all less than 160 u S, for which
+//! [`ROUNDING`] is taken off. A direction given in double precision and turned into a frame is within 6 u of unit length,
+//! its gap within 100 u S by the same count.
+//!
+//! The tree over objects compares boxes that were turned in double precision, with the third axis as the cross product there
+//! (`ObjectTree`) or anew in single precision: within 3 u of the one their sides were fitted to, and so 9 u S in all.
 
 use crate::hierarchy::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, each3};
@@ -28,8 +33,11 @@ use crate::pose::{Pose, Vec3};
 /// The rounding of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
 
-/// What is left of a diagonal for certain.
+/// What is left for certain of a gap along an axis or a diagonal.
 const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
+
+/// The squares of sides down to this are numbers of full precision.
+const SHORTEST: f32 = 1e-18;
 
 /// A rigid motion from one body's frame to the other's, in units of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -135,16 +143,9 @@ pub fn bounds<I: Instructions>(
         other_half: &eight.half,
         along: [[ax, bx, cx], [ay, by, cy], [az, bz, cz]],
     };
-    let first = first.largest_and_diagonal(lanes, refined);
-    let second = second.largest_and_diagonal(lanes, refined);
-    let largest = lanes.max(first[0], second[0]);
-    if !refined {
-        return largest;
-    }
-    let diagonal = lanes.max(first[1], second[1]);
-    // Where no gap is above 0 the diagonal is 0.
-    let depth = lanes.min(largest, lanes.splat(0.0));
-    lanes.mul_add(diagonal, lanes.splat(UPRIGHT), depth)
+    let first = first.bounds(lanes, refined);
+    let second = second.bounds(lanes, refined);
+    lanes.mul(lanes.max(first, second), lanes.splat(UPRIGHT))
 }
 
 /// What the gaps along the axes of a box follow from.
@@ -158,9 +159,9 @@ struct Gaps<'a, I: Instructions> {
 }
 
 impl<I: Instructions> Gaps<'_, I> {
-    /// The largest gap along an axis, and if refined that along the diagonal.
+    /// The largest gap along an axis; if refined and there is one above 0, that along the diagonal.
     #[inline(always)]
-    fn largest_and_diagonal(&self, lanes: I, refined: bool) -> [Lanes8<I>; 2] {
+    fn bounds(&self, lanes: I, refined: bool) -> Lanes8<I> {
         let [a, b, c] = &self.along;
         // What both boxes reach along the axes.
         let reaches = [
@@ -168,16 +169,18 @@ impl<I: Instructions> Gaps<'_, I> {
             reach(lanes, b, self.other_half, self.half[1]),
             reach(lanes, c, self.other_half, self.half[2]),
         ];
-        let gap = |i: usize| lanes.sub(lanes.abs(self.places[i]), reaches[i]);
-        let [x, y, z] = each3(gap);
+        let [x, y, z] = each3(|i| lanes.sub(lanes.abs(self.places[i]), reaches[i]));
         let largest = lanes.max(lanes.max(x, y), z);
-        if !refined {
-            return [largest; 2];
+        if refined {
+            // Where no gap is above 0 the diagonal is 0, and how deep the boxes overlap counts.
+            let depth = lanes.min(largest, lanes.splat(0.0));
+            lanes.add(self.along_diagonal(lanes, &reaches), depth)
+        } else {
+            largest
         }
-        [largest, self.along_diagonal(lanes, &reaches)]
     }
 
-    /// The gap along the diagonal of those that are above 0, or less; 0 if there is none.
+    /// The gap along the diagonal of those that are above 0, or less; 0 or less if there is none.
     #[inline(always)]
     fn along_diagonal(&self, lanes: I, reaches: &Triple<I>) -> Lanes8<I> {
         let mut beyond = self.places;
@@ -200,9 +203,9 @@ impl<I: Instructions> Gaps<'_, I> {
             lanes.dot(&beyond, &[a[2], b[2], c[2]]),
         ];
         let reach = reach(lanes, &across, self.other_half, lanes.splat(0.0));
-        let refined = lanes.div(lanes.sub(own, reach), diagonal);
-        // Not a number where the diagonal is 0.
-        lanes.max(refined, diagonal)
+        // So short a diagonal may have lost its squares; divided by more, the gap is only less.
+        let length = lanes.max(diagonal, lanes.splat(SHORTEST));
+        lanes.max(lanes.div(lanes.sub(own, reach), length), diagonal)
     }
 }
 

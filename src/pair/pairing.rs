@@ -38,10 +38,13 @@ pub struct PrimitiveScratch {
     pub exact_pairs: u64,
 }
 
-/// How far two primitives are apart, and for polygons where.
+/// How far two primitives are apart, and where.
 pub struct Apart {
     pub distance: f64,
+    /// Known of polygons that do not cross.
     pub nearest: Option<Nearest>,
+    /// Of others the vector between the closest points, from B to A.
+    pub between: Vec3,
 }
 
 /// A contact with its points and normal in the world.
@@ -121,21 +124,31 @@ impl<'a> Pairing<'a> {
         scratch: &mut PrimitiveScratch,
     ) -> Option<Apart> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
-        let (distance, nearest) = match (&outline_a, outline_b) {
-            (Some(a), Some(b)) => match polygon_distance(a, b, cutoff, self.precision.size) {
-                PolygonDistance::Beyond => return None,
-                PolygonDistance::Apart(distance, nearest) => (distance, Some(nearest)),
-                PolygonDistance::Cross => (0.0, None),
-                PolygonDistance::Doubt => (self.closest_at(places, scratch).distance, None),
-            },
-            _ => (self.closest_at(places, scratch).distance, None),
+        let found = match (&outline_a, outline_b) {
+            (Some(a), Some(b)) => polygon_distance(a, b, cutoff, self.precision.size),
+            _ => PolygonDistance::Doubt,
         };
-        let distance = if distance <= self.precision.error {
-            0.0
-        } else {
-            distance
+        let mut apart = Apart {
+            distance: 0.0,
+            nearest: None,
+            between: Vec3::zeros(),
         };
-        (distance <= cutoff).then_some(Apart { distance, nearest })
+        match found {
+            PolygonDistance::Beyond => return None,
+            PolygonDistance::Apart(distance, nearest) => {
+                (apart.distance, apart.nearest) = (distance, Some(nearest));
+            }
+            PolygonDistance::Cross => {}
+            PolygonDistance::Doubt => {
+                let closest = self.closest_at(places, scratch);
+                apart.distance = closest.distance;
+                apart.between = closest.points[0] - closest.points[1];
+            }
+        }
+        if apart.distance <= self.precision.error {
+            apart.distance = 0.0;
+        }
+        (apart.distance <= cutoff).then_some(apart)
     }
 
     pub fn met(&self, places: [u32; 2], apart: f64) -> Met {
@@ -147,13 +160,6 @@ impl<'a> Pairing<'a> {
             apart,
             error: self.precision.error,
         }
-    }
-
-    /// The vector between the closest points of primitives that are apart, from B to A.
-    #[inline(never)]
-    pub fn across(&self, met: &Met) -> Vec3 {
-        let closest = self.closest(&met.hit(0, met.apart));
-        closest.points[0] - closest.points[1]
     }
 
     #[inline(never)]

@@ -118,7 +118,8 @@ pub fn visit_pair(
     with_widest(OneMeeting { meetings, places })
 }
 
-/// Walks both trees from their roots, nearer children first, after the primitives at two places if any are given.
+/// Walks both trees from their roots, after the primitives at two places if any are given: nearer children first, and
+/// after each nearer pair from the nearest of all that waits.
 /// Breaks as soon as the visitor does.
 pub fn traverse(
     pairing: &Pairing,
@@ -164,10 +165,10 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         }
     }
 
-    /// Shows the visitor the primitives at two places, if they may matter to it. The nearest so far become the direction
-    /// to separate others by.
+    /// Shows the visitor the primitives at two places, if they may matter to it. If the walk is to aim, the direction
+    /// between the nearest so far becomes that to separate others by.
     #[inline(always)]
-    fn visit(&mut self, places: [u32; 2]) -> ControlFlow<()> {
+    fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
         self.state.statistics.primitive_pairs += 1;
         let outline = self.pairing.outline_b(places[1], self.buffer);
@@ -186,19 +187,20 @@ impl<'a, V: Visitor> Meetings<'a, V> {
             return ControlFlow::Continue(());
         };
         let met = self.pairing.met(places, apart.distance);
-        if apart.distance < self.state.direction_at {
+        self.visitor.visit(&met)?;
+        if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
                 let across = match outlines.as_ref().zip(apart.nearest) {
                     Some(((a, b), nearest)) => nearest.across(a, b),
-                    None => self.pairing.across(&met),
+                    None => apart.between,
                 };
                 across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
             } else {
                 Vec3::zeros()
             };
         }
-        self.visitor.visit(&met)
+        ControlFlow::Continue(())
     }
 }
 
@@ -212,7 +214,7 @@ impl<V: Visitor> Work for OneMeeting<'_, V> {
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
-        self.meetings.visit(self.places)
+        self.meetings.visit(self.places, false)
     }
 }
 
@@ -229,7 +231,7 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
         if let Some(places) = self.first {
             self.meetings.state.statistics.cache_hits += 1;
-            self.meetings.visit(places)?;
+            self.meetings.visit(places, true)?;
         }
         Walk::new(self.meetings, self.stack).run(lanes)
     }
@@ -400,7 +402,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let nearest = self.meetings.state.direction_at;
         let visited = self
             .meetings
-            .visit([self.trees[0].place(a), self.trees[1].place(b)]);
+            .visit([self.trees[0].place(a), self.trees[1].place(b)], true);
         if self.meetings.state.direction_at < nearest {
             self.turn_direction();
         }

@@ -59,8 +59,7 @@ impl QueryContext {
             if epsilon > 0.0 && epsilon >= lower {
                 epsilon
             } else {
-                // No distance is that small.
-                -1.0
+                f64::NEG_INFINITY
             }
         };
         candidates.iter().any(|c| reaches(c) >= 0.0) && self.any_within(candidates, reaches)
@@ -205,19 +204,16 @@ impl QueryContext {
         for hit in &hits {
             let target = ranked[hit.key.pair as usize];
             let pairing = target.pairing();
-            let contacts =
-                contact_records(&pairing, hit, &pairing.closest(hit), target.options.margin);
-            let mut entry = Witness::of(target, hit);
-            entry.first_contact = list.contacts.len();
-            entry.contact_count = contacts.len();
-            entry.overlapping = contacts.is_empty() && hit.apart == 0.0;
-            list.witnesses.push(entry);
+            list.push(target, &pairing, hit);
             if with_gradients {
-                for contact in &contacts {
+                let first = list
+                    .witnesses
+                    .last()
+                    .map_or(0, |witness| witness.first_contact);
+                for contact in &list.contacts[first..] {
                     list.gradients.extend(gradient(scene, target, contact));
                 }
             }
-            list.contacts.extend(contacts);
         }
         list
     }

@@ -74,14 +74,7 @@ impl QueryContext {
             ..Default::default()
         };
         for hit in &hits {
-            let contacts = contact_records(pairing, hit, &pairing.closest(hit), 0.0);
-            list.witnesses.push(Witness {
-                first_contact: list.contacts.len(),
-                contact_count: contacts.len(),
-                overlapping: contacts.is_empty() && hit.apart == 0.0,
-                ..Witness::of(&target, hit)
-            });
-            list.contacts.extend(contacts);
+            list.push(&target, pairing, hit);
         }
         Ok(list)
     }
@@ -134,6 +127,21 @@ impl Witness {
             contact_count: 0,
             overlapping: false,
         }
+    }
+}
+
+impl WitnessList {
+    /// Takes a primitive pair with its contacts.
+    pub(super) fn push(&mut self, target: &Target, pairing: &Pairing, hit: &Hit) {
+        let closest = pairing.closest(hit);
+        let contacts = contact_records(pairing, hit, &closest, target.options.margin);
+        self.witnesses.push(Witness {
+            first_contact: self.contacts.len(),
+            contact_count: contacts.len(),
+            overlapping: contacts.is_empty() && hit.apart == 0.0,
+            ..Witness::of(target, hit)
+        });
+        self.contacts.extend(contacts);
     }
 }
 
