@@ -46,6 +46,8 @@ pub struct FeatureSet {
     pub vertices: Vec<u32>,
     pub edges: Vec<u32>,
     pub faces: Vec<u32>,
+    /// How far vertices are along a direction.
+    heights: Vec<f64>,
 }
 
 impl FeatureSet {
@@ -70,23 +72,27 @@ impl FeatureSet {
 
     /// The features all of whose vertices lie within `tolerance` of the farthest along `direction`.
     pub fn set_supporting(&mut self, placed: &Placed, direction: &Vec3, tolerance: f64) {
-        let (_, farthest) = placed.extent_along(direction);
-        let supports = |&i: &u32| direction.dot(&placed.vertex(i)) >= farthest - tolerance;
         self.clear();
-        self.vertices
-            .extend((0..placed.vertices.len() as u32).filter(supports));
-        let edges = placed.shape.edges.iter().enumerate();
-        self.edges.extend(
-            edges
-                .filter(|(_, e)| e.iter().all(supports))
-                .map(|(i, _)| i as u32),
-        );
-        let faces = placed.shape.faces.iter().enumerate();
-        self.faces.extend(
-            faces
-                .filter(|(_, f)| f.vertices.iter().all(supports))
-                .map(|(i, _)| i as u32),
-        );
+        self.heights.clear();
+        let heights = placed.vertices.iter().map(|v| direction.dot(v));
+        self.heights.extend(heights);
+        let farthest = self
+            .heights
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        let supports = |&i: &u32| self.heights[i as usize] >= farthest - tolerance;
+        let vertices = (0..placed.vertices.len() as u32).filter(supports);
+        self.vertices.extend(vertices);
+        let edges = placed.shape.edges.iter().zip(0..);
+        let edges = edges.filter(|(edge, _)| edge.iter().all(supports));
+        self.edges.extend(edges.map(|(_, i)| i));
+        // Faces have three vertices at least.
+        if self.vertices.len() > 2 {
+            let faces = placed.shape.faces.iter().zip(0..);
+            let faces = faces.filter(|(face, _)| face.vertices.iter().all(supports));
+            self.faces.extend(faces.map(|(_, i)| i));
+        }
     }
 
     /// The edges as pairs of vertices with the feature they stand for; lone vertices stand as edges of length 0.
@@ -175,7 +181,7 @@ fn vertices_over_faces(
             let (height, inside) = b.over_face(f as usize, &point);
             // Below the face of a solid is not outside of it there.
             if inside && (height >= 0.0 || !b.shape.is_solid()) {
-                let foot = point - b.normals[f as usize] * height;
+                let foot = point - b.normal(f as usize) * height;
                 offer(Closest {
                     distance: height.abs(),
                     points: [point, foot],
@@ -195,7 +201,7 @@ fn crossing(
 ) -> Option<(Vec3, u32, u32)> {
     for &f in &features_b.faces {
         let origin = b.vertex(b.shape.faces[f as usize].vertices[0]);
-        let normal = b.normals[f as usize];
+        let normal = b.normal(f as usize);
         for &e in &features_a.edges {
             let (p, q) = a.edge_ends(a.shape.edges[e as usize]);
             let (hp, hq) = (normal.dot(&(p - origin)), normal.dot(&(q - origin)));

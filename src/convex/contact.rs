@@ -204,7 +204,7 @@ impl<'a> Supporting<'a> {
             }
             _ => {
                 let normal = match self.feature.kind {
-                    FeatureKind::Face => self.placed.normals[self.feature.index as usize],
+                    FeatureKind::Face => self.placed.normal(self.feature.index as usize),
                     _ => self.normal,
                 };
                 point - normal * normal.dot(&(point - self.placed.vertex(self.ring[0])))

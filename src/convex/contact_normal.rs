@@ -154,7 +154,7 @@ impl Local {
         }
         let normals = (0..placed.shape.faces.len())
             .filter(|&f| placed.over_face(f, point).0.abs() <= near)
-            .map(|f| placed.normals[f])
+            .map(|f| placed.normal(f))
             .collect();
         Self {
             normals,

@@ -97,7 +97,8 @@ fn bounded_closest(
     let bounds = gjk(
         &PointCloud(a.vertices),
         &PointCloud(b.vertices),
-        Vec3::zeros(),
+        // A guess that the primitives alone decide, so that the answer depends on nothing else.
+        a.middle() - b.middle(),
         f64::INFINITY,
     );
     if bounds.overlap > tolerance::TOUCH_DEPTH * size {
@@ -165,8 +166,8 @@ pub fn feature_normal(a: &Placed, b: &Placed, found: &Closest) -> Option<Vec3> {
     use FeatureKind::{Edge, Face, Vertex};
     let [on_a, on_b] = found.features;
     match (on_a.kind, on_b.kind) {
-        (Vertex, Face) => Some(b.normals[on_b.index as usize]),
-        (Face, Vertex) => Some(a.normals[on_a.index as usize]),
+        (Vertex, Face) => Some(b.normal(on_b.index as usize)),
+        (Face, Vertex) => Some(a.normal(on_a.index as usize)),
         (Edge, Edge) => {
             let along = |placed: &Placed, edge: u32| {
                 let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);

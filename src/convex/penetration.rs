@@ -42,8 +42,10 @@ pub fn penetration(r: &Placed, s: &Placed, precision: &Precision) -> Penetration
             }
         }
     } else {
-        for normal in r.normals.iter().chain(s.normals) {
-            shortest.offer(normal);
+        for placed in [r, s] {
+            for face in 0..placed.shape.faces.len() {
+                shortest.offer(&placed.normal(face));
+            }
         }
         let slack = SUPPORT_SLACK * precision.size;
         let sides = [r, s].map(wings);

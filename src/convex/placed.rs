@@ -1,6 +1,6 @@
 //! A primitive's coordinates in the frame in which a pair is examined.
 
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Mat3, Pose, Vec3};
 use crate::primitive::Convex;
 
 /// The lengths that decide about a pair of bodies, their dimension with them.
@@ -19,34 +19,49 @@ pub struct Precision {
 pub struct Placed<'a> {
     pub shape: &'a Convex,
     pub vertices: &'a [Vec3],
-    pub normals: &'a [Vec3],
+    /// Turns the shape's directions into the frame, unless the frame is its own.
+    pub(super) rotation: Option<&'a Mat3>,
 }
 
 /// Memory for one moved primitive, reused from pair to pair.
 #[derive(Default)]
-pub struct PlacedBuffer {
-    vertices: Vec<Vec3>,
-    normals: Vec<Vec3>,
-}
+pub struct PlacedBuffer(Vec<Vec3>);
 
 impl PlacedBuffer {
     /// `shape` moved by `pose`.
-    pub fn place<'a>(&'a mut self, shape: &'a Convex, pose: &Pose) -> Placed<'a> {
-        self.vertices.clear();
-        self.vertices
+    pub fn place<'a>(&'a mut self, shape: &'a Convex, pose: &'a Pose) -> Placed<'a> {
+        self.0.clear();
+        self.0
             .extend(shape.vertices.iter().map(|v| pose.transform_point(v)));
-        self.normals.clear();
-        self.normals
-            .extend(shape.faces.iter().map(|f| pose.rotation * f.normal));
         Placed {
             shape,
-            vertices: &self.vertices,
-            normals: &self.normals,
+            vertices: &self.0,
+            rotation: Some(&pose.rotation),
         }
     }
 }
 
-impl Placed<'_> {
+impl<'a> Placed<'a> {
+    /// A primitive in its own frame.
+    pub fn at_home(shape: &'a Convex) -> Self {
+        Self {
+            shape,
+            vertices: &shape.vertices,
+            rotation: None,
+        }
+    }
+
+    /// The outward unit normal of a face.
+    pub fn normal(&self, face: usize) -> Vec3 {
+        let normal = self.shape.faces[face].normal;
+        self.rotation.map_or(normal, |rotation| rotation * normal)
+    }
+
+    /// The mean of the vertices.
+    pub fn middle(&self) -> Vec3 {
+        self.vertices.iter().sum::<Vec3>() / self.vertices.len() as f64
+    }
+
     pub fn vertex(&self, index: u32) -> Vec3 {
         self.vertices[index as usize]
     }
@@ -57,7 +72,7 @@ impl Placed<'_> {
 
     /// The height of `point` over face `face`, and whether its foot lies inside the face.
     pub fn over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
-        let normal = &self.normals[face];
+        let normal = &self.normal(face);
         let ring = &self.shape.faces[face].vertices;
         let height = normal.dot(&(point - self.vertex(ring[0])));
         let inside = (0..ring.len()).all(|i| {
@@ -71,12 +86,10 @@ impl Placed<'_> {
     /// Whether a solid contains the point.
     pub fn contains(&self, point: &Vec3) -> bool {
         self.shape.is_solid()
-            && self
-                .shape
-                .faces
-                .iter()
-                .zip(self.normals)
-                .all(|(face, normal)| normal.dot(&(point - self.vertex(face.vertices[0]))) <= 0.0)
+            && self.shape.faces.iter().enumerate().all(|(f, face)| {
+                let from_face = point - self.vertex(face.vertices[0]);
+                self.normal(f).dot(&from_face) <= 0.0
+            })
     }
 
     /// The extremes of `direction . x` over the primitive.

@@ -32,7 +32,7 @@ pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MOST_CORNERS / 4];
 /// Memory of the distances of primitives, reused from pair to pair.
 #[derive(Default)]
 pub struct PrimitiveScratch {
-    buffers: [PlacedBuffer; 2],
+    buffer: PlacedBuffer,
     distance: DistanceScratch,
     /// How many pairs had all their features compared.
     pub exact_pairs: u64,
@@ -166,7 +166,7 @@ impl<'a> Pairing<'a> {
     fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
         scratch.exact_pairs += 1;
         let primitives = self.met(places, 0.0).primitives;
-        let [a, b] = self.place(primitives, &mut scratch.buffers);
+        let [a, b] = self.place(primitives, &mut scratch.buffer);
         closest_points(&a, &b, &self.precision, &mut scratch.distance)
     }
 
@@ -203,8 +203,8 @@ impl<'a> Pairing<'a> {
 
     /// The contacts of one primitive pair, in the world.
     pub fn world_contacts(&self, primitives: [u32; 2], closest: &Closest) -> Vec<WorldContact> {
-        let mut buffers: [PlacedBuffer; 2] = Default::default();
-        let [a, b] = self.place(primitives, &mut buffers);
+        let mut buffer = PlacedBuffer::default();
+        let [a, b] = self.place(primitives, &mut buffer);
         contacts(&a, &b, closest, &self.precision)
             .into_iter()
             .map(|contact| WorldContact {
@@ -217,8 +217,8 @@ impl<'a> Pairing<'a> {
 
     /// How deep a primitive pair that meets is in one another, in the world.
     pub fn world_penetration(&self, primitives: [u32; 2]) -> Penetration {
-        let mut buffers: [PlacedBuffer; 2] = Default::default();
-        let [a, b] = self.place(primitives, &mut buffers);
+        let mut buffer = PlacedBuffer::default();
+        let [a, b] = self.place(primitives, &mut buffer);
         let found = penetration(&a, &b, &self.precision);
         Penetration {
             depth: found.depth,
@@ -228,18 +228,10 @@ impl<'a> Pairing<'a> {
     }
 
     /// Both primitives in A's centred frame.
-    fn place<'b>(
-        &'b self,
-        primitives: [u32; 2],
-        buffers: &'b mut [PlacedBuffer; 2],
-    ) -> [Placed<'b>; 2] {
-        let [buffer_a, buffer_b] = buffers;
+    fn place<'b>(&'b self, primitives: [u32; 2], buffer: &'b mut PlacedBuffer) -> [Placed<'b>; 2] {
         let a = &self.a.primitives()[primitives[0] as usize];
         let b = &self.b.primitives()[primitives[1] as usize];
-        [
-            buffer_a.place(a, &Pose::identity()),
-            buffer_b.place(b, &self.relative),
-        ]
+        [Placed::at_home(a), buffer.place(b, &self.relative)]
     }
 
     /// The closest points in the world.
