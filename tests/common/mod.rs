@@ -9,6 +9,7 @@ pub mod differences;
 pub mod expansion;
 pub mod models;
 pub mod oracle;
+pub mod placed;
 pub mod random;
 pub mod robots;
 pub mod shapes;
