@@ -170,7 +170,8 @@ where
     fn run<I: Instructions>(mut self, lanes: I) {
         let tree = &self.objects.tree;
         for named in self.bodies {
-            let body = Bounds::of(named.1, named.2);
+            let (_, body, pose) = named;
+            let body = Bounds::of(body, pose);
             let descent = Descent::new(self.objects, &body);
             self.open.clear();
             self.open.push((f32::NEG_INFINITY, 0));

@@ -176,7 +176,8 @@ impl<'a> Scene<'a> {
             SObjects::All(_) => tree.visit_near(bodies, reach, scratch, offer),
             SObjects::Some(_, ids) => {
                 for named in bodies {
-                    let bounds = Bounds::of(named.1, named.2);
+                    let (_, body, pose) = named;
+                    let bounds = Bounds::of(body, pose);
                     for place in ids.iter().filter_map(|id| snapshot.place_of(*id)) {
                         offer(&named, &bounds, place, f64::NEG_INFINITY);
                     }
