@@ -1,4 +1,5 @@
 // The C++ layer: every class and call once, exceptions both ways, copies and moves.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,16 @@ template <typename Action> static cstk_status status_of(Action action) {
         return error.status();
     }
     return CSTK_OK;
+}
+
+/// The layer itself refuses what it could not hand on.
+template <typename Action> static bool is_invalid(Action action) {
+    try {
+        action();
+    } catch (const std::invalid_argument &) {
+        return true;
+    }
+    return false;
 }
 
 static const double cube[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
@@ -124,6 +135,44 @@ static void poses() {
     REQUIRE(cstk::pose_from_quaternion({1, 2, 3, 0, 0, 0, 1}) == cstk::translation(1, 2, 3));
     REQUIRE(cstk::compose(cstk::translation(1, 2, 3), cstk::translation(1, 0, 0)) ==
             cstk::translation(2, 2, 3));
+    REQUIRE(cstk::pose_inverse(cstk::translation(1, 2, 3)) == cstk::translation(-1, -2, -3));
+    const std::array<double, 3> point = {3, 2, 1};
+    REQUIRE((cstk::transform_point(cstk::translation(1, 2, 3), point) ==
+             std::array<double, 3>{4, 4, 4}));
+    REQUIRE((cstk::pose_to_quaternion(cstk::translation(1, 2, 3)) ==
+             std::array<double, 7>{1, 2, 3, 0, 0, 0, 1}));
+    cstk::Pose sheared = cstk::identity();
+    sheared[1] = 0.5;
+    REQUIRE(status_of([&] { cstk::pose_inverse(sheared); }) == CSTK_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { cstk::pose_to_quaternion(sheared); }) == CSTK_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { cstk::transform_point(sheared, point); }) == CSTK_NOT_A_ROTATION);
+}
+
+static void euler_angles() {
+    const std::array<double, 3> angles = {0.1, 0.2, 0.3};
+    const std::array<double, 3> again = cstk::euler_from_rotation(cstk::euler_to_rotation(angles));
+    const cstk::Matrix3 body = cstk::euler_rates(angles, CSTK_ANGULAR_BODY);
+    const cstk::Matrix3 inverse = cstk::euler_rates_inverse(angles, CSTK_ANGULAR_BODY);
+    REQUIRE(cstk::euler_rates(angles) == cstk::euler_rates(angles, CSTK_ANGULAR_WORLD));
+    REQUIRE(cstk::euler_rates(angles) != body && cstk::euler_rates_inverse(angles) != inverse);
+    for (std::size_t i = 0; i < 3; ++i) {
+        REQUIRE(std::fabs(angles[i] - again[i]) < 1e-15);
+        double product = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            product += body[3 * i + k] * inverse[3 * k + i];
+        }
+        REQUIRE(std::fabs(product - 1) < 1e-15);
+    }
+    const std::vector<double> basic = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    const std::vector<double> back =
+        cstk::jacobian_from_euler(angles, cstk::jacobian_to_euler(angles, basic));
+    for (std::size_t i = 0; i < 12; ++i) {
+        REQUIRE(std::fabs(basic[i] - back[i]) < 1e-13);
+    }
+    const std::array<double, 3> singular = {0, std::acos(0.0), 0};
+    REQUIRE(status_of([&] { cstk::euler_rates_inverse(singular); }) == CSTK_DEGENERATE);
+    REQUIRE(status_of([&] { cstk::jacobian_to_euler(singular, basic); }) == CSTK_DEGENERATE);
+    REQUIRE(is_invalid([&] { cstk::jacobian_to_euler(angles, {1, 2, 3}); }));
 }
 
 static void queries() {
@@ -204,10 +253,169 @@ static void queries() {
     REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_IO);
 }
 
+static std::int32_t turn(const double *q, std::size_t, double *pose, void *calls) {
+    ++*static_cast<int *>(calls);
+    const double c = std::cos(q[0]), s = std::sin(q[0]);
+    const cstk::Pose turned = {c, -s, 0, 0, s, c, 0, 0, 0, 0, 1, 0};
+    std::copy(turned.begin(), turned.end(), pose);
+    return CSTK_OK;
+}
+
+static std::int32_t turning(const double *, std::size_t, double *jacobian, void *) {
+    std::fill_n(jacobian, 5, 0.0);
+    jacobian[5] = 1;
+    return CSTK_OK;
+}
+
+/// A sliding joint, one that mimics it, one that moves freely, and one of the caller's.
+static cstk::Robot make_robot(int &calls) {
+    cstk::RobotBuilder builder;
+    cstk::Link link;
+    link.joint = CSTK_JOINT_PRISMATIC;
+    link.joint_name = "rail";
+    link.lower = -1;
+    link.upper = 2;
+    builder.add_link(link);
+    link.joint_name = "";
+    link.coordinate = 0;
+    link.multiplier = -1;
+    link.offset = 0.5;
+    builder.add_link(link);
+    cstk::Link drone;
+    drone.name = "drone";
+    drone.joint = CSTK_JOINT_FREE;
+    builder.add_link(drone);
+    cstk_custom_joint joint = cstk::custom_joint();
+    joint.pose = turn;
+    joint.jacobian = turning;
+    joint.user = &calls;
+    cstk::Link wrist;
+    wrist.joint = CSTK_JOINT_CUSTOM;
+    REQUIRE(status_of([&] { builder.add_link(wrist); }) == CSTK_NULL_ARGUMENT);
+    wrist.custom = &joint;
+    REQUIRE(builder.add_link(wrist) == 3);
+    return builder.build();
+}
+
+static void robots() {
+    int calls = 0;
+    const cstk::Robot robot = make_robot(calls);
+    REQUIRE(robot.nq() == 9 && robot.nv() == 8 && robot.link_count() == 4);
+    REQUIRE(robot.joint_name(0) == "rail" && robot.joint_name(1).empty());
+    REQUIRE(robot.link_name(2) == "drone" && robot.link_name(1) == "link1");
+    REQUIRE(robot.link_name(2).size() == 5);
+    REQUIRE(robot.find_joint("rail") == 0);
+    const cstk_link_info info = robot.link_info(1);
+    REQUIRE(info.joint == CSTK_JOINT_PRISMATIC && info.parent == -1 && info.coordinate == 0);
+    REQUIRE(info.multiplier == -1 && info.offset == 0.5);
+    REQUIRE(robot.link_info(3).joint == CSTK_JOINT_CUSTOM && robot.link_info(3).velocity == 7);
+    REQUIRE(status_of([&] { robot.find_joint("none"); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.link_info(4); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.link_name(4); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.joint_name(4); }) == CSTK_NOT_FOUND);
+    REQUIRE(calls == 0);
+}
+
+static void spaces() {
+    int calls = 0;
+    const cstk::Robot robot = make_robot(calls);
+    std::vector<cstk_range> ranges(9, cstk::default_range());
+    for (std::size_t i = 1; i < 4; ++i) {
+        ranges[i] = cstk::interval(-1, 1);
+    }
+    ranges[8] = cstk::circle();
+    std::vector<cstk_range> twice = ranges;
+    twice.insert(twice.end(), ranges.begin(), ranges.end());
+    const cstk::Space space({robot, robot}, twice, {-5, -5, -5, 5, 5, 5});
+    REQUIRE(space.range(0).kind == CSTK_RANGE_INTERVAL && space.range(0).upper == 2);
+    REQUIRE(space.range(4).kind == CSTK_RANGE_QUATERNION);
+    REQUIRE(space.range(8).kind == CSTK_RANGE_CIRCLE);
+    const cstk_space_offset offset = space.offset(1);
+    REQUIRE(offset.link == 4 && offset.coordinate == 9 && offset.velocity == 8);
+    REQUIRE(status_of([&] { space.range(18); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { space.offset(2); }) == CSTK_NOT_FOUND);
+
+    std::vector<double> q = space.neutral();
+    REQUIRE(q.size() == 18 && q[7] == 1 && q[16] == 1 && q[0] == 0);
+    REQUIRE(space.link_poses(q).size() == 8 && calls == 2);
+    REQUIRE(space.link_poses(q)[1] == cstk::translation(0, 0, 0.5));
+    REQUIRE(space.link_poses(q)[5] == robot.link_pose({q.data() + 9, 9}, 1));
+    REQUIRE(space.jacobian(q, 1, {0, 0, 0})[2 * space.nv()] == -1);
+
+    std::uint64_t state = 5, again = 5;
+    const std::vector<double> q0 = space.sample(state);
+    const std::vector<double> q1 = space.sample(state);
+    REQUIRE(q0 == space.sample(again) && q0 != q1 && space.within_limits(q0));
+    const std::vector<double> way = space.difference(q0, q1);
+    REQUIRE(way.size() == 16);
+    REQUIRE(space.distance(space.step(q0, way), q1) < 1e-14);
+    REQUIRE(space.distance(space.interpolate(q0, q1, 1), q1) < 1e-14);
+    std::vector<double> weights(16, 2.0);
+    REQUIRE(std::fabs(space.distance(q0, q1, weights) - 2 * space.distance(q0, q1)) < 1e-14);
+
+    std::uint32_t first = 0;
+    q[0] = 7;
+    REQUIRE(!space.within_limits(q, &first) && first == 0);
+    REQUIRE(!space.within_world(q, &first) && first == 0 && !space.within_world(q));
+    REQUIRE(space.clamp(q)[0] == 2 && space.within_limits(space.clamp(q), &first));
+    REQUIRE(first == CSTK_NONE);
+    q[8] = -1;
+    REQUIRE(space.wrap(q)[8] > 5 && space.wrap(q)[0] == 7);
+
+    const std::vector<double> shorter(17);
+    REQUIRE(is_invalid([&] { space.difference(q, shorter); }));
+    REQUIRE(is_invalid([&] { space.interpolate(shorter, q, 0.5); }));
+    REQUIRE(is_invalid([&] { space.distance(q, shorter); }));
+    REQUIRE(is_invalid([&] { space.distance(q, q, shorter); }));
+    REQUIRE(status_of([&] { space.step(q, q); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.clamp(shorter); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.wrap(shorter); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.link_poses(shorter); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.within_limits(shorter); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.within_world(shorter); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.jacobian(q, 8, {0, 0, 0}); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { cstk::Space(robot).sample(state); }) == CSTK_UNSUPPORTED);
+}
+
+static void steps() {
+    cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
+    cstk::RobotBuilder builder;
+    cstk::Link link;
+    link.joint = CSTK_JOINT_PRISMATIC;
+    link.axis = {1, 0, 0};
+    builder.add_link(link);
+    link.axis = {0, 1, 0};
+    link.parent = 0;
+    link.body = body;
+    builder.add_link(link);
+    cstk::Space space(builder.build());
+    cstk::Environment environment;
+    environment.add(body, cstk::translation(0, -1.1, 0));
+    cstk::CObject obstacle = cstk::CObject::induced(space, environment);
+    cstk::Query query;
+    const cstk_witness_list list = query.gradients(obstacle, {0, 0}, 0.5);
+    const auto slide = cstk::slide_step(list, {1, -1}, 0.2);
+    REQUIRE(slide && std::fabs((*slide)[0] - 1) < 1e-9 && std::fabs((*slide)[1]) < 1e-9);
+    const auto longer = cstk::slide_step(list, {1, -1}, 0.2, true);
+    REQUIRE(longer && std::fabs((*longer)[0] - std::sqrt(2.0)) < 1e-9);
+    REQUIRE(!cstk::slide_step(list, {0, -1}, 0.2));
+    const auto spring = cstk::spring_step(list, 0.2);
+    REQUIRE(spring && std::fabs((*spring)[0]) < 1e-9 && std::fabs((*spring)[1] - 0.1) < 1e-9);
+    REQUIRE(!cstk::spring_step(list, 0.05));
+    REQUIRE(status_of([&] { cstk::slide_step(list, {1}, 0.2); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { cstk::spring_step(list, -1); }) == CSTK_INVALID_ARGUMENT);
+    const cstk_witness_list without = query.witnesses(obstacle, {0, 0}, 0.5);
+    REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_INVALID_ARGUMENT);
+}
+
 int main() {
     bodies();
     hierarchies();
     poses();
+    euler_angles();
+    robots();
+    spaces();
+    steps();
     queries();
     std::puts("the C++ layer holds");
 }

@@ -5,7 +5,7 @@ if(NOT fcl_FOUND)
   return()
 endif()
 
-foreach(program fcl_pairs fcl_puma fcl_slide)
+foreach(program fcl_pairs fcl_puma fcl_slide fcl_slides)
   add_executable(${program} ${CMAKE_CURRENT_LIST_DIR}/${program}.cpp)
   target_compile_features(${program} PRIVATE cxx_std_17)
   target_compile_options(${program} PRIVATE -O2 -Wall -Wextra)
@@ -22,3 +22,6 @@ set_tests_properties(fcl_puma PROPERTIES SKIP_RETURN_CODE 77)
 
 add_test(NAME fcl_slide COMMAND fcl_slide ${paths} ${models} ${slide_meshes})
 set_tests_properties(fcl_slide PROPERTIES LABELS fcl FIXTURES_REQUIRED paths)
+
+add_test(NAME fcl_slides COMMAND fcl_slides 1000)
+set_tests_properties(fcl_slides PROPERTIES LABELS fcl TIMEOUT 900)

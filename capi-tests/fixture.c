@@ -154,7 +154,7 @@ static void builders_unchanged(const fixture *f) {
     size_t nq = 0;
     size_t links = 0;
     CHECK_OK(cstk_robot_build(f->robot_builder, &robot));
-    CHECK_OK(cstk_robot_size(robot, &nq, &links));
+    CHECK_OK(cstk_robot_size(robot, &nq, NULL, &links));
     CHECK(nq == FIXTURE_NQ && links == FIXTURE_LINKS);
     CHECK_OK(cstk_robot_release(robot));
 }

@@ -1,97 +1,11 @@
-/* Hostile input to spaces, environments and C-objects, and to cstk_show. */
+/* Hostile input to environments and C-objects, and to cstk_show. */
 #include <math.h>
 #include <unistd.h>
 
 #include "check.h"
 #include "fixture.h"
 
-static void space_create_ranges(const fixture *f) {
-    cstk_space *out;
-    const cstk_robot *robot = f->robot;
-    const cstk_range circle = {CSTK_RANGE_CIRCLE, 0, 0, 0};
-    const struct {
-        cstk_range range;
-        cstk_status status;
-    } wrong[] = {
-        {{-1, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{2, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, NAN, 1}, CSTK_NOT_FINITE},
-        {{CSTK_RANGE_INTERVAL, 0, 0, NAN}, CSTK_NOT_FINITE},
-        {{CSTK_RANGE_INTERVAL, 0, 1, 0}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, INFINITY, INFINITY}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, -INFINITY, -INFINITY}, CSTK_INVALID_ARGUMENT},
-    };
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        const cstk_range ranges[FIXTURE_NQ] = {circle, wrong[i].range, circle};
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, ranges, FIXTURE_NQ, NULL, &out),
-                      wrong[i].status, "range");
-    }
-    const cstk_range ranges[FIXTURE_NQ + 1] = {circle, circle, circle, circle};
-    CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, FIXTURE_NQ, NULL, &out),
-                  CSTK_NULL_ARGUMENT, "ranges");
-    const size_t counts[] = {1, FIXTURE_NQ - 1, FIXTURE_NQ + 1, SIZE_MAX};
-    for (int i = 0; i < 4; ++i) {
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, ranges, counts[i], NULL, &out),
-                      CSTK_WRONG_SIZE, "ranges");
-    }
-    fixture_unchanged(f);
-}
-
-static void space_create(const fixture *f) {
-    cstk_space *out;
-    const cstk_robot *robot = f->robot;
-    EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
-        const cstk_robot *robots[2] = {robot, bad->handle};
-        CHECK_REFUSED(out, cstk_space_create(robots, 2, NULL, 0, NULL, &out), bad->status,
-                      "robots[1]");
-    }
-    CHECK_REFUSED(out, cstk_space_create(NULL, 1, NULL, 0, NULL, &out), CSTK_NULL_ARGUMENT,
-                  "robots");
-    CHECK_FAILS(cstk_space_create(&robot, 1, NULL, 0, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_space_create(&robot, 0, NULL, 0, NULL, &out), CSTK_EMPTY, "robot");
-    CHECK_REFUSED(out, cstk_space_create(NULL, 0, NULL, 0, NULL, &out), CSTK_EMPTY, "robot");
-    CHECK_REFUSED(out, cstk_space_create(&robot, SIZE_MAX, NULL, 0, NULL, &out), CSTK_WRONG_SIZE,
-                  "robots");
-    for (int entry = 0; entry < 6; ++entry) {
-        double box[6] = {-1, -1, -1, 1, 1, 1};
-        box[entry] = NAN;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_NOT_FINITE,
-                      "box");
-        box[entry] = entry < 3 ? 2.0 : -2.0;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_INVALID_ARGUMENT,
-                      "box");
-        /* An end at infinity is none, but on the wrong side it shuts everything out. */
-        box[entry] = entry < 3 ? INFINITY : -INFINITY;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_INVALID_ARGUMENT,
-                      "box");
-    }
-    fixture_unchanged(f);
-}
-
-/* A robot of the plane does not fit a spatial one. */
-static void space_of_two_dimensions(const fixture *f) {
-    cstk_space *out;
-    cstk_link_def def;
-    cstk_robot_builder *builder = NULL;
-    cstk_robot *planar = NULL;
-    CHECK_OK(cstk_link_def_default(&def, sizeof def));
-    CHECK_OK(cstk_robot_builder_create(2, &builder));
-    CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
-    CHECK_OK(cstk_robot_build(builder, &planar));
-    const cstk_robot *robots[2] = {f->robot, planar};
-    CHECK_REFUSED(out, cstk_space_create(robots, 2, NULL, 0, NULL, &out), CSTK_INVALID_ARGUMENT,
-                  "robots");
-    CHECK_OK(cstk_robot_release(planar));
-    CHECK_OK(cstk_robot_builder_release(builder));
-}
-
 static void references(const fixture *f) {
-    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_FAILS(cstk_space_retain(bad->handle), bad->status, "space");
-        if (bad->handle != NULL) {
-            CHECK_FAILS(cstk_space_release(bad->handle), bad->status, "space");
-        }
-    }
     EACH_BAD_HANDLE(f, NOUN_ENVIRONMENT, bad) {
         CHECK_FAILS(cstk_environment_retain(bad->handle), bad->status, "environment");
         if (bad->handle != NULL) {
@@ -103,34 +17,6 @@ static void references(const fixture *f) {
         if (bad->handle != NULL) {
             CHECK_FAILS(cstk_cobject_release(bad->handle), bad->status, "cobject");
         }
-    }
-    fixture_unchanged(f);
-}
-
-static void space_size(const fixture *f) {
-    size_t out[3];
-    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(out, cstk_space_size(bad->handle, &out[0], &out[1], &out[2]), bad->status,
-                      "space");
-    }
-    CHECK_OK(cstk_space_size(f->space, NULL, NULL, NULL));
-}
-
-static void space_contains(const fixture *f) {
-    bool out;
-    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(out, cstk_space_contains(bad->handle, f->q, FIXTURE_NQ, &out), bad->status,
-                      "space");
-    }
-    CHECK_REFUSED(out, cstk_space_contains(f->space, NULL, FIXTURE_NQ, &out), CSTK_NULL_ARGUMENT,
-                  "q");
-    CHECK_FAILS(cstk_space_contains(f->space, f->q, FIXTURE_NQ, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_space_contains(f->space, f->q, FIXTURE_NQ - 1, &out), CSTK_WRONG_SIZE,
-                  "configuration");
-    EACH_NOT_FINITE(i) {
-        const double q[FIXTURE_NQ] = {0, not_finite[i], 0};
-        CHECK_REFUSED(out, cstk_space_contains(f->space, q, FIXTURE_NQ, &out), CSTK_NOT_FINITE,
-                      "configuration entry 1");
     }
     fixture_unchanged(f);
 }
@@ -402,12 +288,7 @@ static void show(const fixture *f) {
 int main(void) {
     fixture f;
     fixture_create(&f);
-    space_create_ranges(&f);
-    space_create(&f);
-    space_of_two_dimensions(&f);
     references(&f);
-    space_size(&f);
-    space_contains(&f);
     environment_create(&f);
     apply_handles(&f);
     apply_values(&f);

@@ -39,7 +39,7 @@ static void every_noun(void) {
     TWO_REFERENCES(mesh, "mesh", f.mesh, cstk_mesh_get(f.mesh, &view));
     TWO_REFERENCES(robot_builder, "builder", f.robot_builder,
                    cstk_robot_builder_add_link(f.robot_builder, &def, NULL));
-    TWO_REFERENCES(robot, "robot", f.robot, cstk_robot_size(f.robot, NULL, NULL));
+    TWO_REFERENCES(robot, "robot", f.robot, cstk_robot_size(f.robot, NULL, NULL, NULL));
     TWO_REFERENCES(space, "space", f.space,
                    cstk_space_contains(f.space, f.q, FIXTURE_NQ, &in_range));
     TWO_REFERENCES(environment, "environment", f.environment,

@@ -58,7 +58,7 @@ static summary run_slider(const scene *s, cstk_query *query, const char *folder,
     check(cstk_slide_options_default(&options, sizeof options));
     options.max_shell = s->max_shell;
     options.desired_distance = s->desired_distance;
-    options.keep_length = 1;
+    options.normalize = 1;
     double q[MAX_JOINTS];
     memcpy(q, s->start, sizeof q);
     double run_travel = 0;
@@ -81,7 +81,7 @@ static summary run_slider(const scene *s, cstk_query *query, const char *folder,
         }
         double next[MAX_JOINTS];
         cstk_slide_result result;
-        check(cstk_slide(query, s->cobject, q, s->step, s->nq, &options, next, &result));
+        check(cstk_slide(query, s->cobject, q, s->nq, s->step, s->nq, &options, next, &result));
         if (result.outcome != CSTK_SLIDE_MOVED) {
             printf("  step %d: %s\n", step + 1,
                    result.outcome == CSTK_SLIDE_INSIDE ? "inside" : "blocked");

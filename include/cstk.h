@@ -148,6 +148,10 @@ enum cstk_status
    * A fault of the library itself. It was contained; please report it with the message.
    */
   CSTK_INTERNAL = 19,
+  /**
+   * A function of the caller's failed; the message names it and what it returned.
+   */
+  CSTK_CALLBACK_FAILED = 20,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -185,6 +189,57 @@ enum cstk_wrapper_kind
 typedef enum cstk_wrapper_kind cstk_wrapper_kind;
 #else
 typedef int32_t cstk_wrapper_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * How a joint moves its link, and by which coordinates. Velocities (and so steps and gradients) are the coordinates' rates,
+ * one each, but where the coordinates hold a unit quaternion x, y, z, w: there they are as said.
+ */
+enum cstk_joint_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Not at all.
+   */
+  CSTK_JOINT_FIXED = 0,
+  /**
+   * Turns it about the axis; the coordinate is an angle in radians.
+   */
+  CSTK_JOINT_REVOLUTE = 1,
+  /**
+   * Shifts it along the axis; the coordinate is a length.
+   */
+  CSTK_JOINT_PRISMATIC = 2,
+  /**
+   * Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+   */
+  CSTK_JOINT_PLANAR = 3,
+  /**
+   * Turns it about its origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
+   */
+  CSTK_JOINT_SPHERICAL = 4,
+  /**
+   * Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's frame.
+   */
+  CSTK_JOINT_FREE = 5,
+  /**
+   * Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Where cos(pitch) = 0 they cannot
+   * turn it about every axis.
+   */
+  CSTK_JOINT_FREE_EULER = 6,
+  /**
+   * By functions of the caller; see cstk_custom_joint.
+   */
+  CSTK_JOINT_CUSTOM = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_joint_kind cstk_joint_kind;
+#else
+typedef int32_t cstk_joint_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -314,7 +369,9 @@ enum cstk_slide_outcome
    */
   CSTK_SLIDE_INSIDE = 1,
   /**
-   * No step leads on: contacts, ranges or the world box are in the way; nothing was moved.
+   * No step leads on: contacts, ranges or the world box are in the way; nothing was moved. Of all steps as long as the
+   * floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
+   * than a hundredth of its length along the step asked for, to first order.
    */
   CSTK_SLIDE_BLOCKED = 2,
 };
@@ -323,35 +380,6 @@ enum cstk_slide_outcome
 typedef enum cstk_slide_outcome cstk_slide_outcome;
 #else
 typedef int32_t cstk_slide_outcome;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-/**
- * How a joint moves its link.
- */
-enum cstk_joint_kind
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : int32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  /**
-   * Not at all.
-   */
-  CSTK_JOINT_FIXED = 0,
-  /**
-   * Turns it about the axis; the coordinate is an angle in radians.
-   */
-  CSTK_JOINT_REVOLUTE = 1,
-  /**
-   * Shifts it along the axis; the coordinate is a length.
-   */
-  CSTK_JOINT_PRISMATIC = 2,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cstk_joint_kind cstk_joint_kind;
-#else
-typedef int32_t cstk_joint_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -371,6 +399,14 @@ enum cstk_range_kind
    * The closed interval from lower to upper; either may be infinite.
    */
   CSTK_RANGE_INTERVAL = 1,
+  /**
+   * What the joint says: its limits; without any, a circle for angles and the whole line for lengths.
+   */
+  CSTK_RANGE_DEFAULT = 2,
+  /**
+   * One of the four entries of a unit quaternion: what joints with quaternions say, and nothing else may be said of them.
+   */
+  CSTK_RANGE_QUATERNION = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -461,6 +497,60 @@ enum cstk_pieces
 typedef enum cstk_pieces cstk_pieces;
 #else
 typedef int32_t cstk_pieces;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The frame in which an angular velocity is written.
+ */
+enum cstk_angular_frame
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The inertial frame, as in eq. (33) and everywhere else in this header.
+   */
+  CSTK_ANGULAR_WORLD = 0,
+  /**
+   * The turning body's own, as in eq. (25) to (31).
+   */
+  CSTK_ANGULAR_BODY = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_angular_frame cstk_angular_frame;
+#else
+typedef int32_t cstk_angular_frame;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Which shapes of a URDF file's links become their bodies.
+ */
+enum cstk_urdf_geometry
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The <collision> elements.
+   */
+  CSTK_URDF_COLLISION = 0,
+  /**
+   * The <visual> elements.
+   */
+  CSTK_URDF_VISUAL = 1,
+  /**
+   * None: the links have frames only, and no mesh file is looked for.
+   */
+  CSTK_URDF_NO_GEOMETRY = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_urdf_geometry cstk_urdf_geometry;
+#else
+typedef int32_t cstk_urdf_geometry;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -711,6 +801,61 @@ typedef struct cstk_mesh_view {
 } cstk_mesh_view;
 
 /**
+ * Writes the pose of the link in the joint's frame, 12 doubles, at the joint's own `n` coordinates. Returns CSTK_OK, or
+ * anything else to make the call that asked fail with CSTK_CALLBACK_FAILED.
+ */
+typedef int32_t (*cstk_joint_pose_fn)(const double *q, size_t n, double *pose, void *user);
+
+/**
+ * Writes the derivative of that pose, 6 rows of `n` doubles, row-major: velocity of the link's origin, then angular
+ * velocity of the link, both in the joint's frame.
+ */
+typedef int32_t (*cstk_joint_jacobian_fn)(const double *q, size_t n, double *jacobian, void *user);
+
+/**
+ * Gives user data back to the caller, once, when nothing refers to it any more.
+ */
+typedef void (*cstk_destroy_fn)(void *user);
+
+/**
+ * A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
+ * first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they must
+ * be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or left unwritten in
+ * a Jacobian) are answered with CSTK_NOT_FINITE, a pose that is none (or left unwritten) with CSTK_NOT_A_ROTATION, one that
+ * leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_INVALID_ARGUMENT.
+ */
+typedef struct cstk_custom_joint {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * How many coordinates it has, 1 to 64; as many velocities, their rates.
+   */
+  uint32_t coordinates;
+  uint32_t reserved;
+  /**
+   * Both must be set.
+   */
+  cstk_joint_pose_fn pose;
+  cstk_joint_jacobian_fn jacobian;
+  /**
+   * Handed to the functions.
+   */
+  void *user;
+  /**
+   * May be NULL. Called once for each link that was added with it, by whichever thread drops the last reference to what
+   * uses the link's joint; not called when adding the link fails.
+   */
+  cstk_destroy_fn destroy;
+  /**
+   * Bounds of the speed of the link's origin and of its turning, in radians, per unit of any one coordinate, wherever it
+   * stands. Negative, the default: not known; then slides that move this joint are refused, as their way cannot be proved
+   * free.
+   */
+  double linear_speed;
+  double angular_speed;
+} cstk_custom_joint;
+
+/**
  * A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
  */
 typedef struct cstk_link_def {
@@ -739,15 +884,107 @@ typedef struct cstk_link_def {
    */
   double at[12];
   /**
-   * The joint's axis in its own frame, of any length; default z.
+   * The axis of a revolute or prismatic joint in the joint's frame, of any length; default z.
    */
   double axis[3];
   /**
-   * Which coordinate moves the joint, or -1 for the next unused one. Joints may share a coordinate.
+   * The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
+   * share a coordinate with earlier joints, and so mimic them.
    */
   int32_t coordinate;
   uint32_t reserved;
+  /**
+   * A name of the joint's own within the robot, UTF-8, or NULL for none. It is copied.
+   */
+  const char *joint_name;
+  /**
+   * A revolute or prismatic joint follows multiplier * coordinate + offset; default 1 and 0.
+   */
+  double multiplier;
+  double offset;
+  /**
+   * The range of a revolute or prismatic joint's coordinate, unless the space says otherwise; the default is infinite:
+   * revolute joints then turn on the circle. Ignored where the joint shares an earlier one's coordinate.
+   */
+  double lower;
+  double upper;
+  /**
+   * For CSTK_JOINT_CUSTOM, else NULL. It is copied.
+   */
+  const struct cstk_custom_joint *custom;
 } cstk_link_def;
+
+/**
+ * What a robot knows of a link and the joint that moves it.
+ */
+typedef struct cstk_link_info {
+  /**
+   * The link it is attached to, or -1 for the world.
+   */
+  int32_t parent;
+  cstk_joint_kind joint;
+  /**
+   * The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
+   */
+  uint32_t coordinate;
+  uint32_t nq;
+  uint32_t velocity;
+  uint32_t nv;
+  bool has_body;
+  uint8_t reserved_bytes[7];
+  /**
+   * See cstk_link_def.
+   */
+  double multiplier;
+  double offset;
+  double at[12];
+  double axis[3];
+  uint64_t reserved[8];
+} cstk_link_info;
+
+/**
+ * How to read a URDF file. Write it with cstk_urdf_options_default first.
+ */
+typedef struct cstk_urdf_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A cstk_urdf_geometry; default CSTK_URDF_COLLISION.
+   */
+  int32_t geometry;
+  /**
+   * How the root link is joined to what carries the robot: CSTK_JOINT_FIXED (the default), _PLANAR, _FREE or
+   * _FREE_EULER.
+   */
+  int32_t base;
+  /**
+   * The link of the builder that carries the robot, or -1 for the world.
+   */
+  int32_t parent;
+  /**
+   * Into how many sides the circles of spheres, cylinders and capsules are divided, 3 to 1024; default 32. The polyhedra
+   * hold the shapes.
+   */
+  uint32_t sides;
+  /**
+   * Where the robot stands on its parent: a pose of 12 doubles.
+   */
+  double at[12];
+  /**
+   * Put before the names of links and joints, so that a file can be read twice; may be NULL.
+   */
+  const char *prefix;
+  /**
+   * Folders in which the packages of package:// names are looked for; the folders that hold the URDF file are looked
+   * through after them.
+   */
+  const char *const *package_paths;
+  size_t package_path_count;
+  /**
+   * How the links' hierarchies are built; NULL for the defaults.
+   */
+  const struct cstk_hierarchy_options *hierarchy;
+} cstk_urdf_options;
 
 /**
  * The range of a coordinate.
@@ -761,6 +998,16 @@ typedef struct cstk_range {
   double lower;
   double upper;
 } cstk_range;
+
+/**
+ * Where a robot's numbers begin in a space.
+ */
+typedef struct cstk_space_offset {
+  uint32_t link;
+  uint32_t coordinate;
+  uint32_t velocity;
+  uint32_t reserved;
+} cstk_space_offset;
 
 /**
  * One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
@@ -889,7 +1136,12 @@ typedef struct cstk_contact {
   uint32_t r_feature;
   cstk_feature_kind s_feature_kind;
   uint32_t s_feature;
-  uint32_t reserved[7];
+  uint32_t reserved_word;
+  /**
+   * The distance between the points, less the C-object's margin, with its sign: negative within the margin.
+   */
+  double clearance;
+  uint64_t reserved[2];
 } cstk_contact;
 
 /**
@@ -1033,14 +1285,18 @@ typedef struct cstk_slide_options {
    */
   double desired_distance;
   /**
-   * 1 lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
-   * is left of the step.
+   * Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
+   * is left of the step. (The report's normalize?)
    */
-  uint32_t keep_length;
+  uint32_t normalize;
   /**
    * At most so many witnesses are considered, the nearest first. Default 256.
    */
   uint32_t max_witnesses;
+  /**
+   * A step that does not do is halved until it is shorter than this part of the step asked for. Default 1/1024.
+   */
+  double floor;
 } cstk_slide_options;
 
 /**
@@ -1110,6 +1366,27 @@ cstk_status cstk_pose_compose(const double *a,
                               double *out);
 
 /**
+ * The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
+ * may be the same.
+ */
+cstk_status cstk_pose_inverse(const double *pose_12,
+                              double *out);
+
+/**
+ * Carries a point of the child frame into the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be the
+ * same.
+ */
+cstk_status cstk_pose_transform_point(const double *pose_12,
+                                      const double *point,
+                                      double *out);
+
+/**
+ * The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation the one with w >= 0.
+ */
+cstk_status cstk_pose_to_quaternion(const double *pose_12,
+                                    double *xyz_quaternion);
+
+/**
  * Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation of 9 doubles, row-major.
  */
 cstk_status cstk_euler_to_rotation(const double *yaw_pitch_roll, double *rotation);
@@ -1119,6 +1396,37 @@ cstk_status cstk_euler_to_rotation(const double *yaw_pitch_roll, double *rotatio
  */
 cstk_status cstk_euler_from_rotation(const double *rotation,
                                      double *yaw_pitch_roll);
+
+/**
+ * The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity. `frame`
+ * is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial columns of (33),
+ * with which only the inertial form combines.
+ */
+cstk_status cstk_euler_rates(const double *yaw_pitch_roll,
+                             int32_t frame,
+                             double *matrix);
+
+/**
+ * The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_DEGENERATE where cos(pitch) =
+ * 0.
+ */
+cstk_status cstk_euler_rates_inverse(const double *yaw_pitch_roll,
+                                     int32_t frame,
+                                     double *matrix);
+
+/**
+ * Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,
+ * 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_DEGENERATE where
+ * cos(pitch) = 0.
+ */
+cstk_status cstk_jacobian_to_euler(const double *yaw_pitch_roll,
+                                   double *jacobian,
+                                   size_t nv);
+
+/**
+ * The inverse of cstk_jacobian_to_euler; defined everywhere.
+ */
+cstk_status cstk_jacobian_from_euler(const double *yaw_pitch_roll, double *jacobian, size_t nv);
 
 /**
  * Writes the default options. `size` is sizeof(cstk_hierarchy_options).
@@ -1181,7 +1489,8 @@ cstk_status cstk_body_builder_add_mesh(struct cstk_body_builder *builder,
                                        size_t index_count);
 
 /**
- * Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj or .stl (ASCII or binary).
+ * Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj, .stl (ASCII or binary) or .dae
+ * (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
  * CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
  */
 cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
@@ -1332,6 +1641,11 @@ cstk_status cstk_mesh_release(struct cstk_mesh *mesh);
 cstk_status cstk_mesh_get(const struct cstk_mesh *mesh, struct cstk_mesh_view *out);
 
 /**
+ * Writes the defaults: one coordinate, and nothing else. `size` is sizeof(cstk_custom_joint).
+ */
+cstk_status cstk_custom_joint_default(struct cstk_custom_joint *out, size_t size);
+
+/**
  * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
  */
 cstk_status cstk_robot_builder_create(uint32_t dimension,
@@ -1354,7 +1668,7 @@ cstk_status cstk_link_def_default(struct cstk_link_def *out, size_t size);
 
 /**
  * Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
- * which may be NULL. A free body is a chain of three prismatic and three revolute links.
+ * which may be NULL.
  */
 cstk_status cstk_robot_builder_add_link(struct cstk_robot_builder *builder,
                                         const struct cstk_link_def *def,
@@ -1377,14 +1691,51 @@ cstk_status cstk_robot_retain(struct cstk_robot *robot);
 cstk_status cstk_robot_release(struct cstk_robot *robot);
 
 /**
- * Writes the number of coordinates (nq, which equals nv) and of links; either may be NULL.
+ * Writes the number of coordinates (nq), of velocities (nv; less by one for each quaternion) and of links; each may be NULL.
  */
-cstk_status cstk_robot_size(const struct cstk_robot *robot, size_t *nq, size_t *link_count);
+cstk_status cstk_robot_size(const struct cstk_robot *robot,
+                            size_t *nq,
+                            size_t *nv,
+                            size_t *link_count);
 
 /**
  * Writes the number of the link with this name. CSTK_NOT_FOUND if there is none.
  */
 cstk_status cstk_robot_find_link(const struct cstk_robot *robot, const char *name, uint32_t *out);
+
+/**
+ * Writes the number of the link that the joint with this name moves. CSTK_NOT_FOUND if there is none.
+ */
+cstk_status cstk_robot_find_joint(const struct cstk_robot *robot,
+                                  const char *name,
+                                  uint32_t *out);
+
+/**
+ * Writes what the robot knows of a link.
+ */
+cstk_status cstk_robot_link_info(const struct cstk_robot *robot,
+                                 uint32_t link,
+                                 struct cstk_link_info *out);
+
+/**
+ * Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
+ * `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_WRONG_SIZE if the name does not
+ * fit.
+ */
+cstk_status cstk_robot_link_name(const struct cstk_robot *robot,
+                                 uint32_t link,
+                                 char *buffer,
+                                 size_t capacity,
+                                 size_t *length);
+
+/**
+ * The same for the name of the joint that moves the link; "" if it has none.
+ */
+cstk_status cstk_robot_joint_name(const struct cstk_robot *robot,
+                                  uint32_t link,
+                                  char *buffer,
+                                  size_t capacity,
+                                  size_t *length);
 
 /**
  * The pose of a link in the world at configuration q (forward kinematics, §4.2), as 12 doubles.
@@ -1407,11 +1758,33 @@ cstk_status cstk_robot_jacobian(const struct cstk_robot *robot,
                                 double *jacobian);
 
 /**
+ * Writes the default options. `size` is sizeof(cstk_urdf_options).
+ */
+cstk_status cstk_urdf_options_default(struct cstk_urdf_options *out, size_t size);
+
+/**
+ * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before children,
+ * joints in the order of the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
+ * NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
+ *
+ * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
+ * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Whatever else the
+ * file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
+ */
+cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
+                                         const char *file,
+                                         const struct cstk_urdf_options *urdf_options,
+                                         cstk_progress_fn progress,
+                                         void *user,
+                                         uint32_t *root);
+
+/**
  * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
  *
- * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for the defaults: circles for revolute
- * joints, the whole line for prismatic ones. `world_box` holds low x, y, z, high x, y, z: where the links' origins may
- * be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer anywhere.
+ * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
+ * cstk_range_kind. `world_box` holds low x, y, z, high x, y, z: where the links' origins may be; NULL for everywhere.
+ * Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make a planar
+ * world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
  */
 cstk_status cstk_space_create(const struct cstk_robot *const *robots,
                               size_t robot_count,
@@ -1445,6 +1818,135 @@ cstk_status cstk_space_contains(const struct cstk_space *space,
                                 const double *q,
                                 size_t nq,
                                 bool *out);
+
+/**
+ * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own.
+ */
+cstk_status cstk_space_get_offset(const struct cstk_space *space,
+                                  size_t robot,
+                                  struct cstk_space_offset *out);
+
+/**
+ * Writes the range of a coordinate; its kind is never CSTK_RANGE_DEFAULT.
+ */
+cstk_status cstk_space_get_range(const struct cstk_space *space,
+                                 size_t coordinate,
+                                 struct cstk_range *out);
+
+/**
+ * Writes whether every coordinate of q is in its range, and to `coordinate`, which may be NULL, the first that is not
+ * (CSTK_NONE if all are).
+ */
+cstk_status cstk_space_within_limits(const struct cstk_space *space,
+                                     const double *q,
+                                     size_t nq,
+                                     bool *out,
+                                     uint32_t *coordinate);
+
+/**
+ * Writes whether the origin of every link's frame is in the world box at q, and to `link`, which may be NULL, the first that
+ * is not (CSTK_NONE if all are).
+ */
+cstk_status cstk_space_within_world(const struct cstk_space *space,
+                                    const double *q,
+                                    size_t nq,
+                                    bool *out,
+                                    uint32_t *link);
+
+/**
+ * Writes the poses of all links at q, in the world: 12 doubles for each link of the space.
+ */
+cstk_status cstk_space_link_poses(const struct cstk_space *space,
+                                  const double *q,
+                                  size_t nq,
+                                  double *poses);
+
+/**
+ * The basic Jacobian (eq. 33) at q of a point fixed to a link of the space; as cstk_robot_jacobian, with the space's nv.
+ */
+cstk_status cstk_space_jacobian(const struct cstk_space *space,
+                                const double *q,
+                                size_t nq,
+                                uint32_t link,
+                                const double *point,
+                                double *jacobian);
+
+/**
+ * Writes the configuration of no shift and no turn: zeros, and quaternions 0, 0, 0, 1. It may be out of range.
+ */
+cstk_status cstk_space_neutral(const struct cstk_space *space,
+                               double *q);
+
+/**
+ * The configuration that velocity `v` of `nv` doubles leads to from `q` in a unit of time: straight for intervals and
+ * circles (which are not wrapped), at constant angular velocity for quaternions, along a screw for free joints. `out` has
+ * `nq` doubles and may be `q`.
+ */
+cstk_status cstk_space_step(const struct cstk_space *space,
+                            const double *q,
+                            size_t nq,
+                            const double *v,
+                            size_t nv,
+                            double *out);
+
+/**
+ * The smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way round (the
+ * negative one of two that are equal), quaternions turn by at most half a turn.
+ */
+cstk_status cstk_space_difference(const struct cstk_space *space,
+                                  const double *q0,
+                                  const double *q1,
+                                  size_t nq,
+                                  double *v);
+
+/**
+ * The configuration at parameter `t` of the shortest way from `q0` (t = 0) to `q1` (t = 1); `t` may lie beyond. `out` has
+ * `nq` doubles and may be one of the two.
+ */
+cstk_status cstk_space_interpolate(const struct cstk_space *space,
+                                   const double *q0,
+                                   const double *q1,
+                                   size_t nq,
+                                   double t,
+                                   double *out);
+
+/**
+ * The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
+ * negative, or is NULL for 1 each.
+ */
+cstk_status cstk_space_distance(const struct cstk_space *space,
+                                const double *q0,
+                                const double *q1,
+                                size_t nq,
+                                const double *weights,
+                                double *out);
+
+/**
+ * Draws a configuration uniformly from the coordinates' ranges; quaternions uniformly from the rotations. `state` is that of
+ * the stream of random numbers: any number to begin with; each call advances it. Equal states give equal configurations, on
+ * every machine. CSTK_UNSUPPORTED, naming the coordinate, where a range is unbounded.
+ */
+cstk_status cstk_space_sample(const struct cstk_space *space,
+                              uint64_t *state,
+                              double *q);
+
+/**
+ * The nearest configuration whose coordinates are all in range; quaternions are made unit. `out` has `nq` doubles and may be
+ * `q`.
+ */
+cstk_status cstk_space_clamp(const struct cstk_space *space,
+                             const double *q,
+                             size_t nq,
+                             double *out);
+
+/**
+ * The same configuration with circles in [0, 2 pi), as §4.4 has them, and quaternions unit with w >= 0. `out` has `nq`
+ * doubles and may be `q`.
+ */
+cstk_status cstk_space_wrap(const struct cstk_space *space,
+                            const double *q,
+                            size_t nq,
+                            double *out);
 
 /**
  * Makes an empty environment.
@@ -1749,20 +2251,48 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
 
 /**
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
- * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
+ * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance and keeps to
+ * the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
  * until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
- * gradients must do). Along a contact only part of the step is left; see keep_length. `slide_options` must
- * not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
- * outcome is CSTK_SLIDE_MOVED, `reached` receives q.
+ * gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
+ * and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
+ * is CSTK_SLIDE_MOVED, `reached` receives q. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
  */
 cstk_status cstk_slide(struct cstk_query *query,
                        const struct cstk_cobject *cobject,
                        const double *q,
-                       const double *step,
                        size_t nq,
+                       const double *step,
+                       size_t nv,
                        const struct cstk_slide_options *slide_options,
                        double *reached,
                        struct cstk_slide_result *out);
+
+/**
+ * The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
+ * `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it is
+ * within that already; to first order, and without a look at ranges or the way. `normalize` is that of cstk_slide_options.
+ * `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and `out` zero, where less than
+ * a hundredth of the step would be left.
+ */
+cstk_status cstk_slide_step(const struct cstk_witness_list *list,
+                            const double *step,
+                            size_t nv,
+                            double desired_distance,
+                            bool normalize,
+                            double *out,
+                            bool *found);
+
+/**
+ * The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to first
+ * order; where they stand against each other, out to the largest distance they can share. `found` is false, and `out` zero,
+ * where no contact is nearer or none can be helped. See cstk_slide_step for the list.
+ */
+cstk_status cstk_spring_step(const struct cstk_witness_list *list,
+                             size_t nv,
+                             double desired_distance,
+                             double *out,
+                             bool *found);
 
 /**
  * Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest

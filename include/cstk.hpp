@@ -23,6 +23,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -106,6 +107,89 @@ inline Pose compose(const Pose &a, const Pose &b) {
     return out;
 }
 
+inline Pose pose_inverse(const Pose &pose) {
+    Pose out;
+    check(cstk_pose_inverse(pose.data(), out.data()));
+    return out;
+}
+
+inline std::array<double, 3> transform_point(const Pose &pose, const std::array<double, 3> &point) {
+    std::array<double, 3> out;
+    check(cstk_pose_transform_point(pose.data(), point.data(), out.data()));
+    return out;
+}
+
+/// x, y, z, and the unit quaternion x, y, z, w.
+inline std::array<double, 7> pose_to_quaternion(const Pose &pose) {
+    std::array<double, 7> xyz_quaternion;
+    check(cstk_pose_to_quaternion(pose.data(), xyz_quaternion.data()));
+    return xyz_quaternion;
+}
+
+/// 9 doubles, row-major.
+using Matrix3 = std::array<double, 9>;
+
+inline Matrix3 euler_to_rotation(const std::array<double, 3> &yaw_pitch_roll) {
+    Matrix3 rotation;
+    check(cstk_euler_to_rotation(yaw_pitch_roll.data(), rotation.data()));
+    return rotation;
+}
+
+inline std::array<double, 3> euler_from_rotation(const Matrix3 &rotation) {
+    std::array<double, 3> yaw_pitch_roll;
+    check(cstk_euler_from_rotation(rotation.data(), yaw_pitch_roll.data()));
+    return yaw_pitch_roll;
+}
+
+inline Matrix3 euler_rates(const std::array<double, 3> &yaw_pitch_roll,
+                           cstk_angular_frame frame = CSTK_ANGULAR_WORLD) {
+    Matrix3 matrix;
+    check(cstk_euler_rates(yaw_pitch_roll.data(), frame, matrix.data()));
+    return matrix;
+}
+
+inline Matrix3 euler_rates_inverse(const std::array<double, 3> &yaw_pitch_roll,
+                                   cstk_angular_frame frame = CSTK_ANGULAR_WORLD) {
+    Matrix3 matrix;
+    check(cstk_euler_rates_inverse(yaw_pitch_roll.data(), frame, matrix.data()));
+    return matrix;
+}
+
+namespace detail {
+
+/// The columns of a Jacobian of 6 rows.
+inline std::size_t columns(const std::vector<double> &jacobian) {
+    if (jacobian.size() % 6 != 0) {
+        throw std::invalid_argument("cstk: a Jacobian has 6 rows");
+    }
+    return jacobian.size() / 6;
+}
+
+/// The length of both configurations.
+inline std::size_t same_size(Span<double> q0, Span<double> q1) {
+    if (q0.size() != q1.size()) {
+        throw std::invalid_argument("cstk: two configurations have the same length");
+    }
+    return q0.size();
+}
+
+} // namespace detail
+
+/// From a basic Jacobian, 6 rows, to that of x, y, z, yaw, pitch, roll.
+inline std::vector<double> jacobian_to_euler(const std::array<double, 3> &yaw_pitch_roll,
+                                             std::vector<double> jacobian) {
+    check(cstk_jacobian_to_euler(yaw_pitch_roll.data(), jacobian.data(),
+                                 detail::columns(jacobian)));
+    return jacobian;
+}
+
+inline std::vector<double> jacobian_from_euler(const std::array<double, 3> &yaw_pitch_roll,
+                                               std::vector<double> jacobian) {
+    check(cstk_jacobian_from_euler(yaw_pitch_roll.data(), jacobian.data(),
+                                   detail::columns(jacobian)));
+    return jacobian;
+}
+
 /// An options structure with its defaults; set its fields as in C.
 inline cstk_hierarchy_options hierarchy_options() {
     cstk_hierarchy_options options;
@@ -126,6 +210,13 @@ inline cstk_slide_options slide_options(double max_shell) {
     check(cstk_slide_options_default(&options, sizeof options));
     options.max_shell = max_shell;
     return options;
+}
+
+/// A joint by functions of yours. They must not throw.
+inline cstk_custom_joint custom_joint() {
+    cstk_custom_joint joint;
+    check(cstk_custom_joint_default(&joint, sizeof joint));
+    return joint;
 }
 
 /// One reference to an object of the library; empty when default-constructed or moved from.
@@ -354,6 +445,13 @@ struct Link {
     Pose at = identity();
     std::array<double, 3> axis = {0, 0, 1};
     std::int32_t coordinate = -1;
+    std::string joint_name;
+    double multiplier = 1;
+    double offset = 0;
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+    /// For CSTK_JOINT_CUSTOM; copied by add_link.
+    const cstk_custom_joint *custom = nullptr;
 };
 
 class Robot : public Handle<cstk_robot, cstk_robot_retain, cstk_robot_release> {
@@ -362,13 +460,19 @@ public:
 
     std::size_t nq() const {
         std::size_t nq = 0;
-        check(cstk_robot_size(get(), &nq, nullptr));
+        check(cstk_robot_size(get(), &nq, nullptr, nullptr));
         return nq;
+    }
+
+    std::size_t nv() const {
+        std::size_t nv = 0;
+        check(cstk_robot_size(get(), nullptr, &nv, nullptr));
+        return nv;
     }
 
     std::size_t link_count() const {
         std::size_t count = 0;
-        check(cstk_robot_size(get(), nullptr, &count));
+        check(cstk_robot_size(get(), nullptr, nullptr, &count));
         return count;
     }
 
@@ -377,6 +481,24 @@ public:
         check(cstk_robot_find_link(get(), name.c_str(), &link));
         return link;
     }
+
+    /// The link that the joint moves.
+    std::uint32_t find_joint(const std::string &name) const {
+        std::uint32_t link = 0;
+        check(cstk_robot_find_joint(get(), name.c_str(), &link));
+        return link;
+    }
+
+    cstk_link_info link_info(std::uint32_t link) const {
+        cstk_link_info out;
+        check(cstk_robot_link_info(get(), link, &out));
+        return out;
+    }
+
+    std::string link_name(std::uint32_t link) const { return name(cstk_robot_link_name, link); }
+
+    /// The name of the joint that moves the link.
+    std::string joint_name(std::uint32_t link) const { return name(cstk_robot_joint_name, link); }
 
     Pose link_pose(Span<double> q, std::uint32_t link) const {
         Pose pose;
@@ -387,8 +509,22 @@ public:
     /// 6 rows of nv doubles.
     std::vector<double> jacobian(Span<double> q, std::uint32_t link,
                                  const std::array<double, 3> &point) const {
-        std::vector<double> out(6 * nq());
+        std::vector<double> out(6 * nv());
         check(cstk_robot_jacobian(get(), q.data(), q.size(), link, point.data(), out.data()));
+        return out;
+    }
+
+private:
+    using NameOf = cstk_status (*)(const cstk_robot *, std::uint32_t, char *, std::size_t,
+                                   std::size_t *);
+
+    std::string name(NameOf name_of, std::uint32_t link) const {
+        std::size_t length = 0;
+        check(name_of(get(), link, nullptr, 0, &length));
+        /* With room for the terminator, which strings have too. */
+        std::string out(length + 1, '\0');
+        check(name_of(get(), link, out.data(), out.size(), nullptr));
+        out.resize(length);
         return out;
     }
 };
@@ -412,6 +548,12 @@ public:
             def.axis[i] = link.axis[i];
         }
         def.coordinate = link.coordinate;
+        def.joint_name = link.joint_name.empty() ? nullptr : link.joint_name.c_str();
+        def.multiplier = link.multiplier;
+        def.offset = link.offset;
+        def.lower = link.lower;
+        def.upper = link.upper;
+        def.custom = link.custom;
         std::uint32_t number = 0;
         check(cstk_robot_builder_add_link(get(), &def, &number));
         return number;
@@ -436,6 +578,9 @@ inline cstk_range circle() { return {CSTK_RANGE_CIRCLE, 0, 0, 0}; }
 inline cstk_range interval(double lower, double upper) {
     return {CSTK_RANGE_INTERVAL, 0, lower, upper};
 }
+
+/// What the joint says.
+inline cstk_range default_range() { return {CSTK_RANGE_DEFAULT, 0, 0, 0}; }
 
 class Space : public Handle<cstk_space, cstk_space_retain, cstk_space_release> {
 public:
@@ -466,6 +611,106 @@ public:
     bool contains(Span<double> q) const {
         bool out = false;
         check(cstk_space_contains(get(), q.data(), q.size(), &out));
+        return out;
+    }
+
+    /// `coordinate` receives the first that is out of its range, or CSTK_NONE.
+    bool within_limits(Span<double> q, std::uint32_t *coordinate = nullptr) const {
+        bool out = false;
+        check(cstk_space_within_limits(get(), q.data(), q.size(), &out, coordinate));
+        return out;
+    }
+
+    /// `link` receives the first that is outside the world box, or CSTK_NONE.
+    bool within_world(Span<double> q, std::uint32_t *link = nullptr) const {
+        bool out = false;
+        check(cstk_space_within_world(get(), q.data(), q.size(), &out, link));
+        return out;
+    }
+
+    cstk_range range(std::size_t coordinate) const {
+        cstk_range out;
+        check(cstk_space_get_range(get(), coordinate, &out));
+        return out;
+    }
+
+    /// Where the numbers of the `robot`-th robot begin.
+    cstk_space_offset offset(std::size_t robot) const {
+        cstk_space_offset out;
+        check(cstk_space_get_offset(get(), robot, &out));
+        return out;
+    }
+
+    /// One pose for every link, as Query's _at functions take them.
+    std::vector<Pose> link_poses(Span<double> q) const {
+        std::vector<Pose> out(link_count());
+        check(cstk_space_link_poses(get(), q.data(), q.size(), out.data()->data()));
+        return out;
+    }
+
+    /// 6 rows of nv doubles.
+    std::vector<double> jacobian(Span<double> q, std::uint32_t link,
+                                 const std::array<double, 3> &point) const {
+        std::vector<double> out(6 * nv());
+        check(cstk_space_jacobian(get(), q.data(), q.size(), link, point.data(), out.data()));
+        return out;
+    }
+
+    std::vector<double> neutral() const {
+        std::vector<double> out(nq());
+        check(cstk_space_neutral(get(), out.data()));
+        return out;
+    }
+
+    /// Where velocity `v` leads to from `q` in a unit of time.
+    std::vector<double> step(Span<double> q, Span<double> v) const {
+        std::vector<double> out(nq());
+        check(cstk_space_step(get(), q.data(), q.size(), v.data(), v.size(), out.data()));
+        return out;
+    }
+
+    /// The velocity that leads from `q0` to `q1` in a unit of time.
+    std::vector<double> difference(Span<double> q0, Span<double> q1) const {
+        std::vector<double> out(nv());
+        check(cstk_space_difference(get(), q0.data(), q1.data(), detail::same_size(q0, q1),
+                                    out.data()));
+        return out;
+    }
+
+    std::vector<double> interpolate(Span<double> q0, Span<double> q1, double t) const {
+        std::vector<double> out(nq());
+        check(cstk_space_interpolate(get(), q0.data(), q1.data(), detail::same_size(q0, q1), t,
+                                     out.data()));
+        return out;
+    }
+
+    /// No weights: 1 each.
+    double distance(Span<double> q0, Span<double> q1, Span<double> weights = {}) const {
+        if (weights.size() != 0 && weights.size() != nv()) {
+            throw std::invalid_argument("cstk: there is one weight for each velocity");
+        }
+        double out = 0;
+        check(cstk_space_distance(get(), q0.data(), q1.data(), detail::same_size(q0, q1),
+                                  weights.data(), &out));
+        return out;
+    }
+
+    /// Advances the state of the stream of random numbers.
+    std::vector<double> sample(std::uint64_t &state) const {
+        std::vector<double> out(nq());
+        check(cstk_space_sample(get(), &state, out.data()));
+        return out;
+    }
+
+    std::vector<double> clamp(Span<double> q) const {
+        std::vector<double> out(nq());
+        check(cstk_space_clamp(get(), q.data(), q.size(), out.data()));
+        return out;
+    }
+
+    std::vector<double> wrap(Span<double> q) const {
+        std::vector<double> out(nq());
+        check(cstk_space_wrap(get(), q.data(), q.size(), out.data()));
         return out;
     }
 
@@ -606,6 +851,26 @@ public:
     }
 };
 
+/// The step nearest to `step` that respects the contacts of a list with gradients; none where too little is left of it.
+inline std::optional<std::vector<double>> slide_step(const cstk_witness_list &list,
+                                                     Span<double> step, double desired_distance,
+                                                     bool normalize = false) {
+    std::vector<double> out(step.size());
+    bool found = false;
+    check(cstk_slide_step(&list, step.data(), step.size(), desired_distance, normalize, out.data(),
+                          &found));
+    return found ? std::optional(std::move(out)) : std::nullopt;
+}
+
+/// The shortest step out to the desired distance; none where no contact is nearer, or none can be helped.
+inline std::optional<std::vector<double>> spring_step(const cstk_witness_list &list,
+                                                      double desired_distance) {
+    std::vector<double> out(list.nv);
+    bool found = false;
+    check(cstk_spring_step(&list, list.nv, desired_distance, out.data(), &found));
+    return found ? std::optional(std::move(out)) : std::nullopt;
+}
+
 /// A query context; one per thread. Copies share the context.
 class Query : public Handle<cstk_query, cstk_query_retain, cstk_query_release> {
 public:
@@ -686,12 +951,9 @@ public:
     /// Moves q by one sliding step; says how it ended.
     cstk_slide_result slide(const CObject &cobject, std::vector<double> &q, Span<double> step,
                             const cstk_slide_options &options) const {
-        if (step.size() != q.size()) {
-            throw std::invalid_argument("cstk: step and configuration differ in size");
-        }
         cstk_slide_result out;
-        check(cstk_slide(get(), cobject.get(), q.data(), step.data(), q.size(), &options, q.data(),
-                         &out));
+        check(cstk_slide(get(), cobject.get(), q.data(), q.size(), step.data(), step.size(), &options,
+                         q.data(), &out));
         return out;
     }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::tolerance;
+
 /// What went wrong. The C layer maps each kind to one status number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
@@ -33,6 +35,8 @@ pub enum ErrorKind {
     NotConverged,
     /// The caller's progress function asked to stop.
     Cancelled,
+    /// A function of the caller's failed.
+    Callback,
     /// The object is in use by another thread, or by the call this one is made from.
     Busy,
 }
@@ -81,5 +85,18 @@ pub fn require_finite(values: &[f64], what: &str) -> Result<()> {
             ErrorKind::NotFinite,
             format!("{what} {i} is {}", values[i]),
         )),
+    }
+}
+
+/// Refuses a number that is not finite, or beyond [`tolerance::LARGEST_COORDINATE`], naming its place as `what index`.
+pub fn require_coordinates(values: &[f64], what: &str) -> Result<()> {
+    require_finite(values, what)?;
+    let is_too_large = |value: &f64| value.abs() > tolerance::LARGEST_COORDINATE;
+    match values.iter().position(is_too_large) {
+        None => Ok(()),
+        Some(i) => Err(Error::invalid(format!(
+            "{what} {i} is too large: {}",
+            values[i]
+        ))),
     }
 }

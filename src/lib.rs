@@ -3,13 +3,17 @@
 //!
 //! Data flow one way, in the order of the modules below; each imports only from those above it.
 
-pub mod error;
 pub mod tolerance;
+
+pub mod error;
 
 pub mod lanes;
 mod whole_file;
+mod xml;
 
 pub mod pose;
+
+pub mod euler;
 
 mod parry_adapter;
 
@@ -25,6 +29,9 @@ pub mod body;
 pub mod pair;
 
 pub mod robot;
+
+pub mod urdf;
+
 pub mod space;
 
 pub mod environment;

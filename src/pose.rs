@@ -1,4 +1,4 @@
-//! Rigid poses, the report's Euler angles (§4.1), and the relative pose of two bodies.
+//! Rigid poses as homogeneous transforms, §4.1 eq. (8)–(11), and the relative pose of two bodies.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
@@ -70,6 +70,15 @@ impl Pose {
         })
     }
 
+    /// The unit quaternion x, y, z, w of the rotation; of the two, that with w >= 0.
+    pub fn to_quaternion(&self) -> [f64; 4] {
+        let rotation = nalgebra::Rotation3::from_matrix_unchecked(self.rotation);
+        let unit = UnitQuaternion::from_rotation_matrix(&rotation);
+        let q = unit.quaternion();
+        let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+        [q.i, q.j, q.k, q.w].map(|x| x * sign)
+    }
+
     pub fn to_row_major(&self) -> [f64; 12] {
         let (r, t) = (&self.rotation, &self.translation);
         [
@@ -86,30 +95,6 @@ impl Pose {
             r[(2, 2)],
             t.z,
         ]
-    }
-
-    /// From the report's `(x, y, z, yaw, pitch, roll)`: yaw about Y, then pitch about the new Z, then roll about the new
-    /// X, eq. (3)–(6).
-    pub fn from_euler(placement: &[f64; 6]) -> Self {
-        Self {
-            rotation: euler_to_rotation(placement[3], placement[4], placement[5]),
-            translation: Vec3::new(placement[0], placement[1], placement[2]),
-        }
-    }
-
-    /// The inverse of [`Pose::from_euler`], eq. (7) with two-argument arctangents. Where cos(pitch) = 0 only yaw ± roll
-    /// is determined; roll is then 0.
-    pub fn to_euler(&self) -> [f64; 6] {
-        let r = &self.rotation;
-        let cos_pitch = r[(0, 0)].hypot(r[(2, 0)]);
-        let pitch = r[(1, 0)].atan2(cos_pitch);
-        let (yaw, roll) = if cos_pitch > 1e-12 {
-            ((-r[(2, 0)]).atan2(r[(0, 0)]), (-r[(1, 2)]).atan2(r[(1, 1)]))
-        } else {
-            (r[(0, 2)].atan2(r[(2, 2)]), 0.0)
-        };
-        let t = &self.translation;
-        [t.x, t.y, t.z, yaw, pitch, roll]
     }
 
     pub fn transform_point(&self, point: &Vec3) -> Vec3 {
@@ -148,24 +133,6 @@ pub fn check_dimension(dimension: u32) -> Result<()> {
         )));
     }
     Ok(())
-}
-
-/// The rotation of eq. (6) from yaw, pitch and roll in radians.
-pub fn euler_to_rotation(yaw: f64, pitch: f64, roll: f64) -> Mat3 {
-    let (sy, cy) = yaw.sin_cos();
-    let (sp, cp) = pitch.sin_cos();
-    let (sr, cr) = roll.sin_cos();
-    Mat3::new(
-        cp * cy,
-        -cr * sp * cy + sr * sy,
-        sr * sp * cy + cr * sy,
-        sp,
-        cr * cp,
-        -sr * cp,
-        -cp * sy,
-        cr * sp * sy + sr * cy,
-        -sr * sp * sy + cr * cy,
-    )
 }
 
 /// The rotation by `angle` radians about the unit vector `axis` (Rodrigues' formula).
@@ -306,22 +273,6 @@ impl TwoFold {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::FRAC_PI_2;
-
-    #[test]
-    fn euler_angles_follow_the_report() {
-        // Equations (3)-(5), multiplied out here instead of taken from (6).
-        let (y, p, r) = (0.3, -0.7, 1.1);
-        let yaw = rotation_about(&Vec3::y(), y);
-        let pitch = rotation_about(&Vec3::z(), p);
-        let roll = rotation_about(&Vec3::x(), r);
-        assert!((yaw * pitch * roll - euler_to_rotation(y, p, r)).amax() < 1e-15);
-
-        let pose = Pose::from_euler(&[1.0, 2.0, 3.0, y, p, r]);
-        for (got, want) in pose.to_euler().iter().zip([1.0, 2.0, 3.0, y, p, r]) {
-            assert!((got - want).abs() < 1e-14);
-        }
-    }
 
     #[test]
     fn quaternions_turn_as_axes_do() {
@@ -333,15 +284,6 @@ mod tests {
         let long = xyzw.map(|x| x * 1.00001);
         let error = Pose::from_quaternion(Vec3::x(), long).unwrap_err();
         assert_eq!(error.kind, ErrorKind::NotARotation);
-    }
-
-    #[test]
-    fn euler_angles_at_the_singularity_give_the_same_rotation() {
-        for pitch in [FRAC_PI_2, -FRAC_PI_2] {
-            let pose = Pose::from_euler(&[0.0, 0.0, 0.0, 0.4, pitch, 0.9]);
-            let again = Pose::from_euler(&pose.to_euler());
-            assert!((pose.rotation - again.rotation).amax() < 1e-12);
-        }
     }
 
     #[test]

@@ -224,9 +224,9 @@ fn a44_bad_robots_poses_and_spaces_are_refused_by_name() {
         lower: 1.0,
         upper: 0.0,
     };
-    let with_range = Space::new(vec![robot.clone()], &[empty], world);
+    let with_range = Space::new(vec![robot.clone()], &[Some(empty)], world);
     refused(with_range, ErrorKind::InvalidArgument, &["range 0"]);
-    let two = Space::new(vec![robot], &[Coordinate::Circle; 2], world);
+    let two = Space::new(vec![robot], &[Some(Coordinate::Circle); 2], world);
     refused(two, ErrorKind::WrongSize, &["2 ranges"]);
 }
 

@@ -56,16 +56,16 @@ fn mixed_arm(random: &mut Random) -> Arc<Robot> {
     let links = kinds
         .iter()
         .enumerate()
-        .map(|(i, &(kind, coordinate))| LinkDefinition {
+        .map(|(i, (kind, coordinate))| LinkDefinition {
             at: random.pose(0.4),
-            coordinate,
+            coordinate: *coordinate,
             body: [
                 None,
                 Some(hull(&random.points(8, 0.3)).body),
                 Some(dented_ball(|| random.within(0.2, 0.3)).body),
             ][i % 3]
                 .clone(),
-            ..link(i.checked_sub(1), kind, random.point(2.0))
+            ..link(i.checked_sub(1), kind.clone(), random.point(2.0))
         });
     let links = links.collect();
     robot(3, links)

@@ -37,13 +37,10 @@ fn sliders(count: usize) -> Arc<Space> {
     let mut builder = RobotBuilder::new(3).unwrap();
     for _ in 0..count {
         let link = LinkDefinition {
-            name: String::new(),
             body: Some(cuboid([1.0; 3])),
-            parent: None,
-            at: Pose::identity(),
             kind: JointKind::Prismatic,
             axis: Vec3::x(),
-            coordinate: None,
+            ..Default::default()
         };
         builder.add_link(link).unwrap();
     }

@@ -119,13 +119,10 @@ fn cobject(case: &Case, wrapper: WrapperKind) -> CObject {
     let mut builder = RobotBuilder::new(3).expect("a builder");
     for mesh in &case.moving {
         let link = LinkDefinition {
-            name: String::new(),
             body: Some(body(mesh, wrapper)),
-            parent: None,
-            at: Pose::identity(),
             kind: JointKind::Prismatic,
             axis: Vec3::x(),
-            coordinate: None,
+            ..Default::default()
         };
         builder.add_link(link).expect("a link");
     }

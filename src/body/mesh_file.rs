@@ -1,10 +1,11 @@
-//! Meshes from OBJ files, through the crate tobj, and from STL files.
+//! Meshes from OBJ files, through the crate tobj, and from STL and COLLADA files.
 
 use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
 
 use super::builder::Mesh;
+use super::collada::parse_collada;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 
@@ -17,16 +18,17 @@ pub fn read_mesh_file(path: &Path) -> Result<Mesh> {
     let read = match ending.as_str() {
         "obj" => parse_obj,
         "stl" => parse_stl,
+        "dae" => parse_collada,
         "" => {
             return Err(Error::new(
                 ErrorKind::Unsupported,
-                "mesh files end in .obj or .stl; this name has no ending",
+                "mesh files end in .obj, .stl or .dae; this name has no ending",
             ));
         }
         other => {
             return Err(Error::new(
                 ErrorKind::Unsupported,
-                format!("mesh files end in .obj or .stl, not \".{other}\""),
+                format!("mesh files end in .obj, .stl or .dae, not \".{other}\""),
             ));
         }
     };

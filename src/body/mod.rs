@@ -3,6 +3,7 @@
 #[allow(clippy::module_inception)]
 mod body;
 mod builder;
+mod collada;
 mod file;
 mod file_reader;
 mod file_writer;

@@ -59,7 +59,10 @@ pub struct cstk_contact {
     pub r_feature: u32,
     pub s_feature_kind: cstk_feature_kind,
     pub s_feature: u32,
-    pub reserved: [u32; 7],
+    pub reserved_word: u32,
+    /// The distance between the points, less the C-object's margin, with its sign: negative within the margin.
+    pub clearance: f64,
+    pub reserved: [u64; 2],
 }
 
 /// One pair of primitives.
@@ -221,7 +224,9 @@ impl From<&ContactRecord> for cstk_contact {
             r_feature: contact.features[0].index,
             s_feature_kind: contact.features[1].kind.into(),
             s_feature: contact.features[1].index,
-            reserved: [0; 7],
+            reserved_word: 0,
+            clearance: contact.clearance,
+            reserved: [0; 2],
         }
     }
 }
@@ -238,7 +243,9 @@ impl cstk_contact {
             r_feature: 0,
             s_feature_kind: cstk_feature_kind::CSTK_VERTEX,
             s_feature: 0,
-            reserved: [0; 7],
+            reserved_word: 0,
+            clearance: 0.0,
+            reserved: [0; 2],
         }
     }
 }

@@ -220,7 +220,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
     })
 }
 
-/// Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj or .stl (ASCII or binary).
+/// Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj, .stl (ASCII or binary) or .dae
+/// (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
 /// CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
@@ -255,19 +256,27 @@ pub unsafe extern "C" fn cstk_body_build(
             // SAFETY: checked for size and cookie.
             let options = unsafe { options_or_default(options, "options")? };
             let options = options.decode()?;
-            let mut report = |fraction: f64| match progress {
-                // SAFETY: the caller gives a function of this type.
-                Some(progress) if unsafe { progress(fraction, user) } != 0 => Err(Error::new(
-                    ErrorKind::Cancelled,
-                    "the progress function ended the build",
-                )),
-                _ => Ok(()),
-            };
+            let mut report = reporter(progress, user);
             let body = builder.build(&options, &mut report)?;
             out.write(handle::create(Arc::new(body)));
             Ok(())
         })
     })
+}
+
+/// Tells the caller's progress function, if there is one, how far a build is.
+pub(super) fn reporter(
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+) -> impl FnMut(f64) -> Result<(), Error> {
+    move |fraction| match progress {
+        // SAFETY: the caller gives a function of this type.
+        Some(progress) if unsafe { progress(fraction, user) } != 0 => Err(Error::new(
+            ErrorKind::Cancelled,
+            "the progress function ended the build",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Adds a reference.

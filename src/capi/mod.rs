@@ -25,7 +25,11 @@ pub mod body;
 
 pub mod nodes;
 
+pub mod custom_joint;
+
 pub mod robot;
+
+pub mod urdf;
 
 pub mod space;
 

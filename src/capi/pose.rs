@@ -1,10 +1,14 @@
-//! Poses and the report's Euler angles.
+//! Poses, the report's Euler angles (§4.1) and their rates (§4.3).
 
-use super::boundary::guard;
-use super::input::{OutputSlice, array, pose};
+use super::boundary::{Failure, guard};
+use super::input::{OutputSlice, array, pose, slice};
 use super::status::cstk_status;
-use crate::error::require_finite;
-use crate::pose::{Mat3, Pose, Vec3, euler_to_rotation};
+use crate::error::{require_coordinates, require_finite};
+use crate::euler::{
+    AngularFrame, basic_to_euler_jacobian, euler_rates, euler_rates_inverse,
+    euler_to_basic_jacobian, euler_to_rotation,
+};
+use crate::pose::{Mat3, Pose, Vec3};
 
 /// Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
 /// pitch (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
@@ -70,6 +74,54 @@ pub unsafe extern "C" fn cstk_pose_compose(
     })
 }
 
+/// The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
+/// may be the same.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pose_inverse(pose_12: *const f64, out: *mut f64) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let given = unsafe { pose(pose_12, "pose_12")? };
+        let out = OutputSlice::checked(out, 12, "out")?;
+        out.write(&given.inverse().to_row_major());
+        Ok(())
+    })
+}
+
+/// Carries a point of the child frame into the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be the
+/// same.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pose_transform_point(
+    pose_12: *const f64,
+    point: *const f64,
+    out: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let (given, point) = unsafe { (pose(pose_12, "pose_12")?, array::<3>(point, "point")?) };
+        let out = OutputSlice::checked(out, 3, "out")?;
+        require_coordinates(point, "point entry")?;
+        out.write(given.transform_point(&Vec3::from(*point)).as_slice());
+        Ok(())
+    })
+}
+
+/// The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation the one with w >= 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pose_to_quaternion(
+    pose_12: *const f64,
+    xyz_quaternion: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the length.
+        let given = unsafe { pose(pose_12, "pose_12")? };
+        let out = OutputSlice::checked(xyz_quaternion, 7, "xyz_quaternion")?;
+        let t = given.translation;
+        let [x, y, z, w] = given.to_quaternion();
+        out.write(&[t.x, t.y, t.z, x, y, z, w]);
+        Ok(())
+    })
+}
+
 /// Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation of 9 doubles, row-major.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_to_rotation(
@@ -81,8 +133,7 @@ pub unsafe extern "C" fn cstk_euler_to_rotation(
         let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
         let out = OutputSlice::checked(rotation, 9, "rotation")?;
         require_finite(angles, "yaw_pitch_roll entry")?;
-        let matrix: Mat3 = euler_to_rotation(angles[0], angles[1], angles[2]);
-        out.write(matrix.transpose().as_slice());
+        out.write(&row_major(&euler_to_rotation(*angles)));
         Ok(())
     })
 }
@@ -104,4 +155,132 @@ pub unsafe extern "C" fn cstk_euler_from_rotation(
         out.write(&pose.to_euler()[3..]);
         Ok(())
     })
+}
+
+/// The frame in which an angular velocity is written.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_angular_frame {
+    /// The inertial frame, as in eq. (33) and everywhere else in this header.
+    CSTK_ANGULAR_WORLD = 0,
+    /// The turning body's own, as in eq. (25) to (31).
+    CSTK_ANGULAR_BODY = 1,
+}
+
+impl cstk_angular_frame {
+    fn decode(value: i32) -> Result<AngularFrame, Failure> {
+        match value {
+            0 => Ok(AngularFrame::World),
+            1 => Ok(AngularFrame::Body),
+            _ => Err(Failure::new(
+                cstk_status::CSTK_INVALID_ARGUMENT,
+                format!("frame {value} is no cstk_angular_frame"),
+            )),
+        }
+    }
+}
+
+/// The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity. `frame`
+/// is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial columns of (33),
+/// with which only the inertial form combines.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_euler_rates(
+    yaw_pitch_roll: *const f64,
+    frame: i32,
+    matrix: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the length.
+        let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
+        let out = OutputSlice::checked(matrix, 9, "matrix")?;
+        require_finite(angles, "yaw_pitch_roll entry")?;
+        let frame = cstk_angular_frame::decode(frame)?;
+        out.write(&row_major(&euler_rates(*angles, frame)));
+        Ok(())
+    })
+}
+
+/// The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_DEGENERATE where cos(pitch) =
+/// 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_euler_rates_inverse(
+    yaw_pitch_roll: *const f64,
+    frame: i32,
+    matrix: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the length.
+        let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
+        let out = OutputSlice::checked(matrix, 9, "matrix")?;
+        require_finite(angles, "yaw_pitch_roll entry")?;
+        let frame = cstk_angular_frame::decode(frame)?;
+        out.write(&row_major(&euler_rates_inverse(*angles, frame)?));
+        Ok(())
+    })
+}
+
+/// Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,
+/// 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_DEGENERATE where
+/// cos(pitch) = 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_jacobian_to_euler(
+    yaw_pitch_roll: *const f64,
+    jacobian: *mut f64,
+    nv: usize,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: as below.
+        unsafe {
+            convert_jacobian(yaw_pitch_roll, jacobian, nv, |matrix, angles| {
+                Ok(basic_to_euler_jacobian(matrix, angles)?)
+            })
+        }
+    })
+}
+
+/// The inverse of cstk_jacobian_to_euler; defined everywhere.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_jacobian_from_euler(
+    yaw_pitch_roll: *const f64,
+    jacobian: *mut f64,
+    nv: usize,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: as below.
+        unsafe {
+            convert_jacobian(yaw_pitch_roll, jacobian, nv, |matrix, angles| {
+                euler_to_basic_jacobian(matrix, angles);
+                Ok(())
+            })
+        }
+    })
+}
+
+unsafe fn convert_jacobian(
+    yaw_pitch_roll: *const f64,
+    jacobian: *mut f64,
+    nv: usize,
+    convert: impl FnOnce(&mut [f64], [f64; 3]) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let entries = nv.saturating_mul(6);
+    // SAFETY: checked for NULL; the caller states the lengths.
+    let (angles, given) = unsafe {
+        (
+            array::<3>(yaw_pitch_roll, "yaw_pitch_roll")?,
+            slice(jacobian.cast_const(), entries, "jacobian")?,
+        )
+    };
+    require_finite(angles, "yaw_pitch_roll entry")?;
+    require_coordinates(given, "jacobian entry")?;
+    let out = OutputSlice::checked(jacobian, entries, "jacobian")?;
+    let mut matrix = given.to_vec();
+    convert(&mut matrix, *angles)?;
+    out.write(&matrix);
+    Ok(())
+}
+
+fn row_major(matrix: &Mat3) -> [f64; 9] {
+    let mut values = [0.0; 9];
+    values.copy_from_slice(matrix.transpose().as_slice());
+    values
 }

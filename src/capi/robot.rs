@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
+use super::custom_joint::{Functions, cstk_custom_joint};
 use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::input::{
@@ -13,9 +14,11 @@ use super::input::{
 };
 use super::status::cstk_status;
 use crate::body::Body;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, require_coordinates};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{JointKind, LinkDefinition, Robot, RobotBuilder, check_configuration};
+use crate::robot::{
+    JointKind, Link, LinkDefinition, Posture, Robot, RobotBuilder, check_configuration,
+};
 
 /// Collects the links of a robot.
 pub struct cstk_robot_builder {
@@ -41,7 +44,8 @@ impl Noun for Robot {
     const NAME: &'static str = "cstk_robot";
 }
 
-/// How a joint moves its link.
+/// How a joint moves its link, and by which coordinates. Velocities (and so steps and gradients) are the coordinates' rates,
+/// one each, but where the coordinates hold a unit quaternion x, y, z, w: there they are as said.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_joint_kind {
@@ -51,17 +55,46 @@ pub enum cstk_joint_kind {
     CSTK_JOINT_REVOLUTE = 1,
     /// Shifts it along the axis; the coordinate is a length.
     CSTK_JOINT_PRISMATIC = 2,
+    /// Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+    CSTK_JOINT_PLANAR = 3,
+    /// Turns it about its origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
+    CSTK_JOINT_SPHERICAL = 4,
+    /// Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's frame.
+    CSTK_JOINT_FREE = 5,
+    /// Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Where cos(pitch) = 0 they cannot
+    /// turn it about every axis.
+    CSTK_JOINT_FREE_EULER = 6,
+    /// By functions of the caller; see cstk_custom_joint.
+    CSTK_JOINT_CUSTOM = 7,
 }
 
 impl cstk_joint_kind {
+    /// The kind, unless it is custom or unknown.
     fn decode(value: i32) -> Option<JointKind> {
         [
             (Self::CSTK_JOINT_FIXED, JointKind::Fixed),
             (Self::CSTK_JOINT_REVOLUTE, JointKind::Revolute),
             (Self::CSTK_JOINT_PRISMATIC, JointKind::Prismatic),
+            (Self::CSTK_JOINT_PLANAR, JointKind::Planar),
+            (Self::CSTK_JOINT_SPHERICAL, JointKind::Spherical),
+            (Self::CSTK_JOINT_FREE, JointKind::Free),
+            (Self::CSTK_JOINT_FREE_EULER, JointKind::FreeEuler),
         ]
         .into_iter()
         .find_map(|(code, kind)| (code as i32 == value).then_some(kind))
+    }
+
+    fn of(kind: &JointKind) -> Self {
+        match kind {
+            JointKind::Fixed => Self::CSTK_JOINT_FIXED,
+            JointKind::Revolute => Self::CSTK_JOINT_REVOLUTE,
+            JointKind::Prismatic => Self::CSTK_JOINT_PRISMATIC,
+            JointKind::Planar => Self::CSTK_JOINT_PLANAR,
+            JointKind::Spherical => Self::CSTK_JOINT_SPHERICAL,
+            JointKind::Free => Self::CSTK_JOINT_FREE,
+            JointKind::FreeEuler => Self::CSTK_JOINT_FREE_EULER,
+            JointKind::Custom(_) => Self::CSTK_JOINT_CUSTOM,
+        }
     }
 }
 
@@ -83,17 +116,30 @@ pub struct cstk_link_def {
     /// pose(link) = pose(parent) at motion(coordinate), and coincides with the joint's frame at coordinate 0. For the
     /// report's (x, y, z, yaw, pitch, roll) see cstk_pose_from_euler.
     pub at: [f64; 12],
-    /// The joint's axis in its own frame, of any length; default z.
+    /// The axis of a revolute or prismatic joint in the joint's frame, of any length; default z.
     pub axis: [f64; 3],
-    /// Which coordinate moves the joint, or -1 for the next unused one. Joints may share a coordinate.
+    /// The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
+    /// share a coordinate with earlier joints, and so mimic them.
     pub coordinate: i32,
     pub reserved: u32,
+    /// A name of the joint's own within the robot, UTF-8, or NULL for none. It is copied.
+    pub joint_name: *const c_char,
+    /// A revolute or prismatic joint follows multiplier * coordinate + offset; default 1 and 0.
+    pub multiplier: f64,
+    pub offset: f64,
+    /// The range of a revolute or prismatic joint's coordinate, unless the space says otherwise; the default is infinite:
+    /// revolute joints then turn on the circle. Ignored where the joint shares an earlier one's coordinate.
+    pub lower: f64,
+    pub upper: f64,
+    /// For CSTK_JOINT_CUSTOM, else NULL. It is copied.
+    pub custom: *const cstk_custom_joint,
 }
 
-// SAFETY: repr(C), no padding (8 + 16 + 8 + 96 + 24 + 8 bytes), pointers only read after checks.
+// SAFETY: repr(C), no padding (8 + 16 + 8 + 96 + 24 + 8 + 8 + 32 + 8 bytes), pointers only read after checks.
 unsafe impl OptionsStruct for cstk_link_def {
     const COOKIE: u32 = 0x4353_0201;
     const NAME: &'static str = "cstk_link_def";
+    const EARLIER_SIZES: &'static [usize] = &[160];
     fn defaults() -> Self {
         Self {
             size: 0,
@@ -106,11 +152,17 @@ unsafe impl OptionsStruct for cstk_link_def {
             axis: [0.0, 0.0, 1.0],
             coordinate: -1,
             reserved: 0,
+            joint_name: std::ptr::null(),
+            multiplier: 1.0,
+            offset: 0.0,
+            lower: f64::NEG_INFINITY,
+            upper: f64::INFINITY,
+            custom: std::ptr::null(),
         }
     }
 }
 
-fn with_builder(
+pub(super) fn with_builder(
     builder: *mut cstk_robot_builder,
     action: impl FnOnce(&mut RobotBuilder) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -161,7 +213,7 @@ pub unsafe extern "C" fn cstk_link_def_default(
 }
 
 /// Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
-/// which may be NULL. A free body is a chain of three prismatic and three revolute links.
+/// which may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_add_link(
     builder: *mut cstk_robot_builder,
@@ -173,14 +225,19 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
             let out = Output::optional(out, "out")?;
             // SAFETY: checked for size and cookie.
             let def = unsafe { options(def, "def")? };
-            let kind = cstk_joint_kind::decode(def.joint).ok_or_else(|| {
-                Error::invalid(format!("def->joint {} is no cstk_joint_kind", def.joint))
-            })?;
-            let name = if def.name.is_null() {
-                ""
-            } else {
-                // SAFETY: the caller states that it is terminated.
-                unsafe { text(def.name, "def->name")? }
+            // SAFETY: the caller states that names are terminated, and the joint's structure is checked.
+            let (name, joint_name, custom) = unsafe {
+                (
+                    text_or_empty(def.name, "def->name")?,
+                    text_or_empty(def.joint_name, "def->joint_name")?,
+                    custom_joint(&def)?,
+                )
+            };
+            let kind = match &custom {
+                Some(functions) => JointKind::Custom(functions.clone()),
+                None => cstk_joint_kind::decode(def.joint).ok_or_else(|| {
+                    Error::invalid(format!("def->joint {} is no cstk_joint_kind", def.joint))
+                })?,
             };
             let body = if def.body.is_null() {
                 None
@@ -189,17 +246,48 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
             };
             let link = builder.add_link(LinkDefinition {
                 name: name.to_string(),
+                joint_name: joint_name.to_string(),
                 body,
                 parent: index_or_none(def.parent, "def->parent")?,
                 at: Pose::from_row_major(&def.at).map_err(|e| e.within("def->at"))?,
                 kind,
                 axis: Vec3::from(def.axis),
                 coordinate: index_or_none(def.coordinate, "def->coordinate")?,
+                multiplier: def.multiplier,
+                offset: def.offset,
+                limits: [def.lower, def.upper],
             })?;
+            if let Some(functions) = custom {
+                functions.take_ownership();
+            }
             out.write(link as u32);
             Ok(())
         })
     })
+}
+
+unsafe fn text_or_empty<'a>(string: *const c_char, argument: &str) -> Result<&'a str, Failure> {
+    if string.is_null() {
+        return Ok("");
+    }
+    // SAFETY: as the caller states.
+    unsafe { text(string, argument) }
+}
+
+/// The caller's joint, if the definition asks for one.
+unsafe fn custom_joint(def: &cstk_link_def) -> Result<Option<Arc<Functions>>, Failure> {
+    let is_custom = def.joint == cstk_joint_kind::CSTK_JOINT_CUSTOM as i32;
+    if !is_custom && !def.custom.is_null() {
+        return Err(
+            Error::invalid("def->custom is set, but def->joint is not CSTK_JOINT_CUSTOM").into(),
+        );
+    }
+    if !is_custom {
+        return Ok(None);
+    }
+    // SAFETY: checked for NULL, size and cookie.
+    let given = unsafe { options(def.custom, "def->custom")? };
+    Ok(Some(Arc::new(Functions::new(&given)?)))
 }
 
 /// Builds a robot from the links added so far; the builder is unchanged. CSTK_EMPTY if there are none.
@@ -229,18 +317,21 @@ pub unsafe extern "C" fn cstk_robot_release(robot: *mut cstk_robot) -> cstk_stat
     guard(|| handle::release::<Robot>(robot, "robot"))
 }
 
-/// Writes the number of coordinates (nq, which equals nv) and of links; either may be NULL.
+/// Writes the number of coordinates (nq), of velocities (nv; less by one for each quaternion) and of links; each may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_size(
     robot: *const cstk_robot,
     nq: *mut usize,
+    nv: *mut usize,
     link_count: *mut usize,
 ) -> cstk_status {
     guard(|| {
         let robot = handle::borrow::<Robot>(robot, "robot")?;
         let nq = Output::optional(nq, "nq")?;
+        let nv = Output::optional(nv, "nv")?;
         let link_count = Output::optional(link_count, "link_count")?;
-        nq.write(robot.coordinates());
+        nq.write(robot.nq());
+        nv.write(robot.nv());
         link_count.write(robot.links().len());
         Ok(())
     })
@@ -269,21 +360,160 @@ pub unsafe extern "C" fn cstk_robot_find_link(
     })
 }
 
-/// The link poses of a robot at q, checked.
-fn poses_at(robot: &Robot, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
-    check_configuration(q, robot.coordinates())?;
-    if link as usize >= robot.links().len() {
+/// Writes the number of the link that the joint with this name moves. CSTK_NOT_FOUND if there is none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_find_joint(
+    robot: *const cstk_robot,
+    name: *const c_char,
+    out: *mut u32,
+) -> cstk_status {
+    guard(|| {
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let name = unsafe { text(name, "name")? };
+        let link = robot.find_joint(name).ok_or_else(|| {
+            Error::new(
+                ErrorKind::NotFound,
+                format!("the robot has no joint \"{name}\""),
+            )
+        })?;
+        out.write(link as u32);
+        Ok(())
+    })
+}
+
+/// What a robot knows of a link and the joint that moves it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_link_info {
+    /// The link it is attached to, or -1 for the world.
+    pub parent: i32,
+    pub joint: cstk_joint_kind,
+    /// The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
+    pub coordinate: u32,
+    pub nq: u32,
+    pub velocity: u32,
+    pub nv: u32,
+    pub has_body: bool,
+    pub reserved_bytes: [u8; 7],
+    /// See cstk_link_def.
+    pub multiplier: f64,
+    pub offset: f64,
+    pub at: [f64; 12],
+    pub axis: [f64; 3],
+    pub reserved: [u64; 8],
+}
+
+/// Writes what the robot knows of a link.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_link_info(
+    robot: *const cstk_robot,
+    link: u32,
+    out: *mut cstk_link_info,
+) -> cstk_status {
+    guard(|| {
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let out = Output::checked(out, "out")?;
+        let link = link_of(robot, link)?;
+        let joint = &link.joint;
+        out.write(cstk_link_info {
+            parent: link.parent.map_or(-1, |parent| parent as i32),
+            joint: cstk_joint_kind::of(&joint.kind),
+            coordinate: joint.coordinate as u32,
+            nq: joint.kind.nq() as u32,
+            velocity: joint.velocity as u32,
+            nv: joint.kind.nv() as u32,
+            has_body: link.body.is_some(),
+            reserved_bytes: [0; 7],
+            multiplier: joint.multiplier,
+            offset: joint.offset,
+            at: link.at.to_row_major(),
+            axis: joint.axis.into(),
+            reserved: [0; 8],
+        });
+        Ok(())
+    })
+}
+
+/// Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
+/// `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_WRONG_SIZE if the name does not
+/// fit.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_link_name(
+    robot: *const cstk_robot,
+    link: u32,
+    buffer: *mut c_char,
+    capacity: usize,
+    length: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        write_text(&link_of(robot, link)?.name, buffer, capacity, length)
+    })
+}
+
+/// The same for the name of the joint that moves the link; "" if it has none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_joint_name(
+    robot: *const cstk_robot,
+    link: u32,
+    buffer: *mut c_char,
+    capacity: usize,
+    length: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        write_text(&link_of(robot, link)?.joint_name, buffer, capacity, length)
+    })
+}
+
+fn write_text(
+    text: &str,
+    buffer: *mut c_char,
+    capacity: usize,
+    length: *mut usize,
+) -> Result<(), Failure> {
+    let length = Output::optional(length, "length")?;
+    if buffer.is_null() && capacity == 0 {
+        length.write(text.len());
+        return Ok(());
+    }
+    let out = OutputSlice::checked(buffer.cast::<u8>(), capacity, "buffer")?;
+    if text.len() >= capacity {
         return Err(Error::new(
+            ErrorKind::WrongSize,
+            format!(
+                "the name takes {} bytes with its terminator, the buffer has {capacity}",
+                text.len() + 1
+            ),
+        )
+        .into());
+    }
+    out.write(&[text.as_bytes(), b"\0"].concat());
+    length.write(text.len());
+    Ok(())
+}
+
+fn link_of(robot: &Robot, link: u32) -> Result<&Link, Failure> {
+    robot.links().get(link as usize).ok_or_else(|| {
+        Error::new(
             ErrorKind::NotFound,
             format!(
                 "link {link} does not exist; the robot has {}",
                 robot.links().len()
             ),
         )
-        .into());
-    }
+        .into()
+    })
+}
+
+/// The link poses of a robot at q, checked.
+fn poses_at(robot: &Robot, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
+    check_configuration(q, robot.nq(), robot.blocks())?;
+    link_of(robot, link)?;
     let mut poses = Vec::new();
-    robot.link_poses(q, &mut poses);
+    robot.link_poses(q, &mut poses)?;
     Ok(poses)
 }
 
@@ -320,13 +550,14 @@ pub unsafe extern "C" fn cstk_robot_jacobian(
 ) -> cstk_status {
     guard(|| {
         let robot = handle::borrow::<Robot>(robot, "robot")?;
-        let out = OutputSlice::checked(jacobian, 6 * robot.coordinates(), "jacobian")?;
+        let out = OutputSlice::checked(jacobian, 6 * robot.nv(), "jacobian")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, point) = unsafe { (slice(q, nq, "q")?, array::<3>(point, "point")?) };
-        crate::error::require_finite(point, "point entry")?;
+        require_coordinates(point, "point entry")?;
         let poses = poses_at(robot, q, link)?;
         let world = poses[link as usize].transform_point(&Vec3::from(*point));
-        out.write(&robot.jacobian(&poses, link as usize, &world));
+        let posture = Posture { q, poses: &poses };
+        out.write(&robot.jacobian(posture, link as usize, &world)?);
         Ok(())
     })
 }

@@ -1,13 +1,15 @@
-//! The step that slides.
+//! The step that slides, and its two halves for callers who put them together themselves.
 
-use super::boundary::guard;
+use super::answers::cstk_witness_list;
+use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
 use super::handle;
 use super::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
 use super::query::{cstk_query, with_query};
 use super::status::cstk_status;
 use crate::cobject::CObject;
-use crate::query::{SlideOptions, SlideOutcome};
+use crate::error::{Error, ErrorKind, require_coordinates};
+use crate::query::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step};
 
 /// How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
 #[repr(C)]
@@ -20,25 +22,29 @@ pub struct cstk_slide_options {
     /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
     /// tenth of max_shell. Independent of the C-object's contact epsilon.
     pub desired_distance: f64,
-    /// 1 lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
-    /// is left of the step.
-    pub keep_length: u32,
+    /// Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
+    /// is left of the step. (The report's normalize?)
+    pub normalize: u32,
     /// At most so many witnesses are considered, the nearest first. Default 256.
     pub max_witnesses: u32,
+    /// A step that does not do is halved until it is shorter than this part of the step asked for. Default 1/1024.
+    pub floor: f64,
 }
 
-// SAFETY: repr(C), two u32, two doubles, two u32: no padding.
+// SAFETY: repr(C), two u32, two doubles, two u32, a double: no padding.
 unsafe impl OptionsStruct for cstk_slide_options {
     const COOKIE: u32 = 0x4353_0501;
     const NAME: &'static str = "cstk_slide_options";
+    const EARLIER_SIZES: &'static [usize] = &[32];
     fn defaults() -> Self {
         Self {
             size: 0,
             cookie: 0,
             max_shell: 0.0,
             desired_distance: -1.0,
-            keep_length: 0,
+            normalize: 0,
             max_witnesses: 256,
+            floor: 1.0 / 1024.0,
         }
     }
 }
@@ -51,7 +57,9 @@ pub enum cstk_slide_outcome {
     CSTK_SLIDE_MOVED = 0,
     /// The configuration is inside the C-object; nothing was moved.
     CSTK_SLIDE_INSIDE = 1,
-    /// No step leads on: contacts, ranges or the world box are in the way; nothing was moved.
+    /// No step leads on: contacts, ranges or the world box are in the way; nothing was moved. Of all steps as long as the
+    /// floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
+    /// than a hundredth of its length along the step asked for, to first order.
     CSTK_SLIDE_BLOCKED = 2,
 }
 
@@ -79,18 +87,20 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 }
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
-/// nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance, shortened
+/// nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance and keeps to
+/// the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
 /// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
-/// gradients must do). Along a contact only part of the step is left; see keep_length. `slide_options` must
-/// not be NULL. `q`, `step` and `reached` have `nq` doubles; `reached` may be `q`. Unless the
-/// outcome is CSTK_SLIDE_MOVED, `reached` receives q.
+/// gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
+/// and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
+/// is CSTK_SLIDE_MOVED, `reached` receives q. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
     q: *const f64,
-    step: *const f64,
     nq: usize,
+    step: *const f64,
+    nv: usize,
     slide_options: *const cstk_slide_options,
     reached: *mut f64,
     out: *mut cstk_slide_result,
@@ -104,12 +114,13 @@ pub unsafe extern "C" fn cstk_slide(
             let (q, step, given) = unsafe {
                 (
                     slice(q, nq, "q")?,
-                    slice(step, nq, "step")?,
+                    slice(step, nv, "step")?,
                     options(slide_options, "slide_options")?,
                 )
             };
             let mut options = SlideOptions::with_shell(given.max_shell);
-            options.keep_length = given.keep_length != 0;
+            options.normalize = given.normalize != 0;
+            options.floor = given.floor;
             options.max_witnesses = given.max_witnesses as usize;
             // NaN must reach the check.
             if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
@@ -131,4 +142,109 @@ pub unsafe extern "C" fn cstk_slide(
             Ok(())
         })
     })
+}
+
+/// The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
+/// `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it is
+/// within that already; to first order, and without a look at ranges or the way. `normalize` is that of cstk_slide_options.
+/// `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and `out` zero, where less than
+/// a hundredth of the step would be left.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_slide_step(
+    list: *const cstk_witness_list,
+    step: *const f64,
+    nv: usize,
+    desired_distance: f64,
+    normalize: bool,
+    out: *mut f64,
+    found: *mut bool,
+) -> cstk_status {
+    guard(|| {
+        let out = OutputSlice::checked(out, nv, "out")?;
+        let found = Output::checked(found, "found")?;
+        // SAFETY: checked for NULL; the caller states the lengths.
+        let (approaches, step) = unsafe { (approaches(list, nv)?, slice(step, nv, "step")?) };
+        require_coordinates(step, "step entry")?;
+        check_desired(desired_distance)?;
+        let left = slide_step(step, &approaches, &[], desired_distance, normalize);
+        found.write(left.is_some());
+        out.write(&left.unwrap_or_else(|| vec![0.0; nv]));
+        Ok(())
+    })
+}
+
+/// The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to first
+/// order; where they stand against each other, out to the largest distance they can share. `found` is false, and `out` zero,
+/// where no contact is nearer or none can be helped. See cstk_slide_step for the list.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_spring_step(
+    list: *const cstk_witness_list,
+    nv: usize,
+    desired_distance: f64,
+    out: *mut f64,
+    found: *mut bool,
+) -> cstk_status {
+    guard(|| {
+        let out = OutputSlice::checked(out, nv, "out")?;
+        let found = Output::checked(found, "found")?;
+        // SAFETY: checked for NULL; the caller states the lengths.
+        let approaches = unsafe { approaches(list, nv)? };
+        check_desired(desired_distance)?;
+        let adjustment = spring_step(&approaches, &[], desired_distance);
+        found.write(adjustment.is_some());
+        out.write(&adjustment.unwrap_or_else(|| vec![0.0; nv]));
+        Ok(())
+    })
+}
+
+fn check_desired(desired: f64) -> Result<(), Failure> {
+    require_coordinates(&[desired], "desired_distance")?;
+    if desired < 0.0 {
+        return Err(Error::invalid(format!("desired_distance is negative: {desired}")).into());
+    }
+    Ok(())
+}
+
+/// The contacts of a list with their gradients.
+unsafe fn approaches<'a>(
+    list: *const cstk_witness_list,
+    nv: usize,
+) -> Result<Vec<Approach<'a>>, Failure> {
+    // SAFETY: checked for NULL; the caller states that it is a list of a query that is still valid.
+    let list = unsafe { slice(list, 1, "list")? };
+    let list = &list[0];
+    if list.nv == 0 && list.contact_count > 0 {
+        return Err(Error::invalid("the list was made without gradients").into());
+    }
+    if list.nv != nv && (list.nv > 0 || list.contact_count > 0) {
+        return Err(Error::new(
+            ErrorKind::WrongSize,
+            format!(
+                "nv is {nv}, but the list's gradients have {} entries",
+                list.nv
+            ),
+        )
+        .into());
+    }
+    let entries = list.contact_count.saturating_mul(nv);
+    // SAFETY: checked for NULL; as above.
+    let (contacts, gradients) = unsafe {
+        (
+            slice(list.contacts, list.contact_count, "list->contacts")?,
+            slice(list.gradients, entries, "list->gradients")?,
+        )
+    };
+    for (i, contact) in contacts.iter().enumerate() {
+        require_coordinates(&[contact.clearance], "clearance")
+            .map_err(|e| e.within(format_args!("list->contacts[{i}]")))?;
+    }
+    require_coordinates(gradients, "list->gradients entry")?;
+    Ok(contacts
+        .iter()
+        .zip(gradients.chunks_exact(nv))
+        .map(|(contact, gradient)| Approach {
+            gradient,
+            clearance: contact.clearance,
+        })
+        .collect())
 }

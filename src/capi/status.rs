@@ -49,6 +49,8 @@ pub enum cstk_status {
     CSTK_BUSY = 18,
     /// A fault of the library itself. It was contained; please report it with the message.
     CSTK_INTERNAL = 19,
+    /// A function of the caller's failed; the message names it and what it returned.
+    CSTK_CALLBACK_FAILED = 20,
 }
 
 impl From<ErrorKind> for cstk_status {
@@ -69,6 +71,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::NotConverged => Self::CSTK_NOT_CONVERGED,
             ErrorKind::Cancelled => Self::CSTK_CANCELLED,
             ErrorKind::Busy => Self::CSTK_BUSY,
+            ErrorKind::Callback => Self::CSTK_CALLBACK_FAILED,
         }
     }
 }
@@ -97,6 +100,7 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
         17 => c"CSTK_CANCELLED",
         18 => c"CSTK_BUSY",
         19 => c"CSTK_INTERNAL",
+        20 => c"CSTK_CALLBACK_FAILED",
         _ => c"unknown status",
     };
     name.as_ptr()

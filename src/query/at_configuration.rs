@@ -9,6 +9,8 @@ use super::search::Found;
 use super::target::Target;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
+use crate::robot::Posture;
+use crate::space::Space;
 
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
@@ -122,7 +124,7 @@ impl QueryContext {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, at)?;
         let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
-        Ok(self.list(&scene, &candidates, epsilon, max_count, false))
+        self.list(&scene, &candidates, epsilon, max_count, None)
     }
 
     /// Operation 8: the same, with the gradient of each contact's distance.
@@ -136,7 +138,7 @@ impl QueryContext {
         check_threshold(epsilon, "epsilon")?;
         let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
         let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
-        Ok(self.list(&scene, &candidates, epsilon, max_count, true))
+        self.list(&scene, &candidates, epsilon, max_count, scene.posture())
     }
 
     /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within
@@ -160,7 +162,7 @@ impl QueryContext {
             &mut self.near,
         )?;
         let distance = self.distance_among(&scene, &candidates, f64::INFINITY)?;
-        let mut list = self.list(&scene, &candidates, max_shell, max_count, true);
+        let mut list = self.list(&scene, &candidates, max_shell, max_count, scene.posture())?;
         if normalize && list.nv > 0 {
             for row in list.gradients.chunks_exact_mut(list.nv) {
                 let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -183,53 +185,56 @@ impl QueryContext {
         })
     }
 
+    /// The witnesses among the candidates, with gradients where a posture is given.
     fn list(
         &mut self,
         scene: &Scene,
         candidates: &[Target],
         epsilon: f64,
         max_count: usize,
-        with_gradients: bool,
-    ) -> WitnessList {
+        posture: Option<Posture>,
+    ) -> Result<WitnessList> {
         let (hits, truncated) = self.collect(candidates, epsilon, max_count);
         let space = scene.cobject().space();
-        let nv = space.coordinates().len();
         let mut list = WitnessList {
             truncated,
             version: scene.version,
-            nv: if with_gradients { nv } else { 0 },
+            nv: posture.map_or(0, |_| space.nv()),
             ..Default::default()
         };
         let ranked = by_rank(candidates);
         for hit in &hits {
             let target = ranked[hit.key.pair as usize];
-            let pairing = target.pairing();
-            list.push(target, &pairing, hit);
-            if with_gradients {
-                let first = list
-                    .witnesses
-                    .last()
-                    .map_or(0, |witness| witness.first_contact);
+            let first = list.contacts.len();
+            list.push(target, &target.pairing(), hit);
+            if let Some(posture) = posture {
                 for contact in &list.contacts[first..] {
-                    list.gradients.extend(gradient(scene, target, contact));
+                    push_gradient(space, posture, target, contact, &mut list.gradients)?;
                 }
             }
         }
-        list
+        Ok(list)
     }
 }
 
-/// One row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
-fn gradient(scene: &Scene, target: &Target, contact: &ContactRecord) -> Vec<f64> {
-    let space = scene.cobject().space();
-    let mut row = vec![0.0; space.coordinates().len()];
+/// Appends one row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
+fn push_gradient(
+    space: &Space,
+    posture: Posture,
+    target: &Target,
+    contact: &ContactRecord,
+    rows: &mut Vec<f64>,
+) -> Result<()> {
+    let first = rows.len();
+    rows.resize(first + space.nv(), 0.0);
+    let row = &mut rows[first..];
     let [on_r, on_s] = &contact.points;
     let (r_link, s_side) = target.parties();
-    space.add_gradient(&scene.poses, r_link, on_r, &contact.normal, 1.0, &mut row);
+    space.add_gradient(posture, r_link, on_r, &contact.normal, row)?;
     if let SSide::Link(s) = s_side {
-        space.add_gradient(&scene.poses, s, on_s, &contact.normal, -1.0, &mut row);
+        space.add_gradient(posture, s, on_s, &-contact.normal, row)?;
     }
-    row
+    Ok(())
 }
 
 /// The candidates in the order of their ranks, by which hits name them.

@@ -11,6 +11,8 @@ mod scene;
 mod search;
 mod segment;
 mod slide;
+mod slide_step;
+mod step_limits;
 mod target;
 
 pub use answer::{
@@ -19,5 +21,7 @@ pub use answer::{
 };
 pub use at_configuration::PseudoNormal;
 pub use context::QueryContext;
+pub use half_spaces::HalfSpace;
 pub use scene::Configuration;
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};
+pub use slide_step::{Approach, slide_step, spring_step};

@@ -12,6 +12,7 @@ use crate::environment::{Bounds, Environment, Named, NearScratch, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::pose::Pose;
+use crate::robot::Posture;
 
 /// Where the robot is: by its coordinates, or by the pose of every link of the space.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,7 @@ pub enum Configuration<'a> {
 /// The world at one configuration: link poses, and one snapshot of each environment.
 pub struct Scene<'a> {
     cobject: &'a CObject,
+    q: Option<&'a [f64]>,
     pub poses: Cow<'a, [Pose]>,
     snapshots: Vec<Option<Arc<Snapshot>>>,
     pub version: u64,
@@ -34,7 +36,7 @@ impl<'a> Scene<'a> {
         let poses = match configuration {
             Configuration::Coordinates(q) => {
                 space.check_configuration(q)?;
-                Cow::Owned(space.link_poses(q))
+                Cow::Owned(space.link_poses(q)?)
             }
             Configuration::LinkPoses(poses) => {
                 if poses.len() != space.link_count() {
@@ -71,12 +73,23 @@ impl<'a> Scene<'a> {
             version = version.max(snapshot.as_ref().map_or(0, |snapshot| snapshot.version));
             snapshots.push(snapshot);
         }
+        let q = match configuration {
+            Configuration::Coordinates(q) => Some(q),
+            Configuration::LinkPoses(_) => None,
+        };
         Ok(Self {
             cobject,
+            q,
             poses,
             snapshots,
             version,
         })
+    }
+
+    /// The configuration with its link poses; `None` where only the poses are known.
+    pub fn posture(&self) -> Option<Posture<'_>> {
+        let poses = &self.poses;
+        self.q.map(|q| Posture { q, poses })
     }
 
     /// Whether there is no pair of bodies at all.

@@ -1,31 +1,32 @@
-//! A proof that a straight segment of C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4).
+//! A proof that a way of constant velocity through C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4).
 
 use super::context::QueryContext;
 use super::scene::Configuration;
 use crate::cobject::{CObject, Term};
 use crate::error::Result;
 
-/// So many distances may be computed for one proof; a segment that needs more counts as not free.
+/// So many distances may be computed for one proof; a way that needs more counts as not free.
 const MOST_DISTANCES: usize = 400;
 
 /// The part of the distance that a step uses up: the rest covers the rounding of kinematics and motion bounds.
 const STEP_FRACTION: f64 = 0.99;
 
 impl QueryContext {
-    /// Whether the robot keeps clear of the C-object on the segment from q0 to q1, from parameter `start` on. `false` may
-    /// also mean that it comes too near for a proof of reasonable length.
-    pub(super) fn segment_is_free(
+    /// Whether the robot keeps clear of the C-object on the way from q with velocity v for a unit of time, from parameter
+    /// `start` on. `false` may also mean that it comes too near for a proof of reasonable length.
+    pub(super) fn way_is_free(
         &mut self,
         cobject: &CObject,
-        q0: &[f64],
-        q1: &[f64],
+        q: &[f64],
+        v: &[f64],
         start: f64,
     ) -> Result<bool> {
-        let motion = motion_bound(cobject, q0, q1);
+        let motion = motion_bound(cobject, q, v);
         let mut t = start;
         for _ in 0..MOST_DISTANCES {
-            let q = at(q0, q1, t);
-            let here = self.distance(cobject, Configuration::Coordinates(&q), f64::INFINITY)?;
+            let way: Vec<f64> = v.iter().map(|x| x * t).collect();
+            let at = cobject.space().step(q, &way);
+            let here = self.distance(cobject, Configuration::Coordinates(&at), f64::INFINITY)?;
             if here.lower <= 0.0 {
                 return Ok(false);
             }
@@ -39,18 +40,10 @@ impl QueryContext {
     }
 }
 
-/// The configuration at a parameter from 0 to 1; exactly q1 at 1.
-fn at(q0: &[f64], q1: &[f64], t: f64) -> Vec<f64> {
-    if t == 1.0 {
-        return q1.to_vec();
-    }
-    q0.iter().zip(q1).map(|(a, b)| a + (b - a) * t).collect()
-}
-
-/// No distance of the C-object changes by more than this on the segment.
-pub(super) fn motion_bound(cobject: &CObject, q0: &[f64], q1: &[f64]) -> f64 {
+/// No distance of the C-object changes by more than this on the way. Infinite where a joint does not state its speeds.
+pub(super) fn motion_bound(cobject: &CObject, q: &[f64], v: &[f64]) -> f64 {
     let space = cobject.space();
-    let of_link = |link: usize| space.motion_bound(link, q0, q1);
+    let of_link = |link: usize| space.motion_bound(link, q, v);
     cobject
         .terms()
         .iter()

@@ -1,15 +1,14 @@
-//! The step that slides along contacts instead of running into them (Appendix A: `slide`, `slide-step` and
-//! `compute-spring-step` in one).
+//! The step that slides along contacts instead of running into them (Appendix A: `slide`).
 
-use super::answer::Distance;
-use super::at_configuration::check_threshold;
+use super::at_configuration::{PseudoNormal, check_threshold};
 use super::context::QueryContext;
-use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
-use super::scene::Configuration;
+use super::half_spaces::dot;
 use super::segment::motion_bound;
+use super::slide_step::{LEAST_GAIN, nearest_movable, slide_step, spring_step};
+use super::step_limits::step_limits;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
-use crate::tolerance;
+use crate::space::Space;
 
 /// How to slide.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +17,10 @@ pub struct SlideOptions {
     pub max_shell: f64,
     /// The distance at which the robot slides; it is pushed out where it is nearer.
     pub desired_distance: f64,
-    /// Lengthens the step along the contact to that of the step asked for, at most fourfold.
-    pub keep_length: bool,
+    /// Lengthens the step along the contact to that of the step asked for, at most fourfold: the report's `normalize?`.
+    pub normalize: bool,
+    /// A step that does not do is halved until it is shorter than this part of the step asked for.
+    pub floor: f64,
     /// At most so many witnesses are considered, the nearest first.
     pub max_witnesses: usize,
 }
@@ -30,7 +31,8 @@ impl SlideOptions {
         Self {
             max_shell,
             desired_distance: max_shell / 10.0,
-            keep_length: false,
+            normalize: false,
+            floor: 1.0 / 1024.0,
             max_witnesses: 256,
         }
     }
@@ -50,6 +52,14 @@ impl SlideOptions {
                 self.desired_distance, self.max_shell
             )));
         }
+        require_finite(&[self.floor], "floor")?;
+        if !(f64::EPSILON..=1.0).contains(&self.floor) {
+            return Err(Error::invalid(format!(
+                "floor {} is not between {:e} and 1",
+                self.floor,
+                f64::EPSILON
+            )));
+        }
         if self.max_witnesses == 0 {
             return Err(Error::invalid("max_witnesses is 0"));
         }
@@ -64,7 +74,9 @@ pub enum SlideOutcome {
     Moved,
     /// The configuration is inside the C-object; there is no way to slide.
     Inside,
-    /// No step leads on: the contacts, the coordinates' ranges or the world box are in the way.
+    /// No step leads on: the contacts, the coordinates' ranges or the world box are in the way. Of all steps as long as the
+    /// floor none that keeps clear, keeps the distance (or the desired distance, if that is less), the ranges and the box
+    /// gains more than a hundredth of its length along the step asked for, to first order.
     Blocked,
 }
 
@@ -80,9 +92,19 @@ pub struct SlideStep {
     pub contacts: usize,
 }
 
+/// A robot that is nearer than the desired distance by less than this part of it is not pushed out: else it would tremble.
+const DEAD_BAND: f64 = 1e-2;
+
+/// A step may fall short of the distance it is to keep by this part of the desired one: what corrections leave.
+const FALL_SHORT: f64 = 1e-4;
+
+/// So often is a step set right where it leads: contacts turn on the way.
+const MOST_CORRECTIONS: usize = 3;
+
 impl QueryContext {
-    /// One step from q: `step` itself where nothing is within the shell, else the nearest step that brings no contact
-    /// nearer than the desired distance, shortened until the whole way is proved free.
+    /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest step
+    /// that brings no contact nearer than the desired distance, pushed out to it where it is within, set right where it leads,
+    /// and halved until the whole way is proved free.
     pub fn slide(
         &mut self,
         cobject: &CObject,
@@ -91,26 +113,9 @@ impl QueryContext {
         options: &SlideOptions,
     ) -> Result<SlideStep> {
         options.check()?;
-        if step.len() != q.len() {
-            return Err(Error::new(
-                ErrorKind::WrongSize,
-                format!(
-                    "the step has {} entries, the configuration {}",
-                    step.len(),
-                    q.len()
-                ),
-            ));
-        }
-        require_finite(step, "step entry")?;
-        if let Some(i) = step
-            .iter()
-            .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
-        {
-            return Err(Error::invalid(format!(
-                "step entry {i} is too large: {}",
-                step[i]
-            )));
-        }
+        let space = cobject.space();
+        space.check_configuration(q)?;
+        space.check_velocity(step, "step")?;
         // One state of the world for all that is asked: else the proof would join distances of several.
         let cobject = &cobject.frozen();
         let here =
@@ -123,69 +128,109 @@ impl QueryContext {
             contacts: here.list.contacts.len(),
         };
         // A touch is no reason to stay; an overlap is, of primitives or of what the margin adds to them.
-        let too_deep = -1e-9 * options.max_shell;
-        let overlaps = here
-            .list
-            .witnesses
-            .iter()
-            .any(|witness| witness.overlapping)
-            || here
-                .list
-                .contacts
-                .iter()
-                .any(|contact| contact.clearance < too_deep);
-        if overlaps {
+        if overlaps(&here, options) {
             return Ok(ended(SlideOutcome::Inside));
         }
-        let length = dot(step, step).sqrt();
-        if length == 0.0 || !cobject.space().contains(q) {
+        let length = norm(step);
+        if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
-        let half_spaces: Vec<HalfSpace> = here
-            .list
-            .contacts
-            .iter()
-            .zip(here.list.gradients.chunks_exact(q.len().max(1)))
-            .map(|(contact, row)| HalfSpace {
-                row,
-                least: options.desired_distance - contact.clearance,
-            })
-            .collect();
-        let Some(mut along) = nearest_in_half_spaces(step, &half_spaces) else {
-            return Ok(ended(SlideOutcome::Blocked));
-        };
-        if options.keep_length && !half_spaces.is_empty() {
-            let stretch = (length / dot(&along, &along).sqrt()).clamp(1.0, 4.0);
-            let wish: Vec<f64> = step.iter().map(|x| x * stretch).collect();
-            if let Some(longer) = nearest_in_half_spaces(&wish, &half_spaces)
-                && dot(&longer, &longer).sqrt() <= 1.5 * length
-            {
-                along = longer;
+        if motion_bound(cobject, q, step).is_infinite() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
+            ));
+        }
+        let push = Push::of(space, q, &here, length, options.desired_distance)?;
+        let mut share = 1.0;
+        while share >= options.floor {
+            let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
+            let pushed = push.as_ref().map(|push| push.part(share));
+            let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
+            for push in wishes {
+                let found = self.try_step(cobject, q, &here, &wish, push, options)?;
+                if let Some((reached, distance)) = found {
+                    return Ok(SlideStep {
+                        configuration: reached,
+                        distance_after: distance,
+                        ..ended(SlideOutcome::Moved)
+                    });
+                }
             }
-        }
-        if dot(&along, &along).sqrt() <= 1e-3 * length {
-            return Ok(ended(SlideOutcome::Blocked));
-        }
-        for _ in 0..8 {
-            let wish: Vec<f64> = q.iter().zip(&along).map(|(x, s)| x + s).collect();
-            let reached = cobject.space().clamp(&wish);
-            if reached != q
-                && cobject.space().check_configuration(&reached).is_ok()
-                && cobject.space().contains(&reached)
-                && self.may_move(cobject, q, &reached, &here.distance, options.max_shell)?
-            {
-                let after =
-                    self.distance(cobject, Configuration::Coordinates(&reached), f64::INFINITY)?;
-                return Ok(SlideStep {
-                    outcome: SlideOutcome::Moved,
-                    distance_after: after.distance,
-                    configuration: reached,
-                    ..ended(SlideOutcome::Moved)
-                });
-            }
-            along.iter_mut().for_each(|s| *s *= 0.5);
+            share *= 0.5;
         }
         Ok(ended(SlideOutcome::Blocked))
+    }
+
+    /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way; with the
+    /// distance there.
+    fn try_step(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        here: &PseudoNormal,
+        wish: &[f64],
+        push: Option<&Push>,
+        options: &SlideOptions,
+    ) -> Result<Option<(Vec<f64>, f64)>> {
+        let space = cobject.space();
+        let desired = options.desired_distance;
+        let length = norm(wish);
+        let approaches = here.list.approaches();
+        let near = nearest_movable(&approaches);
+        // Of contacts within the desired distance only the nearest says what is to be kept.
+        let keep = near.min(desired);
+        let limits = step_limits(space, q, length)?;
+        let along = slide_step(wish, &approaches, &limits, keep, options.normalize);
+        let first = match (along, push) {
+            (Some(along), Some(push)) => along.iter().zip(&push.step).map(|(a, b)| a + b).collect(),
+            (Some(along), None) => along,
+            (None, Some(push)) => push.step.clone(),
+            (None, None) => return Ok(None),
+        };
+        let mut reached = space.clamp(&space.step(q, &first));
+        let mut corrections = 0;
+        let there = loop {
+            if space.check_configuration(&reached).is_err() {
+                return Ok(None);
+            }
+            let there = self.pseudo_normal(
+                cobject,
+                &reached,
+                options.max_shell,
+                options.max_witnesses,
+                false,
+            )?;
+            if overlaps(&there, options) {
+                return Ok(None);
+            }
+            let approaches = there.list.approaches();
+            if corrections == MOST_CORRECTIONS
+                || nearest_movable(&approaches) >= keep - 0.1 * FALL_SHORT * desired
+            {
+                break there;
+            }
+            corrections += 1;
+            let limits = step_limits(space, &reached, length)?;
+            match spring_step(&approaches, &limits, keep) {
+                Some(correction) if norm(&correction) <= length => {
+                    reached = space.clamp(&space.step(&reached, &correction));
+                }
+                _ => return Ok(None),
+            }
+        };
+        let way = space.displacement(q, &reached);
+        let (gain, moved) = (dot(&way, wish) / length, norm(&way));
+        let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
+        let nearest = nearest_movable(&there.list.approaches());
+        let keeps = nearest >= keep - FALL_SHORT * desired;
+        // A push alone must win more than steps that gain may lose, or the two would take turns.
+        let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
+        let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
+        if !goes_on || !self.may_move(cobject, q, &way, here, options.max_shell)? {
+            return Ok(None);
+        }
+        Ok(Some((reached, there.distance.distance)))
     }
 
     /// Whether the way is free. From a touching start no proof can begin: the first [`ON_TRUST`] of the shell is taken on
@@ -193,20 +238,74 @@ impl QueryContext {
     fn may_move(
         &mut self,
         cobject: &CObject,
-        q0: &[f64],
-        q1: &[f64],
-        distance: &Distance,
+        q: &[f64],
+        way: &[f64],
+        here: &PseudoNormal,
         max_shell: f64,
     ) -> Result<bool> {
-        let motion = motion_bound(cobject, q0, q1);
-        let start = if distance.lower > 0.0 || motion == 0.0 {
+        let motion = motion_bound(cobject, q, way);
+        let start = if here.distance.lower > 0.0 || motion == 0.0 {
             0.0
         } else {
             (ON_TRUST * max_shell / motion).min(1.0)
         };
-        self.segment_is_free(cobject, q0, q1, start)
+        self.way_is_free(cobject, q, way, start)
     }
 }
 
 /// How far, as a part of the shell, a touching robot may move before a distance must prove it free.
 const ON_TRUST: f64 = 1e-4;
+
+fn overlaps(found: &PseudoNormal, options: &SlideOptions) -> bool {
+    let too_deep = -1e-9 * options.max_shell;
+    let list = &found.list;
+    list.witnesses.iter().any(|witness| witness.overlapping)
+        || list
+            .contacts
+            .iter()
+            .any(|contact| contact.clearance < too_deep)
+}
+
+fn norm(v: &[f64]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// A step out to the desired distance.
+struct Push {
+    step: Vec<f64>,
+}
+
+impl Push {
+    /// The push of a configuration within the desired distance, no longer than `length`; none where contacts stand against
+    /// each other so that hardly anything is won.
+    fn of(
+        space: &Space,
+        q: &[f64],
+        here: &PseudoNormal,
+        length: f64,
+        desired: f64,
+    ) -> Result<Option<Self>> {
+        let approaches = here.list.approaches();
+        let near = nearest_movable(&approaches);
+        if near >= desired * (1.0 - DEAD_BAND) {
+            return Ok(None);
+        }
+        let limits = step_limits(space, q, length)?;
+        let Some(step) = spring_step(&approaches, &limits, desired) else {
+            return Ok(None);
+        };
+        let after = approaches
+            .iter()
+            .map(|a| a.clearance + dot(a.gradient, &step));
+        let is_worth = after.fold(desired, f64::min) - near >= DEAD_BAND * desired;
+        let part = (length / norm(&step)).min(1.0);
+        Ok(is_worth.then(|| Self { step }.part(part)))
+    }
+
+    /// A part of the way: each contact is then as far as at one of the ends, at least.
+    fn part(&self, share: f64) -> Self {
+        Self {
+            step: self.step.iter().map(|x| x * share).collect(),
+        }
+    }
+}

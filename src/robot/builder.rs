@@ -2,30 +2,62 @@
 
 use std::sync::Arc;
 
-use super::{Joint, JointKind, Link, Robot};
+use super::custom_joint::{Checked, MOST_COORDINATES};
+use super::robot::Coordinates;
+use super::{Block, BlockKind, Coordinate, Joint, JointKind, Link, Robot};
 use crate::body::Body;
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
 use crate::pose::{Pose, Vec3, check_dimension};
 
 /// A link to be added.
 #[derive(Clone, Debug)]
 pub struct LinkDefinition {
+    /// Empty for `link<number>`.
     pub name: String,
+    /// A name of its own, or empty.
+    pub joint_name: String,
     pub body: Option<Arc<Body>>,
+    /// An earlier link; `None` for the world.
     pub parent: Option<usize>,
     pub at: Pose,
     pub kind: JointKind,
+    /// Used by revolute and prismatic joints; of any length.
     pub axis: Vec3,
-    /// Which coordinate moves the joint; `None` takes the next unused one. Joints may share a coordinate.
+    /// The first of the coordinates that move the joint; `None` takes the next unused ones. Joints of one coordinate may
+    /// share it.
     pub coordinate: Option<usize>,
+    /// A revolute or prismatic joint follows `multiplier * coordinate + offset`: so joints mimic others.
+    pub multiplier: f64,
+    pub offset: f64,
+    /// The range of a revolute or prismatic joint's coordinate, unless a space says otherwise; ignored where the joint shares
+    /// the coordinate of an earlier one. Infinite for none: a revolute joint then turns on the circle.
+    pub limits: [f64; 2],
+}
+
+impl Default for LinkDefinition {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            joint_name: String::new(),
+            body: None,
+            parent: None,
+            at: Pose::identity(),
+            kind: JointKind::Fixed,
+            axis: Vec3::z(),
+            coordinate: None,
+            multiplier: 1.0,
+            offset: 0.0,
+            limits: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
 }
 
 /// Links on their way to a robot. A failed call adds nothing.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct RobotBuilder {
     dimension: u32,
     links: Vec<Link>,
-    coordinates: usize,
+    coordinates: Coordinates,
 }
 
 impl RobotBuilder {
@@ -35,8 +67,17 @@ impl RobotBuilder {
         Ok(Self {
             dimension,
             links: Vec::new(),
-            coordinates: 0,
+            coordinates: Coordinates::default(),
         })
+    }
+
+    pub fn dimension(&self) -> u32 {
+        self.dimension
+    }
+
+    /// The links added so far.
+    pub fn links(&self) -> &[Link] {
+        &self.links
     }
 
     /// Adds a link and returns its number.
@@ -47,19 +88,33 @@ impl RobotBuilder {
         } else {
             definition.name.clone()
         };
-        let link = self
+        let joint = self
             .check(&definition, &name)
+            .and_then(|()| self.joint(&definition))
             .map_err(|e| e.within(format_args!("link {index} (\"{name}\")")))?;
-        if link.joint.kind != JointKind::Fixed {
-            self.coordinates = self.coordinates.max(link.joint.coordinate + 1);
-        }
-        self.links.push(link);
+        self.extend_coordinates(&joint, definition.limits);
+        self.links.push(Link {
+            name,
+            joint_name: definition.joint_name,
+            body: definition.body,
+            parent: definition.parent,
+            at: definition.at,
+            joint,
+        });
         Ok(index)
     }
 
-    fn check(&self, definition: &LinkDefinition, name: &str) -> Result<Link> {
+    fn check(&self, definition: &LinkDefinition, name: &str) -> Result<()> {
+        let joint_name = &definition.joint_name;
         if self.links.iter().any(|link| link.name == name) {
             return Err(Error::invalid("another link has this name"));
+        }
+        let is_taken = |link: &&Link| !joint_name.is_empty() && link.joint_name == *joint_name;
+        if let Some(other) = self.links.iter().find(is_taken) {
+            return Err(Error::invalid(format!(
+                "the joint of link \"{}\" is named \"{joint_name}\" too",
+                other.name
+            )));
         }
         if let Some(parent) = definition.parent
             && parent >= self.links.len()
@@ -81,41 +136,147 @@ impl RobotBuilder {
                 self.dimension
             )));
         }
-        let planar = self.dimension == 2;
-        if planar && !definition.at.is_planar() {
+        if self.dimension == 2 && !definition.at.is_planar() {
             return Err(Error::invalid("the link leaves the plane z = 0"));
         }
+        Ok(())
+    }
+
+    /// The joint of a definition, on the coordinates that it names.
+    fn joint(&self, definition: &LinkDefinition) -> Result<Joint> {
+        let kind = match &definition.kind {
+            JointKind::Custom(joint) => JointKind::Custom(Arc::new(Checked(joint.clone()))),
+            other => other.clone(),
+        };
         let mut joint = Joint {
-            kind: definition.kind,
+            kind,
             axis: Vec3::z(),
             coordinate: 0,
+            velocity: 0,
+            multiplier: 1.0,
+            offset: 0.0,
         };
-        if definition.kind != JointKind::Fixed {
+        if joint.kind.has_axis() {
             joint.axis = unit_axis(&definition.axis)?;
-            let out_of_plane = match definition.kind {
-                JointKind::Revolute => joint.axis.x != 0.0 || joint.axis.y != 0.0,
-                _ => joint.axis.z != 0.0,
-            };
-            if planar && out_of_plane {
-                return Err(Error::invalid(
-                    "a planar robot's joints turn about z or shift along x and y",
-                ));
-            }
-            joint.coordinate = definition.coordinate.unwrap_or(self.coordinates);
-            if joint.coordinate > self.coordinates {
-                return Err(Error::invalid(format!(
-                    "coordinate {} leaves a gap: the next free one is {}",
-                    joint.coordinate, self.coordinates
-                )));
-            }
+            (joint.multiplier, joint.offset) = (definition.multiplier, definition.offset);
         }
-        Ok(Link {
-            name: name.to_string(),
-            body: definition.body.clone(),
-            parent: definition.parent,
-            at: definition.at,
-            joint,
-        })
+        require_coordinates(&[definition.multiplier], "multiplier")?;
+        require_coordinates(&[definition.offset], "offset")?;
+        check_limits(definition.limits)?;
+        self.check_kind(&joint)?;
+        if joint.kind.nq() > 0 {
+            (joint.coordinate, joint.velocity) = self.place(&joint, definition.coordinate)?;
+        }
+        Ok(joint)
+    }
+
+    fn check_kind(&self, joint: &Joint) -> Result<()> {
+        let axis = &joint.axis;
+        let leaves_the_plane = match &joint.kind {
+            JointKind::Fixed | JointKind::Planar => false,
+            JointKind::Revolute => axis.x != 0.0 || axis.y != 0.0,
+            JointKind::Prismatic => axis.z != 0.0,
+            JointKind::Spherical | JointKind::Free | JointKind::FreeEuler => true,
+            JointKind::Custom(custom) => {
+                if !(1..=MOST_COORDINATES).contains(&custom.coordinates()) {
+                    return Err(Error::invalid(format!(
+                        "the joint has {} coordinates; 1 to {MOST_COORDINATES} are possible",
+                        custom.coordinates()
+                    )));
+                }
+                false
+            }
+        };
+        if self.dimension == 2 && leaves_the_plane {
+            return Err(Error::invalid(
+                "a planar robot's joints turn about z, shift along x and y, or are planar",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The first coordinate and the first velocity of a joint.
+    fn place(&self, joint: &Joint, coordinate: Option<usize>) -> Result<(usize, usize)> {
+        let end = self.coordinates.ranges.len();
+        let first = coordinate.unwrap_or(end);
+        if first > end {
+            return Err(Error::invalid(format!(
+                "coordinate {first} leaves a gap: the next free one is {end}"
+            )));
+        }
+        if first == end {
+            return Ok((end, self.coordinates.nv()));
+        }
+        let shared = self
+            .coordinates
+            .blocks
+            .iter()
+            .find(|block| block.coordinate == first && block.kind == BlockKind::Line);
+        match shared {
+            Some(block) if joint.kind.has_axis() => Ok((first, block.velocity)),
+            _ => Err(Error::invalid(format!(
+                "coordinate {first} is taken: only joints of one coordinate share one, and never part of a quaternion"
+            ))),
+        }
+    }
+
+    /// Takes in the coordinates that a joint brings.
+    fn extend_coordinates(&mut self, joint: &Joint, limits: [f64; 2]) {
+        let [lower, upper] = limits;
+        let is_free = lower == f64::NEG_INFINITY && upper == f64::INFINITY;
+        let whole_turns = joint.multiplier.fract() == 0.0;
+        let known = &mut self.coordinates;
+        if joint.coordinate < known.ranges.len() {
+            // Shared, or none at all.
+            let turns = matches!(joint.kind, JointKind::Revolute) && whole_turns;
+            if joint.kind.nq() > 0 && !turns {
+                known.periodic[joint.coordinate] = false;
+                if known.ranges[joint.coordinate] == Coordinate::Circle {
+                    known.ranges[joint.coordinate] = Coordinate::LINE;
+                }
+            }
+            return;
+        }
+        let line = Coordinate::LINE;
+        let circle = Coordinate::Circle;
+        let quaternion = [Coordinate::Quaternion; 4];
+        let (ranges, blocks): (Vec<Coordinate>, Vec<BlockKind>) = match &joint.kind {
+            JointKind::Fixed => return,
+            JointKind::Revolute if is_free && whole_turns => (vec![circle], vec![BlockKind::Line]),
+            JointKind::Revolute | JointKind::Prismatic => (
+                vec![Coordinate::Interval { lower, upper }],
+                vec![BlockKind::Line],
+            ),
+            JointKind::Planar => (vec![line, line, circle], vec![BlockKind::Line; 3]),
+            JointKind::Spherical => (quaternion.to_vec(), vec![BlockKind::Rotation]),
+            JointKind::Free => (
+                [[line; 3].as_slice(), &quaternion].concat(),
+                vec![BlockKind::Placement],
+            ),
+            JointKind::FreeEuler => ([[line; 3], [circle; 3]].concat(), vec![BlockKind::Line; 6]),
+            JointKind::Custom(custom) => {
+                let n = custom.coordinates();
+                (vec![line; n], vec![BlockKind::Line; n])
+            }
+        };
+        for kind in blocks {
+            known.blocks.push(Block {
+                kind,
+                coordinate: known
+                    .blocks
+                    .last()
+                    .map_or(0, |b| b.coordinate + b.kind.nq()),
+                velocity: known.nv(),
+            });
+        }
+        known
+            .periodic
+            .extend(ranges.iter().map(|range| match &joint.kind {
+                JointKind::Custom(_) => true,
+                JointKind::Revolute => whole_turns,
+                _ => *range == Coordinate::Circle,
+            }));
+        known.ranges.extend(ranges);
     }
 
     /// Builds the robot from what was added so far; the builder stays as it is.
@@ -125,8 +286,8 @@ impl RobotBuilder {
         }
         Ok(Robot::assemble(
             self.dimension,
-            self.coordinates,
             self.links.clone(),
+            self.coordinates.clone(),
         ))
     }
 }
@@ -142,4 +303,19 @@ fn unit_axis(axis: &Vec3) -> Result<Vec3> {
         ));
     }
     Ok((axis / largest).normalize())
+}
+
+fn check_limits([lower, upper]: [f64; 2]) -> Result<()> {
+    if lower.is_nan() || upper.is_nan() {
+        return Err(Error::new(ErrorKind::NotFinite, "a limit is NaN"));
+    }
+    if lower > upper || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+        return Err(Error::invalid(format!(
+            "the limits are empty: {lower} to {upper}"
+        )));
+    }
+    for limit in [lower, upper].into_iter().filter(|x| x.is_finite()) {
+        require_coordinates(&[limit], "limit")?;
+    }
+    Ok(())
 }

@@ -1,73 +1,78 @@
-//! The basic Jacobian, eq. (32)–(33), column by column.
+//! The basic Jacobian, eq. (32)–(33), column by column. (In print (32) lists its columns out of order: they run from 0.)
 
-use super::{JointKind, Robot};
-use crate::pose::{Pose, Vec3};
+use super::{JointKind, Robot, Twist};
+use crate::error::Result;
+use crate::pose::{Pose, Vec3, turned_axes};
 
-/// One joint that moves a link, in the world.
+/// A configuration, and the link poses at it.
+#[derive(Clone, Copy, Debug)]
+pub struct Posture<'a> {
+    pub q: &'a [f64],
+    pub poses: &'a [Pose],
+}
+
+/// What one velocity does to a point of a link, in the world.
 pub struct Column {
-    pub coordinate: usize,
-    /// Velocity of the point for a unit velocity of the coordinate.
+    /// Which of the robot's velocities.
+    pub velocity: usize,
+    /// Velocity of the point.
     pub linear: Vec3,
-    /// Angular velocity of the link for the same.
+    /// Angular velocity of the link.
     pub angular: Vec3,
 }
 
-/// The joints between a link and the world, from the link downwards.
-pub struct Ancestry<'a> {
-    robot: &'a Robot,
-    poses: &'a [Pose],
-    point: Vec3,
-    next: Option<usize>,
-}
-
-impl Iterator for Ancestry<'_> {
-    type Item = Column;
-
-    fn next(&mut self) -> Option<Column> {
-        loop {
-            let index = self.next?;
-            let link = &self.robot.links()[index];
-            self.next = link.parent;
-            let pose = &self.poses[index];
-            // The axis is its own image under the joint's motion, so the link's pose serves for the joint's frame.
-            let axis = pose.rotation * link.joint.axis;
-            let (linear, angular) = match link.joint.kind {
-                JointKind::Fixed => continue,
-                JointKind::Revolute => (axis.cross(&(self.point - pose.translation)), axis),
-                JointKind::Prismatic => (axis, Vec3::zeros()),
-            };
-            return Some(Column {
-                coordinate: link.joint.coordinate,
-                linear,
-                angular,
-            });
-        }
-    }
-}
-
 impl Robot {
-    /// The columns of the Jacobian of a point fixed to a link; `poses` are the robot's link poses and `point` is given,
-    /// all in the world. Joints that share a coordinate give one column each, to be summed.
-    pub fn ancestry<'a>(&'a self, poses: &'a [Pose], link: usize, point: &Vec3) -> Ancestry<'a> {
-        Ancestry {
-            robot: self,
-            poses,
-            point: *point,
-            next: Some(link),
+    /// Visits the columns of the Jacobian of a point fixed to a link, from the link downwards; `point` is given in the world.
+    /// Joints that share a coordinate give one column each, to be summed.
+    pub fn visit_columns(
+        &self,
+        Posture { q, poses }: Posture,
+        link: usize,
+        point: &Vec3,
+        mut visit: impl FnMut(Column),
+    ) -> Result<()> {
+        let mut twists: Vec<Twist> = Vec::new();
+        let mut next = Some(link);
+        while let Some(index) = next {
+            let link = &self.links()[index];
+            next = link.parent;
+            let pose = &poses[index];
+            let arm = point - pose.translation;
+            let frame = match &link.joint.kind {
+                JointKind::Fixed => continue,
+                // The link's frame turns with the axis, so it serves for the joint's.
+                kind if kind.has_axis() => pose.rotation,
+                _ => match link.parent {
+                    None => link.at.rotation,
+                    Some(parent) => turned_axes(&poses[parent].rotation, &link.at.rotation),
+                },
+            };
+            twists.clear();
+            link.joint
+                .columns(q, &frame, pose, &mut twists)
+                .map_err(|e| e.within(format_args!("link {index} (\"{}\")", link.name)))?;
+            for (k, twist) in twists.iter().enumerate() {
+                visit(Column {
+                    velocity: link.joint.velocity + k,
+                    linear: twist.linear + twist.angular.cross(&arm),
+                    angular: twist.angular,
+                });
+            }
         }
+        Ok(())
     }
 
     /// The 6 x nv basic Jacobian of a point fixed to a link, row-major: three rows of linear velocity, three of angular
     /// velocity, all in the world frame.
-    pub fn jacobian(&self, poses: &[Pose], link: usize, point: &Vec3) -> Vec<f64> {
-        let n = self.coordinates();
+    pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
+        let n = self.nv();
         let mut matrix = vec![0.0; 6 * n];
-        for column in self.ancestry(poses, link, point) {
+        self.visit_columns(posture, link, point, |column| {
             for row in 0..3 {
-                matrix[row * n + column.coordinate] += column.linear[row];
-                matrix[(row + 3) * n + column.coordinate] += column.angular[row];
+                matrix[row * n + column.velocity] += column.linear[row];
+                matrix[(row + 3) * n + column.velocity] += column.angular[row];
             }
-        }
-        matrix
+        })?;
+        Ok(matrix)
     }
 }

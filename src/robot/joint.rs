@@ -1,9 +1,16 @@
-//! Joints: what connects a link to its parent.
+//! Joints: what connects a link to its parent, and how its coordinates move it.
 
-use crate::pose::{Pose, Vec3, rotation_about};
+use std::fmt;
+use std::sync::Arc;
 
-/// How a joint moves its link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use super::custom_joint::{CustomJoint, Twist};
+use crate::error::Result;
+use crate::euler::{AngularFrame, euler_rates};
+use crate::pose::{Mat3, Pose, Vec3, rotation_about};
+
+/// How a joint moves its link. Velocities are the coordinates' rates, but for quaternions: there they are linear and angular
+/// velocity in the link's own frame.
+#[derive(Clone)]
 pub enum JointKind {
     /// Not at all.
     Fixed,
@@ -11,28 +18,160 @@ pub enum JointKind {
     Revolute,
     /// Shifts it along the axis; the coordinate is a length.
     Prismatic,
+    /// Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+    Planar,
+    /// Turns it about its origin: a unit quaternion x, y, z, w; the velocity is angular.
+    Spherical,
+    /// Moves it freely: x, y, z and a unit quaternion x, y, z, w; the velocity is linear, then angular.
+    Free,
+    /// Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1). Its velocity cannot turn the link about every axis
+    /// where cos(pitch) = 0.
+    FreeEuler,
+    /// By a map of the caller.
+    Custom(Arc<dyn CustomJoint>),
+}
+
+impl fmt::Debug for JointKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            JointKind::Fixed => "Fixed",
+            JointKind::Revolute => "Revolute",
+            JointKind::Prismatic => "Prismatic",
+            JointKind::Planar => "Planar",
+            JointKind::Spherical => "Spherical",
+            JointKind::Free => "Free",
+            JointKind::FreeEuler => "FreeEuler",
+            JointKind::Custom(_) => "Custom",
+        })
+    }
+}
+
+impl JointKind {
+    /// How many coordinates the joint has.
+    pub fn nq(&self) -> usize {
+        match self {
+            JointKind::Fixed => 0,
+            JointKind::Revolute | JointKind::Prismatic => 1,
+            JointKind::Planar => 3,
+            JointKind::Spherical => 4,
+            JointKind::Free => 7,
+            JointKind::FreeEuler => 6,
+            JointKind::Custom(joint) => joint.coordinates(),
+        }
+    }
+
+    /// How many velocities.
+    pub fn nv(&self) -> usize {
+        match self {
+            JointKind::Spherical => 3,
+            JointKind::Free => 6,
+            other => other.nq(),
+        }
+    }
+
+    /// Whether the joint moves its link along or about its axis.
+    pub fn has_axis(&self) -> bool {
+        matches!(self, JointKind::Revolute | JointKind::Prismatic)
+    }
 }
 
 /// A joint in its own frame: it sits at the link's origin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Joint {
     pub kind: JointKind,
-    /// A unit vector; unused by fixed joints.
+    /// A unit vector; used by revolute and prismatic joints.
     pub axis: Vec3,
-    /// Which of the robot's coordinates moves it; unused by fixed joints.
+    /// The first of the robot's coordinates that move it, and the first of its velocities.
     pub coordinate: usize,
+    pub velocity: usize,
+    /// A revolute or prismatic joint follows `multiplier * coordinate + offset`.
+    pub multiplier: f64,
+    pub offset: f64,
 }
 
 impl Joint {
-    /// The motion of the link at configuration q.
-    pub fn motion(&self, q: &[f64]) -> Pose {
-        match self.kind {
+    /// The motion of the link at configuration q of the robot: its pose in the joint's frame.
+    pub fn motion(&self, q: &[f64]) -> Result<Pose> {
+        let own = &q[self.coordinate..self.coordinate + self.kind.nq()];
+        Ok(match &self.kind {
             JointKind::Fixed => Pose::identity(),
             JointKind::Revolute => Pose {
-                rotation: rotation_about(&self.axis, q[self.coordinate]),
+                rotation: rotation_about(&self.axis, self.follow(own[0])),
                 translation: Vec3::zeros(),
             },
-            JointKind::Prismatic => Pose::from_translation(self.axis * q[self.coordinate]),
-        }
+            JointKind::Prismatic => Pose::from_translation(self.axis * self.follow(own[0])),
+            JointKind::Planar => Pose {
+                rotation: rotation_about(&Vec3::z(), own[2]),
+                translation: Vec3::new(own[0], own[1], 0.0),
+            },
+            JointKind::Spherical => Pose::from_quaternion(Vec3::zeros(), array(own))?,
+            JointKind::Free => {
+                Pose::from_quaternion(Vec3::new(own[0], own[1], own[2]), array(&own[3..]))?
+            }
+            JointKind::FreeEuler => Pose::from_euler(&array(own)),
+            JointKind::Custom(joint) => joint.pose(own)?,
+        })
     }
+
+    /// Appends one column a velocity: how the link moves, in the world. `frame` is the rotation of the joint's frame and
+    /// `link` the pose of the link.
+    pub(super) fn columns(
+        &self,
+        q: &[f64],
+        frame: &Mat3,
+        link: &Pose,
+        columns: &mut Vec<Twist>,
+    ) -> Result<()> {
+        let own = &q[self.coordinate..self.coordinate + self.kind.nq()];
+        let shift = |matrix: &Mat3, k: usize| Twist {
+            linear: matrix.column(k).into(),
+            angular: Vec3::zeros(),
+        };
+        let turn = |matrix: &Mat3, k: usize| Twist {
+            linear: Vec3::zeros(),
+            angular: matrix.column(k).into(),
+        };
+        match &self.kind {
+            JointKind::Fixed => {}
+            // The axis is its own image under the joint's motion.
+            JointKind::Revolute => columns.push(Twist {
+                linear: Vec3::zeros(),
+                angular: frame * self.axis * self.multiplier,
+            }),
+            JointKind::Prismatic => columns.push(Twist {
+                linear: frame * self.axis * self.multiplier,
+                angular: Vec3::zeros(),
+            }),
+            JointKind::Planar => {
+                columns.extend([shift(frame, 0), shift(frame, 1), turn(frame, 2)]);
+            }
+            JointKind::Spherical => columns.extend((0..3).map(|k| turn(&link.rotation, k))),
+            JointKind::Free => {
+                columns.extend((0..3).map(|k| shift(&link.rotation, k)));
+                columns.extend((0..3).map(|k| turn(&link.rotation, k)));
+            }
+            JointKind::FreeEuler => {
+                let rates = frame * euler_rates(array(&own[3..]), AngularFrame::World);
+                columns.extend((0..3).map(|k| shift(frame, k)));
+                columns.extend((0..3).map(|k| turn(&rates, k)));
+            }
+            JointKind::Custom(joint) => {
+                let first = columns.len();
+                joint.jacobian(own, columns)?;
+                for twist in &mut columns[first..] {
+                    twist.linear = frame * twist.linear;
+                    twist.angular = frame * twist.angular;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn follow(&self, coordinate: f64) -> f64 {
+        self.multiplier * coordinate + self.offset
+    }
+}
+
+fn array<const N: usize>(values: &[f64]) -> [f64; N] {
+    std::array::from_fn(|i| values[i])
 }

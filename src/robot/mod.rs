@@ -1,6 +1,8 @@
-//! Robots: trees of links joined by fixed, revolute and prismatic joints (§4.1–4.3).
+//! Robots: trees of links and the joints that move them (§4.1–4.3).
 
 mod builder;
+mod coordinate;
+mod custom_joint;
 mod forward;
 mod jacobian;
 mod joint;
@@ -9,6 +11,8 @@ mod motion_bound;
 mod robot;
 
 pub use builder::{LinkDefinition, RobotBuilder};
-pub use jacobian::Ancestry;
+pub use coordinate::{Block, BlockKind, Coordinate};
+pub use custom_joint::{CustomJoint, MOST_COORDINATES, Speeds, Twist};
+pub use jacobian::{Column, Posture};
 pub use joint::{Joint, JointKind};
 pub use robot::{Link, Robot, check_configuration};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Joint;
+use super::{Block, BlockKind, Coordinate, Joint};
 use crate::body::Body;
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Pose;
 use crate::tolerance;
 
@@ -13,6 +13,8 @@ use crate::tolerance;
 #[derive(Clone, Debug)]
 pub struct Link {
     pub name: String,
+    /// Empty for none.
+    pub joint_name: String,
     pub body: Option<Arc<Body>>,
     /// The parent's index, always smaller; `None` for the world.
     pub parent: Option<usize>,
@@ -21,23 +23,41 @@ pub struct Link {
     pub joint: Joint,
 }
 
+/// What the links' joints make of the coordinates.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Coordinates {
+    /// The range of each, unless a space says otherwise.
+    pub ranges: Vec<Coordinate>,
+    /// Whether a whole turn of a coordinate leaves every link where it was: whether it may be a circle.
+    pub periodic: Vec<bool>,
+    pub blocks: Vec<Block>,
+}
+
+impl Coordinates {
+    pub fn nv(&self) -> usize {
+        self.blocks
+            .last()
+            .map_or(0, |block| block.velocity + block.kind.nv())
+    }
+}
+
 /// A robot. Links are numbered as they were added.
 #[derive(Debug)]
 pub struct Robot {
     serial: u64,
     dimension: u32,
-    coordinates: usize,
     links: Vec<Link>,
+    coordinates: Coordinates,
 }
 
 impl Robot {
-    pub(super) fn assemble(dimension: u32, coordinates: usize, links: Vec<Link>) -> Self {
+    pub(super) fn assemble(dimension: u32, links: Vec<Link>, coordinates: Coordinates) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
         Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             dimension,
-            coordinates,
             links,
+            coordinates,
         }
     }
 
@@ -50,9 +70,30 @@ impl Robot {
         self.dimension
     }
 
-    /// The number of coordinates, nq = nv.
-    pub fn coordinates(&self) -> usize {
-        self.coordinates
+    /// The number of coordinates of a configuration.
+    pub fn nq(&self) -> usize {
+        self.coordinates.ranges.len()
+    }
+
+    /// The number of velocities: that of coordinates, less one for each quaternion.
+    pub fn nv(&self) -> usize {
+        self.coordinates.nv()
+    }
+
+    /// The coordinates' ranges, by the joints' kinds and limits.
+    pub fn ranges(&self) -> &[Coordinate] {
+        &self.coordinates.ranges
+    }
+
+    /// Whether a coordinate may be a circle: a whole turn of it leaves every link where it was, or only the caller's map can
+    /// know.
+    pub fn is_periodic(&self, coordinate: usize) -> bool {
+        self.coordinates.periodic[coordinate]
+    }
+
+    /// The coordinates in runs that move together.
+    pub fn blocks(&self) -> &[Block] {
+        &self.coordinates.blocks
     }
 
     pub fn links(&self) -> &[Link] {
@@ -62,28 +103,51 @@ impl Robot {
     pub fn find_link(&self, name: &str) -> Option<usize> {
         self.links.iter().position(|link| link.name == name)
     }
+
+    /// The link that a joint of this name moves; joints without a name are not found.
+    pub fn find_joint(&self, name: &str) -> Option<usize> {
+        let is_it = |link: &Link| !name.is_empty() && link.joint_name == name;
+        self.links.iter().position(is_it)
+    }
+
+    /// Refuses what would take a link of a planar robot out of its plane; only maps of the caller can.
+    pub(super) fn check_motion(&self, motion: &Pose) -> Result<()> {
+        if self.dimension == 2 && !motion.is_planar() {
+            return Err(Error::invalid("the joint leaves the plane z = 0"));
+        }
+        Ok(())
+    }
 }
 
-/// Refuses a configuration with the wrong number of entries, or with one that is not a usable number.
-pub fn check_configuration(q: &[f64], coordinates: usize) -> Result<()> {
-    if q.len() != coordinates {
+/// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion that
+/// is none.
+pub fn check_configuration(q: &[f64], nq: usize, blocks: &[Block]) -> Result<()> {
+    if q.len() != nq {
         return Err(Error::new(
             ErrorKind::WrongSize,
             format!(
-                "the configuration has {} entries, but there are {coordinates} coordinates",
+                "the configuration has {} entries, but there are {nq} coordinates",
                 q.len()
             ),
         ));
     }
-    require_finite(q, "configuration entry")?;
-    match q
-        .iter()
-        .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
-    {
-        Some(i) => Err(Error::invalid(format!(
-            "configuration entry {i} is too large: {}",
-            q[i]
-        ))),
-        None => Ok(()),
+    require_coordinates(q, "configuration entry")?;
+    for block in blocks {
+        if block.kind == BlockKind::Line {
+            continue;
+        }
+        let end = block.coordinate + block.kind.nq();
+        let norm = q[end - 4..end].iter().map(|x| x * x).sum::<f64>().sqrt();
+        if (norm - 1.0).abs() > tolerance::ROTATION {
+            return Err(Error::new(
+                ErrorKind::NotARotation,
+                format!(
+                    "configuration entries {} to {} are a quaternion of norm {norm}, not 1",
+                    end - 4,
+                    end - 1
+                ),
+            ));
+        }
     }
+    Ok(())
 }

@@ -12,6 +12,7 @@ use crate::cobject::{CObject, SObjects, Term};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::query::{PseudoNormal, QueryContext, SSide};
+use crate::robot::Posture;
 use crate::whole_file::write_whole;
 
 /// At most so many witnesses are drawn.
@@ -30,9 +31,9 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     // One state of the world for the whole picture.
     let cobject = &cobject.frozen();
     let found = QueryContext::new().pseudo_normal(cobject, q, epsilon, MOST_WITNESSES, false)?;
-    let mut drawing = Drawing::new(cobject, q);
+    let mut drawing = Drawing::new(cobject, q)?;
     drawing.draw_bodies();
-    drawing.draw_witnesses(&found);
+    drawing.draw_witnesses(&found)?;
     let extras = json!({
         "configuration": q,
         "class": format!("{:?}", found.class),
@@ -48,6 +49,7 @@ fn finite(x: f64) -> Value {
 
 struct Drawing<'a> {
     cobject: &'a CObject,
+    q: &'a [f64],
     poses: Vec<Pose>,
     document: Document,
     meshes: HashMap<(u64, usize), Option<usize>>,
@@ -56,18 +58,19 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(cobject: &'a CObject, q: &[f64]) -> Self {
+    fn new(cobject: &'a CObject, q: &'a [f64]) -> Result<Self> {
         let space = cobject.space();
         let sizes = (0..space.link_count())
             .filter_map(|link| space.link(link)?.body.as_ref())
             .map(|body| body.radius());
-        Self {
+        Ok(Self {
             cobject,
-            poses: space.link_poses(q),
+            q,
+            poses: space.link_poses(q)?,
             document: Document::default(),
             meshes: HashMap::new(),
             size: sizes.fold(1e-9, f64::max),
-        }
+        })
     }
 
     fn draw_bodies(&mut self) {
@@ -125,7 +128,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    fn draw_witnesses(&mut self, found: &PseudoNormal) {
+    fn draw_witnesses(&mut self, found: &PseudoNormal) -> Result<()> {
         let red = self
             .document
             .add_material("witness", [0.85, 0.10, 0.10, 1.0], true);
@@ -178,14 +181,14 @@ impl<'a> Drawing<'a> {
                 );
                 self.draw_marks("normal", &arrow, green, extras.clone());
 
-                let way = self.way_along(witness.r_link, on_r, row);
+                let way = self.way_along(witness.r_link, on_r, row)?;
                 if let Some(way) = way.try_normalize(0.0) {
                     let mut arrow = Triangles::default();
                     add_arrow(&mut arrow, on_r, &(way * (0.18 * self.size)), 0.5 * thick);
                     self.draw_marks("gradient", &arrow, blue, extras);
                 }
                 if let SSide::Link(link) = witness.s_side {
-                    let way = self.way_along(link, on_s, row);
+                    let way = self.way_along(link, on_s, row)?;
                     if let Some(way) = way.try_normalize(0.0) {
                         let mut arrow = Triangles::default();
                         add_arrow(&mut arrow, on_s, &(way * (0.18 * self.size)), 0.5 * thick);
@@ -194,17 +197,22 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
+        Ok(())
     }
 
     /// The velocity of a link's point when the robot moves along the gradient.
-    fn way_along(&self, link: usize, point: &Vec3, gradient: &[f64]) -> Vec3 {
-        let space = self.cobject.space();
-        let along = |axis: Vec3| {
-            let mut row = vec![0.0; gradient.len()];
-            space.add_gradient(&self.poses, link, point, &axis, 1.0, &mut row);
+    fn way_along(&self, link: usize, point: &Vec3, gradient: &[f64]) -> Result<Vec3> {
+        let posture = Posture {
+            q: self.q,
+            poses: &self.poses,
+        };
+        let jacobian = self.cobject.space().jacobian(posture, link, point)?;
+        let mut rows = jacobian.chunks_exact(gradient.len().max(1));
+        let mut along = || {
+            let row = rows.next().unwrap_or_default();
             row.iter().zip(gradient).map(|(a, b)| a * b).sum()
         };
-        Vec3::new(along(Vec3::x()), along(Vec3::y()), along(Vec3::z()))
+        Ok(Vec3::new(along(), along(), along()))
     }
 
     fn draw_marks(&mut self, name: &str, marks: &Triangles, material: usize, extras: Value) {

@@ -1,8 +1,14 @@
 //! Spaces: the coordinates of one or more robots, their topology and limits, and the world box (§4.4).
 
-mod coordinate;
+mod limits;
+mod rigid_step;
+mod sampling;
 #[allow(clippy::module_inception)]
 mod space;
+mod tangent;
+mod world_box;
 
-pub use coordinate::Coordinate;
-pub use space::{Space, WorldBox};
+pub use crate::robot::Coordinate;
+pub use sampling::Sampler;
+pub use space::{Offset, Space};
+pub use world_box::WorldBox;

@@ -3,36 +3,17 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Coordinate;
-use crate::error::{Error, ErrorKind, Result};
+use super::WorldBox;
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{JointKind, Link, Robot, check_configuration};
+use crate::robot::{Block, Column, Coordinate, Link, Posture, Robot, check_configuration};
 
-/// The box within which the links' origins may move.
+/// Where a robot's links, coordinates and velocities begin in the space.
 #[derive(Clone, Copy, Debug)]
-pub struct WorldBox {
-    pub low: [f64; 3],
-    pub high: [f64; 3],
-}
-
-impl WorldBox {
-    pub fn unbounded() -> Self {
-        Self {
-            low: [f64::NEG_INFINITY; 3],
-            high: [f64::INFINITY; 3],
-        }
-    }
-
-    pub fn contains(&self, point: &Vec3) -> bool {
-        (0..3).all(|i| self.low[i] <= point[i] && point[i] <= self.high[i])
-    }
-}
-
-/// Where a robot's links and coordinates begin in the space.
-#[derive(Clone, Copy, Debug)]
-struct Offset {
-    link: usize,
-    coordinate: usize,
+pub struct Offset {
+    pub link: usize,
+    pub coordinate: usize,
+    pub velocity: usize,
 }
 
 /// A C-space. Links and coordinates are numbered through all robots, in the order given.
@@ -42,14 +23,20 @@ pub struct Space {
     robots: Vec<Arc<Robot>>,
     offsets: Vec<Offset>,
     links: usize,
+    nv: usize,
     coordinates: Vec<Coordinate>,
+    blocks: Vec<Block>,
     world: WorldBox,
 }
 
 impl Space {
-    /// `ranges` has one entry per coordinate, or none for the defaults: circles for coordinates of revolute joints, the
-    /// whole line for prismatic ones.
-    pub fn new(robots: Vec<Arc<Robot>>, ranges: &[Coordinate], world: WorldBox) -> Result<Self> {
+    /// `ranges` has one entry per coordinate, or none at all; a `None` leaves what the joint says: a circle for revolute
+    /// joints without limits, else the limits, and the whole line for lengths.
+    pub fn new(
+        robots: Vec<Arc<Robot>>,
+        ranges: &[Option<Coordinate>],
+        world: WorldBox,
+    ) -> Result<Self> {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
         let Some(first) = robots.first() else {
             return Err(Error::new(
@@ -66,78 +53,51 @@ impl Space {
             ));
         }
         let mut offsets = Vec::new();
-        let (mut links, mut defaults) = (0, Vec::new());
+        let (mut links, mut nv) = (0, 0);
+        let (mut coordinates, mut periodic, mut blocks) = (Vec::new(), Vec::new(), Vec::new());
         for robot in &robots {
-            offsets.push(Offset {
+            let offset = Offset {
                 link: links,
-                coordinate: defaults.len(),
-            });
+                coordinate: coordinates.len(),
+                velocity: nv,
+            };
+            offsets.push(offset);
             links += robot.links().len();
-            defaults.extend(default_ranges(robot));
+            nv += robot.nv();
+            coordinates.extend_from_slice(robot.ranges());
+            periodic.extend((0..robot.nq()).map(|c| robot.is_periodic(c)));
+            blocks.extend(robot.blocks().iter().map(|block| Block {
+                coordinate: block.coordinate + offset.coordinate,
+                velocity: block.velocity + offset.velocity,
+                ..*block
+            }));
         }
-        let coordinates = if ranges.is_empty() {
-            defaults
-        } else {
-            ranges.to_vec()
-        };
-        let expected = offsets.last().map_or(0, |o| o.coordinate)
-            + robots.last().map_or(0, |robot| robot.coordinates());
-        if coordinates.len() != expected {
+        if !ranges.is_empty() && ranges.len() != coordinates.len() {
             return Err(Error::new(
                 ErrorKind::WrongSize,
                 format!(
-                    "{} ranges given for {expected} coordinates",
+                    "{} ranges given for {} coordinates",
+                    ranges.len(),
                     coordinates.len()
                 ),
             ));
         }
-        for (i, coordinate) in coordinates.iter().enumerate() {
-            if let Coordinate::Interval { lower, upper } = *coordinate {
-                if lower.is_nan() || upper.is_nan() {
-                    return Err(Error::new(
-                        ErrorKind::NotFinite,
-                        format!("range {i} holds a NaN"),
-                    ));
-                }
-                if lower > upper || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
-                    return Err(Error::invalid(format!(
-                        "range {i} is empty: {lower} to {upper}"
-                    )));
-                }
+        for (i, (range, known)) in ranges.iter().zip(&mut coordinates).enumerate() {
+            if let Some(range) = range {
+                check_range(*range, *known, periodic[i])
+                    .map_err(|e| e.within(format_args!("range {i}")))?;
+                *known = *range;
             }
         }
-        let prismatic = robots.iter().zip(&offsets).flat_map(|(robot, offset)| {
-            let joints = robot.links().iter().map(|link| link.joint);
-            let moved = joints.filter(|joint| joint.kind == JointKind::Prismatic);
-            moved.map(|joint| offset.coordinate + joint.coordinate)
-        });
-        for i in prismatic {
-            if coordinates[i] == Coordinate::Circle {
-                return Err(Error::invalid(format!(
-                    "range {i} is a circle, but coordinate {i} moves a prismatic joint"
-                )));
-            }
-        }
-        for i in 0..3 {
-            if world.low[i].is_nan() || world.high[i].is_nan() {
-                return Err(Error::new(
-                    ErrorKind::NotFinite,
-                    "the world box holds a NaN",
-                ));
-            }
-            if world.low[i] > world.high[i] {
-                return Err(Error::invalid(format!(
-                    "the world box is empty along axis {i}: {} to {}",
-                    world.low[i], world.high[i]
-                )));
-            }
-        }
+        world.check()?;
         Ok(Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             robots,
             offsets,
             links,
+            nv,
             coordinates,
+            blocks,
             world,
         })
     }
@@ -151,8 +111,32 @@ impl Space {
         self.robots[0].dimension()
     }
 
+    /// The number of entries of a configuration.
+    pub fn nq(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// The number of entries of a velocity, a step or a gradient.
+    pub fn nv(&self) -> usize {
+        self.nv
+    }
+
     pub fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
+    }
+
+    /// The coordinates in runs that move together.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// One a robot, in the order given.
+    pub fn offsets(&self) -> &[Offset] {
+        &self.offsets
+    }
+
+    pub fn world(&self) -> &WorldBox {
+        &self.world
     }
 
     pub fn link_count(&self) -> usize {
@@ -167,80 +151,122 @@ impl Space {
         })
     }
 
-    /// The poses of all links at q.
-    pub fn link_poses(&self, q: &[f64]) -> Vec<Pose> {
+    /// The poses of all links at q. Only joints by maps of the caller can fail.
+    pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
         let mut poses = Vec::with_capacity(self.links);
-        for (robot, offset) in self.robots.iter().zip(&self.offsets) {
-            let end = offset.coordinate + robot.coordinates();
-            robot.link_poses(&q[offset.coordinate..end], &mut poses);
+        for robot in 0..self.robots.len() {
+            self.robots[robot].link_poses(&q[self.coordinates_of(robot)], &mut poses)?;
         }
-        poses
+        Ok(poses)
     }
 
-    /// Refuses a configuration with the wrong number of entries, or with one that is not a usable number.
+    /// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion
+    /// that is none.
     pub fn check_configuration(&self, q: &[f64]) -> Result<()> {
-        check_configuration(q, self.coordinates.len())
+        check_configuration(q, self.nq(), &self.blocks)
     }
 
-    /// Adds `sign` times the derivative of `normal . point` to `row`, for a point fixed to a link; eq. (39).
+    /// Where all is at 0: no turn, no shift. It may be out of range.
+    pub fn neutral(&self) -> Vec<f64> {
+        let mut q = vec![0.0; self.nq()];
+        for at in self.quaternions() {
+            q[at + 3] = 1.0;
+        }
+        q
+    }
+
+    /// Adds the derivative of `direction . point` to `row`, for a point fixed to a link; eq. (39).
     pub fn add_gradient(
         &self,
-        poses: &[Pose],
+        posture: Posture,
         link: usize,
         point: &Vec3,
-        normal: &Vec3,
-        sign: f64,
+        direction: &Vec3,
         row: &mut [f64],
-    ) {
+    ) -> Result<()> {
+        self.visit_columns(posture, link, point, |column| {
+            row[column.velocity] += direction.dot(&column.linear);
+        })
+    }
+
+    /// The 6 x nv basic Jacobian (33) of a point fixed to a link, row-major: linear, then angular velocity, in the world.
+    pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
+        let mut matrix = vec![0.0; 6 * self.nv];
+        self.visit_columns(posture, link, point, |column| {
+            for row in 0..3 {
+                matrix[row * self.nv + column.velocity] += column.linear[row];
+                matrix[(row + 3) * self.nv + column.velocity] += column.angular[row];
+            }
+        })?;
+        Ok(matrix)
+    }
+
+    /// The columns of the Jacobian of a point fixed to a link, those that are not 0; see [`Robot::visit_columns`].
+    fn visit_columns(
+        &self,
+        posture: Posture,
+        link: usize,
+        point: &Vec3,
+        mut visit: impl FnMut(Column),
+    ) -> Result<()> {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
-        let own = &poses[offset.link..];
-        for column in self.robots[robot].ancestry(own, link - offset.link, point) {
-            row[offset.coordinate + column.coordinate] += sign * normal.dot(&column.linear);
-        }
+        let own = Posture {
+            q: &posture.q[self.coordinates_of(robot)],
+            poses: &posture.poses[offset.link..],
+        };
+        self.robots[robot].visit_columns(own, link - offset.link, point, |column| {
+            visit(Column {
+                velocity: offset.velocity + column.velocity,
+                ..column
+            });
+        })
     }
 
-    /// No point of the link's body moves farther than this on the straight segment from q0 to q1.
-    pub fn motion_bound(&self, link: usize, q0: &[f64], q1: &[f64]) -> f64 {
+    /// No point of the link's body moves farther than this while the space goes from q with constant velocity v for a unit
+    /// of time. Infinite where a custom joint that moves does not state its speeds.
+    pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
-        let end = offset.coordinate + self.robots[robot].coordinates();
-        let own = offset.coordinate..end;
-        self.robots[robot].motion_bound(link - offset.link, &q0[own.clone()], &q1[own])
-    }
-
-    /// Whether every coordinate is in its range and every link's origin in the world box.
-    pub fn contains(&self, q: &[f64]) -> bool {
-        self.coordinates.iter().zip(q).all(|(c, x)| c.contains(*x))
-            && self
-                .link_poses(q)
-                .iter()
-                .all(|pose| self.world.contains(&pose.translation))
-    }
-
-    /// The nearest configuration whose coordinates are all in range.
-    pub fn clamp(&self, q: &[f64]) -> Vec<f64> {
-        self.coordinates
-            .iter()
-            .zip(q)
-            .map(|(c, x)| c.clamp(*x))
-            .collect()
+        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
+        self.robots[robot].motion_bound(link - offset.link, &q[self.coordinates_of(robot)], v)
     }
 
     fn robot_of(&self, link: usize) -> usize {
         self.offsets.partition_point(|offset| offset.link <= link) - 1
     }
+
+    fn coordinates_of(&self, robot: usize) -> std::ops::Range<usize> {
+        let first = self.offsets[robot].coordinate;
+        first..first + self.robots[robot].nq()
+    }
 }
 
-fn default_ranges(robot: &Robot) -> Vec<Coordinate> {
-    let mut ranges = vec![Coordinate::Circle; robot.coordinates()];
-    for link in robot.links() {
-        if link.joint.kind == JointKind::Prismatic {
-            ranges[link.joint.coordinate] = Coordinate::Interval {
-                lower: f64::NEG_INFINITY,
-                upper: f64::INFINITY,
-            };
+/// Whether a coordinate may have this range.
+fn check_range(range: Coordinate, known: Coordinate, is_periodic: bool) -> Result<()> {
+    if let Coordinate::Interval { lower, upper } = range {
+        if lower.is_nan() || upper.is_nan() {
+            return Err(Error::new(ErrorKind::NotFinite, "it holds a NaN"));
+        }
+        if lower > upper || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+            return Err(Error::invalid(format!("it is empty: {lower} to {upper}")));
+        }
+        for end in [lower, upper].into_iter().filter(|end| end.is_finite()) {
+            require_coordinates(&[end], "end")?;
         }
     }
-    ranges
+    if range == Coordinate::Circle && !is_periodic {
+        return Err(Error::invalid(
+            "a circle, but a whole turn of this coordinate does not bring every link back: it moves a prismatic joint, or \
+             one that follows it by a part",
+        ));
+    }
+    if (range == Coordinate::Quaternion) != (known == Coordinate::Quaternion) {
+        return Err(Error::invalid(if known == Coordinate::Quaternion {
+            "this coordinate belongs to a quaternion, which has no limits"
+        } else {
+            "this coordinate does not belong to a quaternion"
+        }));
+    }
+    Ok(())
 }

@@ -12,13 +12,10 @@ use cstk::space::{Space, WorldBox};
 /// A link without a name on the next unused coordinate.
 pub fn link(parent: Option<usize>, kind: JointKind, axis: Vec3) -> LinkDefinition {
     LinkDefinition {
-        name: String::new(),
-        body: None,
         parent,
-        at: Pose::identity(),
         kind,
         axis,
-        coordinate: None,
+        ..Default::default()
     }
 }
 
@@ -32,13 +29,19 @@ pub fn robot(dimension: u32, links: Vec<LinkDefinition>) -> Arc<Robot> {
 
 /// A body that moves freely: x, y, z, then turns about z, the new y and the new x.
 pub fn free_body(body: &Arc<Body>) -> Arc<Robot> {
-    let joints = [JointKind::Prismatic, JointKind::Revolute];
+    let joints = || [JointKind::Prismatic, JointKind::Revolute];
     let axes = [
         [Vec3::x(), Vec3::y(), Vec3::z()],
         [Vec3::z(), Vec3::y(), Vec3::x()],
     ];
     let mut links: Vec<LinkDefinition> = (0..6usize)
-        .map(|i| link(i.checked_sub(1), joints[i / 3], axes[i / 3][i % 3]))
+        .map(|i| {
+            link(
+                i.checked_sub(1),
+                joints()[i / 3].clone(),
+                axes[i / 3][i % 3],
+            )
+        })
         .collect();
     links[5].body = Some(body.clone());
     robot(3, links)

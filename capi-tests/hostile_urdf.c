@@ -1,0 +1,191 @@
+/* Hostile input to the reader of URDF files: arguments, options, and files that are none. */
+#include <math.h>
+
+#include "check.h"
+#include "fixture.h"
+
+static const char *const file = "hostile.urdf";
+
+static void write_file(const char *text) {
+    FILE *out = fopen(file, "w");
+    CHECK(out != NULL);
+    CHECK(fputs(text, out) >= 0);
+    CHECK(fclose(out) == 0);
+}
+
+static const char *const good =
+    "<robot name='r'><link name='a'><collision><geometry><box size='1 1 1'/></geometry></collision>"
+    "</link></robot>";
+
+static cstk_urdf_options good_options(void) {
+    cstk_urdf_options options;
+    CHECK_OK(cstk_urdf_options_default(&options, sizeof options));
+    return options;
+}
+
+static void refuse(const fixture *f, const cstk_urdf_options *options, cstk_status status,
+                   const char *culprit) {
+    uint32_t root;
+    CHECK_REFUSED(root,
+                  cstk_robot_builder_load_urdf(f->robot_builder, file, options, NULL, NULL, &root),
+                  status, culprit);
+}
+
+static void defaults(void) {
+    cstk_urdf_options options;
+    CHECK_FAILS(cstk_urdf_options_default(NULL, sizeof options), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(options, cstk_urdf_options_default(&options, 0), CSTK_WRONG_SIZE, "size");
+    CHECK_REFUSED(options, cstk_urdf_options_default(&options, sizeof options - 1), CSTK_WRONG_SIZE,
+                  "size");
+}
+
+static void arguments(const fixture *f) {
+    uint32_t root;
+    const cstk_urdf_options options = good_options();
+    EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
+        CHECK_REFUSED(root,
+                      cstk_robot_builder_load_urdf(bad->handle, file, &options, NULL, NULL, &root),
+                      bad->status, "builder");
+    }
+    CHECK_REFUSED(root,
+                  cstk_robot_builder_load_urdf(f->robot_builder, NULL, &options, NULL, NULL, &root),
+                  CSTK_NULL_ARGUMENT, "file");
+    CHECK_REFUSED(root,
+                  cstk_robot_builder_load_urdf(f->robot_builder, "/nowhere/r.urdf", &options, NULL,
+                                               NULL, &root),
+                  CSTK_IO, "/nowhere/r.urdf");
+    CHECK_REFUSED(root,
+                  cstk_robot_builder_load_urdf(f->robot_builder, "/", &options, NULL, NULL, &root),
+                  CSTK_IO, "/");
+    EACH_BAD_OPTIONS(options, bad) {
+        /* NULL stands for the defaults. */
+        if (bad->options != NULL) {
+            refuse(f, bad->options, bad->status, "urdf_options");
+        }
+    }
+    cstk_robot_builder *planar = NULL;
+    CHECK_OK(cstk_robot_builder_create(2, &planar));
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf(planar, file, NULL, NULL, NULL, &root),
+                  CSTK_INVALID_ARGUMENT, "dimension 3");
+    CHECK_OK(cstk_robot_builder_release(planar));
+    fixture_unchanged(f);
+}
+
+static void fields(const fixture *f) {
+    const char *paths[] = {"/tmp", NULL};
+    const int32_t numbers[] = {-1, 3, INT32_MIN, INT32_MAX};
+    const uint32_t sides[] = {0, 2, 1025, UINT32_MAX};
+    for (int i = 0; i < 4; ++i) {
+        cstk_urdf_options options = good_options();
+        options.geometry = numbers[i];
+        refuse(f, &options, CSTK_INVALID_ARGUMENT, "geometry");
+        options = good_options();
+        options.sides = sides[i];
+        refuse(f, &options, CSTK_INVALID_ARGUMENT, "sides");
+    }
+    const int32_t bases[] = {-1, CSTK_JOINT_REVOLUTE, CSTK_JOINT_CUSTOM, INT32_MAX};
+    for (int i = 0; i < 4; ++i) {
+        cstk_urdf_options options = good_options();
+        options.base = bases[i];
+        refuse(f, &options, CSTK_INVALID_ARGUMENT, "base");
+    }
+    cstk_urdf_options options = good_options();
+    options.parent = -2;
+    refuse(f, &options, CSTK_INVALID_ARGUMENT, "parent");
+    options.parent = FIXTURE_LINKS;
+    refuse(f, &options, CSTK_NOT_FOUND, "parent");
+    options = good_options();
+    EACH_BAD_POSE(bad) {
+        memcpy(options.at, bad->pose, sizeof options.at);
+        refuse(f, &options, bad->status, "urdf_options->at");
+    }
+    options = good_options();
+    options.prefix = "\xff";
+    refuse(f, &options, CSTK_INVALID_ARGUMENT, "prefix");
+    options = good_options();
+    options.package_path_count = 1;
+    refuse(f, &options, CSTK_NULL_ARGUMENT, "package_paths");
+    options.package_paths = paths;
+    options.package_path_count = 2;
+    refuse(f, &options, CSTK_NULL_ARGUMENT, "package_paths[1]");
+    cstk_hierarchy_options damaged;
+    memset(&damaged, 0, sizeof damaged);
+    options = good_options();
+    options.hierarchy = &damaged;
+    refuse(f, &options, CSTK_NOT_INITIALISED, "urdf_options->hierarchy");
+    fixture_unchanged(f);
+}
+
+static int32_t stop(double fraction, void *user) {
+    *(double *)user = fraction;
+    return 1;
+}
+
+static void files(const fixture *f) {
+    const struct {
+        const char *text;
+        cstk_status status;
+        const char *culprit;
+    } wrong[] = {
+        {"", CSTK_PARSE, file},
+        {"<robot>", CSTK_PARSE, file},
+        {"<!DOCTYPE r [<!ENTITY a 'aaaa'>]><robot>&a;</robot>", CSTK_PARSE, file},
+        {"<sdf/>", CSTK_PARSE, "<sdf>"},
+        {"<robot/>", CSTK_EMPTY, "no link"},
+        {"<robot><link name='link0'/></robot>", CSTK_INVALID_ARGUMENT, "link0"},
+        {"<robot>\n<link name='a'><collision><geometry><box size='nan 1 1'/></geometry></collision>"
+         "</link></robot>",
+         CSTK_NOT_FINITE, "line 2, <box>"},
+        {"<robot><link name='a'><collision><geometry><box size='1e99 1 1'/></geometry></collision>"
+         "</link></robot>",
+         CSTK_INVALID_ARGUMENT, "\"a\""},
+        {"<robot><link name='a'><collision><geometry><mesh filename='package://p/none.stl'/>"
+         "</geometry></collision></link></robot>",
+         CSTK_NOT_FOUND, "package://p/none.stl"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        write_file(wrong[i].text);
+        refuse(f, NULL, wrong[i].status, wrong[i].culprit);
+    }
+    write_file(good);
+    double told = 0;
+    uint32_t root;
+    CHECK_REFUSED(root,
+                  cstk_robot_builder_load_urdf(f->robot_builder, file, NULL, stop, &told, &root),
+                  CSTK_CANCELLED, "progress");
+    CHECK(told == 1.0);
+    fixture_unchanged(f);
+}
+
+/* What is good is taken, once under each prefix. */
+static void taken(void) {
+    cstk_robot_builder *builder = NULL;
+    cstk_robot *robot = NULL;
+    uint32_t root = 9;
+    CHECK_OK(cstk_robot_builder_create(3, &builder));
+    CHECK_OK(cstk_robot_builder_load_urdf(builder, file, NULL, NULL, NULL, NULL));
+    cstk_urdf_options options = good_options();
+    options.prefix = "second_";
+    options.base = CSTK_JOINT_FREE;
+    CHECK_OK(cstk_robot_builder_load_urdf(builder, file, &options, NULL, NULL, &root));
+    CHECK(root == 1);
+    CHECK_OK(cstk_robot_build(builder, &robot));
+    CHECK_OK(cstk_robot_find_link(robot, "second_a", &root));
+    CHECK(root == 1);
+    CHECK_OK(cstk_robot_release(robot));
+    CHECK_OK(cstk_robot_builder_release(builder));
+}
+
+int main(void) {
+    fixture f;
+    fixture_create(&f);
+    write_file(good);
+    defaults();
+    arguments(&f);
+    fields(&f);
+    files(&f);
+    taken();
+    CHECK(remove(file) == 0);
+    fixture_release(&f);
+    return check_result();
+}

@@ -1,0 +1,73 @@
+//! What ranges and world box ask of a step, as half-spaces of velocities.
+
+use super::half_spaces::{HalfSpace, dot};
+use crate::error::Result;
+use crate::pose::{Pose, Vec3};
+use crate::robot::{BlockKind, Coordinate, Posture};
+use crate::space::Space;
+
+/// Limits that a step of this many times the length asked for cannot reach are left out.
+const FAR: f64 = 8.0;
+
+/// The half-spaces that keep a step of about `length` within the coordinates' ranges and the links' origins within the world
+/// box; exact for ranges of single coordinates, else to first order.
+pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpace>> {
+    let mut found = Vec::new();
+    // A value that moves with `row . v` must stay between two others.
+    let mut keep = |value: f64, lower: f64, upper: f64, row: &[f64]| {
+        let reach = FAR * length * dot(row, row).sqrt();
+        if upper - value <= reach {
+            found.push(HalfSpace {
+                row: row.iter().map(|x| -x).collect(),
+                least: value - upper,
+            });
+        }
+        if value - lower <= reach {
+            found.push(HalfSpace {
+                row: row.to_vec(),
+                least: lower - value,
+            });
+        }
+    };
+    for block in space.blocks() {
+        let moved = match block.kind {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 0,
+            BlockKind::Placement => 3,
+        };
+        for k in 0..moved {
+            let c = block.coordinate + k;
+            let Coordinate::Interval { lower, upper } = space.coordinates()[c] else {
+                continue;
+            };
+            let mut row = vec![0.0; space.nv()];
+            if block.kind == BlockKind::Line {
+                row[block.velocity] = 1.0;
+            } else {
+                // The velocity is written in the moved frame.
+                let own = &q[block.coordinate..block.coordinate + 7];
+                let turned =
+                    Pose::from_quaternion(Vec3::zeros(), [own[3], own[4], own[5], own[6]])?;
+                for j in 0..3 {
+                    row[block.velocity + j] = turned.rotation[(k, j)];
+                }
+            }
+            keep(q[c], lower, upper, &row);
+        }
+    }
+    let world = space.world();
+    if world.low.iter().chain(&world.high).all(|x| x.is_infinite()) {
+        return Ok(found);
+    }
+    let poses = &space.link_poses(q)?;
+    for (link, pose) in poses.iter().enumerate() {
+        let origin = &pose.translation;
+        let jacobian = space.jacobian(Posture { q, poses }, link, origin)?;
+        for (axis, row) in jacobian.chunks_exact(space.nv().max(1)).take(3).enumerate() {
+            if row.iter().any(|x| *x != 0.0) {
+                keep(origin[axis], world.low[axis], world.high[axis], row);
+            }
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,65 @@
+//! One coordinate of a configuration, and the runs of coordinates that move together.
+
+/// The topology of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinate {
+    /// The circle S^1: angles in radians, equal modulo 2 pi.
+    Circle,
+    /// A closed interval; either end may be infinite.
+    Interval { lower: f64, upper: f64 },
+    /// One of the four entries of a unit quaternion.
+    Quaternion,
+}
+
+impl Coordinate {
+    /// The whole line.
+    pub const LINE: Self = Self::Interval {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    };
+
+    pub fn contains(&self, value: f64) -> bool {
+        match *self {
+            Coordinate::Circle | Coordinate::Quaternion => true,
+            Coordinate::Interval { lower, upper } => lower <= value && value <= upper,
+        }
+    }
+}
+
+/// What a run of coordinates stands for, and so how velocities move it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BlockKind {
+    /// One coordinate, whose velocity is its rate.
+    Line,
+    /// A unit quaternion x, y, z, w; its three velocities are angular, in the turned frame.
+    Rotation,
+    /// x, y, z and a unit quaternion; its six velocities are linear, then angular, in the moved frame.
+    Placement,
+}
+
+impl BlockKind {
+    pub fn nq(self) -> usize {
+        match self {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 4,
+            BlockKind::Placement => 7,
+        }
+    }
+
+    pub fn nv(self) -> usize {
+        match self {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 3,
+            BlockKind::Placement => 6,
+        }
+    }
+}
+
+/// A run of coordinates with its velocities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    pub kind: BlockKind,
+    /// The first coordinate and the first velocity.
+    pub coordinate: usize,
+    pub velocity: usize,
+}

@@ -1,0 +1,97 @@
+//! Steps on rotations and rigid placements: exponential and logarithm of SO(3) and SE(3) (Murray, Li, Sastry 1994, ch. 2).
+
+use nalgebra::{Quaternion, UnitQuaternion};
+
+use crate::pose::Vec3;
+
+/// A unit quaternion from its entries x, y, z, w, whose norm may be off 1 by rounding.
+pub fn rotation(xyzw: &[f64]) -> UnitQuaternion<f64> {
+    UnitQuaternion::new_normalize(Quaternion::new(xyzw[3], xyzw[0], xyzw[1], xyzw[2]))
+}
+
+/// The entries x, y, z, w.
+pub fn entries(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
+    let q = rotation.quaternion();
+    [q.i, q.j, q.k, q.w]
+}
+
+/// The rotation vector that takes one rotation to another, of least length; in the frame of the first.
+pub fn turn_between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
+    let between = from.inverse() * to;
+    // Of the two quaternions of a rotation, the one that turns by at most half a turn.
+    let q = between.quaternion();
+    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+    let (v, w) = (Vec3::new(q.i, q.j, q.k) * sign, q.w * sign);
+    let s = v.norm();
+    // 2 atan2(s, w) / s, which is 2 / w where s vanishes.
+    if s < 1e-8 {
+        v * (2.0 / w)
+    } else {
+        v * (2.0 * s.atan2(w) / s)
+    }
+}
+
+/// A placement: where, and how turned.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    pub translation: Vec3,
+    pub rotation: UnitQuaternion<f64>,
+}
+
+impl Placement {
+    pub fn read(q: &[f64]) -> Self {
+        Self {
+            translation: Vec3::new(q[0], q[1], q[2]),
+            rotation: rotation(&q[3..7]),
+        }
+    }
+
+    pub fn write(&self, q: &mut [f64]) {
+        q[..3].copy_from_slice(self.translation.as_slice());
+        q[3..7].copy_from_slice(&entries(&self.rotation));
+    }
+
+    /// Where a constant velocity, linear and angular in the moved frame, leads in a unit of time.
+    pub fn step(&self, linear: &Vec3, angular: &Vec3) -> Self {
+        let angle = angular.norm();
+        let (a, b) = screw_coefficients(angle);
+        let across = angular.cross(linear);
+        let shift = linear + across * a + angular.cross(&across) * b;
+        Self {
+            translation: self.translation + self.rotation * shift,
+            rotation: self.rotation * UnitQuaternion::from_scaled_axis(*angular),
+        }
+    }
+
+    /// The velocity, linear and angular, that leads to another placement in a unit of time; the shortest turn.
+    pub fn difference(&self, to: &Self) -> [Vec3; 2] {
+        let angular = turn_between(&self.rotation, &to.rotation);
+        let shift = self.rotation.inverse() * (to.translation - self.translation);
+        let angle = angular.norm();
+        // 1 / angle^2 - cot(angle / 2) / (2 angle), by its series where it cancels.
+        let c = if angle < 1e-2 {
+            let square = angle * angle;
+            1.0 / 12.0 + square / 720.0 + square * square / 30240.0
+        } else {
+            let half = angle / 2.0;
+            (1.0 - half * half.cos() / half.sin()) / (angle * angle)
+        };
+        let across = angular.cross(&shift);
+        let linear = shift - across * 0.5 + angular.cross(&across) * c;
+        [linear, angular]
+    }
+}
+
+/// (1 - cos x) / x^2 and (x - sin x) / x^3, by their series where they cancel.
+fn screw_coefficients(x: f64) -> (f64, f64) {
+    let square = x * x;
+    if x < 1e-2 {
+        (
+            0.5 - square / 24.0 + square * square / 720.0,
+            1.0 / 6.0 - square / 120.0 + square * square / 5040.0,
+        )
+    } else {
+        let half = (0.5 * x).sin();
+        (2.0 * half * half / square, (x - x.sin()) / (square * x))
+    }
+}

@@ -1,0 +1,61 @@
+//! Configurations drawn uniformly from a space.
+
+use std::f64::consts::TAU;
+
+use super::Space;
+use crate::error::{Error, ErrorKind, Result};
+use crate::robot::Coordinate;
+
+/// A stream of random numbers: SplitMix64 (Steele, Lea, Flood 2014). Equal states give equal streams, on every machine and
+/// with every version of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampler(pub u64);
+
+impl Sampler {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [0, 1), a multiple of 2^-53.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+impl Space {
+    /// A configuration drawn uniformly from the coordinates' ranges: intervals by length, circles by angle, quaternions by
+    /// the rotations' volume (Shoemake 1992). The world box is not looked at. Refused where an interval is unbounded.
+    pub fn sample(&self, sampler: &mut Sampler) -> Result<Vec<f64>> {
+        let unbounded = |coordinate: &Coordinate| matches!(coordinate, Coordinate::Interval { lower, upper } if !(upper - lower).is_finite());
+        if let Some(i) = self.coordinates().iter().position(unbounded) {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "coordinate {i} has no bounds to sample between: give the space a range for it"
+                ),
+            ));
+        }
+        let mut q = Vec::with_capacity(self.nq());
+        for coordinate in self.coordinates() {
+            q.push(match *coordinate {
+                Coordinate::Circle => sampler.unit() * TAU,
+                Coordinate::Interval { lower, upper } => {
+                    (lower + (upper - lower) * sampler.unit()).clamp(lower, upper)
+                }
+                Coordinate::Quaternion => 0.0,
+            });
+        }
+        for at in self.quaternions() {
+            let share = sampler.unit();
+            let (small, large) = (share.sqrt(), (1.0 - share).sqrt());
+            let (s, c) = (sampler.unit() * TAU).sin_cos();
+            let (t, d) = (sampler.unit() * TAU).sin_cos();
+            q[at..at + 4].copy_from_slice(&[large * s, large * c, small * t, small * d]);
+        }
+        Ok(q)
+    }
+}

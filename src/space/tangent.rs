@@ -1,0 +1,129 @@
+//! Steps, differences, interpolation and distance on the space's topology.
+//!
+//! A step follows a constant velocity: straight for intervals, round the circle for circles, at constant angular velocity for
+//! quaternions, and along a screw for free joints.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Space;
+use super::rigid_step::{Placement, entries, rotation, turn_between};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
+use crate::pose::Vec3;
+use crate::robot::{BlockKind, Coordinate};
+
+impl Space {
+    /// Refuses a velocity with the wrong number of entries, or with one that is not a usable number.
+    pub fn check_velocity(&self, v: &[f64], name: &str) -> Result<()> {
+        if v.len() != self.nv() {
+            return Err(Error::new(
+                ErrorKind::WrongSize,
+                format!(
+                    "the {name} has {} entries, but the space has {} velocities",
+                    v.len(),
+                    self.nv()
+                ),
+            ));
+        }
+        require_coordinates(v, &format!("{name} entry"))
+    }
+
+    /// The configuration that velocity `v` leads to from `q` in a unit of time. Circles are not wrapped.
+    pub fn step(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut reached = q.to_vec();
+        for block in self.blocks() {
+            let (c, k) = (block.coordinate, block.velocity);
+            let vector = |at: usize| Vec3::new(v[at], v[at + 1], v[at + 2]);
+            match block.kind {
+                BlockKind::Line => reached[c] += v[k],
+                BlockKind::Rotation => {
+                    let turn = nalgebra::UnitQuaternion::from_scaled_axis(vector(k));
+                    let turned = rotation(&q[c..c + 4]) * turn;
+                    reached[c..c + 4].copy_from_slice(&entries(&turned));
+                }
+                BlockKind::Placement => Placement::read(&q[c..c + 7])
+                    .step(&vector(k), &vector(k + 3))
+                    .write(&mut reached[c..c + 7]),
+            }
+        }
+        reached
+    }
+
+    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round (by -pi, of two
+    /// that are equal), quaternions turn by at most half a turn.
+    pub fn difference(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
+        let mut v = self.displacement(q0, q1);
+        for block in self.blocks() {
+            if self.coordinates()[block.coordinate] == Coordinate::Circle {
+                v[block.velocity] = shorter_way(v[block.velocity]);
+            }
+        }
+        v
+    }
+
+    /// The velocity that leads from `q0` to `q1` with circles unrolled: more than half a turn apart in their numbers, they go
+    /// the longer way.
+    pub fn displacement(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
+        let mut v = vec![0.0; self.nv()];
+        for block in self.blocks() {
+            let (c, k) = (block.coordinate, block.velocity);
+            match block.kind {
+                BlockKind::Line => v[k] = q1[c] - q0[c],
+                BlockKind::Rotation => {
+                    let [from, to] = [q0, q1].map(|q| rotation(&q[c..c + 4]));
+                    v[k..k + 3].copy_from_slice(turn_between(&from, &to).as_slice());
+                }
+                BlockKind::Placement => {
+                    let [from, to] = [q0, q1].map(|q| Placement::read(&q[c..c + 7]));
+                    let [linear, angular] = from.difference(&to);
+                    v[k..k + 3].copy_from_slice(linear.as_slice());
+                    v[k + 3..k + 6].copy_from_slice(angular.as_slice());
+                }
+            }
+        }
+        v
+    }
+
+    /// The configuration at parameter `t` of the shortest way from `q0` (at 0) to `q1` (at 1). Between the two, single
+    /// coordinates that are intervals lie between their ends, to the last bit.
+    pub fn interpolate(&self, q0: &[f64], q1: &[f64], t: f64) -> Vec<f64> {
+        let way: Vec<f64> = self.difference(q0, q1).iter().map(|x| x * t).collect();
+        let mut reached = self.step(q0, &way);
+        if (0.0..=1.0).contains(&t) {
+            let lines = self.blocks().iter().filter(|b| b.kind == BlockKind::Line);
+            for c in lines.map(|block| block.coordinate) {
+                if let Coordinate::Interval { .. } = self.coordinates()[c] {
+                    reached[c] = if t == 1.0 {
+                        q1[c]
+                    } else {
+                        reached[c].clamp(q0[c].min(q1[c]), q0[c].max(q1[c]))
+                    };
+                }
+            }
+        }
+        reached
+    }
+
+    /// The length of the difference, each velocity times its weight; no weights mean 1.
+    pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
+        let difference = self.difference(q0, q1);
+        let weighted = difference.iter().enumerate().map(|(i, x)| {
+            let weight = weights.map_or(1.0, |weights| weights[i]);
+            x * weight
+        });
+        // Scaled, so that no square overflows.
+        let largest = weighted.clone().fold(0.0f64, |most, x| most.max(x.abs()));
+        if largest == 0.0 {
+            return 0.0;
+        }
+        largest * weighted.map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+/// The same angle within [-pi, pi).
+fn shorter_way(angle: f64) -> f64 {
+    if (-PI..PI).contains(&angle) {
+        return angle;
+    }
+    let wrapped = (angle + PI).rem_euclid(TAU) - PI;
+    if wrapped >= PI { -PI } else { wrapped }
+}

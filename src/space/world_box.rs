@@ -1,0 +1,42 @@
+//! The world box: where the origins of the links may be.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::pose::Vec3;
+
+/// The box within which the links' origins may move.
+#[derive(Clone, Copy, Debug)]
+pub struct WorldBox {
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+}
+
+impl WorldBox {
+    pub fn unbounded() -> Self {
+        Self {
+            low: [f64::NEG_INFINITY; 3],
+            high: [f64::INFINITY; 3],
+        }
+    }
+
+    pub fn contains(&self, point: &Vec3) -> bool {
+        (0..3).all(|i| self.low[i] <= point[i] && point[i] <= self.high[i])
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        for i in 0..3 {
+            if self.low[i].is_nan() || self.high[i].is_nan() {
+                return Err(Error::new(
+                    ErrorKind::NotFinite,
+                    "the world box holds a NaN",
+                ));
+            }
+            if self.low[i] > self.high[i] {
+                return Err(Error::invalid(format!(
+                    "the world box is empty along axis {i}: {} to {}",
+                    self.low[i], self.high[i]
+                )));
+            }
+        }
+        Ok(())
+    }
+}

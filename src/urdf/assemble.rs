@@ -1,0 +1,435 @@
+//! From a URDF file's elements to the links of a robot builder.
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::model::{JointElement, JointType, LinkElement, Model};
+use super::shapes::ShapeReader;
+use nalgebra::Rotation3;
+
+use crate::body::Body;
+use crate::error::{Error, ErrorKind, Result};
+use crate::hierarchy::HierarchyOptions;
+use crate::pose::{Pose, Vec3};
+use crate::robot::{JointKind, LinkDefinition, RobotBuilder};
+use crate::xml::{fault, parse, text_of};
+
+/// Which of a link's shapes become its body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UrdfGeometry {
+    Collision,
+    Visual,
+    /// None: the links have frames only.
+    None,
+}
+
+/// How the root link is joined to what carries the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BaseJoint {
+    Fixed,
+    Planar,
+    Free,
+    FreeEuler,
+}
+
+/// How to read a URDF file.
+#[derive(Clone, Debug)]
+pub struct UrdfOptions {
+    pub geometry: UrdfGeometry,
+    pub base: BaseJoint,
+    /// The link of the builder that carries the robot, and where; `None` for the world.
+    pub parent: Option<usize>,
+    pub at: Pose,
+    /// Put before the names of links and joints, so that a file can be read twice.
+    pub prefix: String,
+    /// Folders in which packages are looked for.
+    pub search: Vec<PathBuf>,
+    /// Into how many sides the circles of spheres, cylinders and capsules are divided, at least 3.
+    pub sides: usize,
+    /// How the links' hierarchies are built.
+    pub hierarchy: HierarchyOptions,
+}
+
+impl Default for UrdfOptions {
+    fn default() -> Self {
+        Self {
+            geometry: UrdfGeometry::Collision,
+            base: BaseJoint::Fixed,
+            parent: None,
+            at: Pose::identity(),
+            prefix: String::new(),
+            search: Vec::new(),
+            sides: 32,
+            hierarchy: HierarchyOptions::default(),
+        }
+    }
+}
+
+/// Circles are not divided finer.
+const MOST_SIDES: usize = 1024;
+
+/// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns the number of its root
+/// link. Joints of other names keep the order of the file. `progress` is told the part of the links that is done. The file is
+/// added whole or not at all; failures name file, line and element.
+pub fn add_urdf_file(
+    builder: &mut RobotBuilder,
+    path: &Path,
+    options: &UrdfOptions,
+    progress: &mut dyn FnMut(f64) -> Result<()>,
+) -> Result<usize> {
+    if builder.dimension() != 3 {
+        return Err(Error::invalid(
+            "a URDF robot needs a robot builder of dimension 3",
+        ));
+    }
+    if !(3..=MOST_SIDES).contains(&options.sides) {
+        return Err(Error::invalid(format!(
+            "sides is {}; 3 to {MOST_SIDES} are possible",
+            options.sides
+        )));
+    }
+    let named = |e: Error| match e.kind {
+        ErrorKind::Cancelled => e,
+        _ => e.within(path.display()),
+    };
+    let bytes = std::fs::read(path).map_err(|e| named(Error::new(ErrorKind::Io, e.to_string())))?;
+    let folder = path.canonicalize();
+    let folder = folder
+        .as_deref()
+        .ok()
+        .and_then(Path::parent)
+        .unwrap_or(Path::new("."));
+    let mut extended = builder.clone();
+    let root = add_text(&mut extended, &bytes, folder, options, progress).map_err(named)?;
+    *builder = extended;
+    Ok(root)
+}
+
+fn add_text(
+    builder: &mut RobotBuilder,
+    bytes: &[u8],
+    folder: &Path,
+    options: &UrdfOptions,
+    progress: &mut dyn FnMut(f64) -> Result<()>,
+) -> Result<usize> {
+    let document = parse(text_of(bytes)?)?;
+    let geometry = match options.geometry {
+        UrdfGeometry::Collision => Some("collision"),
+        UrdfGeometry::Visual => Some("visual"),
+        UrdfGeometry::None => None,
+    };
+    let model = Model::read(document.root_element(), geometry)?;
+    let order = Tree::of(&model)?.links_by_depth();
+    let mut assembly = Assembly {
+        builder,
+        options,
+        followed: followed(&model)?,
+        coordinates: HashMap::new(),
+        shapes: ShapeReader {
+            folder,
+            search: &options.search,
+            sides: options.sides,
+            meshes: HashMap::new(),
+        },
+        numbers: HashMap::new(),
+    };
+    let count = order.len() as f64;
+    for (i, (link, joint)) in order.iter().enumerate() {
+        assembly.add(link, *joint)?;
+        progress((i + 1) as f64 / count)?;
+    }
+    Ok(assembly.numbers[order[0].0.name])
+}
+
+/// The links of a model and the joints between them, known to be a tree.
+struct Tree<'m, 'a, 'i> {
+    root: &'m LinkElement<'a, 'i>,
+    links: HashMap<&'a str, &'m LinkElement<'a, 'i>>,
+    /// By the parent's name, in the order of the file.
+    joints: HashMap<&'a str, Vec<&'m JointElement<'a, 'i>>>,
+}
+
+/// A link with the joint that moves it; the root has none.
+type Jointed<'m, 'a, 'i> = (&'m LinkElement<'a, 'i>, Option<&'m JointElement<'a, 'i>>);
+
+impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
+    fn of(model: &'m Model<'a, 'i>) -> Result<Self> {
+        let mut links = HashMap::new();
+        for link in &model.links {
+            if links.insert(link.name, link).is_some() {
+                let message = format!("another link is called \"{}\"", link.name);
+                return Err(fault(link.node, ErrorKind::InvalidArgument, message));
+            }
+        }
+        let mut names = HashSet::new();
+        let mut carried: HashMap<&str, &str> = HashMap::new();
+        let mut joints: HashMap<&str, Vec<_>> = HashMap::new();
+        for joint in &model.joints {
+            let wrong = |kind, message: String| {
+                fault(joint.node, kind, message).within(format_args!("joint \"{}\"", joint.name))
+            };
+            if !names.insert(joint.name) {
+                let message = "another joint has this name".to_string();
+                return Err(wrong(ErrorKind::InvalidArgument, message));
+            }
+            for end in [joint.parent, joint.child] {
+                if !links.contains_key(end) {
+                    let message = format!("there is no link \"{end}\"");
+                    return Err(wrong(ErrorKind::NotFound, message));
+                }
+            }
+            if let Some(other) = carried.insert(joint.child, joint.name) {
+                let message = format!("joint \"{other}\" moves link \"{}\" too", joint.child);
+                return Err(wrong(ErrorKind::InvalidArgument, message));
+            }
+            joints.entry(joint.parent).or_default().push(joint);
+        }
+        let mut roots = model
+            .links
+            .iter()
+            .filter(|link| !carried.contains_key(link.name));
+        let is_macro = |node: roxmltree::Node| {
+            let namespace = node.tag_name().namespace();
+            namespace.is_some_and(|namespace| namespace.contains("xacro"))
+        };
+        let empty = || {
+            let message = if model.node.children().any(is_macro) {
+                "the robot has no link, but xacro macros: expand them first"
+            } else {
+                "the robot has no link"
+            };
+            fault(model.node, ErrorKind::Empty, message)
+        };
+        let circle = || {
+            let message = "every link hangs on another: the joints form a circle";
+            fault(model.node, ErrorKind::InvalidArgument, message)
+        };
+        let root = match roots.next() {
+            Some(root) => root,
+            None if model.links.is_empty() => return Err(empty()),
+            None => return Err(circle()),
+        };
+        if let Some(other) = roots.next() {
+            let message = format!(
+                "no joint leads to it, nor to \"{}\": a robot has one root",
+                root.name
+            );
+            return Err(fault(other.node, ErrorKind::InvalidArgument, message)
+                .within(format_args!("link \"{}\"", other.name)));
+        }
+        let tree = Self {
+            root,
+            links,
+            joints,
+        };
+        let reached: HashSet<&str> = tree
+            .links_by_depth()
+            .iter()
+            .map(|(link, _)| link.name)
+            .collect();
+        if let Some(lost) = model.links.iter().find(|link| !reached.contains(link.name)) {
+            let message = "the joints that lead to it form a circle";
+            return Err(fault(lost.node, ErrorKind::InvalidArgument, message)
+                .within(format_args!("link \"{}\"", lost.name)));
+        }
+        Ok(tree)
+    }
+
+    /// Each link after its parent, branch by branch.
+    fn links_by_depth(&self) -> Vec<Jointed<'m, 'a, 'i>> {
+        let mut order = Vec::new();
+        let mut waiting: Vec<Jointed<'m, 'a, 'i>> = vec![(self.root, None)];
+        while let Some((link, joint)) = waiting.pop() {
+            order.push((link, joint));
+            for joint in self.joints.get(link.name).into_iter().flatten().rev() {
+                waiting.push((self.links[joint.child], Some(joint)));
+            }
+        }
+        order
+    }
+}
+
+/// What a joint follows: another's coordinate, by a multiple and an offset.
+struct Followed<'m, 'a, 'i> {
+    joint: &'m JointElement<'a, 'i>,
+    multiplier: f64,
+    offset: f64,
+}
+
+/// For each joint that mimics, the joint at the end of its chain.
+fn followed<'m, 'a, 'i>(
+    model: &'m Model<'a, 'i>,
+) -> Result<HashMap<&'a str, Followed<'m, 'a, 'i>>> {
+    let joints: HashMap<&str, &JointElement> = model
+        .joints
+        .iter()
+        .map(|joint| (joint.name, joint))
+        .collect();
+    let mut found = HashMap::new();
+    for joint in &model.joints {
+        let wrong = |kind, message: String| {
+            fault(joint.node, kind, message).within(format_args!("joint \"{}\"", joint.name))
+        };
+        let (mut last, mut multiplier, mut offset) = (joint, 1.0, 0.0);
+        let mut steps = 0;
+        while let Some(mimic) = &last.mimic {
+            offset += multiplier * mimic.offset;
+            multiplier *= mimic.multiplier;
+            last = joints.get(mimic.joint).copied().ok_or_else(|| {
+                wrong(
+                    ErrorKind::NotFound,
+                    format!("there is no joint \"{}\" to mimic", mimic.joint),
+                )
+            })?;
+            steps += 1;
+            if steps > model.joints.len() {
+                let message = "the joints it mimics form a circle".to_string();
+                return Err(wrong(ErrorKind::InvalidArgument, message));
+            }
+        }
+        if steps == 0 {
+            continue;
+        }
+        if !matches!(
+            last.kind,
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic
+        ) {
+            let message = format!("joint \"{}\" has no single coordinate to mimic", last.name);
+            return Err(wrong(ErrorKind::Unsupported, message));
+        }
+        found.insert(
+            joint.name,
+            Followed {
+                joint: last,
+                multiplier,
+                offset,
+            },
+        );
+    }
+    Ok(found)
+}
+
+struct Assembly<'m, 'a, 'i, 'o> {
+    builder: &'o mut RobotBuilder,
+    options: &'o UrdfOptions,
+    followed: HashMap<&'a str, Followed<'m, 'a, 'i>>,
+    /// Which coordinate each joint took, by the name of the joint at the end of a chain of mimics.
+    coordinates: HashMap<&'a str, usize>,
+    shapes: ShapeReader<'o>,
+    numbers: HashMap<&'a str, usize>,
+}
+
+impl<'a> Assembly<'_, 'a, '_, '_> {
+    fn add(
+        &mut self,
+        link: &LinkElement<'a, '_>,
+        joint: Option<&JointElement<'a, '_>>,
+    ) -> Result<()> {
+        let body = self.body(link)?;
+        let prefix = &self.options.prefix;
+        let definition = LinkDefinition {
+            name: format!("{prefix}{}", link.name),
+            body,
+            ..Default::default()
+        };
+        let number = match joint {
+            None => self.builder.add_link(LinkDefinition {
+                parent: self.options.parent,
+                at: self.options.at,
+                kind: match self.options.base {
+                    BaseJoint::Fixed => JointKind::Fixed,
+                    BaseJoint::Planar => JointKind::Planar,
+                    BaseJoint::Free => JointKind::Free,
+                    BaseJoint::FreeEuler => JointKind::FreeEuler,
+                },
+                ..definition
+            })?,
+            Some(joint) => self
+                .add_joint(definition, joint)
+                .map_err(|e| e.within(format_args!("joint \"{}\"", joint.name)))?,
+        };
+        self.numbers.insert(link.name, number);
+        Ok(())
+    }
+
+    fn body(&mut self, link: &LinkElement) -> Result<Option<Arc<Body>>> {
+        if link.geometry.is_empty() {
+            return Ok(None);
+        }
+        let shapes = self.shapes.read(link)?;
+        let body = shapes
+            .build(&self.options.hierarchy, &mut |_| Ok(()))
+            .map_err(|e| e.within(format_args!("link \"{}\"", link.name)))?;
+        Ok(Some(Arc::new(body)))
+    }
+
+    fn add_joint(
+        &mut self,
+        definition: LinkDefinition,
+        joint: &JointElement<'a, '_>,
+    ) -> Result<usize> {
+        let kind = match joint.kind {
+            JointType::Fixed => JointKind::Fixed,
+            JointType::Revolute | JointType::Continuous => JointKind::Revolute,
+            JointType::Prismatic => JointKind::Prismatic,
+            JointType::Planar => JointKind::Planar,
+            JointType::Floating => JointKind::Free,
+            JointType::Spherical => JointKind::Spherical,
+        };
+        let mut definition = LinkDefinition {
+            joint_name: format!("{}{}", self.options.prefix, joint.name),
+            parent: Some(self.numbers[joint.parent]),
+            at: joint.origin,
+            axis: joint.axis,
+            kind,
+            limits: joint.limits,
+            ..definition
+        };
+        if definition.kind.has_axis() {
+            // Whichever of the joints that share a coordinate comes first brings it, with the limits of its owner.
+            let owner = match self.followed.get(joint.name) {
+                Some(followed) => {
+                    definition.multiplier = followed.multiplier;
+                    definition.offset = followed.offset;
+                    definition.limits = followed.joint.limits;
+                    followed.joint.name
+                }
+                None => joint.name,
+            };
+            definition.coordinate = self.coordinates.get(owner).copied();
+            let number = self.builder.add_link(definition)?;
+            let taken = self.builder.links()[number].joint.coordinate;
+            self.coordinates.insert(owner, taken);
+            return Ok(number);
+        }
+        if joint.kind == JointType::Planar && joint.axis.cross(&Vec3::z()).norm() > 0.0 {
+            return self.add_tilted_plane(definition, &joint.axis);
+        }
+        self.builder.add_link(definition)
+    }
+
+    /// A planar joint moves in the xy-plane of its frame; where the file's axis is another, a frame of its own carries it, and
+    /// the link hangs on that.
+    fn add_tilted_plane(&mut self, definition: LinkDefinition, axis: &Vec3) -> Result<usize> {
+        let half_turn = || Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
+        let turn = Rotation3::rotation_between(&Vec3::z(), axis).unwrap_or_else(half_turn);
+        let tilt = Pose {
+            rotation: turn.into_inner(),
+            translation: Vec3::zeros(),
+        };
+        let carrier = self.builder.add_link(LinkDefinition {
+            name: format!("{}_plane", definition.name),
+            body: None,
+            at: definition.at.compose(&tilt),
+            ..definition.clone()
+        })?;
+        self.builder.add_link(LinkDefinition {
+            joint_name: String::new(),
+            kind: JointKind::Fixed,
+            parent: Some(carrier),
+            at: tilt.inverse(),
+            ..definition
+        })
+    }
+}

@@ -1,0 +1,264 @@
+//! What a URDF file says, element by element, with every number checked.
+
+use roxmltree::Node;
+
+use crate::error::{ErrorKind, Result};
+use crate::pose::{Pose, Vec3, rotation_about};
+use crate::xml::{child, children, fault, numbers, required, required_child};
+
+/// A shape in its own frame.
+pub enum Shape {
+    Box { size: [f64; 3] },
+    Sphere { radius: f64 },
+    Cylinder { radius: f64, length: f64 },
+    Capsule { radius: f64, length: f64 },
+    Mesh { file: String, scale: [f64; 3] },
+}
+
+/// A shape of a link.
+pub struct Geometry<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    pub origin: Pose,
+    pub shape: Shape,
+}
+
+/// A <link>.
+pub struct LinkElement<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    pub name: &'a str,
+    pub geometry: Vec<Geometry<'a, 'i>>,
+}
+
+/// The kind of a <joint>.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointType {
+    Fixed,
+    Revolute,
+    Continuous,
+    Prismatic,
+    Planar,
+    Floating,
+    Spherical,
+}
+
+/// A <mimic>: the joint follows `multiplier * other + offset`.
+pub struct Mimic<'a> {
+    pub joint: &'a str,
+    pub multiplier: f64,
+    pub offset: f64,
+}
+
+/// A <joint>.
+pub struct JointElement<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    pub name: &'a str,
+    pub kind: JointType,
+    pub parent: &'a str,
+    pub child: &'a str,
+    pub origin: Pose,
+    pub axis: Vec3,
+    pub limits: [f64; 2],
+    pub mimic: Option<Mimic<'a>>,
+}
+
+/// A <robot>.
+pub struct Model<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    pub links: Vec<LinkElement<'a, 'i>>,
+    pub joints: Vec<JointElement<'a, 'i>>,
+}
+
+impl<'a, 'i> Model<'a, 'i> {
+    /// Reads the document's robot; the links' geometry from the elements of this name, if one is given.
+    pub fn read(root: Node<'a, 'i>, geometry: Option<&str>) -> Result<Self> {
+        if root.tag_name().name() != "robot" {
+            return Err(fault(
+                root,
+                ErrorKind::Parse,
+                "a URDF file begins with <robot>",
+            ));
+        }
+        let links = children(root, "link")
+            .map(|node| read_link(node, geometry))
+            .collect::<Result<_>>()?;
+        // Joints of <transmission> and the like stand elsewhere.
+        let joints = children(root, "joint")
+            .map(read_joint)
+            .collect::<Result<_>>()?;
+        Ok(Self {
+            node: root,
+            links,
+            joints,
+        })
+    }
+}
+
+fn read_link<'a, 'i>(node: Node<'a, 'i>, geometry: Option<&str>) -> Result<LinkElement<'a, 'i>> {
+    let name = required(node, "name")?;
+    let named = |e: crate::error::Error| e.within(format_args!("link \"{name}\""));
+    let elements = children(node, geometry.unwrap_or_default());
+    Ok(LinkElement {
+        node,
+        name,
+        geometry: elements
+            .map(read_geometry)
+            .collect::<Result<_>>()
+            .map_err(named)?,
+    })
+}
+
+fn read_geometry<'a, 'i>(node: Node<'a, 'i>) -> Result<Geometry<'a, 'i>> {
+    let geometry = required_child(node, "geometry")?;
+    let shape = geometry
+        .children()
+        .find(Node::is_element)
+        .ok_or_else(|| fault(geometry, ErrorKind::Parse, "it holds no shape"))?;
+    let positive = |attribute: &str| {
+        let [value] = numbers::<1>(shape, attribute, required(shape, attribute)?)?;
+        if value > 0.0 {
+            return Ok(value);
+        }
+        let message = format!("{attribute} is {value}; it must be larger than 0");
+        Err(fault(shape, ErrorKind::InvalidArgument, message))
+    };
+    let shape = match shape.tag_name().name() {
+        "box" => {
+            let size = numbers::<3>(shape, "size", required(shape, "size")?)?;
+            if let Some(value) = size.iter().find(|x| **x <= 0.0) {
+                let message = format!("size holds {value}; all must be larger than 0");
+                return Err(fault(shape, ErrorKind::InvalidArgument, message));
+            }
+            Shape::Box { size }
+        }
+        "sphere" => Shape::Sphere {
+            radius: positive("radius")?,
+        },
+        "cylinder" => Shape::Cylinder {
+            radius: positive("radius")?,
+            length: positive("length")?,
+        },
+        "capsule" => Shape::Capsule {
+            radius: positive("radius")?,
+            length: positive("length")?,
+        },
+        "mesh" => {
+            let scale = match shape.attribute("scale") {
+                Some(text) => numbers::<3>(shape, "scale", text)?,
+                None => [1.0; 3],
+            };
+            if scale.contains(&0.0) {
+                return Err(fault(shape, ErrorKind::Degenerate, "scale holds a 0"));
+            }
+            Shape::Mesh {
+                file: required(shape, "filename")?.to_string(),
+                scale,
+            }
+        }
+        other => {
+            let message = format!("<{other}> is no shape: box, sphere, cylinder, capsule or mesh");
+            return Err(fault(shape, ErrorKind::Unsupported, message));
+        }
+    };
+    Ok(Geometry {
+        node,
+        origin: origin(node)?,
+        shape,
+    })
+}
+
+fn read_joint<'a, 'i>(node: Node<'a, 'i>) -> Result<JointElement<'a, 'i>> {
+    let name = required(node, "name")?;
+    read_named_joint(node, name).map_err(|e| e.within(format_args!("joint \"{name}\"")))
+}
+
+fn read_named_joint<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> Result<JointElement<'a, 'i>> {
+    let kind = match required(node, "type")? {
+        "fixed" => JointType::Fixed,
+        "revolute" => JointType::Revolute,
+        "continuous" => JointType::Continuous,
+        "prismatic" => JointType::Prismatic,
+        "planar" => JointType::Planar,
+        "floating" => JointType::Floating,
+        "spherical" => JointType::Spherical,
+        other => {
+            let message = format!("type \"{other}\" is no joint");
+            return Err(fault(node, ErrorKind::Unsupported, message));
+        }
+    };
+    let axis = match child(node, "axis") {
+        Some(axis) => Vec3::from(numbers::<3>(axis, "xyz", required(axis, "xyz")?)?),
+        None => Vec3::x(),
+    };
+    let has_axis = !matches!(
+        kind,
+        JointType::Fixed | JointType::Floating | JointType::Spherical
+    );
+    if has_axis && axis.norm() == 0.0 {
+        return Err(fault(node, ErrorKind::Degenerate, "its axis has no length"));
+    }
+    let is_limited = matches!(kind, JointType::Revolute | JointType::Prismatic);
+    let limits = if is_limited {
+        let limit = required_child(node, "limit")?;
+        let number = |attribute: &str| match limit.attribute(attribute) {
+            Some(text) => Ok(numbers::<1>(limit, attribute, text)?[0]),
+            None => Ok(0.0),
+        };
+        [number("lower")?, number("upper")?]
+    } else {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    };
+    if limits[0] > limits[1] {
+        let message = format!("its limits are empty: {} to {}", limits[0], limits[1]);
+        return Err(fault(node, ErrorKind::InvalidArgument, message));
+    }
+    let mimic = child(node, "mimic")
+        .map(|mimic| read_mimic(mimic))
+        .transpose()?;
+    // What does not move follows anything.
+    let mimic = mimic.filter(|_| kind != JointType::Fixed);
+    if let (Some(_), false) = (&mimic, is_limited || kind == JointType::Continuous) {
+        let message = "only revolute, continuous and prismatic joints can mimic others";
+        return Err(fault(node, ErrorKind::Unsupported, message));
+    }
+    let link = |name: &str| required(required_child(node, name)?, "link");
+    Ok(JointElement {
+        node,
+        name,
+        kind,
+        parent: link("parent")?,
+        child: link("child")?,
+        origin: origin(node)?,
+        axis,
+        limits,
+        mimic,
+    })
+}
+
+fn read_mimic<'a>(node: Node<'a, '_>) -> Result<Mimic<'a>> {
+    let number = |attribute: &str, default: f64| match node.attribute(attribute) {
+        Some(text) => Ok(numbers::<1>(node, attribute, text)?[0]),
+        None => Ok(default),
+    };
+    Ok(Mimic {
+        joint: required(node, "joint")?,
+        multiplier: number("multiplier", 1.0)?,
+        offset: number("offset", 0.0)?,
+    })
+}
+
+/// The <origin> of an element: a shift, and turns about the fixed x, then y, then z.
+fn origin(node: Node) -> Result<Pose> {
+    let Some(origin) = child(node, "origin") else {
+        return Ok(Pose::identity());
+    };
+    let triple = |attribute: &str| match origin.attribute(attribute) {
+        Some(text) => numbers::<3>(origin, attribute, text),
+        None => Ok([0.0; 3]),
+    };
+    let [roll, pitch, yaw] = triple("rpy")?;
+    let turn = |axis: Vec3, angle: f64| rotation_about(&axis, angle);
+    Ok(Pose {
+        rotation: turn(Vec3::z(), yaw) * turn(Vec3::y(), pitch) * turn(Vec3::x(), roll),
+        translation: Vec3::from(triple("xyz")?),
+    })
+}
