@@ -9,6 +9,7 @@ use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
 use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, bounds};
 use cstk::pose::{Mat3, Pose, Vec3};
+use cstk::query::QueryContext;
 use cstk::tolerance::DISTANCE_ERROR;
 use cstk_scenes as scenes;
 
@@ -294,4 +295,37 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
     let shares = [coarse_sum, refined_sum].map(|sum| sum / exact_sum);
     // The largest gap alone is short of distances between corners.
     assert!(shares[0] > 0.88 && shares[1] > 0.98, "{shares:?}");
+}
+
+/// Triangles so small, for where they stand in the body, that single precision of their boxes' centres outgrows what the
+/// boxes' sides have to spare: such bodies once were built without end.
+#[test]
+fn tiny_triangles_far_from_the_middle_are_built() {
+    let mut random = Random::new(77);
+    for size in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        for _ in 0..40 {
+            let mut builder = BodyBuilder::new(3).unwrap();
+            let mut corners = Vec::new();
+            for _ in 0..3 {
+                let at = random.point(0.4);
+                for _ in 0..4 {
+                    let triangle: Vec<Vec3> = (0..3).map(|_| at + random.point(size)).collect();
+                    builder.add_polygon(&triangle, 0).unwrap();
+                    corners.extend(triangle);
+                }
+            }
+            let body = built(&builder, &Default::default());
+            // Still found where they are.
+            let mut point = BodyBuilder::new(3).unwrap();
+            point.add_polyhedron(&[Vec3::zeros()], 0).unwrap();
+            let point = built(&point, &Default::default());
+            for corner in &corners {
+                let there = Pose::from_translation(*corner);
+                let found = QueryContext::new()
+                    .pair_distance((&body, &Pose::identity()), (&point, &there), f64::INFINITY)
+                    .unwrap();
+                assert!(found.distance <= 1e-15, "{size:e}: {}", found.distance);
+            }
+        }
+    }
 }

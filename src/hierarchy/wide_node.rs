@@ -87,17 +87,22 @@ impl WideNode {
         let origin = (low + high) * 0.5;
         let [x, y, z]: [f64; 3] = origin.into();
         let halves = spans.iter().map(|(_, half)| half.amax());
-        let step = (0.5 * (high - low).amax() / MOST_PLACE)
+        let mut step = (0.5 * (high - low).amax() / MOST_PLACE)
             .max(halves.fold(0.0, f64::max) / MOST_HALF)
             .max(1e-30);
-        node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
-        for (lane, (held, (center, _))) in held.iter().zip(&spans).enumerate() {
-            node.set(lane, held, center);
+        loop {
+            node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
+            let mut lanes = held.iter().zip(&spans).enumerate();
+            if lanes.all(|(lane, (held, (center, _)))| node.set(lane, held, center)) {
+                return node;
+            }
+            // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
+            step *= 1.25;
         }
-        node
     }
 
-    fn set(&mut self, lane: usize, held: &Held, center: &Vec3) {
+    /// Whether the box fits the step.
+    fn set(&mut self, lane: usize, held: &Held, center: &Vec3) -> bool {
         for k in 0..3 {
             for i in 0..2 {
                 let component = (held.axes[(k, i)] * 32768.0).round();
@@ -121,13 +126,17 @@ impl WideNode {
             let needed = farthest + held.excess * LONGEST_AXIS;
             let mut half = (needed / f64::from(self.step())).ceil() as u16;
             while f64::from(f32::from(half) * self.step()) < needed {
-                half += 1;
+                match half.checked_add(1) {
+                    Some(more) => half = more,
+                    None => return false,
+                }
             }
             self.half[i][lane] = half;
         }
         let size = Vec3::from(self.get(lane).half.map(f64::from)).norm();
         let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.max(f64::MIN_POSITIVE).log2();
         self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
+        true
     }
 
     /// As files hold it, without the lowest primitive, in the order of the fields, little-endian.
