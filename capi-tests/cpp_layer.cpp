@@ -192,6 +192,7 @@ static void queries() {
     builder.add_link(arm);
     cstk::Robot robot = builder.build();
     REQUIRE(robot.nq() == 2 && robot.link_count() == 2 && robot.find_link("link1") == 1);
+    REQUIRE(robot.body(1).statistics().primitive_count == 1);
     const std::vector<double> q = {0.5, 0.0};
     REQUIRE(robot.link_pose(q, 1) == cstk::translation(0.5, 3, 0));
     REQUIRE(robot.jacobian(q, 1, {1, 0, 0})[0] == 1.0);

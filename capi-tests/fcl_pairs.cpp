@@ -219,13 +219,17 @@ void check_answer(Session &session, const Scene &s, const truth::Soup &a, const 
     tally.expect(truth::off(b, static_cast<std::uint32_t>(r.witness.s_tag), q) <= rounding,
                  "point on face of b", tell);
     if (r.has_contact) {
-        // The normal is the direction of the gap, however small that is.
+        // The normal is the direction of the gap, however small that is; just inside, the way out.
         const cstk_contact &c = r.contact;
         const truth::V across = point(c.r_point, origin) - point(c.s_point, origin);
         const truth::V normal = point(c.normal, {0, 0, 0});
         tally.expect(std::fabs(c.distance - d) <= exact * size, "the contact's distance", tell);
         tally.expect(std::fabs(truth::length(normal) - 1) <= exact, "a unit normal", tell);
-        tally.expect(truth::length(across - d * normal) <= rounding, "normal along the gap", tell);
+        tally.expect(truth::length(across - c.clearance * normal) <= rounding,
+                     "normal along the gap", tell);
+        tally.expect(d > 0 ? c.clearance == c.distance
+                           : c.clearance <= 0 && c.clearance >= -1e-6 * size,
+                     "the contact's clearance", tell);
     }
     tally.expect(r.has_contact || d == 0, "a contact where there is a gap", tell);
 }

@@ -128,12 +128,13 @@ class WitnessCheck {
                        n = point(c.normal, {0, 0, 0});
         expect(truth::off(soup_a_, w.r_primitive, p) <= rounding_, "contact point on a", q);
         expect(truth::off(soup_b_, w.s_primitive, s) <= rounding_, "contact point on b", q);
-        expect(std::fabs(truth::length(p - s) - c.distance) <= rounding_,
+        expect(std::fabs(truth::length(p - s) - std::fabs(c.clearance)) <= rounding_,
                "contact points are that far apart", q);
         expect(std::fabs(c.distance - w.distance) <= rounding_, "the contact has the distance", q);
+        expect(c.distance == std::fmax(c.clearance, 0), "just inside the clearance is negative", q);
         expect(std::fabs(truth::length(n) - 1) <= 1e-12, "the normal is a unit", q);
         // Features tilted by up to 1e-11 L still count as parallel, and share one normal.
-        const truth::V rest = p - s - c.distance * n;
+        const truth::V rest = p - s - c.clearance * n;
         expect(truth::length(rest) <= rounding_ + 2e-11 * size_, "the normal joins the points", q);
     }
 

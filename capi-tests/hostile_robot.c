@@ -262,6 +262,20 @@ static void size(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void get_body(const fixture *f) {
+    cstk_body *out;
+    EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
+        CHECK_REFUSED(out, cstk_robot_get_body(bad->handle, FIXTURE_TIP, &out), bad->status,
+                      "robot");
+    }
+    CHECK_FAILS(cstk_robot_get_body(f->robot, FIXTURE_TIP, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_LINKS, &out), CSTK_NOT_FOUND, "link");
+    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_BASE, &out), CSTK_EMPTY, "no body");
+    CHECK_OK(cstk_robot_get_body(f->robot, FIXTURE_TIP, &out));
+    CHECK_OK(cstk_body_release(out));
+    fixture_unchanged(f);
+}
+
 static void find_link(const fixture *f) {
     uint32_t out;
     EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
@@ -455,6 +469,7 @@ int main(void) {
     planar_links(&f);
     build(&f);
     size(&f);
+    get_body(&f);
     find_link(&f);
     find_joint(&f);
     link_info(&f);

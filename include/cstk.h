@@ -369,7 +369,8 @@ enum cstk_slide_outcome
    */
   CSTK_SLIDE_INSIDE = 1,
   /**
-   * No step leads on: contacts, ranges or the world box are in the way; nothing was moved. Of all steps as long as the
+   * No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a range
+   * of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as the
    * floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
    * than a hundredth of its length along the step asked for, to first order.
    */
@@ -1104,7 +1105,7 @@ typedef struct cstk_witness {
   uint32_t first_contact;
   uint32_t contact_count;
   /**
-   * The primitives overlap (rather than touch): there is no contact, and no gradient.
+   * The primitives overlap, deeper than just inside: there is no contact, and no gradient.
    */
   bool overlapping;
   uint8_t reserved_bytes[7];
@@ -1138,7 +1139,8 @@ typedef struct cstk_contact {
   uint32_t s_feature;
   uint32_t reserved_word;
   /**
-   * The distance between the points, less the C-object's margin, with its sign: negative within the margin.
+   * The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
+   * primitives are just inside one another (by at most 1e-6 of the pair's size).
    */
   double clearance;
   uint64_t reserved[2];
@@ -1718,6 +1720,13 @@ cstk_status cstk_robot_link_info(const struct cstk_robot *robot,
                                  struct cstk_link_info *out);
 
 /**
+ * Gives the body of a link, with a reference for the caller to release. CSTK_EMPTY if it has none.
+ */
+cstk_status cstk_robot_get_body(const struct cstk_robot *robot,
+                                uint32_t link,
+                                struct cstk_body **out);
+
+/**
  * Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
  * `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_WRONG_SIZE if the name does not
  * fit.
@@ -2256,7 +2265,8 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
  * until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
  * gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
  * and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
- * is CSTK_SLIDE_MOVED, `reached` receives q. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
+ * is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants to stop
+ * then looks at what was gained. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
  */
 cstk_status cstk_slide(struct cstk_query *query,
                        const struct cstk_cobject *cobject,

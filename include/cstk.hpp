@@ -476,6 +476,13 @@ public:
         return count;
     }
 
+    /// The link's body; throws if it has none.
+    Body body(std::uint32_t link) const {
+        cstk_body *out = nullptr;
+        check(cstk_robot_get_body(get(), link, &out));
+        return Body(out);
+    }
+
     std::uint32_t find_link(const std::string &name) const {
         std::uint32_t link = 0;
         check(cstk_robot_find_link(get(), name.c_str(), &link));

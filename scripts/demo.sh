@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves one
-# picture: demo/slider.png, frames 10, 20, 30 and 40 of both.
+# Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
+# picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -34,4 +34,8 @@ for frame in 10 20 30 40; do
 done
 montage -font /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
 echo
+build/examples/planar_slider demo
+rsvg-convert --width 1280 demo/planar_slider.svg --output demo/planar_slider.png
+echo
 echo "picture: $PWD/demo/slider.png"
+echo "picture: $PWD/demo/planar_slider.png"

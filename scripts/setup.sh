@@ -4,7 +4,7 @@ set -euo pipefail
 
 common=(cmake g++ make pkg-config)
 case "${1:-}" in
-  demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick fonts-dejavu-core) ;;
+  demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick librsvg2-bin fonts-dejavu-core) ;;
   bench) packages=("${common[@]}" python3-pip libfcl-dev libeigen3-dev valgrind) ;;
   test) packages=("${common[@]}" python3-pip clang valgrind binutils libfcl-dev) ;;
   *) echo "usage: setup.sh demo|test|bench" >&2; exit 2 ;;

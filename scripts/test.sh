@@ -10,12 +10,13 @@ cargo fmt --all -- --check
 cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
 
 echo "== Rust tests"
-cargo test --locked --workspace
+CSTK_ALL_CASES=1 cargo test --locked --workspace
 cargo run --quiet --locked --example generate_models -- --check
 
 echo "== the installed library"
 scripts/install.sh
 scripts/fetch_puma560.sh || echo "SKIPPED: the Puma 560 meshes could not be fetched" >&2
+scripts/fetch_pinocchio.sh >/dev/null || echo "SKIPPED: Pinocchio and the robots it comes with could not be fetched" >&2
 build_and_test() {
   cmake -S "$1" -B "$2" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
   cmake --build "$2" -j "$(nproc)"

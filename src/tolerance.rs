@@ -25,6 +25,11 @@ pub const PARALLEL: f64 = 1e-11;
 /// Two primitives whose interiors overlap by less than this times L still have a contact with a normal.
 pub const TOUCH_DEPTH: f64 = 1e-10;
 
+/// Two primitives that are in one another by less than this times L have contacts, whose clearance is negative: just inside.
+/// A step of a planner or a simulation ends so deep at times; deeper, the shortest way out says little about the nearest
+/// features.
+pub const JUST_INSIDE: f64 = 1e-6;
+
 /// A polygon's vertices may leave its plane by this times its diameter, plus the rounding of their own coordinates.
 pub const PLANAR: f64 = 1e-12;
 

@@ -14,7 +14,7 @@ use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::robot::{CustomJoint, JointKind, LinkDefinition, Posture, Robot, Speeds, Twist};
 
 use common::random::Random;
-use common::robots::{link, robot, space};
+use common::robots::{Screw, link, robot, space};
 
 /// Random angles with pitch away from the singularity.
 fn angles(random: &mut Random) -> [f64; 3] {
@@ -200,41 +200,6 @@ fn the_ensemble_of_appendix_a() {
     robot.link_poses(&[0.0; 3], &mut poses).unwrap();
     assert!((poses[1].rotation * Vec3::y() - Vec3::z()).amax() < 1e-15);
     assert!((poses[2].translation - Vec3::new(6.5, 2.875 + 2.125, 0.0)).amax() < 1e-14);
-}
-
-/// A joint that rides up a screw and sways, by maps of its own.
-struct Screw;
-
-impl CustomJoint for Screw {
-    fn coordinates(&self) -> usize {
-        2
-    }
-
-    fn pose(&self, q: &[f64]) -> Result<Pose> {
-        Ok(Pose {
-            rotation: rotation_about(&Vec3::z(), q[0]) * rotation_about(&Vec3::x(), q[1].sin()),
-            translation: Vec3::new(0.0, q[1].cos(), 0.2 * q[0]),
-        })
-    }
-
-    fn jacobian(&self, q: &[f64], columns: &mut Vec<Twist>) -> Result<()> {
-        columns.push(Twist {
-            linear: Vec3::new(0.0, 0.0, 0.2),
-            angular: Vec3::z(),
-        });
-        columns.push(Twist {
-            linear: Vec3::new(0.0, -q[1].sin(), 0.0),
-            angular: rotation_about(&Vec3::z(), q[0]) * Vec3::x() * q[1].cos(),
-        });
-        Ok(())
-    }
-
-    fn speeds(&self) -> Option<Speeds> {
-        Some(Speeds {
-            linear: 1.0,
-            angular: 1.0,
-        })
-    }
 }
 
 /// Every kind of joint, in one tree, at random frames; one mimics another.

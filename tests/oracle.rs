@@ -74,10 +74,11 @@ fn certified(a: &Placed, b: &Placed) -> Distance {
         Some(contact) => {
             assert!((contact.normal.norm() - 1.0).abs() <= 1e-14);
             let gap = gap_along(&parts[0], &parts[1], &contact.normal);
-            // The normal is promised through the gradient, to 1e-6; the brute-force bounds prove the distance itself. A
-            // touching pair may overlap by 1e-10 L and still have a contact.
+            // The normal is promised through the gradient, to 1e-6; the brute-force bounds prove the distance itself. A pair
+            // may overlap by 1e-6 L and still have a contact, whose clearance says how deep.
             let least = if d == 0.0 {
-                -1e-10 * size
+                assert!((-1e-6 * size..=0.0).contains(&contact.clearance));
+                contact.clearance - 1e-10 * size
             } else {
                 d - 1e-9 * size
             };

@@ -60,7 +60,8 @@ pub struct cstk_contact {
     pub s_feature_kind: cstk_feature_kind,
     pub s_feature: u32,
     pub reserved_word: u32,
-    /// The distance between the points, less the C-object's margin, with its sign: negative within the margin.
+    /// The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
+    /// primitives are just inside one another (by at most 1e-6 of the pair's size).
     pub clearance: f64,
     pub reserved: [u64; 2],
 }
@@ -86,7 +87,7 @@ pub struct cstk_witness {
     /// span the common part.
     pub first_contact: u32,
     pub contact_count: u32,
-    /// The primitives overlap (rather than touch): there is no contact, and no gradient.
+    /// The primitives overlap, deeper than just inside: there is no contact, and no gradient.
     pub overlapping: bool,
     pub reserved_bytes: [u8; 7],
     pub reserved: [u64; 4],

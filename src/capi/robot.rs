@@ -436,6 +436,26 @@ pub unsafe extern "C" fn cstk_robot_link_info(
     })
 }
 
+/// Gives the body of a link, with a reference for the caller to release. CSTK_EMPTY if it has none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_get_body(
+    robot: *const cstk_robot,
+    link: u32,
+    out: *mut *mut cstk_body,
+) -> cstk_status {
+    guard(|| {
+        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let out = Output::checked(out, "out")?;
+        let found = link_of(robot, link)?;
+        let body = found.body.clone().ok_or_else(|| {
+            let message = format!("link {link} (\"{}\") has no body", found.name);
+            Error::new(ErrorKind::Empty, message)
+        })?;
+        out.write(handle::create(body));
+        Ok(())
+    })
+}
+
 /// Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
 /// `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_WRONG_SIZE if the name does not
 /// fit.

@@ -57,7 +57,8 @@ pub enum cstk_slide_outcome {
     CSTK_SLIDE_MOVED = 0,
     /// The configuration is inside the C-object; nothing was moved.
     CSTK_SLIDE_INSIDE = 1,
-    /// No step leads on: contacts, ranges or the world box are in the way; nothing was moved. Of all steps as long as the
+    /// No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a range
+    /// of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as the
     /// floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
     /// than a hundredth of its length along the step asked for, to first order.
     CSTK_SLIDE_BLOCKED = 2,
@@ -92,7 +93,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
 /// gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
 /// and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
-/// is CSTK_SLIDE_MOVED, `reached` receives q. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
+/// is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants to stop
+/// then looks at what was gained. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,

@@ -26,12 +26,14 @@ pub struct Contact {
     pub points: [Vec3; 2],
     pub normal: Vec3,
     pub distance: f64,
+    /// The distance with its sign: negative just inside.
+    pub gap: f64,
     pub mode: ContactMode,
     pub features: [Feature; 2],
 }
 
 /// The contacts of the pair (r, s) whose closest points are `closest`, the one at these points first. Empty when the
-/// interiors overlap deeper than [`tolerance::TOUCH_DEPTH`] L: containment has no contact.
+/// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
 pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision) -> Vec<Contact> {
     let (size, planar) = (precision.size, precision.planar);
     let pair = ContactPair {
@@ -58,6 +60,11 @@ pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision
                 points,
                 normal,
                 distance: if gap > precision.error { gap } else { 0.0 },
+                gap: if gap.abs() > precision.error {
+                    gap
+                } else {
+                    0.0
+                },
                 mode,
                 features,
             });
@@ -100,6 +107,10 @@ pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision
             }
         }
     }
+    if found.iter().any(|contact| contact.gap < 0.0) {
+        // Just inside, the closest points say nothing; the deepest contact comes first.
+        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    }
     // Parallel edges of a planar pair that overlap by less than the slack.
     if found.is_empty()
         && let Some(mode) = mode_of(closest.features)
@@ -108,6 +119,7 @@ pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision
             points: closest.points,
             normal,
             distance: closest.distance,
+            gap: closest.distance,
             mode,
             features: closest.features,
         });

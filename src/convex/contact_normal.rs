@@ -2,9 +2,10 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{feature_normal, gap_along};
+use super::penetration::penetration;
 use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
-use crate::primitive::FeatureKind;
+use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
 
 /// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
@@ -26,20 +27,18 @@ pub struct ContactPair<'a> {
 }
 
 impl ContactPair<'_> {
-    /// The unit normal from s to r, or `None` where the interiors overlap.
+    /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
     pub fn normal(&self) -> Option<Vec3> {
         if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
             return self.normal_apart();
         }
-        if self
-            .closest
-            .features
-            .iter()
-            .any(|f| f.kind == FeatureKind::Interior)
-        {
-            return None;
-        }
-        self.normal_at_touch()
+        let is_within = |f: &Feature| f.kind == FeatureKind::Interior;
+        let touching = if self.closest.features.iter().any(is_within) {
+            None
+        } else {
+            self.normal_at_touch()
+        };
+        touching.or_else(|| self.normal_just_inside())
     }
 
     /// Apart, the normal is that of the features where they define it alone; else the direction between the points, less
@@ -93,6 +92,12 @@ impl ContactPair<'_> {
         }
         best.filter(|(gap, _)| *gap >= -tolerance::TOUCH_DEPTH * self.precision.size)
             .map(|(_, normal)| normal)
+    }
+
+    /// In one another, the normal is the direction of the shortest way out, if that is short.
+    fn normal_just_inside(&self) -> Option<Vec3> {
+        let found = penetration(self.r, self.s, self.precision);
+        (found.depth <= tolerance::JUST_INSIDE * self.precision.size).then_some(found.direction)
     }
 
     /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat

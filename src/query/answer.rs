@@ -62,7 +62,7 @@ pub struct ContactRecord {
     pub normal: Vec3,
     /// Less the margin, and at least 0.
     pub distance: f64,
-    /// The same with its sign: negative within the margin.
+    /// The same with its sign: negative within the margin, and where the primitives are just inside one another.
     pub clearance: f64,
     pub mode: ContactMode,
     pub features: [Feature; 2],

@@ -159,7 +159,7 @@ pub(super) fn contact_records(
             points: found.points,
             normal: found.normal,
             distance: (found.contact.distance - margin).max(0.0),
-            clearance: found.contact.distance - margin,
+            clearance: found.contact.gap - margin,
             mode: found.contact.mode,
             features: found.contact.features,
         })

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use cstk::body::Body;
 use cstk::cobject::{CObject, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
-use cstk::pose::{Pose, Vec3};
-use cstk::robot::{JointKind, LinkDefinition, Robot, RobotBuilder};
+use cstk::error::Result;
+use cstk::pose::{Pose, Vec3, rotation_about};
+use cstk::robot::{CustomJoint, JointKind, LinkDefinition, Robot, RobotBuilder, Speeds, Twist};
 use cstk::space::{Space, WorldBox};
 
 /// A link without a name on the next unused coordinate.
@@ -104,4 +105,39 @@ pub fn against_one(space: &Arc<Space>, environment: &Arc<Environment>, id: u64) 
         InducedOptions::default(),
     )
     .unwrap()
+}
+
+/// A joint that rides up a screw and sways, by maps of its own.
+pub struct Screw;
+
+impl CustomJoint for Screw {
+    fn coordinates(&self) -> usize {
+        2
+    }
+
+    fn pose(&self, q: &[f64]) -> Result<Pose> {
+        Ok(Pose {
+            rotation: rotation_about(&Vec3::z(), q[0]) * rotation_about(&Vec3::x(), q[1].sin()),
+            translation: Vec3::new(0.0, q[1].cos(), 0.2 * q[0]),
+        })
+    }
+
+    fn jacobian(&self, q: &[f64], columns: &mut Vec<Twist>) -> Result<()> {
+        columns.push(Twist {
+            linear: Vec3::new(0.0, 0.0, 0.2),
+            angular: Vec3::z(),
+        });
+        columns.push(Twist {
+            linear: Vec3::new(0.0, -q[1].sin(), 0.0),
+            angular: rotation_about(&Vec3::z(), q[0]) * Vec3::x() * q[1].cos(),
+        });
+        Ok(())
+    }
+
+    fn speeds(&self) -> Option<Speeds> {
+        Some(Speeds {
+            linear: 1.0,
+            angular: 1.0,
+        })
+    }
 }
