@@ -94,10 +94,24 @@ impl ContactPair<'_> {
             .map(|(_, normal)| normal)
     }
 
-    /// In one another, the normal is the direction of the shortest way out, if that is short.
+    /// In one another, the normal is the direction of the shortest way out, if that is short. Surfaces have no inside.
     fn normal_just_inside(&self) -> Option<Vec3> {
+        let planar = self.precision.planar;
+        let sides = [self.r, self.s];
+        if !planar && !sides.iter().any(|side| side.shape.is_solid()) {
+            return None;
+        }
+        // What takes the sets apart takes their common point out of each: most are seen to be deep by that alone.
+        let common = &self.closest.points[0];
+        let most = tolerance::JUST_INSIDE * self.precision.size;
+        if sides
+            .iter()
+            .any(|side| depth_below(side, common, planar) > most)
+        {
+            return None;
+        }
         let found = penetration(self.r, self.s, self.precision);
-        (found.depth <= tolerance::JUST_INSIDE * self.precision.size).then_some(found.direction)
+        (found.depth <= most).then_some(found.direction)
     }
 
     /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
@@ -136,6 +150,35 @@ impl ContactPair<'_> {
         }
         found
     }
+}
+
+/// How far a point is from the outside of a set; 0 or less where it is not inside, or the set has no inside.
+fn depth_below(placed: &Placed, point: &Vec3, planar: bool) -> f64 {
+    let faces = 0..placed.shape.faces.len();
+    if faces.is_empty() {
+        return 0.0;
+    }
+    if planar {
+        // The outline runs counter-clockwise around the one face's normal.
+        let along_outline = |f: usize| {
+            let ring = &placed.shape.faces[f].vertices;
+            let normal = placed.normal(f);
+            (0..ring.len()).map(move |i| {
+                let a = placed.vertex(ring[i]);
+                let along = placed.vertex(ring[(i + 1) % ring.len()]) - a;
+                normal.cross(&along).normalize().dot(&(point - a))
+            })
+        };
+        return faces.flat_map(along_outline).fold(f64::INFINITY, f64::min);
+    }
+    if !placed.shape.is_solid() {
+        return 0.0;
+    }
+    let depth = |f: usize| {
+        let corner = placed.vertex(placed.shape.faces[f].vertices[0]);
+        placed.normal(f).dot(&(corner - point))
+    };
+    faces.map(depth).fold(f64::INFINITY, f64::min)
 }
 
 /// The face normals and edge directions of the features that hold a point.

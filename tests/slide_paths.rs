@@ -1,0 +1,240 @@
+//! Slides over many steps: into corners, through corridors, round vertices, along limits; without trembling, and blocked
+//! only where nothing is left. And the two halves of a step (`slide-step`, `compute-spring-step`) by themselves.
+
+mod common;
+
+use std::sync::Arc;
+
+use cstk::cobject::CObject;
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{
+    Approach, QueryContext, SlideOptions, SlideOutcome, SlideStep, slide_step, spring_step,
+};
+use cstk::robot::{Coordinate, JointKind, LinkDefinition};
+use cstk::space::{Space, WorldBox};
+
+use common::differences::distance;
+use common::robots::{Screw, against, environment, link, robot, space};
+use common::shapes::{Shape, planar};
+
+fn rectangle(low: [f64; 2], high: [f64; 2]) -> Shape {
+    let corners = [
+        [low[0], low[1]],
+        [high[0], low[1]],
+        [high[0], high[1]],
+        [low[0], high[1]],
+    ];
+    planar(&[corners.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec()])
+}
+
+/// A unit square that moves in the plane, by x, y and angle, among obstacles.
+fn square_among(obstacles: &[Shape], ranges: &[Option<Coordinate>], world: WorldBox) -> CObject {
+    let body = rectangle([-0.5; 2], [0.5; 2]).body;
+    let one = LinkDefinition {
+        body: Some(body),
+        ..link(None, JointKind::Planar, Vec3::z())
+    };
+    let space = Arc::new(Space::new(vec![robot(2, vec![one])], ranges, world).unwrap());
+    let placed: Vec<_> = obstacles
+        .iter()
+        .map(|shape| (&shape.body, Pose::identity()))
+        .collect();
+    against(&space, &environment(&placed).0)
+}
+
+fn free_square(obstacles: &[Shape]) -> CObject {
+    square_among(obstacles, &[], WorldBox::unbounded())
+}
+
+/// All steps of a slide, up to the first that does not move, which is the last.
+fn slide(cobject: &CObject, start: &[f64], step: &[f64], options: &SlideOptions) -> Vec<SlideStep> {
+    let mut query = QueryContext::new();
+    let mut q = start.to_vec();
+    let mut taken = Vec::new();
+    for _ in 0..500 {
+        let next = query.slide(cobject, &q, step, options).unwrap();
+        q.clone_from(&next.configuration);
+        let is_over = next.outcome != SlideOutcome::Moved;
+        taken.push(next);
+        if is_over {
+            break;
+        }
+    }
+    taken
+}
+
+/// No step undoes the one before it.
+fn steady(taken: &[SlideStep]) -> bool {
+    let way = |two: &[SlideStep]| -> Vec<f64> {
+        let [from, to] = [0, 1].map(|i| &two[i].configuration);
+        from.iter().zip(to).map(|(a, b)| b - a).collect()
+    };
+    let ways: Vec<Vec<f64>> = taken.windows(2).map(way).collect();
+    ways.windows(2).all(|two| {
+        let dot: f64 = two[0].iter().zip(&two[1]).map(|(a, b)| a * b).sum();
+        let lengths = two
+            .iter()
+            .map(|w| w.iter().map(|x| x * x).sum::<f64>().sqrt());
+        dot >= -1e-9 * lengths.product::<f64>()
+    })
+}
+
+fn options() -> SlideOptions {
+    SlideOptions::with_shell(0.2)
+}
+
+#[test]
+fn into_a_corner_and_blocked_there() {
+    let floor = rectangle([-10.0, -2.0], [10.0, -1.0]);
+    let wall = rectangle([2.0, -2.0], [3.0, 10.0]);
+    let cobject = free_square(&[floor, wall]);
+    let taken = slide(&cobject, &[0.0, 0.5, 0.0], &[0.05, -0.03, 0.0], &options());
+    let last = taken.last().unwrap();
+    assert_eq!(last.outcome, SlideOutcome::Blocked);
+    assert!(taken.len() < 60 && steady(&taken), "{}", taken.len());
+    // At the stand-off from both.
+    assert!(
+        (last.configuration[0] - (1.5 - 0.02)).abs() < 1e-3,
+        "{:?}",
+        last.configuration
+    );
+    assert!((last.configuration[1] - (-0.5 + 0.02)).abs() < 1e-3);
+    // Asked again it stays, to the last bit.
+    let again = slide(
+        &cobject,
+        &last.configuration,
+        &[0.05, -0.03, 0.0],
+        &options(),
+    );
+    assert_eq!(again.len(), 1);
+    assert_eq!(again[0].configuration, last.configuration);
+}
+
+#[test]
+fn through_a_corridor_narrower_than_the_stand_off_asks() {
+    // 0.01 on either side of the square, where 0.02 are desired.
+    let below = rectangle([-10.0, -2.0], [10.0, -0.51]);
+    let above = rectangle([-10.0, 0.51], [10.0, 2.0]);
+    let cobject = free_square(&[below, above]);
+    for offset in [0.0, 0.003, -0.006] {
+        let taken = slide(&cobject, &[0.0, offset, 0.0], &[0.05, 0.0, 0.0], &options());
+        assert_eq!(taken.len(), 500);
+        assert!(steady(&taken[3..]));
+        let last = &taken[499];
+        assert!(last.configuration[0] > 20.0, "{:?}", last.configuration);
+        // Pushed to the middle, as far as that wins anything.
+        assert!(
+            last.configuration[1].abs() <= 0.001 + 1e-9,
+            "{:?}",
+            last.configuration
+        );
+    }
+}
+
+#[test]
+fn round_a_vertex_and_on() {
+    // A diamond whose corner points at the square's side; the square may turn.
+    let diamond = [(3.0, 0.0), (4.0, -1.0), (5.0, 0.0), (4.0, 1.0)];
+    let diamond = planar(&[diamond.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec()]);
+    let cobject = free_square(&[diamond]);
+    let taken = slide(&cobject, &[0.0, 0.1, 0.0], &[0.05, 0.0, 0.0], &options());
+    assert_eq!(taken.len(), 500);
+    assert!(
+        taken[499].configuration[0] > 8.0,
+        "{:?}",
+        taken[499].configuration
+    );
+    assert!(steady(&taken));
+    let least = taken
+        .iter()
+        .map(|s| s.distance_after)
+        .fold(f64::INFINITY, f64::min);
+    assert!(least >= 0.02 * (1.0 - 1e-3), "{least}");
+}
+
+#[test]
+fn ranges_and_world_box_are_slid_along() {
+    let floor = rectangle([-10.0, -2.0], [10.0, -1.0]);
+    let interval = |lower, upper| Some(Coordinate::Interval { lower, upper });
+    let ranges = [interval(-1.0, 1.0), None, interval(0.3, 0.3)];
+    let world = WorldBox {
+        low: [-9.0, -9.0, -9.0],
+        high: [9.0, 2.0, 9.0],
+    };
+    let cobject = square_among(&[floor], &ranges, world);
+    // The angle is held, x ends at 1, y at the box.
+    let taken = slide(&cobject, &[0.0, 0.5, 0.3], &[0.05, 0.05, 0.05], &options());
+    let last = taken.last().unwrap();
+    assert_eq!(last.outcome, SlideOutcome::Blocked);
+    assert!(steady(&taken));
+    for (got, want) in last.configuration.iter().zip([1.0, 2.0, 0.3]) {
+        assert!((got - want).abs() < 1e-3, "{:?}", last.configuration);
+    }
+    assert!(taken.iter().all(|s| s.configuration[2] == 0.3));
+    assert!(
+        taken
+            .iter()
+            .all(|s| cobject.space().contains(&s.configuration).unwrap())
+    );
+}
+
+#[test]
+fn custom_joints_slide_if_they_state_their_speeds() {
+    let body = common::shapes::cuboid([0.4, 0.4, 0.4]);
+    let wall = common::shapes::cuboid([0.2, 4.0, 4.0]);
+    let screw = LinkDefinition {
+        body: Some(body.body.clone()),
+        ..link(None, JointKind::Custom(Arc::new(Screw)), Vec3::z())
+    };
+    let space = space(vec![robot(3, vec![screw])]);
+    let at = Pose::from_translation(Vec3::new(0.8, 0.0, 0.0));
+    let cobject = against(&space, &environment(&[(&wall.body, at)]).0);
+    let taken = slide(&cobject, &[0.0, 1.0], &[0.02, 0.05], &options());
+    assert!(taken.len() > 20);
+    for step in &taken {
+        assert!(distance(&cobject, &step.configuration) > 0.0);
+    }
+}
+
+#[test]
+fn the_two_halves_of_a_step() {
+    let (floor, wall) = ([0.0, 1.0], [-1.0, 0.0]);
+    let at = |gradient, clearance| Approach {
+        gradient,
+        clearance,
+    };
+    let near = |got: Option<Vec<f64>>, want: [f64; 2]| {
+        let got = got.unwrap();
+        assert!(
+            (got[0] - want[0]).abs() < 1e-12 && (got[1] - want[1]).abs() < 1e-12,
+            "{got:?}"
+        );
+    };
+    let slid = |approaches: &[Approach]| slide_step(&[0.3, -0.4], approaches, &[], 0.1, false);
+    // Free, then down to the desired distance, then along, then nothing in the corner.
+    near(slid(&[]), [0.3, -0.4]);
+    near(slid(&[at(&floor[..], 0.25)]), [0.3, -0.15]);
+    near(slid(&[at(&floor[..], 0.1)]), [0.3, 0.0]);
+    near(slid(&[at(&floor[..], 0.02)]), [0.3, 0.0]);
+    assert!(slid(&[at(&floor[..], 0.1), at(&wall[..], 0.1)]).is_none());
+    // With the length kept.
+    let kept = slide_step(&[0.3, -0.4], &[at(&floor[..], 0.1)], &[], 0.1, true);
+    near(kept, [0.5, 0.0]);
+
+    let sprung = |approaches: &[Approach]| spring_step(approaches, &[], 0.1);
+    assert!(sprung(&[]).is_none() && sprung(&[at(&floor[..], 0.1)]).is_none());
+    near(sprung(&[at(&floor[..], 0.04)]), [0.0, 0.06]);
+    near(
+        sprung(&[at(&floor[..], 0.04), at(&wall[..], 0.07)]),
+        [-0.03, 0.06],
+    );
+    // Between two walls closer than that: to the middle.
+    let roof = [0.0, -1.0];
+    near(
+        sprung(&[at(&floor[..], 0.02), at(&roof[..], 0.06)]),
+        [0.0, 0.02],
+    );
+    // What no step can move is nobody's to spring from.
+    let fixed = [0.0, 0.0];
+    assert!(sprung(&[at(&fixed[..], 0.01)]).is_none());
+}
