@@ -27,11 +27,15 @@ pub mod nodes;
 
 pub mod custom_joint;
 
+pub mod robot_builder;
+
 pub mod robot;
 
 pub mod urdf;
 
 pub mod space;
+
+pub mod configuration;
 
 pub mod environment;
 

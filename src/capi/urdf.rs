@@ -9,7 +9,7 @@ use super::hierarchy::cstk_hierarchy_options;
 use super::input::{
     OptionsStruct, Output, index_or_none, options_or_default, path, slice, text, write_defaults,
 };
-use super::robot::{cstk_joint_kind, cstk_robot_builder, with_builder};
+use super::robot_builder::{cstk_joint_kind, cstk_robot_builder, with_builder};
 use super::status::cstk_status;
 use crate::error::Error;
 use crate::pose::Pose;
