@@ -409,7 +409,29 @@ static void steps() {
     REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_INVALID_ARGUMENT);
 }
 
+static void urdf() {
+    const char *file = "cpp_layer.urdf";
+    std::FILE *out = std::fopen(file, "w");
+    REQUIRE(out != nullptr);
+    std::fputs("<robot name='r'><link name='a'><collision><geometry><sphere radius='1'/></geometry>"
+               "</collision></link></robot>",
+               out);
+    REQUIRE(std::fclose(out) == 0);
+    cstk::RobotBuilder builder;
+    REQUIRE(builder.load_urdf(file) == 0);
+    cstk_urdf_options options = cstk::urdf_options();
+    options.prefix = "b_";
+    options.base = CSTK_JOINT_FREE;
+    REQUIRE(builder.load_urdf(file, options) == 1);
+    const cstk::Robot robot = builder.build();
+    REQUIRE(robot.find_link("b_a") == 1 && robot.nq() == 7 && robot.nv() == 6);
+    REQUIRE(robot.body(1).statistics().primitive_count == 1);
+    REQUIRE(std::remove(file) == 0);
+    REQUIRE(status_of([&] { builder.load_urdf(file); }) == CSTK_IO);
+}
+
 int main() {
+    urdf();
     bodies();
     hierarchies();
     poses();

@@ -79,6 +79,10 @@ static void create_ranges_of_joints(const fixture *f) {
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     def.coordinate = -1;
     def.joint = CSTK_JOINT_SPHERICAL;
+    /* A turn by three angles has no multiple. */
+    CHECK_FAILS(cstk_robot_builder_add_link(builder, &def, NULL), CSTK_INVALID_ARGUMENT,
+                "multiplier");
+    def.multiplier = 1.0;
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     CHECK_OK(cstk_robot_build(builder, &made));
     const cstk_robot *robot = made;

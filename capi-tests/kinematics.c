@@ -131,8 +131,10 @@ static cstk_robot *make_chain(const cstk_body *body, double *pitch) {
         def.axis[0] = 1.0;
         def.axis[1] = 2.0;
         def.axis[2] = 2.0;
-        def.multiplier = 2.0;
-        def.offset = 0.1;
+        if (kind == CSTK_JOINT_REVOLUTE || kind == CSTK_JOINT_PRISMATIC) {
+            def.multiplier = 2.0;
+            def.offset = 0.1;
+        }
         CHECK_OK(cstk_pose_from_euler(offset_at, def.at));
         CHECK_OK(cstk_robot_builder_add_link(builder, &def, &number));
         CHECK(number == (uint32_t)kind);

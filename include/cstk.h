@@ -890,7 +890,7 @@ typedef struct cstk_link_def {
   double axis[3];
   /**
    * The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
-   * share a coordinate with earlier joints, and so mimic them.
+   * follow a single coordinate of any earlier joint, and so mimic it; other joints have coordinates of their own.
    */
   int32_t coordinate;
   uint32_t reserved;
@@ -1197,8 +1197,8 @@ typedef struct cstk_witness_list {
   const struct cstk_contact *contacts;
   size_t contact_count;
   /**
-   * One row of `nv` doubles per contact (not per witness): the derivative of its distance by the coordinates. NULL where
-   * there is none.
+   * One row of `nv` doubles per contact (not per witness): by how much its distance grows per unit of each
+   * velocity. NULL where there is none.
    */
   const double *gradients;
   size_t nv;
@@ -1278,7 +1278,8 @@ typedef struct cstk_slide_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0.
+   * The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
+   * two or three times as far as a step moves the robot does well.
    */
   double max_shell;
   /**
@@ -1777,8 +1778,8 @@ cstk_status cstk_urdf_options_default(struct cstk_urdf_options *out, size_t size
  * NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
- * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Whatever else the
- * file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
+ * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes are
+ * surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
  */
 cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
                                          const char *file,
@@ -1909,8 +1910,9 @@ cstk_status cstk_space_difference(const struct cstk_space *space,
                                   double *v);
 
 /**
- * The configuration at parameter `t` of the shortest way from `q0` (t = 0) to `q1` (t = 1); `t` may lie beyond. `out` has
- * `nq` doubles and may be one of the two.
+ * The configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
+ * cstk_space_difference; `t` may lie beyond. `out` has `nq` doubles and may be one of the two. On free joints this way is a
+ * screw: the origin does not go straight. See cstk_space_distance.
  */
 cstk_status cstk_space_interpolate(const struct cstk_space *space,
                                    const double *q0,
@@ -1921,7 +1923,8 @@ cstk_status cstk_space_interpolate(const struct cstk_space *space,
 
 /**
  * The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
- * negative, or is NULL for 1 each.
+ * negative, or is NULL for 1 each. A metric, but with free joints: along their screws the triangle inequality fails. For planning
+ * trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
  */
 cstk_status cstk_space_distance(const struct cstk_space *space,
                                 const double *q0,
@@ -2020,8 +2023,10 @@ cstk_status cstk_cobject_options_default(struct cstk_cobject_options *out, size_
  * Makes the set of configurations at which a link meets an s-object.
  *
  * `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
- * meant (CSTK_EMPTY if there is none). `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
- * added later too. An object that is deleted later contributes nothing. `options` may be NULL for the defaults.
+ * meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
+ * always be nearest. The robot with itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+ * added later too. An object that is deleted later contributes nothing; one of another dimension than the
+ * robots is refused by the queries that meet it. `options` may be NULL for the defaults.
  */
 cstk_status cstk_cobject_induced(const struct cstk_space *space,
                                  const uint32_t *links,
@@ -2174,8 +2179,9 @@ cstk_status cstk_witnesses_at(struct cstk_query *query,
                               struct cstk_witness_list *out);
 
 /**
- * cstk_witnesses, and for each contact the gradient of its distance by the coordinates (§2.2.4, operation 8; §4.4):
- * the way out, in joint space. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
+ * cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows per unit
+ * of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance first and give
+ * its `upper` as epsilon: a large epsilon visits every pair, whatever max_count. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
  * and no row. The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_gradients(struct cstk_query *query,
@@ -2260,8 +2266,8 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
 
 /**
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
- * nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance and keeps to
- * the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
+ * nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
+ * contact nearer than the desired distance and keeps to the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
  * until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
  * gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
  * and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome

@@ -58,8 +58,15 @@ template <typename T> class Span {
 public:
     Span() = default;
     Span(const T *data, std::size_t size) : data_(data), size_(size) {}
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 9
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winit-list-lifetime"
+#endif
     /// A list in braces lives until the end of the call it is written in.
     Span(std::initializer_list<T> items) : data_(items.begin()), size_(items.size()) {}
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 9
+#pragma GCC diagnostic pop
+#endif
     template <std::size_t N> Span(const T (&items)[N]) : data_(items), size_(N) {}
     template <typename Container,
               typename = std::enable_if_t<std::is_convertible_v<
@@ -213,6 +220,12 @@ inline cstk_slide_options slide_options(double max_shell) {
 }
 
 /// A joint by functions of yours. They must not throw.
+inline cstk_urdf_options urdf_options() {
+    cstk_urdf_options options;
+    check(cstk_urdf_options_default(&options, sizeof options));
+    return options;
+}
+
 inline cstk_custom_joint custom_joint() {
     cstk_custom_joint joint;
     check(cstk_custom_joint_default(&joint, sizeof joint));
@@ -564,6 +577,14 @@ public:
         std::uint32_t number = 0;
         check(cstk_robot_builder_add_link(get(), &def, &number));
         return number;
+    }
+
+    /// Adds the robot of a URDF file; returns its root link.
+    std::uint32_t load_urdf(const std::string &file,
+                            const cstk_urdf_options &options = urdf_options()) {
+        std::uint32_t root = 0;
+        check(cstk_robot_builder_load_urdf(get(), file.c_str(), &options, nullptr, nullptr, &root));
+        return root;
     }
 
     Robot build() const {

@@ -143,8 +143,8 @@ pub struct cstk_witness_list {
     pub witness_count: usize,
     pub contacts: *const cstk_contact,
     pub contact_count: usize,
-    /// One row of `nv` doubles per contact (not per witness): the derivative of its distance by the coordinates. NULL where
-    /// there is none.
+    /// One row of `nv` doubles per contact (not per witness): by how much its distance grows per unit of each
+    /// velocity. NULL where there is none.
     pub gradients: *const f64,
     pub nv: usize,
     /// There are more witnesses than max_count; these are the nearest.

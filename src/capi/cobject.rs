@@ -75,8 +75,10 @@ pub unsafe extern "C" fn cstk_cobject_options_default(
 /// Makes the set of configurations at which a link meets an s-object.
 ///
 /// `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
-/// meant (CSTK_EMPTY if there is none). `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
-/// added later too. An object that is deleted later contributes nothing. `options` may be NULL for the defaults.
+/// meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
+/// always be nearest. The robot with itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+/// added later too. An object that is deleted later contributes nothing; one of another dimension than the
+/// robots is refused by the queries that meet it. `options` may be NULL for the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced(
     space: *const cstk_space,

@@ -167,8 +167,9 @@ pub unsafe extern "C" fn cstk_space_difference(
     })
 }
 
-/// The configuration at parameter `t` of the shortest way from `q0` (t = 0) to `q1` (t = 1); `t` may lie beyond. `out` has
-/// `nq` doubles and may be one of the two.
+/// The configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
+/// cstk_space_difference; `t` may lie beyond. `out` has `nq` doubles and may be one of the two. On free joints this way is a
+/// screw: the origin does not go straight. See cstk_space_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_interpolate(
     space: *const cstk_space,
@@ -190,7 +191,8 @@ pub unsafe extern "C" fn cstk_space_interpolate(
 }
 
 /// The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
-/// negative, or is NULL for 1 each.
+/// negative, or is NULL for 1 each. A metric, but with free joints: along their screws the triangle inequality fails. For planning
+/// trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_distance(
     space: *const cstk_space,

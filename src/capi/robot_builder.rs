@@ -104,7 +104,7 @@ pub struct cstk_link_def {
     /// The axis of a revolute or prismatic joint in the joint's frame, of any length; default z.
     pub axis: [f64; 3],
     /// The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
-    /// share a coordinate with earlier joints, and so mimic them.
+    /// follow a single coordinate of any earlier joint, and so mimic it; other joints have coordinates of their own.
     pub coordinate: i32,
     pub reserved: u32,
     /// A name of the joint's own within the robot, UTF-8, or NULL for none. It is copied.

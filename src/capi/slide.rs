@@ -17,7 +17,8 @@ use crate::query::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step
 pub struct cstk_slide_options {
     pub size: u32,
     pub cookie: u32,
-    /// The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0.
+    /// The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
+    /// two or three times as far as a step moves the robot does well.
     pub max_shell: f64,
     /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
     /// tenth of max_shell. Independent of the C-object's contact epsilon.
@@ -88,8 +89,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 }
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
-/// nothing is within the shell; else the nearest step that brings no contact nearer than the desired distance and keeps to
-/// the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
+/// nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
+/// contact nearer than the desired distance and keeps to the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
 /// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
 /// gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
 /// and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome

@@ -91,8 +91,8 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 /// NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
 ///
 /// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
-/// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Whatever else the
-/// file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
+/// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes are
+/// surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     builder: *mut cstk_robot_builder,

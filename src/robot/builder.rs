@@ -160,6 +160,13 @@ impl RobotBuilder {
             joint.axis = unit_axis(&definition.axis)?;
             (joint.multiplier, joint.offset) = (definition.multiplier, definition.offset);
         }
+        let [lower, upper] = definition.limits;
+        let is_default = definition.multiplier == 1.0 && definition.offset == 0.0;
+        if !joint.kind.has_axis() && (!is_default || lower.is_finite() || upper.is_finite()) {
+            return Err(Error::invalid(
+                "limits, multiplier and offset are for revolute and prismatic joints; for others give the space a range",
+            ));
+        }
         require_coordinates(&[definition.multiplier], "multiplier")?;
         require_coordinates(&[definition.offset], "offset")?;
         check_limits(definition.limits)?;
@@ -215,7 +222,7 @@ impl RobotBuilder {
         match shared {
             Some(block) if joint.kind.has_axis() => Ok((first, block.velocity)),
             _ => Err(Error::invalid(format!(
-                "coordinate {first} is taken: only joints of one coordinate share one, and never part of a quaternion"
+                "coordinate {first} is taken: only revolute and prismatic joints follow another's, and never part of a quaternion"
             ))),
         }
     }
