@@ -421,6 +421,11 @@ fn faults_are_named_with_line_and_element() {
             vec!["\"j\"", "<origin>", "rpy", "2 numbers"],
         ),
         (
+            revolute("<limit/><origin xyz=\"1e60 0 0\"/>"),
+            InvalidArgument,
+            vec!["\"j\"", "position"],
+        ),
+        (
             revolute("<limit/><mimic joint=\"k\"/>"),
             NotFound,
             vec!["\"j\"", "\"k\""],

@@ -136,6 +136,7 @@ impl RobotBuilder {
                 self.dimension
             )));
         }
+        require_coordinates(definition.at.translation.as_slice(), "position entry")?;
         if self.dimension == 2 && !definition.at.is_planar() {
             return Err(Error::invalid("the link leaves the plane z = 0"));
         }
