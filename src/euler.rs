@@ -44,7 +44,9 @@ pub fn rotation_to_euler(r: &Mat3) -> [f64; 3] {
     let pitch = r[(1, 0)].atan2(cos_pitch);
     if cos_pitch > SINGULAR {
         let yaw = (-r[(2, 0)]).atan2(r[(0, 0)]);
-        let roll = (-r[(1, 2)]).atan2(r[(1, 1)]);
+        // (7) has -T23 / T22, which loses digits as cos(pitch) falls; with the yaw taken off the same angle keeps them.
+        let (s, c) = yaw.sin_cos();
+        let roll = (s * r[(0, 1)] + c * r[(2, 1)]).atan2(s * r[(0, 2)] + c * r[(2, 2)]);
         [yaw, pitch, roll]
     } else {
         [r[(0, 2)].atan2(r[(2, 2)]), pitch, 0.0]

@@ -120,7 +120,7 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Adds the mesh in an OBJ or STL file.
+    /// Adds the mesh in an OBJ, STL or COLLADA file.
     pub fn add_mesh_file(&mut self, path: &Path) -> Result<()> {
         let named = |error: Error| error.within(path.display());
         let mesh = read_mesh_file(path).map_err(named)?;

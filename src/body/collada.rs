@@ -17,8 +17,8 @@ use crate::xml::{child, children, fault, list, numbers, parse, required, require
 const DEEPEST: usize = 64;
 
 /// So many vertices and indices are read at most, and so many nodes: those that hold others twice, again and again, end here.
-const MOST_NUMBERS: usize = 1 << 28;
-const MOST_NODES: usize = 1 << 20;
+const MOST_NUMBERS: usize = 1 << 24;
+const MOST_NODES: usize = 1 << 16;
 
 pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
     let document = parse(text_of(bytes)?)?;
@@ -39,6 +39,7 @@ pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
         ids: HashMap::new(),
         mesh: Mesh::default(),
         nodes: 0,
+        numbers: 0,
     };
     for node in root.descendants() {
         if let Some(id) = node.attribute("id") {
@@ -67,6 +68,8 @@ struct Reader<'a, 'i> {
     ids: HashMap<&'a str, Node<'a, 'i>>,
     mesh: Mesh,
     nodes: usize,
+    /// How many numbers were read, those of a source that is read again too.
+    numbers: usize,
 }
 
 impl<'a, 'i> Reader<'a, 'i> {
@@ -227,6 +230,14 @@ impl<'a, 'i> Reader<'a, 'i> {
                 "positions need three coordinates",
             ));
         }
+        if first > numbers.len() {
+            return Err(fault(
+                source,
+                ErrorKind::NotFound,
+                "its accessor begins beyond its numbers",
+            ));
+        }
+        self.numbers += numbers.len();
         let base = self.mesh.vertices.len() as u32;
         let points = numbers.get(first..).unwrap_or_default().chunks(stride);
         let whole = points.filter(|point| point.len() >= 3);
@@ -240,7 +251,8 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     fn check_size(&self, node: Node) -> Result<()> {
-        if self.mesh.vertices.len().max(self.mesh.indices.len()) > MOST_NUMBERS {
+        let largest = self.mesh.vertices.len().max(self.mesh.indices.len());
+        if largest.max(self.numbers) > MOST_NUMBERS {
             return Err(fault(
                 node,
                 ErrorKind::Unsupported,

@@ -90,7 +90,8 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
 /// nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
-/// contact nearer than the desired distance and keeps to the ranges and the world box, pushed out where the robot is within that distance, set right where it leads, and halved
+/// contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the world
+/// box, pushed out where the robot is within that distance, set right where it leads, and halved
 /// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
 /// gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
 /// and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
@@ -244,7 +245,7 @@ unsafe fn approaches<'a>(
     require_coordinates(gradients, "list->gradients entry")?;
     Ok(contacts
         .iter()
-        .zip(gradients.chunks_exact(nv))
+        .zip(gradients.chunks_exact(nv.max(1)))
         .map(|(contact, gradient)| Approach {
             gradient,
             clearance: contact.clearance,

@@ -110,6 +110,10 @@ impl ContactPair<'_> {
         {
             return None;
         }
+        // Round bodies of very many edges would take longer than the answer is worth.
+        if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MOST_EDGE_PAIRS {
+            return None;
+        }
         let found = penetration(self.r, self.s, self.precision);
         (found.depth <= most).then_some(found.direction)
     }

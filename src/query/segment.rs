@@ -22,6 +22,9 @@ impl QueryContext {
         start: f64,
     ) -> Result<bool> {
         let motion = motion_bound(cobject, q, v);
+        if motion.is_infinite() {
+            return Ok(false);
+        }
         let mut t = start;
         for _ in 0..MOST_DISTANCES {
             let way: Vec<f64> = v.iter().map(|x| x * t).collect();

@@ -4,11 +4,10 @@ use super::at_configuration::{PseudoNormal, check_threshold};
 use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::segment::motion_bound;
-use super::slide_step::{LEAST_GAIN, nearest_movable, slide_step, spring_step};
+use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
 use super::step_limits::step_limits;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
-use crate::space::Space;
 
 /// How to slide.
 #[derive(Clone, Copy, Debug)]
@@ -101,6 +100,23 @@ const FALL_SHORT: f64 = 1e-4;
 /// So often is a step set right where it leads: contacts turn on the way.
 const MOST_CORRECTIONS: usize = 3;
 
+/// The contacts that a step of this length can bring nearer than it may fall short.
+fn approaches(found: &PseudoNormal, length: f64, desired: f64) -> Vec<Approach<'_>> {
+    let mut all = found.list.approaches();
+    all.retain(|a| norm(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
+    all
+}
+
+/// What all tries of one slide share.
+struct Asked<'a> {
+    cobject: &'a CObject,
+    q: &'a [f64],
+    here: &'a PseudoNormal,
+    options: &'a SlideOptions,
+    /// The length of the step asked for.
+    length: f64,
+}
+
 impl QueryContext {
     /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest step
     /// that brings no contact nearer than the desired distance, pushed out to it where it is within, set right where it leads,
@@ -141,14 +157,21 @@ impl QueryContext {
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
             ));
         }
-        let push = Push::of(space, q, &here, length, options.desired_distance)?;
+        let asked = Asked {
+            cobject,
+            q,
+            here: &here,
+            options,
+            length,
+        };
+        let push = Push::of(&asked)?;
         let mut share = 1.0;
         while share >= options.floor {
             let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
             let pushed = push.as_ref().map(|push| push.part(share));
             let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
             for push in wishes {
-                let found = self.try_step(cobject, q, &here, &wish, push, options)?;
+                let found = self.try_step(&asked, &wish, push)?;
                 if let Some((reached, distance)) = found {
                     return Ok(SlideStep {
                         configuration: reached,
@@ -166,22 +189,26 @@ impl QueryContext {
     /// distance there.
     fn try_step(
         &mut self,
-        cobject: &CObject,
-        q: &[f64],
-        here: &PseudoNormal,
+        asked: &Asked,
         wish: &[f64],
         push: Option<&Push>,
-        options: &SlideOptions,
     ) -> Result<Option<(Vec<f64>, f64)>> {
+        let &Asked {
+            cobject,
+            q,
+            here,
+            options,
+            ..
+        } = asked;
         let space = cobject.space();
         let desired = options.desired_distance;
         let length = norm(wish);
-        let approaches = here.list.approaches();
-        let near = nearest_movable(&approaches);
+        let contacts = approaches(here, asked.length, desired);
+        let near = nearest_movable(&contacts);
         // Of contacts within the desired distance only the nearest says what is to be kept.
         let keep = near.min(desired);
         let limits = step_limits(space, q, length)?;
-        let along = slide_step(wish, &approaches, &limits, keep, options.normalize);
+        let along = slide_step(wish, &contacts, &limits, keep, options.normalize);
         let first = match (along, push) {
             (Some(along), Some(push)) => along.iter().zip(&push.step).map(|(a, b)| a + b).collect(),
             (Some(along), None) => along,
@@ -204,15 +231,15 @@ impl QueryContext {
             if overlaps(&there, options) {
                 return Ok(None);
             }
-            let approaches = there.list.approaches();
+            let contacts = approaches(&there, asked.length, desired);
             if corrections == MOST_CORRECTIONS
-                || nearest_movable(&approaches) >= keep - 0.1 * FALL_SHORT * desired
+                || nearest_movable(&contacts) >= keep - 0.1 * FALL_SHORT * desired
             {
                 break there;
             }
             corrections += 1;
             let limits = step_limits(space, &reached, length)?;
-            match spring_step(&approaches, &limits, keep) {
+            match spring_step(&contacts, &limits, keep) {
                 Some(correction) if norm(&correction) <= length => {
                     reached = space.clamp(&space.step(&reached, &correction));
                 }
@@ -222,7 +249,7 @@ impl QueryContext {
         let way = space.displacement(q, &reached);
         let (gain, moved) = (dot(&way, wish) / length, norm(&way));
         let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
-        let nearest = nearest_movable(&there.list.approaches());
+        let nearest = nearest_movable(&approaches(&there, asked.length, desired));
         let keeps = nearest >= keep - FALL_SHORT * desired;
         // A push alone must win more than steps that gain may lose, or the two would take turns.
         let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
@@ -244,17 +271,34 @@ impl QueryContext {
         max_shell: f64,
     ) -> Result<bool> {
         let motion = motion_bound(cobject, q, way);
-        let start = if here.distance.lower > 0.0 || motion == 0.0 {
-            0.0
-        } else {
-            (ON_TRUST * max_shell / motion).min(1.0)
-        };
+        let mut start = 0.0;
+        if here.distance.lower <= 0.0 && motion > 0.0 {
+            // Contacts that are not listed have no word to be taken.
+            if here.list.truncated {
+                return Ok(false);
+            }
+            let trusted = ON_TRUST * max_shell.min(smallest_radius(cobject));
+            start = (trusted / motion).min(1.0);
+            let keeps_off =
+                |a: &Approach| a.clearance + start * dot(a.gradient, way) >= -1e-3 * trusted;
+            if !here.list.approaches().iter().all(keeps_off) {
+                return Ok(false);
+            }
+        }
         self.way_is_free(cobject, q, way, start)
     }
 }
 
-/// How far, as a part of the shell, a touching robot may move before a distance must prove it free.
+/// How far, as a part of the shell or of the smallest link, a touching robot may move before a distance must prove it free.
 const ON_TRUST: f64 = 1e-4;
+
+fn smallest_radius(cobject: &CObject) -> f64 {
+    let space = cobject.space();
+    let bodies = (0..space.link_count()).filter_map(|link| space.link(link)?.body.as_ref());
+    bodies
+        .map(|body| body.radius())
+        .fold(f64::INFINITY, f64::min)
+}
 
 fn overlaps(found: &PseudoNormal, options: &SlideOptions) -> bool {
     let too_deep = -1e-9 * options.max_shell;
@@ -278,23 +322,19 @@ struct Push {
 impl Push {
     /// The push of a configuration within the desired distance, no longer than `length`; none where contacts stand against
     /// each other so that hardly anything is won.
-    fn of(
-        space: &Space,
-        q: &[f64],
-        here: &PseudoNormal,
-        length: f64,
-        desired: f64,
-    ) -> Result<Option<Self>> {
-        let approaches = here.list.approaches();
-        let near = nearest_movable(&approaches);
+    fn of(asked: &Asked) -> Result<Option<Self>> {
+        let (space, length) = (asked.cobject.space(), asked.length);
+        let desired = asked.options.desired_distance;
+        let contacts = approaches(asked.here, length, desired);
+        let near = nearest_movable(&contacts);
         if near >= desired * (1.0 - DEAD_BAND) {
             return Ok(None);
         }
-        let limits = step_limits(space, q, length)?;
-        let Some(step) = spring_step(&approaches, &limits, desired) else {
+        let limits = step_limits(space, asked.q, length)?;
+        let Some(step) = spring_step(&contacts, &limits, desired) else {
             return Ok(None);
         };
-        let after = approaches
+        let after = contacts
             .iter()
             .map(|a| a.clearance + dot(a.gradient, &step));
         let is_worth = after.fold(desired, f64::min) - near >= DEAD_BAND * desired;

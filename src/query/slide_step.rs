@@ -42,7 +42,7 @@ pub fn slide_step(
     normalize: bool,
 ) -> Option<Vec<f64>> {
     let mut half_spaces = limits.to_vec();
-    half_spaces.extend(approaches.iter().map(|a| HalfSpace {
+    half_spaces.extend(movable(approaches).map(|a| HalfSpace {
         row: a.gradient.to_vec(),
         least: (desired - a.clearance).min(0.0),
     }));
@@ -79,7 +79,7 @@ pub fn spring_step(
     let still = vec![0.0; nv];
     let out_to = |level: f64| {
         let mut half_spaces = limits.to_vec();
-        half_spaces.extend(approaches.iter().map(|a| HalfSpace {
+        half_spaces.extend(movable(approaches).map(|a| HalfSpace {
             row: a.gradient.to_vec(),
             least: level - a.clearance,
         }));
@@ -99,10 +99,20 @@ pub fn spring_step(
     best.filter(|found| dot(found, found) > 0.0)
 }
 
-/// The clearance of the nearest contact that some step changes.
-pub fn nearest_movable(approaches: &[Approach]) -> f64 {
+/// The contacts that some step changes. Of those that joints carry along as one only rounding is left of the gradient; as a
+/// direction it would mean nothing.
+pub fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
+    let length = |a: &Approach| dot(a.gradient, a.gradient).sqrt();
+    let largest = approaches.iter().map(length).fold(0.0, f64::max);
     approaches
         .iter()
-        .filter(|a| dot(a.gradient, a.gradient) > 0.0)
-        .fold(f64::INFINITY, |least, a| least.min(a.clearance))
+        .filter(move |a| length(a) > ROUNDING * largest.max(ROUNDING))
+}
+
+/// A gradient shorter than this part of the longest is what is left of sums that cancel.
+const ROUNDING: f64 = 1e-12;
+
+/// The clearance of the nearest contact that some step changes.
+pub fn nearest_movable(approaches: &[Approach]) -> f64 {
+    movable(approaches).fold(f64::INFINITY, |least, a| least.min(a.clearance))
 }

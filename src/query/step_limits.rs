@@ -9,6 +9,9 @@ use crate::space::Space;
 /// Limits that a step of this many times the length asked for cannot reach are left out.
 const FAR: f64 = 8.0;
 
+/// How far inside the world box a step aims, in units of its coordinates.
+const INSIDE: f64 = 1e-12;
+
 /// The half-spaces that keep a step of about `length` within the coordinates' ranges and the links' origins within the world
 /// box; exact for ranges of single coordinates, else to first order.
 pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpace>> {
@@ -65,7 +68,20 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
         let jacobian = space.jacobian(Posture { q, poses }, link, origin)?;
         for (axis, row) in jacobian.chunks_exact(space.nv().max(1)).take(3).enumerate() {
             if row.iter().any(|x| *x != 0.0) {
-                keep(origin[axis], world.low[axis], world.high[axis], row);
+                // Aimed inside by what rounding of the pose may put it outside.
+                let [low, high] = [world.low[axis], world.high[axis]];
+                let doubt = |bound: f64| INSIDE * (1.0 + bound.abs());
+                let low = if low.is_finite() {
+                    low + doubt(low)
+                } else {
+                    low
+                };
+                let high = if high.is_finite() {
+                    high - doubt(high)
+                } else {
+                    high
+                };
+                keep(origin[axis], low, high, row);
             }
         }
     }

@@ -413,7 +413,8 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
     /// the link hangs on that.
     fn add_tilted_plane(&mut self, definition: LinkDefinition, axis: &Vec3) -> Result<usize> {
         let half_turn = || Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
-        let turn = Rotation3::rotation_between(&Vec3::z(), axis).unwrap_or_else(half_turn);
+        let turn = Rotation3::rotation_between(&Vec3::z(), &(axis / axis.amax()))
+            .unwrap_or_else(half_turn);
         let tilt = Pose {
             rotation: turn.into_inner(),
             translation: Vec3::zeros(),
