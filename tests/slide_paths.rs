@@ -238,3 +238,87 @@ fn the_two_halves_of_a_step() {
     let fixed = [0.0, 0.0];
     assert!(sprung(&[at(&fixed[..], 0.01)]).is_none());
 }
+
+/// Of a list that was cut the rest is unknown: a touching robot must not go on its word. 300 strips lie on the floor, and a
+/// wall stands nearer than what a touching start takes on trust.
+#[test]
+fn no_trust_in_a_list_that_was_cut() {
+    use cstk::robot::LinkDefinition;
+    let strips: Vec<Vec<Vec3>> = (0..300)
+        .map(|i| {
+            let x = -1.5 + 0.01 * f64::from(i);
+            [(0.0, 0.0), (0.009, 0.0), (0.009, 1.0), (0.0, 1.0)]
+                .map(|(dx, y)| Vec3::new(x + dx, y, 0.0))
+                .to_vec()
+        })
+        .collect();
+    let comb = planar(&strips);
+    let floor = rectangle([-10.0, -1.0], [10.0, 0.0]);
+    let ahead = strips[299][1].x;
+    let wall = rectangle([ahead + 5e-5, -1.0], [ahead + 6e-5, 9.0]);
+    let one = LinkDefinition {
+        body: Some(comb.body.clone()),
+        ..link(None, JointKind::Planar, Vec3::z())
+    };
+    let space = space(vec![robot(2, vec![one])]);
+    let placed = [
+        (&floor.body, Pose::identity()),
+        (&wall.body, Pose::identity()),
+    ];
+    let cobject = against(&space, &environment(&placed).0);
+    let mut options = SlideOptions::with_shell(1.0);
+    for most in [1, 256, 1000] {
+        options.max_witnesses = most;
+        let step = QueryContext::new()
+            .slide(&cobject, &[0.0; 3], &[1.0, 0.0, 0.0], &options)
+            .unwrap();
+        assert!(step.configuration[0] < 5e-5, "{most}: {step:?}");
+    }
+}
+
+/// However large the shell, only a part of the link's own size is taken on trust.
+#[test]
+fn a_large_shell_proves_nothing() {
+    let floor = rectangle([-10.0, -2.0], [10.0, -1.0]);
+    let post = rectangle([2.0, -1.0], [2.5, 10.0]);
+    let cobject = free_square(&[floor, post]);
+    for shell in [0.5, 1e3, 1e5, 1e9] {
+        let mut options = SlideOptions::with_shell(shell);
+        options.desired_distance = 0.01;
+        let step = QueryContext::new()
+            .slide(&cobject, &[0.0, -0.5, 0.0], &[4.0, 0.1, 0.0], &options)
+            .unwrap();
+        assert!(step.configuration[0] < 1.5, "{shell:e}: {step:?}");
+    }
+}
+
+/// Two bodies that one joint carries along keep their distance, whatever rounding says of it; they are not in the way.
+#[test]
+fn what_moves_as_one_is_not_in_the_way() {
+    use cstk::cobject::InducedOptions;
+    let mut links = vec![
+        link(None, JointKind::Revolute, Vec3::new(0.3, 0.5, 0.8)),
+        link(Some(0), JointKind::Fixed, Vec3::z()),
+        link(Some(0), JointKind::Fixed, Vec3::z()),
+    ];
+    let body = common::shapes::cuboid([1.0; 3]).body;
+    for (link, x) in links[1..].iter_mut().zip([0.3, 1.35]) {
+        link.body = Some(body.clone());
+        link.at = Pose::from_translation(Vec3::new(x, 0.7, -0.2));
+    }
+    let space = space(vec![robot(3, links)]);
+    let options = InducedOptions::default();
+    let cobject = CObject::induced_links(space, &[[1, 2]], options).unwrap();
+    let mut slide = SlideOptions::with_shell(0.5);
+    slide.desired_distance = 0.1;
+    for step in [0.1, -0.1] {
+        let taken = QueryContext::new()
+            .slide(&cobject, &[0.4], &[step], &slide)
+            .unwrap();
+        assert_eq!(taken.outcome, SlideOutcome::Moved);
+        assert!(
+            (taken.configuration[0] - 0.4 - step).abs() < 1e-12,
+            "{taken:?}"
+        );
+    }
+}
