@@ -322,3 +322,30 @@ fn what_moves_as_one_is_not_in_the_way() {
         );
     }
 }
+
+/// A base that no joint moves may stand on the floor, or a hair above it: the arm slides all the same.
+#[test]
+fn a_base_on_the_floor_is_not_in_the_way() {
+    let floor = rectangle([-10.0, -2.0], [10.0, -1.0]);
+    for gap in [0.0, 1e-9, 1e-6, 1e-4] {
+        let links = vec![
+            LinkDefinition {
+                body: Some(rectangle([-0.5, -1.0 + gap], [0.5, 0.0]).body),
+                ..link(None, JointKind::Fixed, Vec3::z())
+            },
+            LinkDefinition {
+                body: Some(rectangle([0.2, -0.1], [2.0, 0.1]).body),
+                ..link(Some(0), JointKind::Revolute, Vec3::z())
+            },
+        ];
+        let space = space(vec![robot(2, links)]);
+        let cobject = against(&space, &environment(&[(&floor.body, Pose::identity())]).0);
+        let taken = slide(&cobject, &[1.0], &[-0.05], &options());
+        // Down to the stand-off of the arm's tip, and blocked there.
+        let last = taken.last().unwrap();
+        assert_eq!(last.outcome, SlideOutcome::Blocked);
+        let q = last.configuration[0];
+        let tip = 2.0 * q.sin() - 0.1 * q.cos();
+        assert!((tip + 1.0 - 0.02).abs() < 2e-3, "gap {gap:e}: tip at {tip}");
+    }
+}

@@ -195,6 +195,45 @@ impl CObject {
         }
     }
 
+    /// The same without what no link that moves takes part in; `None` if nothing is left.
+    pub fn moving(&self, moves: impl Fn(usize) -> bool) -> Option<Self> {
+        let terms = self.terms.iter().filter_map(|term| match &**term {
+            Term::Links { pairs, options } => {
+                let pairs: Vec<[usize; 2]> = pairs
+                    .iter()
+                    .filter(|pair| pair.iter().any(|&link| moves(link)))
+                    .copied()
+                    .collect();
+                (!pairs.is_empty()).then_some(Term::Links {
+                    pairs,
+                    options: *options,
+                })
+            }
+            Term::Objects {
+                links,
+                objects,
+                options,
+            } => {
+                let links: Vec<usize> = links.iter().filter(|&&l| moves(l)).copied().collect();
+                (!links.is_empty()).then(|| Term::Objects {
+                    links,
+                    objects: match objects {
+                        SObjects::All(environment) => SObjects::All(environment.clone()),
+                        SObjects::Some(environment, ids) => {
+                            SObjects::Some(environment.clone(), ids.clone())
+                        }
+                    },
+                    options: *options,
+                })
+            }
+        });
+        let terms: Vec<Arc<Term>> = terms.map(Arc::new).collect();
+        (!terms.is_empty()).then(|| Self {
+            space: self.space.clone(),
+            terms,
+        })
+    }
+
     pub fn space(&self) -> &Arc<Space> {
         &self.space
     }

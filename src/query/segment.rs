@@ -25,6 +25,11 @@ impl QueryContext {
         if motion.is_infinite() {
             return Ok(false);
         }
+        // What rests may be as near as it likes.
+        let space = cobject.space();
+        let Some(cobject) = &cobject.moving(|link| space.motion_bound(link, q, v) > 0.0) else {
+            return Ok(true);
+        };
         let mut t = start;
         for _ in 0..MOST_DISTANCES {
             let way: Vec<f64> = v.iter().map(|x| x * t).collect();
