@@ -857,6 +857,34 @@ typedef struct cstk_custom_joint {
 } cstk_custom_joint;
 
 /**
+ * What a robot knows of a link and the joint that moves it.
+ */
+typedef struct cstk_link_info {
+  /**
+   * The link it is attached to, or -1 for the world.
+   */
+  int32_t parent;
+  cstk_joint_kind joint;
+  /**
+   * The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
+   */
+  uint32_t coordinate;
+  uint32_t nq;
+  uint32_t velocity;
+  uint32_t nv;
+  bool has_body;
+  uint8_t reserved_bytes[7];
+  /**
+   * See cstk_link_def.
+   */
+  double multiplier;
+  double offset;
+  double at[12];
+  double axis[3];
+  uint64_t reserved[8];
+} cstk_link_info;
+
+/**
  * A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
  */
 typedef struct cstk_link_def {
@@ -914,34 +942,6 @@ typedef struct cstk_link_def {
    */
   const struct cstk_custom_joint *custom;
 } cstk_link_def;
-
-/**
- * What a robot knows of a link and the joint that moves it.
- */
-typedef struct cstk_link_info {
-  /**
-   * The link it is attached to, or -1 for the world.
-   */
-  int32_t parent;
-  cstk_joint_kind joint;
-  /**
-   * The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
-   */
-  uint32_t coordinate;
-  uint32_t nq;
-  uint32_t velocity;
-  uint32_t nv;
-  bool has_body;
-  uint8_t reserved_bytes[7];
-  /**
-   * See cstk_link_def.
-   */
-  double multiplier;
-  double offset;
-  double at[12];
-  double axis[3];
-  uint64_t reserved[8];
-} cstk_link_info;
 
 /**
  * How to read a URDF file. Write it with cstk_urdf_options_default first.
@@ -1649,41 +1649,6 @@ cstk_status cstk_mesh_get(const struct cstk_mesh *mesh, struct cstk_mesh_view *o
 cstk_status cstk_custom_joint_default(struct cstk_custom_joint *out, size_t size);
 
 /**
- * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
- */
-cstk_status cstk_robot_builder_create(uint32_t dimension,
-                                      struct cstk_robot_builder **out);
-
-/**
- * Adds a reference.
- */
-cstk_status cstk_robot_builder_retain(struct cstk_robot_builder *builder);
-
-/**
- * Drops a reference. NULL is a no-op.
- */
-cstk_status cstk_robot_builder_release(struct cstk_robot_builder *builder);
-
-/**
- * Writes the default link. `size` is sizeof(cstk_link_def).
- */
-cstk_status cstk_link_def_default(struct cstk_link_def *out, size_t size);
-
-/**
- * Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
- * which may be NULL.
- */
-cstk_status cstk_robot_builder_add_link(struct cstk_robot_builder *builder,
-                                        const struct cstk_link_def *def,
-                                        uint32_t *out);
-
-/**
- * Builds a robot from the links added so far; the builder is unchanged. CSTK_EMPTY if there are none.
- */
-cstk_status cstk_robot_build(struct cstk_robot_builder *builder,
-                             struct cstk_robot **out);
-
-/**
  * Adds a reference.
  */
 cstk_status cstk_robot_retain(struct cstk_robot *robot);
@@ -1768,13 +1733,48 @@ cstk_status cstk_robot_jacobian(const struct cstk_robot *robot,
                                 double *jacobian);
 
 /**
+ * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
+ */
+cstk_status cstk_robot_builder_create(uint32_t dimension,
+                                      struct cstk_robot_builder **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_robot_builder_retain(struct cstk_robot_builder *builder);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_robot_builder_release(struct cstk_robot_builder *builder);
+
+/**
+ * Writes the default link. `size` is sizeof(cstk_link_def).
+ */
+cstk_status cstk_link_def_default(struct cstk_link_def *out, size_t size);
+
+/**
+ * Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
+ * which may be NULL.
+ */
+cstk_status cstk_robot_builder_add_link(struct cstk_robot_builder *builder,
+                                        const struct cstk_link_def *def,
+                                        uint32_t *out);
+
+/**
+ * Builds a robot from the links added so far; the builder is unchanged. CSTK_EMPTY if there are none.
+ */
+cstk_status cstk_robot_build(struct cstk_robot_builder *builder,
+                             struct cstk_robot **out);
+
+/**
  * Writes the default options. `size` is sizeof(cstk_urdf_options).
  */
 cstk_status cstk_urdf_options_default(struct cstk_urdf_options *out, size_t size);
 
 /**
  * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before children,
- * joints in the order of the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
+ * branch by branch, the branches of a link in the order of its joints in the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
  * NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
@@ -1822,14 +1822,6 @@ cstk_status cstk_space_size(const struct cstk_space *space,
                             size_t *link_count);
 
 /**
- * Writes whether every coordinate of q is in its range and every link's origin in the world box.
- */
-cstk_status cstk_space_contains(const struct cstk_space *space,
-                                const double *q,
-                                size_t nq,
-                                bool *out);
-
-/**
  * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own.
  */
 cstk_status cstk_space_get_offset(const struct cstk_space *space,
@@ -1842,6 +1834,14 @@ cstk_status cstk_space_get_offset(const struct cstk_space *space,
 cstk_status cstk_space_get_range(const struct cstk_space *space,
                                  size_t coordinate,
                                  struct cstk_range *out);
+
+/**
+ * Writes whether every coordinate of q is in its range and every link's origin in the world box.
+ */
+cstk_status cstk_space_contains(const struct cstk_space *space,
+                                const double *q,
+                                size_t nq,
+                                bool *out);
 
 /**
  * Writes whether every coordinate of q is in its range, and to `coordinate`, which may be NULL, the first that is not
@@ -1923,7 +1923,8 @@ cstk_status cstk_space_interpolate(const struct cstk_space *space,
 
 /**
  * The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
- * negative, or is NULL for 1 each. A metric, but with free joints: along their screws the triangle inequality fails. For planning
+ * negative, or is NULL for 1 each. A metric, but with free joints, or unequal weights of a
+ * spherical one: there the triangle inequality fails. For planning
  * trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
  */
 cstk_status cstk_space_distance(const struct cstk_space *space,

@@ -11,6 +11,24 @@ use crate::pose::{Pose, Vec3};
 use crate::robot::Posture;
 use crate::space::{Sampler, Space};
 
+/// Writes whether every coordinate of q is in its range and every link's origin in the world box.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_contains(
+    space: *const cstk_space,
+    q: *const f64,
+    nq: usize,
+    out: *mut bool,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::borrow::<Space>(space, "space")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states the length.
+        let q = unsafe { configuration(space, q, nq, "q")? };
+        out.write(space.contains(q)?);
+        Ok(())
+    })
+}
+
 /// Writes whether every coordinate of q is in its range, and to `coordinate`, which may be NULL, the first that is not
 /// (CSTK_NONE if all are).
 #[unsafe(no_mangle)]
@@ -191,7 +209,8 @@ pub unsafe extern "C" fn cstk_space_interpolate(
 }
 
 /// The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
-/// negative, or is NULL for 1 each. A metric, but with free joints: along their screws the triangle inequality fails. For planning
+/// negative, or is NULL for 1 each. A metric, but with free joints, or unequal weights of a
+/// spherical one: there the triangle inequality fails. For planning
 /// trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_distance(
@@ -254,14 +273,8 @@ pub unsafe extern "C" fn cstk_space_clamp(
     nq: usize,
     out: *mut f64,
 ) -> cstk_status {
-    guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
-        let out = OutputSlice::checked(out, space.nq(), "out")?;
-        // SAFETY: checked for NULL; the caller states the length.
-        let q = unsafe { configuration(space, q, nq, "q")? };
-        out.write(&space.clamp(q));
-        Ok(())
-    })
+    // SAFETY: checked for NULL; the caller states the length.
+    guard(|| unsafe { change(space, q, nq, out, Space::clamp) })
 }
 
 /// The same configuration with circles in [0, 2 pi), as §4.4 has them, and quaternions unit with w >= 0. `out` has `nq`
@@ -273,14 +286,23 @@ pub unsafe extern "C" fn cstk_space_wrap(
     nq: usize,
     out: *mut f64,
 ) -> cstk_status {
-    guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
-        let out = OutputSlice::checked(out, space.nq(), "out")?;
-        // SAFETY: checked for NULL; the caller states the length.
-        let q = unsafe { configuration(space, q, nq, "q")? };
-        out.write(&space.wrap(q));
-        Ok(())
-    })
+    // SAFETY: checked for NULL; the caller states the length.
+    guard(|| unsafe { change(space, q, nq, out, Space::wrap) })
+}
+
+unsafe fn change(
+    space: *const cstk_space,
+    q: *const f64,
+    nq: usize,
+    out: *mut f64,
+    change: impl Fn(&Space, &[f64]) -> Vec<f64>,
+) -> Result<(), Failure> {
+    let space = handle::borrow::<Space>(space, "space")?;
+    let out = OutputSlice::checked(out, space.nq(), "out")?;
+    // SAFETY: as the caller states.
+    let q = unsafe { configuration(space, q, nq, "q")? };
+    out.write(&change(space, q));
+    Ok(())
 }
 
 /// What a step led to, unless that is too far.

@@ -27,9 +27,11 @@ pub mod nodes;
 
 pub mod custom_joint;
 
-pub mod robot_builder;
+pub mod joint;
 
 pub mod robot;
+
+pub mod robot_builder;
 
 pub mod urdf;
 

@@ -189,14 +189,11 @@ pub unsafe extern "C" fn cstk_euler_rates(
     frame: i32,
     matrix: *mut f64,
 ) -> cstk_status {
-    guard(|| {
-        // SAFETY: checked for NULL; the header states the length.
-        let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
-        let out = OutputSlice::checked(matrix, 9, "matrix")?;
-        require_finite(angles, "yaw_pitch_roll entry")?;
-        let frame = cstk_angular_frame::decode(frame)?;
-        out.write(&row_major(&euler_rates(*angles, frame)));
-        Ok(())
+    // SAFETY: checked for NULL; the header states the length.
+    guard(|| unsafe {
+        rates(yaw_pitch_roll, frame, matrix, |angles, frame| {
+            Ok(euler_rates(angles, frame))
+        })
     })
 }
 
@@ -208,15 +205,23 @@ pub unsafe extern "C" fn cstk_euler_rates_inverse(
     frame: i32,
     matrix: *mut f64,
 ) -> cstk_status {
-    guard(|| {
-        // SAFETY: checked for NULL; the header states the length.
-        let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
-        let out = OutputSlice::checked(matrix, 9, "matrix")?;
-        require_finite(angles, "yaw_pitch_roll entry")?;
-        let frame = cstk_angular_frame::decode(frame)?;
-        out.write(&row_major(&euler_rates_inverse(*angles, frame)?));
-        Ok(())
-    })
+    // SAFETY: checked for NULL; the header states the length.
+    guard(|| unsafe { rates(yaw_pitch_roll, frame, matrix, euler_rates_inverse) })
+}
+
+unsafe fn rates(
+    yaw_pitch_roll: *const f64,
+    frame: i32,
+    matrix: *mut f64,
+    rates: impl Fn([f64; 3], AngularFrame) -> crate::error::Result<Mat3>,
+) -> Result<(), Failure> {
+    // SAFETY: as the caller states.
+    let angles = unsafe { array::<3>(yaw_pitch_roll, "yaw_pitch_roll")? };
+    let out = OutputSlice::checked(matrix, 9, "matrix")?;
+    require_finite(angles, "yaw_pitch_roll entry")?;
+    let frame = cstk_angular_frame::decode(frame)?;
+    out.write(&row_major(&rates(*angles, frame)?));
+    Ok(())
 }
 
 /// Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,

@@ -6,7 +6,7 @@ use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle::{self, Noun};
 use super::input::{Output, OutputSlice, array, pose, slice, text};
-use super::robot_builder::cstk_joint_kind;
+use super::joint::cstk_joint_kind;
 use super::status::cstk_status;
 use crate::error::{Error, ErrorKind, require_coordinates};
 use crate::pose::{Pose, Vec3};
@@ -62,20 +62,8 @@ pub unsafe extern "C" fn cstk_robot_find_link(
     name: *const c_char,
     out: *mut u32,
 ) -> cstk_status {
-    guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
-        let out = Output::checked(out, "out")?;
-        // SAFETY: checked for NULL; the caller states that it is terminated.
-        let name = unsafe { text(name, "name")? };
-        let link = robot.find_link(name).ok_or_else(|| {
-            Error::new(
-                ErrorKind::NotFound,
-                format!("the robot has no link \"{name}\""),
-            )
-        })?;
-        out.write(link as u32);
-        Ok(())
-    })
+    // SAFETY: checked for NULL; the caller states that it is terminated.
+    guard(|| unsafe { find(robot, name, out, "link", Robot::find_link) })
 }
 
 /// Writes the number of the link that the joint with this name moves. CSTK_NOT_FOUND if there is none.
@@ -85,20 +73,27 @@ pub unsafe extern "C" fn cstk_robot_find_joint(
     name: *const c_char,
     out: *mut u32,
 ) -> cstk_status {
-    guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
-        let out = Output::checked(out, "out")?;
-        // SAFETY: checked for NULL; the caller states that it is terminated.
-        let name = unsafe { text(name, "name")? };
-        let link = robot.find_joint(name).ok_or_else(|| {
-            Error::new(
-                ErrorKind::NotFound,
-                format!("the robot has no joint \"{name}\""),
-            )
-        })?;
-        out.write(link as u32);
-        Ok(())
-    })
+    // SAFETY: checked for NULL; the caller states that it is terminated.
+    guard(|| unsafe { find(robot, name, out, "joint", Robot::find_joint) })
+}
+
+unsafe fn find(
+    robot: *const cstk_robot,
+    name: *const c_char,
+    out: *mut u32,
+    what: &str,
+    find: impl Fn(&Robot, &str) -> Option<usize>,
+) -> Result<(), Failure> {
+    let robot = handle::borrow::<Robot>(robot, "robot")?;
+    let out = Output::checked(out, "out")?;
+    // SAFETY: as the caller states.
+    let name = unsafe { text(name, "name")? };
+    let link = find(robot, name).ok_or_else(|| {
+        let message = format!("the robot has no {what} \"{name}\"");
+        Error::new(ErrorKind::NotFound, message)
+    })?;
+    out.write(link as u32);
+    Ok(())
 }
 
 /// What a robot knows of a link and the joint that moves it.

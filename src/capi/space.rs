@@ -171,25 +171,6 @@ pub unsafe extern "C" fn cstk_space_size(
     })
 }
 
-/// Writes whether every coordinate of q is in its range and every link's origin in the world box.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_space_contains(
-    space: *const cstk_space,
-    q: *const f64,
-    nq: usize,
-    out: *mut bool,
-) -> cstk_status {
-    guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
-        let out = Output::checked(out, "out")?;
-        // SAFETY: checked for NULL; the caller states the length.
-        let q = unsafe { slice(q, nq, "q")? };
-        space.check_configuration(q)?;
-        out.write(space.contains(q)?);
-        Ok(())
-    })
-}
-
 /// Where a robot's numbers begin in a space.
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -9,7 +9,8 @@ use super::hierarchy::cstk_hierarchy_options;
 use super::input::{
     OptionsStruct, Output, index_or_none, options_or_default, path, slice, text, write_defaults,
 };
-use super::robot_builder::{cstk_joint_kind, cstk_robot_builder, with_builder};
+use super::joint::cstk_joint_kind;
+use super::robot_builder::{cstk_robot_builder, with_builder};
 use super::status::cstk_status;
 use crate::error::Error;
 use crate::pose::Pose;
@@ -87,7 +88,7 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 }
 
 /// Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before children,
-/// joints in the order of the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
+/// branch by branch, the branches of a link in the order of its joints in the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
 /// NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
 ///
 /// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,

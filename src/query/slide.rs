@@ -119,7 +119,7 @@ struct Asked<'a> {
 
 impl QueryContext {
     /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest step
-    /// that brings no contact nearer than the desired distance, pushed out to it where it is within, set right where it leads,
+    /// that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out to it where it is within, set right where it leads,
     /// and halved until the whole way is proved free.
     pub fn slide(
         &mut self,
@@ -217,7 +217,7 @@ impl QueryContext {
         };
         let mut reached = space.clamp(&space.step(q, &first));
         let mut corrections = 0;
-        let there = loop {
+        let (distance, nearest) = loop {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
@@ -232,10 +232,9 @@ impl QueryContext {
                 return Ok(None);
             }
             let contacts = approaches(&there, asked.length, desired);
-            if corrections == MOST_CORRECTIONS
-                || nearest_movable(&contacts) >= keep - 0.1 * FALL_SHORT * desired
-            {
-                break there;
+            let nearest = nearest_movable(&contacts);
+            if corrections == MOST_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
+                break (there.distance.distance, nearest);
             }
             corrections += 1;
             let limits = step_limits(space, &reached, length)?;
@@ -249,7 +248,6 @@ impl QueryContext {
         let way = space.displacement(q, &reached);
         let (gain, moved) = (dot(&way, wish) / length, norm(&way));
         let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
-        let nearest = nearest_movable(&approaches(&there, asked.length, desired));
         let keeps = nearest >= keep - FALL_SHORT * desired;
         // A push alone must win more than steps that gain may lose, or the two would take turns.
         let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
@@ -257,7 +255,7 @@ impl QueryContext {
         if !goes_on || !self.may_move(cobject, q, &way, here, options.max_shell)? {
             return Ok(None);
         }
-        Ok(Some((reached, there.distance.distance)))
+        Ok(Some((reached, distance)))
     }
 
     /// Whether the way is free. From a touching start no proof can begin: the first [`ON_TRUST`] of the shell is taken on

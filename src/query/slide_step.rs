@@ -101,7 +101,7 @@ pub fn spring_step(
 
 /// The contacts that some step changes. Of those that joints carry along as one only rounding is left of the gradient; as a
 /// direction it would mean nothing.
-pub fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
+fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
     let length = |a: &Approach| dot(a.gradient, a.gradient).sqrt();
     let largest = approaches.iter().map(length).fold(0.0, f64::max);
     approaches

@@ -70,18 +70,11 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
             if row.iter().any(|x| *x != 0.0) {
                 // Aimed inside by what rounding of the pose may put it outside.
                 let [low, high] = [world.low[axis], world.high[axis]];
-                let doubt = |bound: f64| INSIDE * (1.0 + bound.abs());
-                let low = if low.is_finite() {
-                    low + doubt(low)
-                } else {
-                    low
+                let doubt = |bound: f64| match bound.is_finite() {
+                    true => INSIDE * (1.0 + bound.abs()),
+                    false => 0.0,
                 };
-                let high = if high.is_finite() {
-                    high - doubt(high)
-                } else {
-                    high
-                };
-                keep(origin[axis], low, high, row);
+                keep(origin[axis], low + doubt(low), high - doubt(high), row);
             }
         }
     }

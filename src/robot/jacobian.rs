@@ -21,6 +21,16 @@ pub struct Column {
     pub angular: Vec3,
 }
 
+impl Column {
+    /// Adds it to a matrix of 6 rows of `nv`, linear velocity above angular.
+    pub fn add_to(&self, matrix: &mut [f64], nv: usize) {
+        for row in 0..3 {
+            matrix[row * nv + self.velocity] += self.linear[row];
+            matrix[(row + 3) * nv + self.velocity] += self.angular[row];
+        }
+    }
+}
+
 impl Robot {
     /// Visits the columns of the Jacobian of a point fixed to a link, from the link downwards; `point` is given in the world.
     /// Joints that share a coordinate give one column each, to be summed.
@@ -65,14 +75,9 @@ impl Robot {
     /// The 6 x nv basic Jacobian of a point fixed to a link, row-major: three rows of linear velocity, three of angular
     /// velocity, all in the world frame.
     pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
-        let n = self.nv();
-        let mut matrix = vec![0.0; 6 * n];
-        self.visit_columns(posture, link, point, |column| {
-            for row in 0..3 {
-                matrix[row * n + column.velocity] += column.linear[row];
-                matrix[(row + 3) * n + column.velocity] += column.angular[row];
-            }
-        })?;
+        let nv = self.nv();
+        let mut matrix = vec![0.0; 6 * nv];
+        self.visit_columns(posture, link, point, |c| c.add_to(&mut matrix, nv))?;
         Ok(matrix)
     }
 }

@@ -192,12 +192,7 @@ impl Space {
     /// The 6 x nv basic Jacobian (33) of a point fixed to a link, row-major: linear, then angular velocity, in the world.
     pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
         let mut matrix = vec![0.0; 6 * self.nv];
-        self.visit_columns(posture, link, point, |column| {
-            for row in 0..3 {
-                matrix[row * self.nv + column.velocity] += column.linear[row];
-                matrix[(row + 3) * self.nv + column.velocity] += column.angular[row];
-            }
-        })?;
+        self.visit_columns(posture, link, point, |c| c.add_to(&mut matrix, self.nv))?;
         Ok(matrix)
     }
 

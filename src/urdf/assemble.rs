@@ -70,7 +70,7 @@ impl Default for UrdfOptions {
 const MOST_SIDES: usize = 1024;
 
 /// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns the number of its root
-/// link. Joints of other names keep the order of the file. `progress` is told the part of the links that is done. The file is
+/// link. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that is done. The file is
 /// added whole or not at all; failures name file, line and element.
 pub fn add_urdf_file(
     builder: &mut RobotBuilder,
