@@ -7,6 +7,7 @@ pub mod checked;
 pub mod containment;
 pub mod differences;
 pub mod expansion;
+pub mod facing;
 pub mod models;
 pub mod oracle;
 pub mod placed;
