@@ -51,6 +51,10 @@ static void bodies() {
     REQUIRE(body.feature_vertices(0, CSTK_FACE, 0).size() == 12);
     REQUIRE(status_of([&] { builder.add_mesh_file("/nowhere.obj"); }) == CSTK_IO);
 
+    builder.set_solid();
+    REQUIRE(status_of([&] { builder.build(); }) == CSTK_NOT_CLOSED);
+    builder.set_solid(false);
+
     int heard = 0;
     builder.build(cstk::hierarchy_options(), [&](double) { return ++heard > 0; });
     REQUIRE(heard > 1);
@@ -409,6 +413,158 @@ static void steps() {
     REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_INVALID_ARGUMENT);
 }
 
+/// A cube that a rail moves along x, between -5 and 5; a wheel turns nothing.
+static cstk::Space make_space(const cstk::Body &body) {
+    cstk::RobotBuilder builder;
+    cstk::Link link;
+    link.joint = CSTK_JOINT_PRISMATIC;
+    link.axis = {1, 0, 0};
+    link.lower = -5;
+    link.upper = 5;
+    link.body = body;
+    builder.add_link(link);
+    link = cstk::Link();
+    link.joint = CSTK_JOINT_REVOLUTE;
+    link.parent = 0;
+    builder.add_link(link);
+    return cstk::Space({builder.build()}, {}, {-4, -4, -4, 4, 4, 4});
+}
+
+static void pure_sets(const cstk::Space &space) {
+    cstk::Query query;
+    const double infinity = std::numeric_limits<double>::infinity();
+    const cstk_pure_options options = cstk::pure_options(1, 2);
+    const cstk::CObject limits = cstk::CObject::limits(space);
+    const cstk::CObject world = cstk::CObject::world(space);
+    const cstk::CObject box = cstk::CObject::box(space, {1, -infinity}, {2, infinity}, options);
+    const cstk::CObject plane = cstk::CObject::halfspace(space, {-2, 0}, -6, options);
+    const cstk::CObject ball = cstk::CObject::ball(space, {0, 0}, 0.5, options);
+    const std::vector<double> q = {3, 0};
+    REQUIRE(query.distance(limits, q).distance == 2 && query.distance(world, q).distance == 1);
+    REQUIRE(query.distance(box, q).distance == 2 && query.distance(ball, q).distance == 5);
+    REQUIRE(query.classify(limits, q) == CSTK_OUTSIDE && query.classify(ball, q) == CSTK_OUTSIDE);
+    REQUIRE(query.classify(box, q) == CSTK_CONTACT && query.classify(plane, q) == CSTK_INSIDE);
+    REQUIRE(query.classify(limits, {6, 0}) == CSTK_INSIDE);
+    REQUIRE(query.gradients(box, q, 3).gradients[0] == 2);
+
+    const cstk::CObject either = cstk::CObject::union_of({box, ball});
+    const cstk::CObject both = cstk::CObject::intersection_of({box, plane});
+    REQUIRE(query.distance(either, q).distance == 2);
+    REQUIRE(query.classify(both, q) == CSTK_CONTACT);
+    REQUIRE(query.classify(both, {1, 0}) == CSTK_OUTSIDE);
+    REQUIRE(query.classify(cstk::CObject::difference(plane, box), {4, 0}) == CSTK_INSIDE);
+    REQUIRE(query.classify(ball.complement(), q) == CSTK_INSIDE);
+    REQUIRE(query.classify(ball.complement(), {0, 0}) == CSTK_OUTSIDE);
+
+    REQUIRE(is_invalid([&] { cstk::CObject::box(space, {1, 2}, {1}); }));
+    REQUIRE(status_of([&] { cstk::CObject::box(space, {1}, {2}); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_DEGENERATE);
+    REQUIRE(status_of([&] { cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_INVALID_ARGUMENT);
+    const cstk_pure_options bad = cstk::pure_options(-1);
+    REQUIRE(status_of([&] { cstk::CObject::limits(space, bad); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::world(space, bad); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject::intersection_of({}); }) == CSTK_EMPTY);
+    REQUIRE(status_of([] { cstk::CObject::union_of({}); }) == CSTK_EMPTY);
+    REQUIRE(status_of([] { cstk::CObject().complement(); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::difference(box, cstk::CObject()); }) ==
+            CSTK_NULL_ARGUMENT);
+}
+
+static std::int32_t beyond_three(const double *q, std::size_t, std::int32_t *out, void *calls) {
+    ++*static_cast<int *>(calls);
+    *out = q[0] >= 3 ? CSTK_INSIDE : CSTK_OUTSIDE;
+    return CSTK_OK;
+}
+
+static void count(void *calls) { *static_cast<int *>(calls) += 100; }
+
+static void predicates(const cstk::Space &space) {
+    cstk::Query query;
+    int calls = 0;
+    cstk_predicate plain = cstk::predicate();
+    REQUIRE(status_of([&] { cstk::CObject::predicate(space, plain); }) == CSTK_NULL_ARGUMENT);
+    plain.classify = beyond_three;
+    plain.user = &calls;
+    plain.destroy = count;
+    cstk::CObject by_c = cstk::CObject::predicate(space, plain);
+    REQUIRE(query.classify(by_c, {3, 0}) == CSTK_INSIDE && calls == 1);
+    by_c = cstk::CObject();
+    REQUIRE(calls == 101);
+
+    const auto kept = std::make_shared<double>(3);
+    cstk::Predicate functions;
+    REQUIRE(status_of([&] { cstk::CObject::predicate(space, functions); }) == CSTK_NULL_ARGUMENT);
+    functions.classify = [kept](cstk::Span<double> q) {
+        if (q.data()[1] == 1) {
+            throw std::domain_error("mine");
+        }
+        return q.size() == 2 && q.data()[0] >= *kept ? CSTK_INSIDE : CSTK_OUTSIDE;
+    };
+    cstk::CObject by_class = cstk::CObject::predicate(space, functions);
+    REQUIRE(query.distance(by_class, {1, 0}).kind == CSTK_LOWER_BOUND);
+    REQUIRE(query.classify(by_class, {3, 0}) == CSTK_INSIDE);
+    functions.distance = [kept](cstk::Span<double> q) { return *kept - q.data()[0]; };
+    functions.gradient = [](cstk::Span<double> q) {
+        return q.data()[1] == 2 ? std::vector<double>{-1} : std::vector<double>{-1, 0};
+    };
+    functions.knows_depth = true;
+    cstk::CObject set =
+        cstk::CObject::predicate(space, std::move(functions), cstk::pure_options(0, 2));
+    functions = cstk::Predicate();
+    REQUIRE(query.distance(set, {1, 0}).distance == 4);
+    REQUIRE(query.distance(set.complement(), {4, 0}).distance == 2);
+    REQUIRE(query.gradients(set, {1, 0}, 5).gradients[0] == -2);
+    REQUIRE(status_of([&] { query.gradients(set, {1, 2}, 5); }) == CSTK_CALLBACK_FAILED);
+    REQUIRE(status_of([&] { query.classify(set, {1, 1}); }) == CSTK_CALLBACK_FAILED);
+    REQUIRE(status_of([&] {
+                cstk::Predicate refused;
+                refused.classify = [kept](cstk::Span<double>) { return CSTK_OUTSIDE; };
+                cstk::CObject::predicate(space, refused, cstk::pure_options(-1));
+            }) == CSTK_INVALID_ARGUMENT);
+    by_class = cstk::CObject();
+    REQUIRE(kept.use_count() > 1);
+    set = cstk::CObject();
+    REQUIRE(kept.use_count() == 1);
+}
+
+static void explanations(const cstk::Space &space, const cstk::Body &body) {
+    cstk::Query query;
+    int destroyed = 0;
+    int mark = 0;
+    cstk::Environment environment;
+    const std::uint64_t id = environment.add(body, cstk::translation(2, 0, 0));
+    cstk::CObject obstacle =
+        cstk::CObject::induced(space, environment).with_data(&destroyed, count);
+    cstk::CObject ball = cstk::CObject::ball(space, {0, 0}, 0.5).with_data(&mark);
+    REQUIRE(obstacle.data() == &destroyed && ball.data() == &mark);
+    REQUIRE(obstacle.number() != ball.number() && environment.object_count() == 1);
+    const cstk::CObject all = cstk::CObject::union_of({obstacle, ball.complement()});
+    const cstk_explanation why = query.explain(all, {1.5, 0});
+    REQUIRE(why.point_class == CSTK_INSIDE && why.leaf_count == 2 && why.list.witness_count == 1);
+    REQUIRE(why.leaves[0].data == &destroyed && why.leaves[0].cobject == obstacle.number());
+    REQUIRE(why.leaves[1].data == &mark && why.leaves[1].cobject == ball.number());
+    REQUIRE(why.leaves[1].complemented && why.leaves[1].decisive && why.leaves[0].decisive);
+    REQUIRE(why.list.witnesses[0].cobject_data == &destroyed);
+    REQUIRE(why.list.witnesses[0].s_object == id);
+    REQUIRE(query.explain(all, {1.5, 0}, 0).list.truncated);
+    REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_WRONG_SIZE);
+    REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_UNSUPPORTED);
+    REQUIRE(status_of([] { cstk::CObject().with_data(nullptr); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject().data(); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject().number(); }) == CSTK_NULL_ARGUMENT);
+    const cstk::CObject alone = obstacle;
+    obstacle = cstk::CObject();
+    REQUIRE(destroyed == 0);
+}
+
+static void sets() {
+    const cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
+    const cstk::Space space = make_space(body);
+    pure_sets(space);
+    predicates(space);
+    explanations(space, body);
+}
+
 static void urdf() {
     const char *file = "cpp_layer.urdf";
     std::FILE *out = std::fopen(file, "w");
@@ -440,5 +596,6 @@ int main() {
     spaces();
     steps();
     queries();
+    sets();
     std::puts("the C++ layer holds");
 }

@@ -272,6 +272,81 @@ static void build(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void set_solid(const fixture *f) {
+    EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
+        CHECK_FAILS(cstk_body_builder_set_solid(bad->handle, true), bad->status, "builder");
+    }
+    /* A tetrahedron without its last face, then with it. */
+    const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const uint32_t faces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    cstk_body_builder *builder = NULL;
+    cstk_body *out;
+    cstk_body *body = NULL;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 3, faces, 9));
+    CHECK_OK(cstk_body_builder_set_solid(builder, true));
+    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
+                  "3 edges are open: the edge from (0, 1, 0) to (1, 0, 0) of primitive 0 (tag 0)");
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces + 9, 3));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    cstk_body_statistics s;
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(s.solid && s.piece_count == 1 && s.primitive_count == 4);
+    CHECK_OK(cstk_body_release(body));
+    /* As a surface it may be anything. */
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces, 3));
+    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
+                  "primitive 4 (tag 0)");
+    CHECK_OK(cstk_body_builder_set_solid(builder, false));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(!s.solid && s.piece_count == 1 && s.primitive_count == 5);
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_release(builder));
+    fixture_unchanged(f);
+}
+
+/* A cube in a cube: inside, and said to be. */
+static void solid_around(const fixture *f) {
+    const uint32_t faces[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    const uint32_t sizes[6] = {4, 4, 4, 4, 4, 4};
+    const double pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double halves[2] = {0.2, 1.0};
+    cstk_body *cubes[2];
+    for (int k = 0; k < 2; ++k) {
+        cstk_body_builder *builder = NULL;
+        double corners[24];
+        for (int i = 0; i < 24; ++i) {
+            corners[i] = (i / 3) >> (i % 3) & 1 ? halves[k] : -halves[k];
+        }
+        CHECK_OK(cstk_body_builder_create(3, &builder));
+        CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 8, sizes, 6, faces, 24));
+        CHECK_OK(cstk_body_builder_set_solid(builder, k == 1));
+        CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &cubes[k]));
+        CHECK_OK(cstk_body_builder_release(builder));
+    }
+    cstk_query *query = NULL;
+    cstk_distance_result d;
+    cstk_witness_list list;
+    cstk_penetration_list penetrations;
+    bool within = false;
+    CHECK_OK(cstk_query_create(&query));
+    CHECK_OK(cstk_pair_distance(query, cubes[0], pose, cubes[1], pose, INFINITY, &d));
+    CHECK(d.kind == CSTK_EXACT && d.distance == 0 && d.lower == 0 && !d.has_contact);
+    CHECK(d.has_witness && d.witness.contained && d.witness.overlapping);
+    CHECK(memcmp(d.r_point, d.s_point, sizeof d.r_point) == 0 && fabs(d.r_point[0]) == 0.2);
+    CHECK_OK(cstk_pair_within(query, cubes[1], pose, cubes[0], pose, 0, &within));
+    CHECK(within);
+    CHECK_OK(cstk_pair_witnesses(query, cubes[0], pose, cubes[1], pose, 0.5, 99, &list));
+    CHECK(list.witness_count == 1 && list.witnesses[0].contained && list.contact_count == 0);
+    CHECK_OK(cstk_pair_penetration(query, cubes[0], pose, cubes[1], pose, 99, &penetrations));
+    CHECK(penetrations.count == 0);
+    CHECK_OK(cstk_query_release(query));
+    CHECK_OK(cstk_body_release(cubes[0]));
+    CHECK_OK(cstk_body_release(cubes[1]));
+    fixture_unchanged(f);
+}
+
 static void get_statistics(const fixture *f) {
     cstk_body_statistics out;
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
@@ -303,7 +378,8 @@ static void feature_vertices(const fixture *f) {
         {1, CSTK_FACE, 0, CSTK_NOT_FOUND, "primitive 1"},
         {UINT32_MAX, CSTK_FACE, 0, CSTK_NOT_FOUND, "primitive"},
         {0, -1, 0, CSTK_INVALID_ARGUMENT, "kind"},
-        {0, 4, 0, CSTK_INVALID_ARGUMENT, "kind"},
+        {0, 5, 0, CSTK_INVALID_ARGUMENT, "kind"},
+        {0, CSTK_SURFACE, 0, CSTK_NOT_FOUND, "Surface"},
         {0, CSTK_VERTEX, 8, CSTK_NOT_FOUND, "8"},
         {0, CSTK_EDGE, 12, CSTK_NOT_FOUND, "12"},
         {0, CSTK_FACE, 6, CSTK_NOT_FOUND, "6"},
@@ -342,6 +418,8 @@ int main(void) {
     bow_tie();
     add_mesh_file(&f);
     build(&f);
+    set_solid(&f);
+    solid_around(&f);
     get_statistics(&f);
     feature_vertices(&f);
     add_mesh_huge_counts(&f);

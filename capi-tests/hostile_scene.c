@@ -71,7 +71,7 @@ static void apply_handles(const fixture *f) {
 }
 
 static void apply_values(const fixture *f) {
-    const int32_t kinds[] = {-1, 3, INT32_MIN, INT32_MAX};
+    const int32_t kinds[] = {-1, 4, INT32_MIN, INT32_MAX};
     cstk_environment_change good;
     cstk_environment_change change;
     CHECK_OK(cstk_environment_change_default(&good, sizeof good));

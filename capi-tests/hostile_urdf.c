@@ -74,7 +74,7 @@ static void arguments(const fixture *f) {
 static void fields(const fixture *f) {
     const char *paths[] = {"/tmp", NULL};
     const int32_t numbers[] = {-1, 3, INT32_MIN, INT32_MAX};
-    const uint32_t sides[] = {0, 2, 1025, UINT32_MAX};
+    const uint32_t sides[] = {1, 2, 1025, UINT32_MAX};
     for (int i = 0; i < 4; ++i) {
         cstk_urdf_options options = good_options();
         options.geometry = numbers[i];

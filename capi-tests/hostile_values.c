@@ -12,7 +12,7 @@ static void texts(void) {
     CHECK(cstk_last_error_message() != NULL);
     CHECK(strcmp(cstk_status_name(CSTK_OK), "CSTK_OK") == 0);
     CHECK(strcmp(cstk_status_name(CSTK_INTERNAL), "CSTK_INTERNAL") == 0);
-    const int32_t none[] = {-1, CSTK_CALLBACK_FAILED + 1, INT32_MIN, INT32_MAX};
+    const int32_t none[] = {-1, CSTK_NOT_CLOSED + 1, INT32_MIN, INT32_MAX};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; ++i) {
         CHECK(strcmp(cstk_status_name(none[i]), "unknown status") == 0);
     }
@@ -294,6 +294,8 @@ DEFAULTS_OF(cstk_link_def, cstk_link_def_default)
 DEFAULTS_OF(cstk_custom_joint, cstk_custom_joint_default)
 DEFAULTS_OF(cstk_environment_change, cstk_environment_change_default)
 DEFAULTS_OF(cstk_cobject_options, cstk_cobject_options_default)
+DEFAULTS_OF(cstk_pure_options, cstk_pure_options_default)
+DEFAULTS_OF(cstk_predicate, cstk_predicate_default)
 DEFAULTS_OF(cstk_slide_options, cstk_slide_options_default)
 
 /* Callers compiled with an earlier header have smaller structures. */
@@ -338,6 +340,8 @@ int main(void) {
     cstk_custom_joint_trials();
     cstk_environment_change_trials();
     cstk_cobject_options_trials();
+    cstk_pure_options_trials();
+    cstk_predicate_trials();
     cstk_slide_options_trials();
     earlier_sizes();
     return check_result();

@@ -7,8 +7,8 @@
  * WORDS. Numbers like (§4.4) refer to the report the library succeeds: Xavier and LaFarge, A Configuration Space Toolkit for
  * Automated Spatial Reasoning, SAND97-0366, Sandia National Laboratories 1997. The r-side of an answer is the robot's link
  * (or body a); the s-side is an s-object, that is an obstacle, or a second link (or body b). A C-object is a set in the
- * robot's configuration space, such as all q at which some link meets some obstacle. A primitive is one convex polygon or
- * polyhedron of a body. The shell, or stand-off, is the distance within which contacts are considered.
+ * robot's configuration space, such as all q at which some link meets some obstacle. A primitive is one convex polygon,
+ * polyhedron or ready-made shape of a body. The shell, or stand-off, is the distance within which contacts are considered.
  *
  * CALLS. Every call that can fail returns a cstk_status; inputs come first, outputs last, and outputs are written only on
  * CSTK_OK. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library
@@ -33,7 +33,7 @@
  *
  * MEANING. A body is the union of its primitives as closed sets: in space a polygon is a surface and a polyhedron is solid;
  * in the plane a polygon is solid. The distance is the least over all pairs of primitives, 0 when they meet; its error is
- * at most 1e-12 of the largest coordinate of the pair (seen from the middle of one of them). Answers do not depend on the
+ * at most 1e-12 of the largest coordinate of the pair (seen from the middle of one of them); smooth shapes state theirs. Answers do not depend on the
  * queries before them, nor on the number of threads, to the last bit.
  */
 
@@ -152,6 +152,10 @@ enum cstk_status
    * A function of the caller's failed; the message names it and what it returned.
    */
   CSTK_CALLBACK_FAILED = 20,
+  /**
+   * A body was declared solid whose surface is not closed; the message names open edges.
+   */
+  CSTK_NOT_CLOSED = 21,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -319,6 +323,11 @@ enum cstk_contact_mode
   CSTK_POINT_FACE = 3,
   CSTK_FACE_POINT = 4,
   CSTK_EDGE_EDGE = 5,
+  /**
+   * The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
+   * origin.
+   */
+  CSTK_PURE_SET = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -343,12 +352,54 @@ enum cstk_feature_kind
    * The inside of a solid.
    */
   CSTK_INTERIOR = 3,
+  /**
+   * The surface of a cylinder, cone, ellipsoid or set by a support function; it has no vertices. What has a radius holds
+   * its points by the features of its core.
+   */
+  CSTK_SURFACE = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_feature_kind cstk_feature_kind;
 #else
 typedef int32_t cstk_feature_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What was found out about a pair of links.
+ */
+enum cstk_pair_verdict
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * To be tested: the two touched in some samples, or are of different robots.
+   */
+  CSTK_PAIR_TEST = 0,
+  /**
+   * The two are joined, with no link that has a body in between, or fixed to each other.
+   */
+  CSTK_PAIR_ADJACENT = 1,
+  /**
+   * They touch at rest.
+   */
+  CSTK_PAIR_AT_REST = 2,
+  /**
+   * They touch in all samples, or nearly.
+   */
+  CSTK_PAIR_ALWAYS = 3,
+  /**
+   * They touched in no sample; tested all the same unless skip_never.
+   */
+  CSTK_PAIR_NEVER = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_pair_verdict cstk_pair_verdict;
+#else
+typedef int32_t cstk_pair_verdict;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -430,13 +481,17 @@ enum cstk_change_kind
    */
   CSTK_CHANGE_ADD = 0,
   /**
-   * Moves object `id` to `pose`.
+   * Moves object `id` to `pose`; one that is attached to a link is let go there.
    */
   CSTK_CHANGE_MOVE = 1,
   /**
    * Deletes object `id`.
    */
   CSTK_CHANGE_DELETE = 2,
+  /**
+   * Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew.
+   */
+  CSTK_CHANGE_ATTACH = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -566,8 +621,8 @@ typedef struct cstk_body cstk_body;
 typedef struct cstk_body_builder cstk_body_builder;
 
 /**
- * A set in C-space: induced by contact or interference of links with s-objects or links, or a union of such. Immutable
- * (but for the environment it may refer to); threads may share it. It keeps its space and environment.
+ * A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or made of
+ * others. Immutable (but for the environments it refers to); threads may share it. It keeps its space and environments.
  */
 typedef struct cstk_cobject cstk_cobject;
 
@@ -683,8 +738,28 @@ typedef struct cstk_body_statistics {
    */
   double low[3];
   double high[3];
-  uint64_t reserved[8];
+  /**
+   * What of the body hangs together: polygons that share vertices, and each polyhedron.
+   */
+  uint64_t piece_count;
+  /**
+   * It was declared solid (cstk_body_builder_set_solid).
+   */
+  bool solid;
+  uint8_t reserved_bytes[7];
+  uint64_t reserved[6];
 } cstk_body_statistics;
+
+/**
+ * Writes to `point` (three doubles) a point of a bounded convex set that is farthest along the unit vector `direction`.
+ * Returns CSTK_OK, or anything else when it fails.
+ */
+typedef int32_t (*cstk_support_fn)(const double *direction, double *point, void *user);
+
+/**
+ * Gives user data back to the caller, once, when nothing refers to it any more.
+ */
+typedef void (*cstk_destroy_fn)(void *user);
 
 /**
  * What a body's hierarchy is like.
@@ -812,11 +887,6 @@ typedef int32_t (*cstk_joint_pose_fn)(const double *q, size_t n, double *pose, v
  * velocity of the link, both in the joint's frame.
  */
 typedef int32_t (*cstk_joint_jacobian_fn)(const double *q, size_t n, double *jacobian, void *user);
-
-/**
- * Gives user data back to the caller, once, when nothing refers to it any more.
- */
-typedef void (*cstk_destroy_fn)(void *user);
 
 /**
  * A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
@@ -963,8 +1033,8 @@ typedef struct cstk_urdf_options {
    */
   int32_t parent;
   /**
-   * Into how many sides the circles of spheres, cylinders and capsules are divided, 3 to 1024; default 32. The polyhedra
-   * hold the shapes.
+   * 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided, 3 to
+   * 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
    */
   uint32_t sides;
   /**
@@ -1030,10 +1100,45 @@ typedef struct cstk_environment_change {
    */
   const struct cstk_body *body;
   /**
-   * Where it stands: the body's frame in the world, 12 doubles.
+   * Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
    */
   double pose[12];
+  /**
+   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. Queries in other spaces that meet
+   * the object are refused with CSTK_UNSUPPORTED. The object moves with the link. In a set of links against
+   * s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
+   * s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
+   */
+  const struct cstk_space *space;
+  const uint32_t *touch_links;
+  uint32_t link;
+  uint32_t touch_count;
+  /**
+   * For CSTK_CHANGE_ADD data of the caller's, handed back with witnesses; `destroy` may be NULL, and is called once, by
+   * whichever thread drops the last state that holds the object, not when the change fails.
+   */
+  void *data;
+  cstk_destroy_fn destroy;
 } cstk_environment_change;
+
+/**
+ * A pair that may meet: a link, and an s-object.
+ */
+typedef struct cstk_allowed_pair {
+  /**
+   * A link of the space.
+   */
+  uint32_t link;
+  uint32_t reserved;
+  /**
+   * An s-object that is attached to the link and stands in its place, or 0 for the link's own body.
+   */
+  uint64_t attached;
+  /**
+   * The s-object it may meet.
+   */
+  uint64_t object;
+} cstk_allowed_pair;
 
 /**
  * How an induced C-object measures. Write it with cstk_cobject_options_default first.
@@ -1050,7 +1155,90 @@ typedef struct cstk_cobject_options {
    * than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
    */
   double margin;
+  /**
+   * Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none.
+   */
+  const struct cstk_allowed_pair *allowed;
+  size_t allowed_count;
 } cstk_cobject_options;
+
+/**
+ * Writes where configuration q (`nq` doubles) stands: a cstk_class. Returns CSTK_OK, or anything else to make the query
+ * fail with CSTK_CALLBACK_FAILED.
+ */
+typedef int32_t (*cstk_predicate_class_fn)(const double *q, size_t nq, int32_t *out, void *user);
+
+/**
+ * Writes how far q is from the set, in units of C-space: positive where the class is not CSTK_INSIDE, and there 0, or minus
+ * the depth.
+ */
+typedef int32_t (*cstk_predicate_distance_fn)(const double *q, size_t nq, double *out, void *user);
+
+/**
+ * Writes the derivative of that distance, `nv` doubles, one a velocity of cstk_space_step.
+ */
+typedef int32_t (*cstk_predicate_gradient_fn)(const double *q,
+                                              size_t nq,
+                                              double *row,
+                                              size_t nv,
+                                              void *user);
+
+/**
+ * A set by functions of the caller. Write it with cstk_predicate_default first. The functions are called by any thread
+ * that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call back
+ * into the query that asks. What they write is checked: numbers that are none, a class that is none, and a distance that
+ * does not fit the class are answered with CSTK_CALLBACK_FAILED.
+ */
+typedef struct cstk_predicate {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Must be set. It alone says what is in contact; the options' contact_epsilon is not looked at.
+   */
+  cstk_predicate_class_fn classify;
+  /**
+   * May be NULL: then distances are not known outside the set (CSTK_LOWER_BOUND, from 0), nor those from its complement
+   * where the class is not CSTK_OUTSIDE, and it has witnesses only where it holds q. Distances are at most 1e50.
+   */
+  cstk_predicate_distance_fn distance;
+  /**
+   * May be NULL: then cstk_gradients and cstk_pseudo_normal are refused within epsilon of the set (CSTK_UNSUPPORTED).
+   */
+  cstk_predicate_gradient_fn gradient;
+  /**
+   * Handed to the functions.
+   */
+  void *user;
+  /**
+   * May be NULL. Called once, by whichever thread drops the last reference to what uses the functions.
+   */
+  cstk_destroy_fn destroy;
+  /**
+   * The distance function gives lower bounds outside: the truth may be more. Default 0.
+   */
+  uint32_t distance_is_bound;
+  /**
+   * The distance function gives minus the depth inside: the distance from the complement, exactly. Default 0.
+   */
+  uint32_t knows_depth;
+} cstk_predicate;
+
+/**
+ * How a pure set measures. Write it with cstk_pure_options_default first.
+ */
+typedef struct cstk_pure_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space. Default 0.
+   */
+  double contact_epsilon;
+  /**
+   * The length that a unit of C-space stands for. Distances of the set are multiplied by it, and so can be compared with
+   * those of induced sets; 0, the default: they are not, and queries of distance of both together are refused.
+   */
+  double scale;
+} cstk_pure_options;
 
 /**
  * The work a query context has done.
@@ -1072,7 +1260,7 @@ typedef struct cstk_query_statistics {
 } cstk_query_statistics;
 
 /**
- * One pair of primitives.
+ * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE.
  */
 typedef struct cstk_witness {
   /**
@@ -1080,7 +1268,7 @@ typedef struct cstk_witness {
    */
   uint32_t r_link;
   /**
-   * The second link, or CSTK_NONE if the s-side is an s-object or a body.
+   * The second link, or the one that the s-object is attached to; CSTK_NONE if the s-side is another s-object or a body.
    */
   uint32_t s_link;
   /**
@@ -1105,10 +1293,29 @@ typedef struct cstk_witness {
   uint32_t first_contact;
   uint32_t contact_count;
   /**
-   * The primitives overlap, deeper than just inside: there is no contact, and no gradient.
+   * The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient.
    */
   bool overlapping;
-  uint8_t reserved_bytes[7];
+  /**
+   * A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet: they
+   * stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+   */
+  bool contained;
+  uint8_t reserved_bytes[6];
+  /**
+   * The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
+   */
+  uint64_t cobject;
+  void *cobject_data;
+  /**
+   * The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there are none.
+   */
+  void *r_data;
+  void *s_data;
+  /**
+   * The s-object attached to r_link that is the r-side, or 0 for the link's own body.
+   */
+  uint64_t r_object;
   uint64_t reserved[4];
 } cstk_witness;
 
@@ -1140,7 +1347,8 @@ typedef struct cstk_contact {
   uint32_t reserved_word;
   /**
    * The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
-   * primitives are just inside one another (by at most 1e-6 of the pair's size).
+   * primitives are just inside one another (by at most 1e-6 of the pair's size), or as deep as their radii let
+   * round ones be while their cores are apart.
    */
   double clearance;
   uint64_t reserved[2];
@@ -1174,7 +1382,8 @@ typedef struct cstk_distance_result {
    */
   double upper;
   /**
-   * The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point.
+   * The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
+   * inside a solid, a vertex of the piece.
    */
   double r_point[3];
   double s_point[3];
@@ -1223,6 +1432,119 @@ typedef struct cstk_pseudo_normal_result {
    */
   struct cstk_witness_list list;
 } cstk_pseudo_normal_result;
+
+/**
+ * What one leaf of a C-object's tree says of a configuration.
+ */
+typedef struct cstk_verdict {
+  /**
+   * The leaf, as cstk_cobject_get_data numbers it, and its data.
+   */
+  uint64_t cobject;
+  void *data;
+  /**
+   * The class with respect to the leaf itself.
+   */
+  cstk_class leaf_class;
+  /**
+   * The tree takes the leaf's complement.
+   */
+  bool complemented;
+  /**
+   * The class of the whole rests on this leaf (and on the other decisive ones): on the way down to it the part's class was
+   * that of each union and intersection.
+   */
+  bool decisive;
+  uint8_t reserved_bytes[2];
+  /**
+   * The pairs of primitives that made the leaf's class, if it is decisive: `witness_count` entries of the list.
+   */
+  uint32_t first_witness;
+  uint32_t witness_count;
+  uint64_t reserved[2];
+} cstk_verdict;
+
+/**
+ * A class with its reasons. The arrays belong to the query context and stay valid until its next call or its release.
+ */
+typedef struct cstk_explanation {
+  cstk_class point_class;
+  uint32_t reserved_word;
+  /**
+   * Every leaf; one that is meant both as it is and by its complement stands twice.
+   */
+  const struct cstk_verdict *leaves;
+  size_t leaf_count;
+  /**
+   * Pairs that meet where the leaf's class is CSTK_INSIDE, or are within its contact epsilon where it is CSTK_CONTACT.
+   */
+  struct cstk_witness_list list;
+  uint64_t reserved[4];
+} cstk_explanation;
+
+/**
+ * How pairs of links are judged. Write it with cstk_link_pair_options_default first.
+ */
+typedef struct cstk_link_pair_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * How many configurations are drawn from the space; default 1000.
+   */
+  uint64_t samples;
+  /**
+   * Decides which; default 0. Equal seeds give equal answers.
+   */
+  uint64_t seed;
+  /**
+   * The configuration at rest, as many doubles as the space has coordinates; NULL, the default, for all at 0, clamped to
+   * their ranges. Coordinates without bounds stay as at rest.
+   */
+  const double *rest;
+  /**
+   * Links at most this far apart count as touching; default 0.
+   */
+  double margin;
+  /**
+   * Pairs that touch in this share of the samples, or more, always touch; default 0.95.
+   */
+  double always;
+  /**
+   * Nonzero: pairs that touched in no sample are left out of the pairs to test, too. No sampling proves that they
+   * cannot touch. Default 0.
+   */
+  uint32_t skip_never;
+  uint32_t reserved;
+} cstk_link_pair_options;
+
+/**
+ * A pair of links that have bodies, the lower number first.
+ */
+typedef struct cstk_link_pair {
+  uint32_t r_link;
+  uint32_t s_link;
+  cstk_pair_verdict verdict;
+  uint32_t reserved;
+  /**
+   * The share of the samples in which they touch; 0 where the verdict needed none.
+   */
+  double share;
+} cstk_link_pair;
+
+/**
+ * All pairs of links that have bodies. The arrays belong to the query context and stay valid until its next call or its
+ * release.
+ */
+typedef struct cstk_link_pair_list {
+  const struct cstk_link_pair *pairs;
+  size_t count;
+  /**
+   * The pairs to test, two numbers each, as cstk_cobject_induced_links takes them; NULL where there is none.
+   */
+  const uint32_t *tested;
+  size_t tested_count;
+  uint64_t reserved[4];
+} cstk_link_pair_list;
 
 /**
  * A pair of primitives that meet, and the shortest translation that takes the two apart.
@@ -1438,7 +1760,7 @@ cstk_status cstk_hierarchy_options_default(struct cstk_hierarchy_options *out, s
 
 /**
  * Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
- * surfaces). Release it with cstk_body_builder_release.
+ * surfaces, unless cstk_body_builder_set_solid says otherwise). Release it with cstk_body_builder_release.
  */
 cstk_status cstk_body_builder_create(uint32_t dimension,
                                      struct cstk_body_builder **out);
@@ -1500,8 +1822,25 @@ cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
                                             const char *file);
 
 /**
+ * Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
+ * the default). In a solid the inside counts: a body wholly inside it meets it, at distance 0. Polyhedra are solid by
+ * themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
+ *
+ * It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
+ * their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
+ * without area that were left out count where others need them to join. Faces that alone share an edge are turned
+ * round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
+ * where the boundary's winding number is not 0. So shells may overlap; a cavity is a shell that faces the other way than
+ * the one around it; and a boundary that faces inwards all over bounds the same solid.
+ */
+cstk_status cstk_body_builder_set_solid(struct cstk_body_builder *builder,
+                                        bool solid);
+
+/**
  * Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
- * defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added.
+ * defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added. For a body declared solid,
+ * CSTK_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
+ * CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
  *
  * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon;
  * build once and share, or keep the body in a file (cstk_body_save).
@@ -1544,7 +1883,8 @@ cstk_status cstk_body_feature_vertices(const struct cstk_body *body,
 
 /**
  * Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
- * docs/body-file.md describes the format. CSTK_IO if it cannot be written.
+ * docs/body-file.md describes the format. CSTK_IO if it cannot be written, CSTK_UNSUPPORTED for a body with a support
+ * function, which no file can hold.
  */
 cstk_status cstk_body_save(const struct cstk_body *body,
                            const char *file);
@@ -1556,6 +1896,129 @@ cstk_status cstk_body_save(const struct cstk_body *body,
  */
 cstk_status cstk_body_load(const char *file,
                            struct cstk_body **out);
+
+/**
+ * Adds a ball around `center` (three doubles); in the plane a disc. As exact as a point: 1e-12 of the largest coordinate.
+ * A radius of 0 leaves the point.
+ */
+cstk_status cstk_body_builder_add_sphere(struct cstk_body_builder *builder,
+                                         const double *center,
+                                         double radius,
+                                         uint64_t tag);
+
+/**
+ * Adds all points within `radius` of the segment from `a` to `b` (three doubles each). As exact as a segment: 1e-12 of the
+ * largest coordinate. Along a face or another capsule it has the contacts that span both.
+ */
+cstk_status cstk_body_builder_add_capsule(struct cstk_body_builder *builder,
+                                          const double *a,
+                                          const double *b,
+                                          double radius,
+                                          uint64_t tag);
+
+/**
+ * Adds the solid box with `half_extents` (three doubles, positive) around the origin of the frame at `pose`, along its
+ * axes. It is a polyhedron, with a polyhedron's features and exactness. Not in the plane: there it is a polygon.
+ */
+cstk_status cstk_body_builder_add_box(struct cstk_body_builder *builder,
+                                      const double *pose,
+                                      const double *half_extents,
+                                      uint64_t tag);
+
+/**
+ * Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is smooth:
+ * distances are iterated until a lower and an upper bound agree, to 1e-11 of its diameter at worst and about 1e-15 of the
+ * largest coordinate as a rule; where they would not, `lower` and `upper` of an answer tell. Its contacts have
+ * CSTK_SURFACE for a feature, which counts as a point in their modes, and there is one only, even where it stands or lies
+ * on a face. cstk_pair_penetration refuses it.
+ */
+cstk_status cstk_body_builder_add_cylinder(struct cstk_body_builder *builder,
+                                           const double *pose,
+                                           double radius,
+                                           double half_length,
+                                           uint64_t tag);
+
+/**
+ * Adds the solid cone around the z axis of the frame at `pose`: the base at z = -height / 2, the apex at z = height / 2.
+ * Smooth, with what that means for cstk_body_builder_add_cylinder.
+ */
+cstk_status cstk_body_builder_add_cone(struct cstk_body_builder *builder,
+                                       const double *pose,
+                                       double radius,
+                                       double height,
+                                       uint64_t tag);
+
+/**
+ * Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth, with
+ * what that means for cstk_body_builder_add_cylinder.
+ */
+cstk_status cstk_body_builder_add_ellipsoid(struct cstk_body_builder *builder,
+                                            const double *pose,
+                                            const double *semi_axes,
+                                            uint64_t tag);
+
+/**
+ * Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon;
+ * the features of contacts are the polygon's.
+ */
+cstk_status cstk_body_builder_add_rounded_polygon(struct cstk_body_builder *builder,
+                                                  const double *xyz,
+                                                  size_t point_count,
+                                                  double radius,
+                                                  uint64_t tag);
+
+/**
+ * Adds all points within `radius` of the convex hull of points. As exact as the hull; the features of contacts are its.
+ */
+cstk_status cstk_body_builder_add_rounded_polyhedron(struct cstk_body_builder *builder,
+                                                     const double *xyz,
+                                                     size_t point_count,
+                                                     double radius,
+                                                     uint64_t tag);
+
+/**
+ * Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
+ * of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
+ * added then.
+ */
+cstk_status cstk_body_builder_add_points(struct cstk_body_builder *builder,
+                                         const double *xyz,
+                                         size_t point_count,
+                                         double radius);
+
+/**
+ * Adds a grid of heights over the plane of x and y: `nx` by `ny` nodes, two at least each way, `cell_x` and `cell_y` apart,
+ * the first at the origin; `heights[j * nx + i]` is the z of node (i, j). Every cell is two triangles, split along the
+ * diagonal from (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. With `base` NaN the field is a surface; else it
+ * is solid ground down to z = base, which must be below all heights: each triangle becomes a prism. Exact to 1e-12 of the
+ * largest coordinate.
+ */
+cstk_status cstk_body_builder_add_height_field(struct cstk_body_builder *builder,
+                                               size_t nx,
+                                               size_t ny,
+                                               const double *heights,
+                                               double cell_x,
+                                               double cell_y,
+                                               double base);
+
+/**
+ * Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that means
+ * for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+ *
+ * The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
+ * not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:
+ * CSTK_CALLBACK_FAILED if it fails, CSTK_NOT_FINITE if it answers (or leaves unwritten) what is not finite,
+ * CSTK_NOT_CONVEX if two answers show that it is no support function. A query cannot end with its failure: where it fails
+ * then, the set counts as the box that was found here, so that what is called free is free.
+ *
+ * `destroy` may be NULL. It is called once with `user`, by whichever thread drops the last reference to what uses the
+ * function; not when this call fails. Such a body cannot be saved.
+ */
+cstk_status cstk_body_builder_add_support(struct cstk_body_builder *builder,
+                                          cstk_support_fn support,
+                                          void *user,
+                                          cstk_destroy_fn destroy,
+                                          uint64_t tag);
 
 /**
  * Describes the body's hierarchy. Takes time in proportion to its nodes.
@@ -2009,7 +2472,7 @@ cstk_status cstk_environment_state(const struct cstk_environment *environment,
                                    uint64_t *version);
 
 /**
- * Writes the pose (12 doubles) of an s-object. CSTK_NOT_FOUND if there is none with this id.
+ * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to. CSTK_NOT_FOUND if there is none with this id.
  */
 cstk_status cstk_environment_object_pose(const struct cstk_environment *environment,
                                          uint64_t id,
@@ -2050,15 +2513,6 @@ cstk_status cstk_cobject_induced_links(const struct cstk_space *space,
                                        struct cstk_cobject **out);
 
 /**
- * Makes the union of `count` C-objects of one space. It keeps what its parts refer to, not the parts themselves. A
- * body pair that several parts hold in one state counts once, with the largest margin; a configuration's class is the
- * largest of those of the parts.
- */
-cstk_status cstk_cobject_union(const struct cstk_cobject *const *parts,
-                               size_t count,
-                               struct cstk_cobject **out);
-
-/**
  * Adds a reference.
  */
 cstk_status cstk_cobject_retain(struct cstk_cobject *cobject);
@@ -2067,6 +2521,136 @@ cstk_status cstk_cobject_retain(struct cstk_cobject *cobject);
  * Drops a reference. NULL is a no-op.
  */
 cstk_status cstk_cobject_release(struct cstk_cobject *cobject);
+
+/**
+ * Makes the union of `count` C-objects of one space: its class is the largest of theirs. It keeps its parts. A
+ * body pair that several induced parts hold in one state counts once, with the largest margin.
+ *
+ * Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). Of a union of induced sets every
+ * query is exact; of other compounds cstk_distance says what it knows:
+ * - a union is as near as its nearest part;
+ * - an intersection is no nearer than its farthest part: CSTK_LOWER_BOUND, but for 0 where all parts are 0;
+ * - a complement is taken of the leaves, by De Morgan's laws. From the complement of a pure set (no predicate) the distance
+ *   is exact; from that of an induced set it is 0 where nothing meets, and not known inside: CSTK_LOWER_BOUND, from 0.
+ *
+ * cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every induced
+ * leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the derivatives of
+ * those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0, but the class is
+ * not CSTK_INSIDE. Lengths and units of C-space are not compared: CSTK_UNSUPPORTED for distances where a pure set without a
+ * scale meets an induced one.
+ */
+cstk_status cstk_cobject_union(const struct cstk_cobject *const *parts,
+                               size_t count,
+                               struct cstk_cobject **out);
+
+/**
+ * Makes the intersection of `count` C-objects of one space: its class is the smallest of theirs. See cstk_cobject_union.
+ */
+cstk_status cstk_cobject_intersection(const struct cstk_cobject *const *parts,
+                                      size_t count,
+                                      struct cstk_cobject **out);
+
+/**
+ * Makes the complement of a C-object: CSTK_INSIDE where that is CSTK_OUTSIDE, and the other way round; contact stays. See
+ * cstk_cobject_union.
+ */
+cstk_status cstk_cobject_complement(const struct cstk_cobject *part,
+                                    struct cstk_cobject **out);
+
+/**
+ * Makes the set of what is in `of` and not in `without`: the intersection with the complement. See cstk_cobject_union.
+ */
+cstk_status cstk_cobject_difference(const struct cstk_cobject *of,
+                                    const struct cstk_cobject *without,
+                                    struct cstk_cobject **out);
+
+/**
+ * Makes the same set with data of the caller's attached (§2.2.3). Witnesses, distances and explanations of every C-object
+ * that has the new one as a leaf hand `data` back. `destroy` may be NULL; it is called once, by whichever thread drops the
+ * last reference to what carries the data, and not when this call fails.
+ */
+cstk_status cstk_cobject_with_data(const struct cstk_cobject *cobject,
+                                   void *data,
+                                   cstk_destroy_fn destroy,
+                                   struct cstk_cobject **out);
+
+/**
+ * Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
+ * either may be NULL. No two C-objects of a process have one number.
+ */
+cstk_status cstk_cobject_get_data(const struct cstk_cobject *cobject,
+                                  void **data,
+                                  uint64_t *number);
+
+/**
+ * Writes the defaults: no functions. `size` is sizeof(cstk_predicate).
+ */
+cstk_status cstk_predicate_default(struct cstk_predicate *out, size_t size);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_pure_options).
+ */
+cstk_status cstk_pure_options_default(struct cstk_pure_options *out, size_t size);
+
+/**
+ * Makes the set of configurations with a coordinate beyond its range in the space: the joint limits as an obstacle. At a
+ * limit the configuration is not inside yet (the set is open). Distances are those from the nearest limit, in units of the
+ * coordinates. `options` may be NULL for the defaults, here and below. A space without limits gives an empty set.
+ */
+cstk_status cstk_cobject_limits(const struct cstk_space *space,
+                                const struct cstk_pure_options *options,
+                                struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations at which the origin of some link is outside the world box of the space. It measures in
+ * lengths, whatever the scale, and answers at link poses too. Open, as cstk_cobject_limits.
+ */
+cstk_status cstk_cobject_world(const struct cstk_space *space,
+                               const struct cstk_pure_options *options,
+                               struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
+ * INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i] upwards
+ * to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of the sum of the squares, angles the shorter way round.
+ */
+cstk_status cstk_cobject_box(const struct cstk_space *space,
+                             const double *low,
+                             const double *high,
+                             size_t nq,
+                             const struct cstk_pure_options *options,
+                             struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations with normal . q <= offset (`nq` doubles). Entries for coordinates on circles and of
+ * quaternions must be 0.
+ */
+cstk_status cstk_cobject_halfspace(const struct cstk_space *space,
+                                   const double *normal,
+                                   size_t nq,
+                                   double offset,
+                                   const struct cstk_pure_options *options,
+                                   struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations at most `radius` from `center` (`nq` doubles): by the root of the sum of the squares of
+ * differences, angles the shorter way round, quaternions by the angle of the turn, free joints by shift and turn.
+ */
+cstk_status cstk_cobject_ball(const struct cstk_space *space,
+                              const double *center,
+                              size_t nq,
+                              double radius,
+                              const struct cstk_pure_options *options,
+                              struct cstk_cobject **out);
+
+/**
+ * Makes a set that functions of the caller define. `predicate` is copied; its data are given back when nothing refers to the
+ * set any more, and not when this call fails.
+ */
+cstk_status cstk_cobject_predicate(const struct cstk_space *space,
+                                   const struct cstk_predicate *predicate,
+                                   const struct cstk_pure_options *options,
+                                   struct cstk_cobject **out);
 
 /**
  * Makes a query context.
@@ -2156,9 +2740,9 @@ cstk_status cstk_distance_at(struct cstk_query *query,
 /**
  * Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
  * contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
- * nearest are given and `truncated` is set. Neighbouring faces of a mesh share
- * edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
- * with this query context.
+ * nearest are given and `truncated` is set. Neighbouring faces of a mesh share edges and vertices, so that one physical
+ * contact may have several witnesses. Each piece of a body that lies inside another, a solid, is a witness too, at distance
+ * 0 (see `contained`). The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_witnesses(struct cstk_query *query,
                            const struct cstk_cobject *cobject,
@@ -2207,6 +2791,35 @@ cstk_status cstk_pseudo_normal(struct cstk_query *query,
                                struct cstk_pseudo_normal_result *out);
 
 /**
+ * Writes the class of q as cstk_classify does, and what made it: which leaves of the C-object, and which pairs of primitives
+ * (§2.2.4, operations 4 and 5). Every leaf is asked, so it takes longer. At most `max_count` pairs are listed.
+ */
+cstk_status cstk_explain(struct cstk_query *query,
+                         const struct cstk_cobject *cobject,
+                         const double *q,
+                         size_t nq,
+                         size_t max_count,
+                         struct cstk_explanation *out);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_link_pair_options).
+ */
+cstk_status cstk_link_pair_options_default(struct cstk_link_pair_options *out, size_t size);
+
+/**
+ * Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
+ * touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
+ * robots are always tested. Give `tested` to cstk_cobject_induced_links; to allow further pairs, leave them out. `options`
+ * may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
+ */
+cstk_status cstk_link_pairs(struct cstk_query *query,
+                            const struct cstk_space *space,
+                            const struct cstk_link_pair_options *options,
+                            cstk_progress_fn progress,
+                            void *user,
+                            struct cstk_link_pair_list *out);
+
+/**
  * Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
  * doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
  * all) are not computed; the answer is then CSTK_BEYOND_MAX.
@@ -2232,9 +2845,9 @@ cstk_status cstk_pair_within(struct cstk_query *query,
                              bool *out);
 
 /**
- * Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
- * `max_count` pairs, the nearest are given and `truncated` is set. The arrays stay valid until the next call with this query
- * context.
+ * Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts; and at distance 0
+ * each piece of a body that lies inside the other, a solid (see `contained`). Of more than `max_count`, the nearest are
+ * given and `truncated` is set. The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_pair_witnesses(struct cstk_query *query,
                                 const struct cstk_body *body_a,
@@ -2248,8 +2861,10 @@ cstk_status cstk_pair_witnesses(struct cstk_query *query,
 /**
  * Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
  * translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
- * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding; the work for a pair of polyhedra
- * grows with the product of their numbers of edges. Of more than `max_count` pairs, the deepest are given and `truncated`
+ * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a pair of
+ * polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid or support
+ * function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none of its primitives:
+ * nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated`
  * is set. The array stays valid until the next call with this query context.
  */
 cstk_status cstk_pair_penetration(struct cstk_query *query,

@@ -16,6 +16,7 @@
 
 #include <cstk.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -212,6 +214,14 @@ inline cstk_cobject_options cobject_options(double contact_epsilon = 0, double m
     return options;
 }
 
+inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale = 0) {
+    cstk_pure_options options;
+    check(cstk_pure_options_default(&options, sizeof options));
+    options.contact_epsilon = contact_epsilon;
+    options.scale = scale;
+    return options;
+}
+
 inline cstk_slide_options slide_options(double max_shell) {
     cstk_slide_options options;
     check(cstk_slide_options_default(&options, sizeof options));
@@ -219,17 +229,24 @@ inline cstk_slide_options slide_options(double max_shell) {
     return options;
 }
 
-/// A joint by functions of yours. They must not throw.
 inline cstk_urdf_options urdf_options() {
     cstk_urdf_options options;
     check(cstk_urdf_options_default(&options, sizeof options));
     return options;
 }
 
+/// A joint by functions of yours. They must not throw.
 inline cstk_custom_joint custom_joint() {
     cstk_custom_joint joint;
     check(cstk_custom_joint_default(&joint, sizeof joint));
     return joint;
+}
+
+/// A set by C functions of yours. They must not throw.
+inline cstk_predicate predicate() {
+    cstk_predicate predicate;
+    check(cstk_predicate_default(&predicate, sizeof predicate));
+    return predicate;
 }
 
 /// One reference to an object of the library; empty when default-constructed or moved from.
@@ -400,6 +417,87 @@ public:
         return *this;
     }
 
+    /// The polygons and mesh faces are the closed boundary of a solid; build() checks it.
+    BodyBuilder &set_solid(bool solid = true) {
+        check(cstk_body_builder_set_solid(get(), solid));
+        return *this;
+    }
+
+    /// A point or direction.
+    using Vector = std::array<double, 3>;
+
+    BodyBuilder &add_sphere(const Vector &center, double radius, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_sphere(get(), center.data(), radius, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_capsule(const Vector &a, const Vector &b, double radius,
+                             std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_capsule(get(), a.data(), b.data(), radius, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_box(const Pose &pose, const Vector &half_extents, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_box(get(), pose.data(), half_extents.data(), tag));
+        return *this;
+    }
+
+    BodyBuilder &add_cylinder(const Pose &pose, double radius, double half_length,
+                              std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_cylinder(get(), pose.data(), radius, half_length, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_cone(const Pose &pose, double radius, double height, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_cone(get(), pose.data(), radius, height, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_ellipsoid(const Pose &pose, const Vector &semi_axes, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_ellipsoid(get(), pose.data(), semi_axes.data(), tag));
+        return *this;
+    }
+
+    BodyBuilder &add_rounded_polygon(Span<double> xyz, double radius, std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_rounded_polygon(get(), xyz.data(), points(xyz), radius, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_rounded_polyhedron(Span<double> xyz, double radius, std::uint64_t tag = 0) {
+        check(
+            cstk_body_builder_add_rounded_polyhedron(get(), xyz.data(), points(xyz), radius, tag));
+        return *this;
+    }
+
+    BodyBuilder &add_points(Span<double> xyz, double radius = 0) {
+        check(cstk_body_builder_add_points(get(), xyz.data(), points(xyz), radius));
+        return *this;
+    }
+
+    /// `heights[j * nx + i]`; without a base a surface.
+    BodyBuilder &add_height_field(std::size_t nx, std::size_t ny, Span<double> heights,
+                                  const std::array<double, 2> &cell,
+                                  std::optional<double> base = {}) {
+        if (nx == 0 || heights.size() / nx != ny || heights.size() % nx != 0) {
+            throw std::invalid_argument("cstk: a height for every node is needed");
+        }
+        check(cstk_body_builder_add_height_field(
+            get(), nx, ny, heights.data(), cell[0], cell[1],
+            base.value_or(std::numeric_limits<double>::quiet_NaN())));
+        return *this;
+    }
+
+    /// The farthest point along a unit vector. Called by any thread, several at once; an exception
+    /// counts as failure.
+    using Support = std::function<Vector(const Vector &direction)>;
+
+    BodyBuilder &add_support(Support support, std::uint64_t tag = 0) {
+        auto kept = std::make_unique<Support>(std::move(support));
+        check(cstk_body_builder_add_support(get(), &ask_support, kept.get(), &drop_support, tag));
+        kept.release();
+        return *this;
+    }
+
     Body build() const {
         cstk_body *out = nullptr;
         check(cstk_body_build(get(), nullptr, nullptr, nullptr, &out));
@@ -434,6 +532,19 @@ private:
             }
         }
     };
+
+    static std::int32_t ask_support(const double *direction, double *point, void *user) noexcept {
+        try {
+            const Vector given{direction[0], direction[1], direction[2]};
+            const Vector found = (*static_cast<const Support *>(user))(given);
+            std::copy(found.begin(), found.end(), point);
+            return 0;
+        } catch (...) {
+            return 1;
+        }
+    }
+
+    static void drop_support(void *user) noexcept { delete static_cast<Support *>(user); }
 
     static std::size_t points(Span<double> xyz) {
         if (xyz.size() % 3 != 0) {
@@ -838,6 +949,20 @@ private:
     }
 };
 
+/// A set by functions of yours; see cstk_predicate. Threads may call them at once. What they throw
+/// ends the query with CSTK_CALLBACK_FAILED.
+struct Predicate {
+    using Configuration = Span<double>;
+
+    std::function<cstk_class(Configuration q)> classify;
+    /// These two may be empty.
+    std::function<double(Configuration q)> distance;
+    /// Returns one entry for each velocity.
+    std::function<std::vector<double>(Configuration q)> gradient;
+    bool distance_is_bound = false;
+    bool knows_depth = false;
+};
+
 class CObject : public Handle<cstk_cobject, cstk_cobject_retain, cstk_cobject_release> {
 public:
     using Handle::Handle;
@@ -865,18 +990,165 @@ public:
     }
 
     static CObject union_of(const std::vector<CObject> &parts) {
-        std::vector<const cstk_cobject *> handles;
-        for (const CObject &part : parts) {
-            handles.push_back(part.get());
-        }
+        return combined(cstk_cobject_union, parts);
+    }
+
+    static CObject intersection_of(const std::vector<CObject> &parts) {
+        return combined(cstk_cobject_intersection, parts);
+    }
+
+    static CObject difference(const CObject &of, const CObject &without) {
         cstk_cobject *out = nullptr;
-        check(cstk_cobject_union(handles.data(), handles.size(), &out));
+        check(cstk_cobject_difference(of.get(), without.get(), &out));
         return CObject(out);
+    }
+
+    CObject complement() const {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_complement(get(), &out));
+        return CObject(out);
+    }
+
+    /// Where a coordinate is beyond its range.
+    static CObject limits(const Space &space, const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_limits(space.get(), &options, &out));
+        return CObject(out);
+    }
+
+    /// Where a link's origin is outside the world box.
+    static CObject world(const Space &space, const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_world(space.get(), &options, &out));
+        return CObject(out);
+    }
+
+    static CObject box(const Space &space, Span<double> low, Span<double> high,
+                       const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_box(space.get(), low.data(), high.data(), detail::same_size(low, high),
+                               &options, &out));
+        return CObject(out);
+    }
+
+    /// Where normal . q <= offset.
+    static CObject halfspace(const Space &space, Span<double> normal, double offset,
+                             const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_halfspace(space.get(), normal.data(), normal.size(), offset, &options,
+                                     &out));
+        return CObject(out);
+    }
+
+    static CObject ball(const Space &space, Span<double> center, double radius,
+                        const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_ball(space.get(), center.data(), center.size(), radius, &options, &out));
+        return CObject(out);
+    }
+
+    static CObject predicate(const Space &space, const cstk_predicate &predicate,
+                             const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_predicate(space.get(), &predicate, &options, &out));
+        return CObject(out);
+    }
+
+    static CObject predicate(const Space &space, Predicate functions,
+                             const cstk_pure_options &options = pure_options()) {
+        auto kept = std::make_unique<Predicate>(std::move(functions));
+        cstk_predicate given = cstk::predicate();
+        given.classify = kept->classify ? &Calls::classify : nullptr;
+        given.distance = kept->distance ? &Calls::distance : nullptr;
+        given.gradient = kept->gradient ? &Calls::gradient : nullptr;
+        given.distance_is_bound = kept->distance_is_bound;
+        given.knows_depth = kept->knows_depth;
+        given.user = kept.get();
+        given.destroy = &Calls::destroy;
+        CObject made = predicate(space, given, options);
+        /* The library's now. */
+        static_cast<void>(kept.release());
+        return made;
+    }
+
+    /// The same set, carrying data that answers hand back where it is a leaf.
+    CObject with_data(void *data, cstk_destroy_fn destroy = nullptr) const {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_with_data(get(), data, destroy, &out));
+        return CObject(out);
+    }
+
+    void *data() const {
+        void *data = nullptr;
+        check(cstk_cobject_get_data(get(), &data, nullptr));
+        return data;
+    }
+
+    /// By which witnesses and explanations name it as a leaf.
+    std::uint64_t number() const {
+        std::uint64_t number = 0;
+        check(cstk_cobject_get_data(get(), nullptr, &number));
+        return number;
     }
 
     void show(Span<double> q, const std::string &file) const {
         check(cstk_show(get(), q.data(), q.size(), file.c_str()));
     }
+
+private:
+    using Combine = cstk_status (*)(const cstk_cobject *const *, std::size_t, cstk_cobject **);
+
+    static CObject combined(Combine combine, const std::vector<CObject> &parts) {
+        std::vector<const cstk_cobject *> handles;
+        for (const CObject &part : parts) {
+            handles.push_back(part.get());
+        }
+        cstk_cobject *out = nullptr;
+        check(combine(handles.data(), handles.size(), &out));
+        return CObject(out);
+    }
+
+    /* The functions of a Predicate as C calls them. No exception may pass through C. */
+    struct Calls {
+        template <typename Action> static std::int32_t guarded(Action action) noexcept {
+            try {
+                return action() ? 0 : 1;
+            } catch (...) {
+                return 1;
+            }
+        }
+
+        static const Predicate &functions(void *user) { return *static_cast<Predicate *>(user); }
+
+        static std::int32_t classify(const double *q, std::size_t nq, std::int32_t *out,
+                                     void *user) noexcept {
+            return guarded([&] {
+                *out = functions(user).classify({q, nq});
+                return true;
+            });
+        }
+
+        static std::int32_t distance(const double *q, std::size_t nq, double *out,
+                                     void *user) noexcept {
+            return guarded([&] {
+                *out = functions(user).distance({q, nq});
+                return true;
+            });
+        }
+
+        static std::int32_t gradient(const double *q, std::size_t nq, double *row, std::size_t nv,
+                                     void *user) noexcept {
+            return guarded([&] {
+                const std::vector<double> found = functions(user).gradient({q, nq});
+                for (std::size_t i = 0; i < nv && found.size() == nv; ++i) {
+                    row[i] = found[i];
+                }
+                return found.size() == nv;
+            });
+        }
+
+        static void destroy(void *user) { delete static_cast<Predicate *>(user); }
+    };
 };
 
 /// The step nearest to `step` that respects the contacts of a list with gradients; none where too little is left of it.
@@ -944,6 +1216,14 @@ public:
         cstk_pseudo_normal_result out;
         check(cstk_pseudo_normal(get(), cobject.get(), q.data(), q.size(), max_shell, max_count,
                                  normalize, &out));
+        return out;
+    }
+
+    /// The class, and which leaves and pairs made it.
+    cstk_explanation explain(const CObject &cobject, Span<double> q,
+                             std::size_t max_count = 4096) const {
+        cstk_explanation out;
+        check(cstk_explain(get(), cobject.get(), q.data(), q.size(), max_count, &out));
         return out;
     }
 

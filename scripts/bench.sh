@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions [--csv FILE] | accuracy. kernel also takes
-# [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text; accuracy [PAIRS [SEED]].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] | accuracy. kernel
+# and objects also take [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for the
+# rows whose scene and name do); accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -30,6 +31,12 @@ while [ $# -gt 0 ]; do
   shift
 done
 scripts/setup.sh bench
+if [ "$name" = objects ]; then
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  cmake -S benches/objects -B build/objects -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  cmake --build build/objects -j2 >/dev/null
+  exec build/objects/objects "${arguments[@]}"
+fi
 if [ "$name" != hierarchies ]; then
   # A peer or a model that cannot be had is left out, and named.
   scripts/fetch_puma560.sh >/dev/null || true

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
-# picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png.
+# picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
+# demo/workcell.png shows two arms that share a workcell.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -23,6 +24,7 @@ render() {
     --camera-view-up 0,0,1 >/dev/null 2>&1
   [ -s "demo/$1.png" ] || { echo "demo/$1.glb could not be rendered" >&2; exit 1; }
 }
+font=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
 tiles=()
 for frame in 10 20 30 40; do
   render "appendix_$frame" 22,-10,17 6.2,4.8,0.2
@@ -32,10 +34,19 @@ for frame in 10 20 30 40; do
   render "puma560_$frame" 3.0,-1.9,2.0 0.25,0.1,0.65
   tiles+=(-label "Puma 560, step $frame" "demo/puma560_$frame.png")
 done
-montage -font /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
+montage -font "$font" "${tiles[@]}" -tile 4x2 -geometry 640x480+4+4 -pointsize 20 demo/slider.png
 echo
 build/examples/planar_slider demo
 rsvg-convert --width 1280 demo/planar_slider.svg --output demo/planar_slider.png
 echo
+build/examples/workcell demo
+for frame in free wrists; do
+  render "workcell_$frame" 0.45,-2.5,1.3 0,0,0.32
+done
+tiles=(-label "both at home: OUTSIDE" demo/workcell_free.png
+  -label "wrists meeting: INSIDE, arm against arm" demo/workcell_wrists.png)
+montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/workcell.png
+echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
+echo "picture: $PWD/demo/workcell.png"

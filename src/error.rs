@@ -21,6 +21,8 @@ pub enum ErrorKind {
     NotConvex,
     /// A polygon whose vertices leave its plane.
     NotPlanar,
+    /// A body was declared solid whose surface has open edges, or one side only.
+    NotClosed,
     /// A matrix that is not a rotation, or an axis that is not a direction.
     NotARotation,
     /// An id, index or name that does not exist.

@@ -6,7 +6,9 @@
 pub mod tolerance;
 
 pub mod error;
+pub mod user_data;
 
+mod cow_vec;
 pub mod lanes;
 mod whole_file;
 mod xml;

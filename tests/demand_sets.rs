@@ -143,7 +143,7 @@ fn a37_margins_reach_into_the_broad_phase() {
             margin,
         };
         let all = SObjects::All(world.clone());
-        let cobject = CObject::induced(space.clone(), &[], all, options).unwrap();
+        let cobject = CObject::induced(space.clone(), &[], all, &[], options).unwrap();
         assert_eq!(
             query.classify(&cobject, q).unwrap(),
             class,

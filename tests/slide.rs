@@ -61,6 +61,7 @@ fn cube_among(walls: &[([f64; 3], [f64; 3])], ranges: &[Option<Coordinate>]) -> 
         .map(|&(low, high)| Change::Add {
             body: cuboid(low, high),
             pose: Pose::identity(),
+            data: None,
         })
         .collect();
     environment.apply(&changes).unwrap();
@@ -68,6 +69,7 @@ fn cube_among(walls: &[([f64; 3], [f64; 3])], ranges: &[Option<Coordinate>]) -> 
         space,
         &[],
         SObjects::All(environment),
+        &[],
         InducedOptions::default(),
     )
     .unwrap()

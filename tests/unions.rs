@@ -9,7 +9,7 @@ use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, DistanceKind, QueryContext, SSide};
+use cstk::query::{Configuration, DistanceKind, QueryContext, SSide, World};
 use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};
 use cstk::space::{Space, WorldBox};
 
@@ -60,7 +60,7 @@ fn induced(
         margin,
     };
     let all = SObjects::All(environment.clone());
-    Arc::new(CObject::induced(space.clone(), &[], all, options).unwrap())
+    Arc::new(CObject::induced(space.clone(), &[], all, &[], options).unwrap())
 }
 
 fn with_cubes(places: &[f64]) -> (Arc<Environment>, Vec<u64>) {
@@ -68,6 +68,7 @@ fn with_cubes(places: &[f64]) -> (Arc<Environment>, Vec<u64>) {
     let add = |x: &f64| Change::Add {
         body: cuboid([1.0; 3]),
         pose: at(*x),
+        data: None,
     };
     let changes: Vec<Change> = places.iter().map(add).collect();
     let (ids, _) = environment.apply(&changes).unwrap();
@@ -165,10 +166,12 @@ fn bounds_do_not_depend_on_what_was_asked_before() {
         Change::Add {
             body: cuboid([1.0; 3]),
             pose: at(1.1),
+            data: None,
         },
         Change::Add {
             body: huge,
             pose: at(-5e8 - 0.6 - 1e-10),
+            data: None,
         },
     ];
     environment.apply(&changes).unwrap();
@@ -191,9 +194,9 @@ fn bounds_do_not_depend_on_what_was_asked_before() {
     }
 }
 
-/// A slide asks many questions of one state; a frozen C-object is how it gets it.
+/// A slide asks many questions of one state: a world is how it gets it.
 #[test]
-fn a_frozen_set_does_not_follow_its_environments() {
+fn a_world_does_not_follow_its_environments() {
     let space = sliders(1);
     let (live, ids) = with_cubes(&[1.2]);
     let (other, _) = with_cubes(&[-3.0]);
@@ -202,13 +205,16 @@ fn a_frozen_set_does_not_follow_its_environments() {
         induced(&space, &other, 0.0, 0.0),
     ];
     let union = CObject::union(&parts).unwrap();
-    let frozen = union.frozen();
+    let then = World::of(&union);
     live.apply(&[Change::Delete { id: ids[0] }]).unwrap();
     let q = Configuration::Coordinates(&[0.0]);
     let mut query = QueryContext::new();
-    let mut distance = |c: &CObject| query.distance(c, q, f64::INFINITY).unwrap().distance;
-    assert!((distance(&frozen) - 0.2).abs() < 1e-15);
-    assert!((distance(&union) - 2.0).abs() < 1e-15);
+    let mut distance = |world: &World| {
+        let found = query.distance_in(world, &union, q, f64::INFINITY);
+        found.unwrap().distance
+    };
+    assert!((distance(&then) - 0.2).abs() < 1e-15);
+    assert!((distance(&World::of(&union)) - 2.0).abs() < 1e-15);
 }
 
 /// Among many objects only those near are asked; the answers are those of asking each by itself.
@@ -230,6 +236,7 @@ fn a_union_of_many_objects_is_the_least_of_all_pairs() {
         let add = |(i, pose): (usize, &Pose)| Change::Add {
             body: bodies[i % 3].clone(),
             pose: *pose,
+            data: None,
         };
         let changes: Vec<Change> = poses.iter().enumerate().map(add).collect();
         let (ids, _) = environment.apply(&changes).unwrap();
@@ -299,7 +306,7 @@ fn what_met_last_counts_only_while_it_meets() {
     assert_eq!(ask(&mut query, &all), Class::Inside);
     let far_one = SObjects::Some(environment.clone(), vec![ids[1]]);
     let options = InducedOptions::default();
-    let other = CObject::induced(space.clone(), &[], far_one, options).unwrap();
+    let other = CObject::induced(space.clone(), &[], far_one, &[], options).unwrap();
     assert_eq!(ask(&mut query, &other), Class::Outside);
     assert_eq!(ask(&mut query, &all), Class::Inside);
     let moved = |x: f64| Change::Move {

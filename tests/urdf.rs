@@ -162,8 +162,18 @@ fn shapes_stand_where_the_file_says() {
         let at = turned * local + Vec3::z();
         assert!((distance(&can, at) - want).abs() < 1e-12, "{local}");
     }
+    let aside = turned * Vec3::new(1.5, 0.0, 0.0) + Vec3::z();
+    assert!((distance(&can, aside) - 1.0).abs() < 1e-12);
     // The polyhedron holds the cylinder: from the side it is nearer by 0.5 / cos(pi / 32) - 0.5 at most.
-    let aside = distance(&can, turned * Vec3::new(1.5, 0.0, 0.0) + Vec3::z());
+    let folder = Folder::new("sided");
+    let path = folder.write("robot.urdf", format!("<robot name=\"r\">{ARM}</robot>"));
+    let options = UrdfOptions {
+        sides: 32,
+        ..Default::default()
+    };
+    let sided = load(&path, &options).unwrap();
+    let can = sided.links()[sided.find_link("arm").unwrap()].body.clone();
+    let aside = distance(&can.unwrap(), aside);
     assert!((0.99..1.0).contains(&aside), "{aside}");
 }
 

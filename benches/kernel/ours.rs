@@ -18,7 +18,7 @@ use super::case::{Case, Mode, Query, merged};
 pub enum Asked {
     /// Two bodies, of which the second stands still.
     Bodies(Arc<Body>, Arc<Body>),
-    CObject(CObject),
+    CObject(Box<CObject>),
 }
 
 /// What a pass took, its answers, and the boxes and primitives tested per query.
@@ -35,7 +35,7 @@ impl Asked {
                 body(&case.moving[0], wrapper),
                 body(&merged(&case.obstacles), wrapper),
             ),
-            Query::CObject => Self::CObject(cobject(case, wrapper)),
+            Query::CObject => Self::CObject(Box::new(cobject(case, wrapper))),
         }
     }
 
@@ -135,9 +135,10 @@ fn cobject(case: &Case, wrapper: WrapperKind) -> CObject {
         .map(|mesh| Change::Add {
             body: body(mesh, wrapper),
             pose: Pose::identity(),
+            data: None,
         })
         .collect();
     environment.apply(&changes).expect("obstacles");
     let all = SObjects::All(environment);
-    CObject::induced(Arc::new(space), &[], all, InducedOptions::default()).expect("a C-object")
+    CObject::induced(Arc::new(space), &[], all, &[], InducedOptions::default()).expect("a C-object")
 }

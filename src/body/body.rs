@@ -1,10 +1,14 @@
 //! A body: primitives, their user tags, and the tree over them.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::pieces::Pieces;
+use super::solid::Solid;
 use crate::hierarchy::{BuildTimes, PackedTree, WrapperTree};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
+use crate::user_data::{UserData, value_of};
 
 /// A rigid union of convex primitives, in a frame of its own whose origin is `center` in the caller's frame: the middle
 /// of the primitives' box. Distances are computed around it, so that bodies modelled far from their origin lose nothing.
@@ -19,7 +23,11 @@ pub struct Body {
     pub(super) tags: Vec<u64>,
     pub(super) tree: WrapperTree,
     pub(super) packed: PackedTree,
+    pub(super) solid: Option<Solid>,
+    /// Made when first asked for, but for solids.
+    pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
+    pub(super) data: Option<UserData>,
 }
 
 /// What became of the input, and what was built.
@@ -32,7 +40,9 @@ pub struct BodyStatistics {
     pub faces_dropped: u64,
     pub nodes: u64,
     pub depth: u64,
-    /// The box of the body's vertices, in the caller's frame.
+    /// The body was declared solid.
+    pub is_solid: bool,
+    /// The box of the body, in the caller's frame.
     pub low: [f64; 3],
     pub high: [f64; 3],
     pub times: BuildTimes,
@@ -49,19 +59,31 @@ impl Body {
         statistics: BodyStatistics,
     ) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
-        let vertices = primitives.iter().flat_map(|p| &p.vertices);
+        let points = primitives.iter().flat_map(|p| p.bounding_points());
         Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             dimension,
             center,
-            radius: vertices.map(Vec3::norm).fold(0.0, f64::max),
+            radius: points.map(Vec3::norm).fold(0.0, f64::max),
             deviation: primitives.iter().map(|p| p.deviation).fold(0.0, f64::max),
             tags,
             packed,
             primitives,
             tree,
+            solid: None,
+            pieces: OnceLock::new(),
             statistics,
+            data: None,
         }
+    }
+
+    /// The same body with what its polygons bound.
+    pub(super) fn bounding(mut self, solid: Option<Solid>) -> Self {
+        if let Some(solid) = &solid {
+            self.pieces = Pieces::new(&self.primitives, solid.scraps()).into();
+        }
+        self.solid = solid;
+        self
     }
 
     /// A number no other body of this process has; caches key on it.
@@ -79,9 +101,14 @@ impl Body {
         &self.center
     }
 
-    /// The largest distance of a vertex from the centre.
+    /// The largest distance of a vertex from the centre; of a bounding point of what is curved.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// No point is farther from the origin of the caller's frame.
+    pub fn reach(&self) -> f64 {
+        self.center.norm() + self.radius
     }
 
     /// The largest deviation of a primitive from its faces (see [`Convex`]).
@@ -92,6 +119,11 @@ impl Body {
     /// The primitives, in the body's own (centred) frame.
     pub fn primitives(&self) -> &[Convex] {
         &self.primitives
+    }
+
+    /// The number of the caller's data, or 0.
+    pub fn data(&self) -> usize {
+        value_of(&self.data)
     }
 
     pub fn tag(&self, primitive: u32) -> u64 {
@@ -105,6 +137,18 @@ impl Body {
     /// The tree as queries walk it.
     pub fn packed(&self) -> &PackedTree {
         &self.packed
+    }
+
+    /// What its polygons bound, if the body is a solid of space that has some.
+    #[inline(always)]
+    pub fn solid(&self) -> Option<&Solid> {
+        self.solid.as_ref()
+    }
+
+    /// What of it hangs together.
+    pub fn pieces(&self) -> &Pieces {
+        self.pieces
+            .get_or_init(|| Pieces::new(&self.primitives, &[]))
     }
 
     pub fn statistics(&self) -> &BodyStatistics {

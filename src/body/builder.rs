@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::mesh_file::read_mesh_file;
+use super::solid::{Scrap, Solid};
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{HierarchyOptions, PackedTree, build_hierarchy};
@@ -13,9 +14,14 @@ use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, spl
 /// Primitives on their way to a body. A failed call adds nothing.
 #[derive(Debug)]
 pub struct BodyBuilder {
-    dimension: u32,
+    pub(super) dimension: u32,
     primitives: Vec<Convex>,
     tags: Vec<u64>,
+    /// Which primitives are polygons, that may bound a solid; the others were given as polyhedra.
+    is_face: Vec<bool>,
+    /// What of the meshes' faces had no area.
+    scraps: Vec<Scrap>,
+    is_solid: bool,
     faces_split: u64,
     faces_dropped: u64,
 }
@@ -36,6 +42,9 @@ impl BodyBuilder {
             dimension,
             primitives: Vec::new(),
             tags: Vec::new(),
+            is_face: Vec::new(),
+            scraps: Vec::new(),
+            is_solid: false,
             faces_split: 0,
             faces_dropped: 0,
         })
@@ -44,13 +53,26 @@ impl BodyBuilder {
     /// Adds a convex polygon, vertices in cyclic order.
     pub fn add_polygon(&mut self, vertices: &[Vec3], tag: u64) -> Result<()> {
         self.require_planar(vertices)?;
-        self.push(convex_polygon(vertices)?, tag)
+        self.push(convex_polygon(vertices)?, tag, true)
     }
 
     /// Adds the convex hull of points: a solid, or a flat polygon, segment or point where the points are no more.
     pub fn add_polyhedron(&mut self, points: &[Vec3], tag: u64) -> Result<()> {
         self.require_planar(points)?;
-        self.push(convex_polyhedron(points)?, tag)
+        self.push(convex_polyhedron(points)?, tag, false)
+    }
+
+    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: what is wholly inside meets the
+    /// body. Inside is where the boundary's winding number is not 0. So shells may overlap; a cavity is a shell that faces
+    /// the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
+    ///
+    /// It is [`BodyBuilder::build`] that checks whether the boundary is closed. Edges join where their ends have the same
+    /// coordinates, to the last bit; as many faces must run along each one way as the other. Faces that alone share an edge
+    /// are first turned round where they have to be: the larger part by area of what so hangs together stays as it is.
+    /// Polyhedra are solid by themselves and take no part, flat ones neither; nor does it matter in the plane, where polygons
+    /// are solid too.
+    pub fn set_solid(&mut self, is_solid: bool) {
+        self.is_solid = is_solid;
     }
 
     /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles;
@@ -58,6 +80,7 @@ impl BodyBuilder {
     pub fn add_mesh(&mut self, mesh: &Mesh) -> Result<()> {
         self.require_planar(&mesh.vertices)?;
         let mut added: Vec<(Convex, u64)> = Vec::new();
+        let mut scraps: Vec<Scrap> = Vec::new();
         let (mut split, mut dropped) = (0, 0);
         let mut rest = &mesh.indices[..];
         for (f, &size) in mesh.face_sizes.iter().enumerate() {
@@ -87,17 +110,25 @@ impl BodyBuilder {
                         ),
                     )
                 })?;
+            let tag = f as u64;
+            let mut drop = |vertices: Vec<Vec3>| scraps.push(Scrap { vertices, tag });
             match split_face(&corners).map_err(named)? {
-                FaceSplit::Convex => added.push((convex_polygon(&corners)?, f as u64)),
-                FaceSplit::Degenerate => dropped += 1,
+                FaceSplit::Convex => added.push((convex_polygon(&corners)?, tag)),
+                FaceSplit::Degenerate => {
+                    dropped += 1;
+                    drop(corners);
+                }
                 FaceSplit::Triangles(triangles) => {
                     split += 1;
+                    left_out(&corners, &triangles).for_each(&mut drop);
                     for triangle in triangles {
                         let corners = triangle.map(|i| corners[i as usize]);
                         match convex_polygon(&corners) {
-                            Ok(polygon) => added.push((polygon, f as u64)),
+                            Ok(polygon) => added.push((polygon, tag)),
                             // A triangle without area covers nothing that its neighbours do not.
-                            Err(error) if error.kind == ErrorKind::Degenerate => {}
+                            Err(error) if error.kind == ErrorKind::Degenerate => {
+                                drop(corners.to_vec());
+                            }
                             Err(error) => return Err(named(error)),
                         }
                     }
@@ -110,11 +141,10 @@ impl BodyBuilder {
                 format!("{} indices are left after the last face", rest.len()),
             ));
         }
-        self.require_room(added.len())?;
-        for (primitive, tag) in added {
-            self.primitives.push(primitive);
-            self.tags.push(tag);
-        }
+        self.push_all(added, true)?;
+        // Others are no more than a segment to and fro.
+        self.scraps
+            .extend(scraps.into_iter().filter(|s| s.vertices.len() > 2));
         self.faces_split += split;
         self.faces_dropped += dropped;
         Ok(())
@@ -135,7 +165,8 @@ impl BodyBuilder {
         self.primitives.is_empty()
     }
 
-    /// Builds the body from what was added so far; the builder stays as it is and may go on.
+    /// Builds the body from what was added so far; the builder stays as it is and may go on. Fails for a body declared solid
+    /// whose boundary is not closed, naming the edges.
     pub fn build(
         &self,
         options: &HierarchyOptions,
@@ -154,16 +185,33 @@ impl BodyBuilder {
                 },
             ));
         }
-        let vertices = || self.primitives.iter().flat_map(|p| &p.vertices);
-        let first = self.primitives[0].vertices[0];
-        let low = vertices().fold(first, |low, v| low.inf(v));
-        let high = vertices().fold(first, |high, v| high.sup(v));
+        let boundary = match self.is_solid && self.dimension == 3 {
+            true => Some(Solid::checked(
+                &self.primitives,
+                &self.tags,
+                &self.is_face,
+                &self.scraps,
+            )?),
+            false => None,
+        };
+        let (low, high) = self
+            .primitives
+            .iter()
+            .map(Convex::extent)
+            .reduce(|all, one| (all.0.inf(&one.0), all.1.sup(&one.1)))
+            .unwrap_or_default();
         let center = low * 0.5 + high * 0.5;
         let primitives: Vec<Convex> = self
             .primitives
             .iter()
             .map(|primitive| primitive.clone().recentered(&center))
             .collect();
+        let solid = boundary.and_then(|(signs, mut scraps)| {
+            for vertex in scraps.iter_mut().flatten() {
+                *vertex -= center;
+            }
+            Solid::new(signs, scraps, &primitives)
+        });
         let start = Instant::now();
         let (tree, mut times) = build_hierarchy(&primitives, options, progress)?;
         let packed = PackedTree::new(&primitives, &tree);
@@ -171,6 +219,7 @@ impl BodyBuilder {
         let before = times.preparation + times.grouping;
         times.construction = start.elapsed().as_secs_f64() - before;
         let statistics = BodyStatistics {
+            is_solid: self.is_solid,
             primitives: primitives.len() as u64,
             faces_split: self.faces_split,
             faces_dropped: self.faces_dropped,
@@ -188,13 +237,27 @@ impl BodyBuilder {
             tree,
             packed,
             statistics,
-        ))
+        )
+        .bounding(solid))
     }
 
-    fn push(&mut self, primitive: Convex, tag: u64) -> Result<()> {
+    pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
         self.require_room(1)?;
         self.primitives.push(primitive);
         self.tags.push(tag);
+        self.is_face.push(is_face);
+        Ok(())
+    }
+
+    /// All of them or none.
+    /// Adds all of one kind: polygons that may bound a solid, or others.
+    pub(super) fn push_all(&mut self, added: Vec<(Convex, u64)>, are_faces: bool) -> Result<()> {
+        self.require_room(added.len())?;
+        for (primitive, tag) in added {
+            self.primitives.push(primitive);
+            self.tags.push(tag);
+            self.is_face.push(are_faces);
+        }
         Ok(())
     }
 
@@ -208,7 +271,7 @@ impl BodyBuilder {
         Ok(())
     }
 
-    fn require_planar(&self, points: &[Vec3]) -> Result<()> {
+    pub(super) fn require_planar(&self, points: &[Vec3]) -> Result<()> {
         // What is not finite is refused as such later.
         match points.iter().position(|p| p.z != 0.0 && p.z.is_finite()) {
             Some(i) if self.dimension == 2 => Err(Error::new(
@@ -218,4 +281,20 @@ impl BodyBuilder {
             _ => Ok(()),
         }
     }
+}
+
+/// The rings between a face and its triangles, where those leave out vertices that repeat others.
+fn left_out(face: &[Vec3], triangles: &[[u32; 3]]) -> impl Iterator<Item = Vec<Vec3>> {
+    let n = face.len();
+    let mut is_used = vec![false; n];
+    for &i in triangles.as_flattened() {
+        is_used[i as usize] = true;
+    }
+    let used: Vec<usize> = (0..n).filter(|&i| is_used[i]).collect();
+    let ends = (0..used.len()).map(move |k| {
+        let (from, to) = (used[k], used[(k + 1) % used.len()]);
+        (from, if to > from { to } else { to + n })
+    });
+    let rings = ends.filter(|(from, to)| to - from > 1);
+    rings.map(move |(from, to)| (from..=to).map(|i| face[i % n]).collect())
 }

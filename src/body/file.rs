@@ -13,13 +13,15 @@ use crate::pose::check_dimension;
 use crate::whole_file::write_whole;
 
 const MAGIC: [u8; 8] = *b"cstkbody";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const HEADER_BYTES: usize = 32;
 
 impl Body {
-    /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is.
+    /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is. Fails for a body with
+    /// a support function of the caller's.
     pub fn save(&self, path: &Path) -> Result<()> {
-        write_whole(path, &self.to_bytes())
+        let bytes = self.to_bytes();
+        write_whole(path, &bytes.map_err(|error| error.within(path.display()))?)
     }
 
     /// Reads a body from a file that [`Body::save`] wrote. It answers as the saved one does, bit for bit.
@@ -30,7 +32,7 @@ impl Body {
         Self::from_bytes(&bytes).map_err(named)
     }
 
-    fn to_bytes(&self) -> Vec<u8> {
+    fn to_bytes(&self) -> Result<Vec<u8>> {
         let mut payload = Writer::default();
         payload.u32(self.dimension);
         payload.vector(&self.center);
@@ -43,12 +45,15 @@ impl Body {
             payload.f64(seconds);
         }
         payload.count(self.primitives.len());
-        for (primitive, &tag) in self.primitives.iter().zip(&self.tags) {
+        for (i, (primitive, &tag)) in self.primitives.iter().zip(&self.tags).enumerate() {
             payload.u64(tag);
-            payload.primitive(primitive);
+            let written = payload.primitive(primitive);
+            written.map_err(|error| error.within(format_args!("primitive {i}")))?;
         }
         payload.tree(&self.tree);
         payload.packed(&self.packed);
+        payload.u32(self.statistics.is_solid.into());
+        payload.solid(self.solid.as_ref());
         let mut bytes = Writer::default();
         bytes.0.extend(MAGIC);
         bytes.u32(VERSION);
@@ -57,7 +62,7 @@ impl Body {
         bytes.u32(crc32fast::hash(&payload.0));
         bytes.u32(crc32fast::hash(&bytes.0));
         bytes.0.append(&mut payload.0);
-        bytes.0
+        Ok(bytes.0)
     }
 
     fn from_bytes(bytes: &[u8]) -> Result<Self> {
@@ -81,7 +86,7 @@ impl Body {
             },
             ..BodyStatistics::default()
         };
-        let count = reader.count(28)?;
+        let count = reader.count(32)?;
         if count == 0 || count >= LEAF as usize {
             return Err(reader.damaged("the number of primitives"));
         }
@@ -89,10 +94,12 @@ impl Body {
         let mut primitives = Vec::with_capacity(count);
         for _ in 0..count {
             tags.push(reader.u64()?);
-            primitives.push(reader.primitive()?);
+            primitives.push(reader.primitive(dimension == 2)?);
         }
         let tree = reader.tree(count)?;
         let packed = reader.packed(&primitives, &tree)?;
+        statistics.is_solid = reader.flag()?;
+        let solid = reader.solid(&primitives)?;
         if !reader.payload.is_empty() {
             return Err(reader.damaged("the end: more follows"));
         }
@@ -101,7 +108,8 @@ impl Body {
         statistics.depth = tree.subsets().depth() as u64;
         Ok(Self::assemble(
             dimension, center, primitives, tags, tree, packed, statistics,
-        ))
+        )
+        .bounding(solid))
     }
 }
 
@@ -185,6 +193,15 @@ mod tests {
                 7,
             )
             .unwrap();
+        let at = crate::pose::Pose::from_translation(Vec3::new(0.3, 0.1, 5.0));
+        builder
+            .add_capsule(&Vec3::zeros(), &Vec3::x(), 0.3, 8)
+            .unwrap();
+        builder.add_cylinder(&at, 0.5, 1.0, 9).unwrap();
+        builder.add_cone(&at, 0.5, 1.0, 10).unwrap();
+        builder
+            .add_ellipsoid(&at, &Vec3::new(0.1, 0.2, 0.3), 11)
+            .unwrap();
         let options = HierarchyOptions {
             wrapper,
             ..Default::default()
@@ -196,7 +213,7 @@ mod tests {
     fn a_loaded_body_is_the_saved_one() {
         for kind in KINDS {
             let saved = steps(kind);
-            let loaded = Body::from_bytes(&saved.to_bytes()).unwrap();
+            let loaded = Body::from_bytes(&saved.to_bytes().unwrap()).unwrap();
             assert_eq!(loaded.tree, saved.tree);
             assert_eq!(loaded.packed, saved.packed);
             assert_eq!(loaded.primitives, saved.primitives);
@@ -211,7 +228,7 @@ mod tests {
 
     #[test]
     fn every_truncation_and_every_flipped_bit_is_refused() {
-        let bytes = steps(WrapperKind::Hull).to_bytes();
+        let bytes = steps(WrapperKind::Hull).to_bytes().unwrap();
         for length in 0..bytes.len() {
             assert!(
                 Body::from_bytes(&bytes[..length]).is_err(),
@@ -227,18 +244,18 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 3;
+        altered[8] = 4;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 3"), "{}", error.message);
+        assert!(error.message.contains("version 4"), "{}", error.message);
     }
 
     /// Content that passes the checksum but was not written by us must not lead out of bounds.
     #[test]
     fn forged_content_is_refused_or_harmless() {
-        let bytes = steps(WrapperKind::Hull).to_bytes();
+        let bytes = steps(WrapperKind::Hull).to_bytes().unwrap();
         for place in (HEADER_BYTES..bytes.len()).step_by(4) {
-            for value in [u32::MAX, 0, LEAF | 40, 3] {
+            for value in [u32::MAX, 0, LEAF | 44, 3] {
                 let mut forged = bytes.clone();
                 let end = (place + 4).min(bytes.len());
                 forged[place..end].copy_from_slice(&value.to_le_bytes()[..end - place]);

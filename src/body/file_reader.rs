@@ -1,10 +1,11 @@
 //! Numbers, primitives and hierarchies from the bytes of a body file.
 
-use super::file_writer::{KINDS, LEAF};
+use super::Solid;
+use super::file_writer::{CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, PLAIN, ROUNDED};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{Frame, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperTree};
-use crate::pose::Vec3;
-use crate::primitive::{Convex, Face};
+use crate::pose::{Mat3, Vec3};
+use crate::primitive::{Convex, Curve, Face, Smooth, SmoothKind};
 use crate::tolerance;
 
 /// Reads a payload that passed its checksum; what it says is still not trusted.
@@ -89,14 +90,56 @@ impl Reader<'_> {
         }
     }
 
-    pub fn primitive(&mut self) -> Result<Convex> {
+    pub fn flag(&mut self) -> Result<bool> {
+        match self.u32()? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(self.damaged("a flag")),
+        }
+    }
+
+    /// The radius and smooth set of a curved primitive.
+    fn curve(&mut self) -> Result<Option<(f64, Option<Smooth>)>> {
+        let kind = self.u32()?;
+        if kind == PLAIN {
+            return Ok(None);
+        }
+        let radius = self.length()?;
+        if kind == ROUNDED {
+            return Ok(Some((radius, None)));
+        }
+        let sizes = Vec3::new(self.length()?, self.length()?, self.length()?);
+        let axes = Mat3::from_columns(&[self.vector()?, self.vector()?, self.vector()?]);
+        let off = axes.transpose() * axes - Mat3::identity();
+        if off.amax() > 1e-9 {
+            return Err(self.damaged("the axes of a smooth primitive"));
+        }
+        let kind = match kind {
+            CYLINDER => SmoothKind::Cylinder {
+                radius: sizes.x,
+                half_length: sizes.y,
+            },
+            CONE => SmoothKind::Cone {
+                radius: sizes.x,
+                height: sizes.y,
+            },
+            ELLIPSOID => SmoothKind::Ellipsoid { semi_axes: sizes },
+            _ => return Err(self.damaged("the kind of a primitive")),
+        };
+        Ok(Some((radius, Some(Smooth { kind, axes }))))
+    }
+
+    /// A primitive of a body of the plane or of space.
+    pub fn primitive(&mut self, planar: bool) -> Result<Convex> {
         let (vertices, edges, faces) = (
             self.short_count(24)?,
             self.short_count(8)?,
             self.short_count(28)?,
         );
         let deviation = self.length()?;
-        if vertices == 0 || edges == 0 {
+        let curve = self.curve()?;
+        let is_smooth = matches!(&curve, Some((_, Some(_))));
+        if vertices == 0 || edges == 0 || (is_smooth && (vertices, edges, faces) != (1, 1, 0)) {
             return Err(self.damaged("a primitive"));
         }
         let vertices: Vec<Vec3> = (0..vertices)
@@ -119,12 +162,17 @@ impl Reader<'_> {
                 })
             })
             .collect::<Result<_>>()?;
-        Ok(Convex {
+        let mut read = Convex {
             vertices,
             edges,
             faces,
             deviation,
-        })
+            curve: None,
+        };
+        if let Some((radius, smooth)) = curve {
+            read.curve = Some(Box::new(Curve::new(&read, radius, smooth, planar)));
+        }
+        Ok(read)
     }
 
     pub fn tree(&mut self, primitives: usize) -> Result<WrapperTree> {
@@ -188,5 +236,37 @@ impl Reader<'_> {
             .collect::<Result<_>>()?;
         PackedTree::from_parts(nodes, &order, primitives, tree)
             .ok_or_else(|| self.damaged("the tree of boxes"))
+    }
+
+    pub fn solid(&mut self, primitives: &[Convex]) -> Result<Option<Solid>> {
+        if !self.flag()? {
+            return Ok(None);
+        }
+        let mut sign_of = |primitive: &Convex| {
+            let sign = i8::from_le_bytes(self.take()?);
+            let is_possible = match sign {
+                0 => true,
+                _ => sign.abs() == 1 && primitive.faces.len() == 1,
+            };
+            is_possible
+                .then_some(sign)
+                .ok_or_else(|| self.damaged("a sign"))
+        };
+        let signs = primitives.iter().map(&mut sign_of).collect::<Result<_>>()?;
+        let count = self.count(4)?;
+        let mut scraps = Vec::with_capacity(count);
+        for _ in 0..count {
+            let vertices = self.short_count(24)?;
+            if vertices < 3 {
+                return Err(self.damaged("a face without area"));
+            }
+            scraps.push(
+                (0..vertices)
+                    .map(|_| self.vector())
+                    .collect::<Result<_>>()?,
+            );
+        }
+        let solid = Solid::new(signs, scraps, primitives);
+        solid.map(Some).ok_or_else(|| self.damaged("a boundary"))
     }
 }

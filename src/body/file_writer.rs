@@ -1,11 +1,20 @@
 //! Numbers, primitives and hierarchies as bytes of a body file.
 
+use super::Solid;
+use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{Node, PackedTree, WrapperKind, WrapperTree};
-use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::pose::{Mat3, Vec3};
+use crate::primitive::{Convex, Smooth, SmoothKind};
 
 /// Marks leaves among the codes of nodes.
 pub const LEAF: u32 = 1 << 31;
+
+/// The kinds of primitives by their numbers in files.
+pub const PLAIN: u32 = 0;
+pub const ROUNDED: u32 = 1;
+pub const CYLINDER: u32 = 2;
+pub const CONE: u32 = 3;
+pub const ELLIPSOID: u32 = 4;
 
 /// The kinds of wrappers by their numbers in files.
 pub const KINDS: [WrapperKind; 5] = [
@@ -42,11 +51,13 @@ impl Writer {
         }
     }
 
-    pub fn primitive(&mut self, primitive: &Convex) {
+    /// Fails for a support function.
+    pub fn primitive(&mut self, primitive: &Convex) -> Result<()> {
         self.u32(primitive.vertices.len() as u32);
         self.u32(primitive.edges.len() as u32);
         self.u32(primitive.faces.len() as u32);
         self.f64(primitive.deviation);
+        self.curve(primitive)?;
         for vertex in &primitive.vertices {
             self.vector(vertex);
         }
@@ -60,6 +71,43 @@ impl Writer {
                 self.u32(i);
             }
         }
+        Ok(())
+    }
+
+    /// The kind of a primitive's core, and what there is of its numbers.
+    fn curve(&mut self, primitive: &Convex) -> Result<()> {
+        let Some(curve) = &primitive.curve else {
+            self.u32(PLAIN);
+            return Ok(());
+        };
+        let (kind, sizes, axes) = match &curve.smooth {
+            None => (ROUNDED, Vec3::zeros(), Mat3::identity()),
+            Some(Smooth { kind, axes }) => match kind {
+                SmoothKind::Cylinder {
+                    radius,
+                    half_length,
+                } => (CYLINDER, Vec3::new(*radius, *half_length, 0.0), *axes),
+                SmoothKind::Cone { radius, height } => {
+                    (CONE, Vec3::new(*radius, *height, 0.0), *axes)
+                }
+                SmoothKind::Ellipsoid { semi_axes } => (ELLIPSOID, *semi_axes, *axes),
+                SmoothKind::Function(_) => {
+                    return Err(Error::new(
+                        ErrorKind::Unsupported,
+                        "it is a support function of the caller's, which no file can hold",
+                    ));
+                }
+            },
+        };
+        self.u32(kind);
+        self.f64(curve.radius);
+        if kind != ROUNDED {
+            self.vector(&sizes);
+            for column in axes.column_iter() {
+                self.vector(&column.into_owned());
+            }
+        }
+        Ok(())
     }
 
     pub fn tree(&mut self, tree: &WrapperTree) {
@@ -94,6 +142,23 @@ impl Writer {
         self.count(packed.nodes().len());
         for node in packed.nodes() {
             self.0.extend(node.to_bytes());
+        }
+    }
+
+    /// Which primitives bound a solid, and what closes their boundary.
+    pub fn solid(&mut self, solid: Option<&Solid>) {
+        let Some(solid) = solid else {
+            return self.u32(0);
+        };
+        self.u32(1);
+        self.0
+            .extend(solid.signs.iter().flat_map(|sign| sign.to_le_bytes()));
+        self.count(solid.scraps().len());
+        for scrap in solid.scraps() {
+            self.u32(scrap.len() as u32);
+            for vertex in scrap {
+                self.vector(vertex);
+            }
         }
     }
 }

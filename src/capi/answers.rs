@@ -1,6 +1,9 @@
 //! The structures in which answers are given, and their conversion.
 
+use std::ffi::c_void;
+
 use super::body::cstk_feature_kind;
+use super::user_data::address;
 use crate::cobject::Class;
 use crate::convex::ContactMode;
 use crate::query::{ContactRecord, Distance, DistanceKind, PrimitivePenetration, SSide, Witness};
@@ -40,6 +43,9 @@ pub enum cstk_contact_mode {
     CSTK_POINT_FACE = 3,
     CSTK_FACE_POINT = 4,
     CSTK_EDGE_EDGE = 5,
+    /// The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
+    /// origin.
+    CSTK_PURE_SET = 6,
 }
 
 /// One contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
@@ -61,18 +67,19 @@ pub struct cstk_contact {
     pub s_feature: u32,
     pub reserved_word: u32,
     /// The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
-    /// primitives are just inside one another (by at most 1e-6 of the pair's size).
+    /// primitives are just inside one another (by at most 1e-6 of the pair's size), or as deep as their radii let
+    /// round ones be while their cores are apart.
     pub clearance: f64,
     pub reserved: [u64; 2],
 }
 
-/// One pair of primitives.
+/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness {
     /// The link, numbered through the space; 0 for pairs of bodies.
     pub r_link: u32,
-    /// The second link, or CSTK_NONE if the s-side is an s-object or a body.
+    /// The second link, or the one that the s-object is attached to; CSTK_NONE if the s-side is another s-object or a body.
     pub s_link: u32,
     /// The s-object's id, or 0.
     pub s_object: u64,
@@ -87,11 +94,25 @@ pub struct cstk_witness {
     /// span the common part.
     pub first_contact: u32,
     pub contact_count: u32,
-    /// The primitives overlap, deeper than just inside: there is no contact, and no gradient.
+    /// The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient.
     pub overlapping: bool,
-    pub reserved_bytes: [u8; 7],
+    /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet: they
+    /// stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+    pub contained: bool,
+    pub reserved_bytes: [u8; 6],
+    /// The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
+    pub cobject: u64,
+    pub cobject_data: *mut c_void,
+    /// The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there are none.
+    pub r_data: *mut c_void,
+    pub s_data: *mut c_void,
+    /// The s-object attached to r_link that is the r-side, or 0 for the link's own body.
+    pub r_object: u64,
     pub reserved: [u64; 4],
 }
+
+// SAFETY: the caller's addresses are only handed back, never followed.
+unsafe impl Send for cstk_witness {}
 
 /// What a distance says.
 #[repr(i32)]
@@ -124,7 +145,8 @@ pub struct cstk_distance_result {
     pub lower: f64,
     /// Never below the truth.
     pub upper: f64,
-    /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point.
+    /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
+    /// inside a solid, a vertex of the piece.
     pub r_point: [f64; 3],
     pub s_point: [f64; 3],
     pub witness: cstk_witness,
@@ -220,6 +242,7 @@ impl From<&ContactRecord> for cstk_contact {
                 ContactMode::PointFace => cstk_contact_mode::CSTK_POINT_FACE,
                 ContactMode::FacePoint => cstk_contact_mode::CSTK_FACE_POINT,
                 ContactMode::EdgeEdge => cstk_contact_mode::CSTK_EDGE_EDGE,
+                ContactMode::PureSet => cstk_contact_mode::CSTK_PURE_SET,
             },
             r_feature_kind: contact.features[0].kind.into(),
             r_feature: contact.features[0].index,
@@ -253,12 +276,16 @@ impl cstk_contact {
 
 impl From<&Witness> for cstk_witness {
     fn from(witness: &Witness) -> Self {
-        let (s_object, s_link) = match witness.s_side {
-            SSide::Object(id) => (id, CSTK_NONE),
-            SSide::Link(link) => (0, link as u32),
+        let (r_link, s_object, s_link) = match witness.s_side {
+            SSide::Object(id) => {
+                let carrier = witness.s_carrier.map_or(CSTK_NONE, |link| link as u32);
+                (witness.r_link as u32, id, carrier)
+            }
+            SSide::Link(link) => (witness.r_link as u32, 0, link as u32),
+            SSide::PureSet => (CSTK_NONE, 0, CSTK_NONE),
         };
         Self {
-            r_link: witness.r_link as u32,
+            r_link,
             s_link,
             s_object,
             r_primitive: witness.primitives[0],
@@ -269,7 +296,13 @@ impl From<&Witness> for cstk_witness {
             first_contact: witness.first_contact as u32,
             contact_count: witness.contact_count as u32,
             overlapping: witness.overlapping,
-            reserved_bytes: [0; 7],
+            contained: witness.contained,
+            reserved_bytes: [0; 6],
+            cobject: witness.leaf.serial,
+            cobject_data: address(witness.leaf.data),
+            r_data: address(witness.data[0]),
+            s_data: address(witness.data[1]),
+            r_object: witness.r_object,
             reserved: [0; 4],
         }
     }
@@ -289,7 +322,13 @@ impl cstk_witness {
             first_contact: 0,
             contact_count: 0,
             overlapping: false,
-            reserved_bytes: [0; 7],
+            contained: false,
+            reserved_bytes: [0; 6],
+            cobject: 0,
+            cobject_data: std::ptr::null_mut(),
+            r_data: std::ptr::null_mut(),
+            s_data: std::ptr::null_mut(),
+            r_object: 0,
             reserved: [0; 4],
         }
     }

@@ -57,7 +57,12 @@ pub struct cstk_body_statistics {
     /// The box of all vertices, in the frame in which the body was given.
     pub low: [f64; 3],
     pub high: [f64; 3],
-    pub reserved: [u64; 8],
+    /// What of the body hangs together: polygons that share vertices, and each polyhedron.
+    pub piece_count: u64,
+    /// It was declared solid (cstk_body_builder_set_solid).
+    pub solid: bool,
+    pub reserved_bytes: [u8; 7],
+    pub reserved: [u64; 6],
 }
 
 /// Kinds of features of a primitive.
@@ -69,6 +74,9 @@ pub enum cstk_feature_kind {
     CSTK_FACE = 2,
     /// The inside of a solid.
     CSTK_INTERIOR = 3,
+    /// The surface of a cylinder, cone, ellipsoid or set by a support function; it has no vertices. What has a radius holds
+    /// its points by the features of its core.
+    CSTK_SURFACE = 4,
 }
 
 impl From<FeatureKind> for cstk_feature_kind {
@@ -78,6 +86,7 @@ impl From<FeatureKind> for cstk_feature_kind {
             FeatureKind::Edge => Self::CSTK_EDGE,
             FeatureKind::Face => Self::CSTK_FACE,
             FeatureKind::Interior => Self::CSTK_INTERIOR,
+            FeatureKind::Surface => Self::CSTK_SURFACE,
         }
     }
 }
@@ -89,13 +98,14 @@ impl cstk_feature_kind {
             FeatureKind::Edge,
             FeatureKind::Face,
             FeatureKind::Interior,
+            FeatureKind::Surface,
         ]
         .into_iter()
         .find(|&kind| Self::from(kind) as i32 == value)
     }
 }
 
-fn with_builder(
+pub(super) fn with_builder(
     builder: *mut cstk_body_builder,
     action: impl FnOnce(&mut BodyBuilder) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -106,7 +116,7 @@ fn with_builder(
 }
 
 /// Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
-/// surfaces). Release it with cstk_body_builder_release.
+/// surfaces, unless cstk_body_builder_set_solid says otherwise). Release it with cstk_body_builder_release.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_create(
     dimension: u32,
@@ -237,8 +247,33 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
     })
 }
 
+/// Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
+/// the default). In a solid the inside counts: a body wholly inside it meets it, at distance 0. Polyhedra are solid by
+/// themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
+///
+/// It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
+/// their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
+/// without area that were left out count where others need them to join. Faces that alone share an edge are turned
+/// round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
+/// where the boundary's winding number is not 0. So shells may overlap; a cavity is a shell that faces the other way than
+/// the one around it; and a boundary that faces inwards all over bounds the same solid.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_set_solid(
+    builder: *mut cstk_body_builder,
+    solid: bool,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            builder.set_solid(solid);
+            Ok(())
+        })
+    })
+}
+
 /// Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
-/// defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added.
+/// defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added. For a body declared solid,
+/// CSTK_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
+/// CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
 ///
 /// The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon;
 /// build once and share, or keep the body in a file (cstk_body_save).
@@ -273,7 +308,7 @@ pub(super) fn reporter(
         // SAFETY: the caller gives a function of this type.
         Some(progress) if unsafe { progress(fraction, user) } != 0 => Err(Error::new(
             ErrorKind::Cancelled,
-            "the progress function ended the build",
+            "the progress function ended the work",
         )),
         _ => Ok(()),
     }
@@ -309,7 +344,10 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
             depth: s.depth,
             low: s.low,
             high: s.high,
-            reserved: [0; 8],
+            piece_count: body.pieces().list.len() as u64,
+            solid: s.is_solid,
+            reserved_bytes: [0; 7],
+            reserved: [0; 6],
         });
         Ok(())
     })
@@ -367,7 +405,8 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
 }
 
 /// Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
-/// docs/body-file.md describes the format. CSTK_IO if it cannot be written.
+/// docs/body-file.md describes the format. CSTK_IO if it cannot be written, CSTK_UNSUPPORTED for a body with a support
+/// function, which no file can hold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_save(
     body: *const cstk_body,

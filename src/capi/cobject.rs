@@ -8,13 +8,13 @@ use super::handle::{self, Noun};
 use super::input::{OptionsStruct, Output, options_or_default, slice, write_defaults};
 use super::space::cstk_space;
 use super::status::cstk_status;
-use crate::cobject::{CObject, InducedOptions, SObjects};
+use crate::cobject::{AllowedPair, CObject, InducedOptions, SObjects};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
 use crate::space::Space;
 
-/// A set in C-space: induced by contact or interference of links with s-objects or links, or a union of such. Immutable
-/// (but for the environment it may refer to); threads may share it. It keeps its space and environment.
+/// A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or made of
+/// others. Immutable (but for the environments it refers to); threads may share it. It keeps its space and environments.
 pub struct cstk_cobject {
     _opaque: [u8; 0],
 }
@@ -36,10 +36,27 @@ pub struct cstk_cobject_options {
     /// Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
     /// than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
     pub margin: f64,
+    /// Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none.
+    pub allowed: *const cstk_allowed_pair,
+    pub allowed_count: usize,
 }
 
-// SAFETY: repr(C), two u32 and two doubles.
+/// A pair that may meet: a link, and an s-object.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_allowed_pair {
+    /// A link of the space.
+    pub link: u32,
+    pub reserved: u32,
+    /// An s-object that is attached to the link and stands in its place, or 0 for the link's own body.
+    pub attached: u64,
+    /// The s-object it may meet.
+    pub object: u64,
+}
+
+// SAFETY: repr(C), two u32, two doubles, a pointer, a size: no padding; the pointer is only read after checks.
 unsafe impl OptionsStruct for cstk_cobject_options {
+    const EARLIER_SIZES: &'static [usize] = &[24];
     const COOKIE: u32 = 0x4353_0401;
     const NAME: &'static str = "cstk_cobject_options";
     fn defaults() -> Self {
@@ -49,17 +66,29 @@ unsafe impl OptionsStruct for cstk_cobject_options {
             cookie: 0,
             contact_epsilon: defaults.contact_epsilon,
             margin: defaults.margin,
+            allowed: std::ptr::null(),
+            allowed_count: 0,
         }
     }
 }
 
-unsafe fn induced_options(options: *const cstk_cobject_options) -> Result<InducedOptions, Failure> {
+unsafe fn induced_options(
+    options: *const cstk_cobject_options,
+) -> Result<(InducedOptions, Vec<AllowedPair>), Failure> {
     // SAFETY: checked for size and cookie.
     let options = unsafe { options_or_default(options, "options")? };
-    Ok(InducedOptions {
+    // SAFETY: checked for NULL; the header states the length.
+    let allowed = unsafe { slice(options.allowed, options.allowed_count, "options->allowed")? };
+    let allowed = allowed.iter().map(|pair| AllowedPair {
+        link: pair.link as usize,
+        attached: pair.attached,
+        object: pair.object,
+    });
+    let measures = InducedOptions {
         contact_epsilon: options.contact_epsilon,
         margin: options.margin,
-    })
+    };
+    Ok((measures, allowed.collect()))
 }
 
 /// Writes the default options. `size` is sizeof(cstk_cobject_options).
@@ -95,7 +124,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
         let environment = handle::share::<Environment>(environment, "environment")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-        let (links, ids, options) = unsafe {
+        let (links, ids, (options, allowed)) = unsafe {
             (
                 slice(links, link_count, "links")?,
                 slice(ids, id_count, "ids")?,
@@ -113,7 +142,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
         } else {
             SObjects::Some(environment, ids.to_vec())
         };
-        let cobject = CObject::induced(space, &links, objects, options)?;
+        let cobject = CObject::induced(space, &links, objects, &allowed, options)?;
         out.write(handle::create(Arc::new(cobject)));
         Ok(())
     })
@@ -135,37 +164,18 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
         let out = Output::checked(out, "out")?;
         let numbers = pair_count.saturating_mul(2);
         // SAFETY: checked for NULL, size and cookie; the caller states the length.
-        let (pairs, options) =
+        let (pairs, (options, allowed)) =
             unsafe { (slice(pairs, numbers, "pairs")?, induced_options(options)?) };
+        if !allowed.is_empty() {
+            let message =
+                "options->allowed names s-objects, but this set is of links: leave the pairs out";
+            return Err(Error::new(ErrorKind::Unsupported, message).into());
+        }
         let pairs: Vec<[usize; 2]> = pairs
             .chunks_exact(2)
             .map(|pair| [pair[0] as usize, pair[1] as usize])
             .collect();
         let cobject = CObject::induced_links(space, &pairs, options)?;
-        out.write(handle::create(Arc::new(cobject)));
-        Ok(())
-    })
-}
-
-/// Makes the union of `count` C-objects of one space. It keeps what its parts refer to, not the parts themselves. A
-/// body pair that several parts hold in one state counts once, with the largest margin; a configuration's class is the
-/// largest of those of the parts.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_cobject_union(
-    parts: *const *const cstk_cobject,
-    count: usize,
-    out: *mut *mut cstk_cobject,
-) -> cstk_status {
-    guard(|| {
-        let out = Output::checked(out, "out")?;
-        // SAFETY: checked for NULL; the caller states the length.
-        let parts = unsafe { slice(parts, count, "parts")? };
-        let parts = parts
-            .iter()
-            .enumerate()
-            .map(|(i, &part)| handle::share::<CObject>(part, &format!("parts[{i}]")))
-            .collect::<Result<Vec<_>, _>>()?;
-        let cobject = CObject::union(&parts)?;
         out.write(handle::create(Arc::new(cobject)));
         Ok(())
     })

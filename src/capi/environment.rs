@@ -1,16 +1,22 @@
 //! Environments.
 
+use std::ffi::c_void;
 use std::sync::Arc;
 
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
+use super::custom_joint::cstk_destroy_fn;
 use super::handle::{self, Noun};
-use super::input::{OptionsStruct, Output, OutputSlice, options, write_defaults};
+use super::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
+use super::space::cstk_space;
 use super::status::cstk_status;
+use super::user_data::Kept;
 use crate::body::Body;
-use crate::environment::{Change, Environment};
+use crate::environment::{Attachment, Change, Environment};
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
+use crate::space::Space;
+use crate::user_data::UserData;
 
 /// The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
 /// bodies of its objects.
@@ -30,10 +36,12 @@ impl Noun for Environment {
 pub enum cstk_change_kind {
     /// Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
     CSTK_CHANGE_ADD = 0,
-    /// Moves object `id` to `pose`.
+    /// Moves object `id` to `pose`; one that is attached to a link is let go there.
     CSTK_CHANGE_MOVE = 1,
     /// Deletes object `id`.
     CSTK_CHANGE_DELETE = 2,
+    /// Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew.
+    CSTK_CHANGE_ATTACH = 3,
 }
 
 /// One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
@@ -49,12 +57,25 @@ pub struct cstk_environment_change {
     pub id: u64,
     /// The body to add.
     pub body: *const cstk_body,
-    /// Where it stands: the body's frame in the world, 12 doubles.
+    /// Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
     pub pose: [f64; 12],
+    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. Queries in other spaces that meet
+    /// the object are refused with CSTK_UNSUPPORTED. The object moves with the link. In a set of links against
+    /// s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
+    /// s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
+    pub space: *const cstk_space,
+    pub touch_links: *const u32,
+    pub link: u32,
+    pub touch_count: u32,
+    /// For CSTK_CHANGE_ADD data of the caller's, handed back with witnesses; `destroy` may be NULL, and is called once, by
+    /// whichever thread drops the last state that holds the object, not when the change fails.
+    pub data: *mut c_void,
+    pub destroy: cstk_destroy_fn,
 }
 
-// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 bytes on 64-bit machines), the pointer is only read after checks.
+// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 + 5 * 8 bytes on 64-bit machines), the pointers are only read after checks.
 unsafe impl OptionsStruct for cstk_environment_change {
+    const EARLIER_SIZES: &'static [usize] = &[128];
     const COOKIE: u32 = 0x4353_0301;
     const NAME: &'static str = "cstk_environment_change";
     fn defaults() -> Self {
@@ -66,6 +87,12 @@ unsafe impl OptionsStruct for cstk_environment_change {
             id: 0,
             body: std::ptr::null(),
             pose: Pose::identity().to_row_major(),
+            space: std::ptr::null(),
+            touch_links: std::ptr::null(),
+            link: 0,
+            touch_count: 0,
+            data: std::ptr::null_mut(),
+            destroy: None,
         }
     }
 }
@@ -123,22 +150,34 @@ pub unsafe extern "C" fn cstk_environment_apply(
         let environment = handle::borrow::<Environment>(environment, "environment")?;
         let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
         let version = Output::optional(version, "version")?;
-        let mut read = Vec::new();
+        let (mut read, mut kept) = (Vec::new(), Vec::new());
         let mut next = changes;
         for i in 0..count {
             // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
             let change = unsafe { options(next, &format!("changes[{i}]"))? };
-            read.push(change_from(&change, i)?);
+            let data = Kept::new(change.data, change.destroy);
+            // SAFETY: checked for NULL; the header states the length.
+            read.push(unsafe { change_from(&change, i, data.as_user_data())? });
+            kept.push(data);
             next = next.wrapping_byte_add(change.size as usize);
         }
         let (applied, now) = environment.apply(&read)?;
+        for (data, change) in kept.iter().zip(&read) {
+            if matches!(change, Change::Add { .. }) {
+                data.take_ownership();
+            }
+        }
         ids.write(&applied);
         version.write(now);
         Ok(())
     })
 }
 
-fn change_from(change: &cstk_environment_change, i: usize) -> Result<Change, Failure> {
+unsafe fn change_from(
+    change: &cstk_environment_change,
+    i: usize,
+    data: Option<UserData>,
+) -> Result<Change, Failure> {
     let pose = || {
         Pose::from_row_major(&change.pose).map_err(|e| e.within(format_args!("changes[{i}].pose")))
     };
@@ -148,11 +187,26 @@ fn change_from(change: &cstk_environment_change, i: usize) -> Result<Change, Fai
         Ok(Change::Add {
             body,
             pose: pose()?,
+            data,
         })
     } else if is(cstk_change_kind::CSTK_CHANGE_MOVE) {
         Ok(Change::Move {
             id: change.id,
             pose: pose()?,
+        })
+    } else if is(cstk_change_kind::CSTK_CHANGE_ATTACH) {
+        let space = handle::borrow::<Space>(change.space, &format!("changes[{i}].space"))?;
+        let count = change.touch_count as usize;
+        let name = format!("changes[{i}].touch_links");
+        // SAFETY: checked for NULL; the header states the length.
+        let touch_links = unsafe { slice(change.touch_links, count, &name)? };
+        let touch_links: Vec<usize> = touch_links.iter().map(|&link| link as usize).collect();
+        let attachment = Attachment::new(space, change.link as usize, &touch_links)
+            .map_err(|e| e.within(format_args!("changes[{i}]")))?;
+        Ok(Change::Attach {
+            id: change.id,
+            pose: pose()?,
+            attachment,
         })
     } else if is(cstk_change_kind::CSTK_CHANGE_DELETE) {
         Ok(Change::Delete { id: change.id })
@@ -189,13 +243,13 @@ pub unsafe extern "C" fn cstk_environment_state(
         let object_count = Output::optional(object_count, "object_count")?;
         let version = Output::optional(version, "version")?;
         let now = environment.snapshot();
-        object_count.write(now.objects.len());
+        object_count.write(now.len());
         version.write(now.version);
         Ok(())
     })
 }
 
-/// Writes the pose (12 doubles) of an s-object. CSTK_NOT_FOUND if there is none with this id.
+/// Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to. CSTK_NOT_FOUND if there is none with this id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_object_pose(
     environment: *const cstk_environment,

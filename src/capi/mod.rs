@@ -10,6 +10,7 @@
 mod exclusive;
 mod handle;
 mod input;
+mod user_data;
 
 pub mod version;
 
@@ -22,6 +23,8 @@ pub mod pose;
 pub mod hierarchy;
 
 pub mod body;
+
+pub mod shapes;
 
 pub mod nodes;
 
@@ -43,9 +46,19 @@ pub mod environment;
 
 pub mod cobject;
 
+pub mod sets;
+
+pub mod predicate;
+
+pub mod pure;
+
 pub mod answers;
 
 pub mod query;
+
+pub mod explain;
+
+pub mod link_pairs;
 
 pub mod pair;
 

@@ -76,9 +76,9 @@ pub unsafe extern "C" fn cstk_pair_within(
     }
 }
 
-/// Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts. Of more than
-/// `max_count` pairs, the nearest are given and `truncated` is set. The arrays stay valid until the next call with this query
-/// context.
+/// Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts; and at distance 0
+/// each piece of a body that lies inside the other, a solid (see `contained`). Of more than `max_count`, the nearest are
+/// given and `truncated` is set. The arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_witnesses(
     query: *mut cstk_query,
@@ -101,8 +101,10 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
 
 /// Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
 /// translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
-/// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding; the work for a pair of polyhedra
-/// grows with the product of their numbers of edges. Of more than `max_count` pairs, the deepest are given and `truncated`
+/// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a pair of
+/// polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid or support
+/// function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none of its primitives:
+/// nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated`
 /// is set. The array stays valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_penetration(

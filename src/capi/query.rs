@@ -9,12 +9,16 @@ use super::answers::{
 use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
 use super::exclusive::exclusively;
+use super::explain::cstk_verdict;
 use super::handle::{self, Noun};
 use super::input::{Output, slice};
+use super::link_pairs::cstk_link_pair;
 use super::robot::link_poses;
 use super::status::cstk_status;
 use crate::cobject::CObject;
-use crate::query::{Configuration, PenetrationList, QueryContext, WitnessList};
+use crate::query::{
+    Configuration, LinkPair, PairVerdict, PenetrationList, QueryContext, Shell, WitnessList,
+};
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
 /// time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
@@ -30,6 +34,9 @@ pub(super) struct State {
     contacts: Vec<cstk_contact>,
     gradients: Vec<f64>,
     penetrations: Vec<cstk_penetration>,
+    pub verdicts: Vec<cstk_verdict>,
+    pub pairs: Vec<cstk_link_pair>,
+    pub tested: Vec<u32>,
 }
 
 pub(super) struct Query(Mutex<State>);
@@ -41,7 +48,7 @@ impl Noun for Query {
 }
 
 /// Where an array is; NULL if it is empty.
-fn start<T>(items: &[T]) -> *const T {
+pub(super) fn start<T>(items: &[T]) -> *const T {
     if items.is_empty() {
         std::ptr::null()
     } else {
@@ -61,6 +68,20 @@ impl State {
             reserved_bytes: [0; 6],
             reserved: [0; 5],
         }
+    }
+
+    /// Takes over pairs of links, and which of them are to be tested.
+    pub fn keep_pairs(&mut self, pairs: &[LinkPair], skip_never: bool) {
+        self.pairs = pairs.iter().map(From::from).collect();
+        let is_tested = |pair: &&LinkPair| match pair.verdict {
+            PairVerdict::Test => true,
+            PairVerdict::Never => !skip_never,
+            _ => false,
+        };
+        let tested = pairs.iter().filter(is_tested);
+        self.tested = tested
+            .flat_map(|pair| pair.links.map(|link| link as u32))
+            .collect();
     }
 
     /// Takes over a list and says where its arrays now are.
@@ -131,10 +152,11 @@ fn run<At, T>(
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
-            let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+            // A share: functions of the caller may release the handle meanwhile.
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
             let out = Output::checked(out, "out")?;
             let at = at()?;
-            out.write(ask(state, cobject, &at)?);
+            out.write(ask(state, &cobject, &at)?);
             Ok(())
         })
     })
@@ -347,9 +369,9 @@ pub unsafe extern "C" fn cstk_distance_at(
 
 /// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
 /// contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
-/// nearest are given and `truncated` is set. Neighbouring faces of a mesh share
-/// edges and vertices, so that one physical contact may have several witnesses. The arrays stay valid until the next call
-/// with this query context.
+/// nearest are given and `truncated` is set. Neighbouring faces of a mesh share edges and vertices, so that one physical
+/// contact may have several witnesses. Each piece of a body that lies inside another, a solid, is a witness too, at distance
+/// 0 (see `contained`). The arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_witnesses(
     query: *mut cstk_query,
@@ -459,9 +481,12 @@ pub unsafe extern "C" fn cstk_pseudo_normal(
         || unsafe { slice(q, nq, "q") },
         out,
         |state, cobject, q| {
-            let found = state
-                .context
-                .pseudo_normal(cobject, q, max_shell, max_count, normalize)?;
+            let shell = Shell {
+                max_shell,
+                max_count,
+                normalize,
+            };
+            let found = state.context.pseudo_normal(cobject, q, &shell)?;
             Ok(cstk_pseudo_normal_result {
                 point_class: found.class.into(),
                 reserved: 0,

@@ -22,9 +22,9 @@ pub unsafe extern "C" fn cstk_show(
     file: *const c_char,
 ) -> cstk_status {
     guard(|| {
-        let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+        let cobject = handle::share::<CObject>(cobject, "cobject")?;
         // SAFETY: checked for NULL; the caller states the length and the terminator.
         let (q, file) = unsafe { (slice(q, nq, "q")?, path(file, "file")?) };
-        Ok(show(cobject, q, file)?)
+        Ok(show(&cobject, q, file)?)
     })
 }

@@ -111,7 +111,7 @@ pub unsafe extern "C" fn cstk_slide(
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
-            let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
             let reached = OutputSlice::checked(reached, nq, "reached")?;
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn cstk_slide(
             if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
                 options.desired_distance = given.desired_distance;
             }
-            let taken = state.context.slide(cobject, q, step, &options)?;
+            let taken = state.context.slide(&cobject, q, step, &options)?;
             reached.write(&taken.configuration);
             out.write(cstk_slide_result {
                 outcome: match taken.outcome {

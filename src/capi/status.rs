@@ -51,6 +51,8 @@ pub enum cstk_status {
     CSTK_INTERNAL = 19,
     /// A function of the caller's failed; the message names it and what it returned.
     CSTK_CALLBACK_FAILED = 20,
+    /// A body was declared solid whose surface is not closed; the message names open edges.
+    CSTK_NOT_CLOSED = 21,
 }
 
 impl From<ErrorKind> for cstk_status {
@@ -63,6 +65,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::Degenerate => Self::CSTK_DEGENERATE,
             ErrorKind::NotConvex => Self::CSTK_NOT_CONVEX,
             ErrorKind::NotPlanar => Self::CSTK_NOT_PLANAR,
+            ErrorKind::NotClosed => Self::CSTK_NOT_CLOSED,
             ErrorKind::NotARotation => Self::CSTK_NOT_A_ROTATION,
             ErrorKind::NotFound => Self::CSTK_NOT_FOUND,
             ErrorKind::Unsupported => Self::CSTK_UNSUPPORTED,
@@ -101,6 +104,7 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
         18 => c"CSTK_BUSY",
         19 => c"CSTK_INTERNAL",
         20 => c"CSTK_CALLBACK_FAILED",
+        21 => c"CSTK_NOT_CLOSED",
         _ => c"unknown status",
     };
     name.as_ptr()

@@ -41,8 +41,8 @@ pub struct cstk_urdf_options {
     pub base: i32,
     /// The link of the builder that carries the robot, or -1 for the world.
     pub parent: i32,
-    /// Into how many sides the circles of spheres, cylinders and capsules are divided, 3 to 1024; default 32. The polyhedra
-    /// hold the shapes.
+    /// 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided, 3 to
+    /// 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
     pub sides: u32,
     /// Where the robot stands on its parent: a pose of 12 doubles.
     pub at: [f64; 12],
@@ -67,7 +67,7 @@ unsafe impl OptionsStruct for cstk_urdf_options {
             geometry: 0,
             base: 0,
             parent: -1,
-            sides: 32,
+            sides: 0,
             at: Pose::identity().to_row_major(),
             prefix: std::ptr::null(),
             package_paths: std::ptr::null(),

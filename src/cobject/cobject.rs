@@ -1,60 +1,59 @@
-//! Induced C-objects and their unions.
+//! C-objects: leaves, and trees of unions, intersections and complements over them.
 
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use super::leaf::next_serial;
+use super::{
+    AllowedPair, BodyPairs, Induced, InducedOptions, Leaf, PureOptions, PureSet, PureShape,
+    SObjects,
+};
 use crate::environment::Environment;
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result};
 use crate::space::Space;
+use crate::user_data::UserData;
 
-/// How an induced C-object measures.
-#[derive(Clone, Copy, Debug)]
-pub struct InducedOptions {
-    /// Distances up to this (and above 0) classify as contact.
-    pub contact_epsilon: f64,
-    /// Grows the s-objects: it is taken off every distance.
-    pub margin: f64,
-}
+/// Sets nested deeper than this are refused; unions in unions, and intersections in intersections, count as one.
+pub const MOST_DEPTH: u32 = 256;
 
-impl Default for InducedOptions {
-    fn default() -> Self {
-        Self {
-            contact_epsilon: 0.0,
-            margin: 0.0,
-        }
-    }
-}
-
-/// The s-side of an induced C-object.
-#[derive(Debug)]
-pub enum SObjects {
-    /// All objects of an environment, those added later too.
-    All(Arc<Environment>),
-    /// Some objects, by id. One that is deleted contributes the empty set.
-    Some(Arc<Environment>, Vec<u64>),
-}
-
-/// One simple C-object within a union.
-#[derive(Debug)]
-pub enum Term {
-    /// Links of the space against s-objects.
-    Objects {
-        links: Vec<usize>,
-        objects: SObjects,
-        options: InducedOptions,
+/// What a C-object is made of.
+#[derive(Clone, Debug)]
+pub enum Set {
+    /// A union. What is induced is searched as one, whatever it was joined from; a lone induced set is a union of one.
+    Union {
+        induced: Vec<Arc<Induced>>,
+        others: Vec<Arc<CObject>>,
     },
-    /// Links against links; the second of a pair is the nominal s-object.
-    Links {
-        pairs: Vec<[usize; 2]>,
-        options: InducedOptions,
-    },
+    Intersection(Vec<Arc<CObject>>),
+    Complement(Arc<CObject>),
+    Pure(PureSet),
 }
 
-/// A set in C-space: a union of simple C-objects over one space.
+/// The unit in which a set measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Unit {
+    /// It does not.
+    None,
+    Length,
+    /// That of C-space, in the pure set of this number.
+    CSpace(u64),
+    /// Both: the pure set of this number has no scale.
+    Mixed(u64),
+}
+
+/// A set in C-space, over one space. Immutable, but for the environments it refers to.
 #[derive(Debug)]
 pub struct CObject {
+    serial: u64,
     space: Arc<Space>,
-    terms: Vec<Arc<Term>>,
+    set: Set,
+    data: Option<UserData>,
+    depth: u32,
+    unit: Unit,
+    /// A pure set that asks for coordinates: its number, and what it is.
+    needs_coordinates: Option<(u64, &'static str)>,
+    /// Each once, in order of serials.
+    environments: Vec<Arc<Environment>>,
 }
 
 impl CObject {
@@ -63,33 +62,12 @@ impl CObject {
         space: Arc<Space>,
         links: &[usize],
         objects: SObjects,
+        allowed: &[AllowedPair],
         options: InducedOptions,
     ) -> Result<Self> {
-        check_options(&options)?;
-        let links = if links.is_empty() {
-            let with_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
-            let found: Vec<usize> = (0..space.link_count()).filter(with_body).collect();
-            if found.is_empty() {
-                return Err(Error::new(
-                    ErrorKind::Empty,
-                    "no link of the space has a body",
-                ));
-            }
-            found
-        } else {
-            for &link in links {
-                require_body(&space, link)?;
-            }
-            links.to_vec()
-        };
-        Ok(Self {
-            space,
-            terms: vec![Arc::new(Term::Objects {
-                links,
-                objects,
-                options,
-            })],
-        })
+        options.check()?;
+        let pairs = BodyPairs::with_objects(&space, links, objects, allowed)?;
+        Ok(Self::of_pairs(space, pairs, options))
     }
 
     /// The set where the links of some pair meet.
@@ -98,180 +76,332 @@ impl CObject {
         pairs: &[[usize; 2]],
         options: InducedOptions,
     ) -> Result<Self> {
-        check_options(&options)?;
-        if pairs.is_empty() {
-            return Err(Error::new(ErrorKind::Empty, "no link pair given"));
-        }
-        for (i, pair) in pairs.iter().enumerate() {
-            let named = |error: Error| error.within(format_args!("pair {i}"));
-            for &link in pair {
-                require_body(&space, link).map_err(named)?;
-            }
-            if pair[0] == pair[1] {
-                return Err(named(Error::invalid(format!(
-                    "link {} is paired with itself",
-                    pair[0]
-                ))));
-            }
-        }
-        let mut distinct: Vec<[usize; 2]> = Vec::with_capacity(pairs.len());
-        let mut seen = HashSet::new();
-        for &[r, s] in pairs {
-            if seen.insert([r.min(s), r.max(s)]) {
-                distinct.push([r, s]);
-            }
-        }
-        Ok(Self {
-            space,
-            terms: vec![Arc::new(Term::Links {
-                pairs: distinct,
+        options.check()?;
+        let pairs = BodyPairs::of_links(&space, pairs)?;
+        Ok(Self::of_pairs(space, pairs, options))
+    }
+
+    fn of_pairs(space: Arc<Space>, pairs: BodyPairs, options: InducedOptions) -> Self {
+        Self::leaf(space, |leaf| Set::Union {
+            induced: vec![Arc::new(Induced {
+                leaf,
+                data: None,
+                pairs,
                 options,
             })],
+            others: Vec::new(),
         })
+    }
+
+    /// A set given by coordinates.
+    pub fn pure(space: Arc<Space>, shape: PureShape, options: PureOptions) -> Result<Self> {
+        options.check()?;
+        shape.check(&space)?;
+        Ok(Self::leaf(space, |leaf| {
+            Set::Pure(PureSet {
+                leaf,
+                data: None,
+                shape,
+                options,
+            })
+        }))
+    }
+
+    fn leaf(space: Arc<Space>, set: impl FnOnce(Leaf) -> Set) -> Self {
+        let serial = next_serial();
+        let leaf = Leaf { serial, data: 0 };
+        Self::with_set(serial, space, set(leaf), None)
     }
 
     /// The union of C-objects over one space.
     pub fn union(parts: &[Arc<CObject>]) -> Result<Self> {
-        let Some(first) = parts.first() else {
-            return Err(Error::new(
-                ErrorKind::Empty,
-                "a union needs at least one C-object",
-            ));
-        };
+        let space = common_space(parts, "a union")?;
+        let (mut induced, mut others) = (Vec::new(), Vec::new());
         let mut seen = HashSet::new();
-        let serial = first.space.serial();
-        if let Some(i) = parts.iter().position(|part| part.space.serial() != serial) {
-            return Err(Error::invalid(format!(
-                "C-object {i} belongs to another space than C-object 0"
-            )));
-        }
-        Ok(Self {
-            space: first.space.clone(),
-            terms: parts
-                .iter()
-                .flat_map(|part| &part.terms)
-                .filter(|term| seen.insert(Arc::as_ptr(term)))
-                .cloned()
-                .collect(),
-        })
-    }
-
-    /// The same set as it is now: its environments stay in the state they are in.
-    pub fn frozen(&self) -> Self {
-        let mut frozen: Vec<(u64, Arc<Environment>)> = Vec::new();
-        let mut freeze = |environment: &Arc<Environment>| {
-            let serial = environment.serial();
-            let known = frozen.iter().find(|(other, _)| *other == serial);
-            match known {
-                Some((_, environment)) => environment.clone(),
-                None => {
-                    let now = Arc::new(environment.freeze());
-                    frozen.push((serial, now.clone()));
-                    now
+        for part in parts {
+            match &part.set {
+                Set::Union {
+                    induced: more,
+                    others: rest,
+                } => {
+                    let is_new = |i: &&Arc<Induced>| seen.insert(i.leaf.serial);
+                    induced.extend(more.iter().filter(is_new).cloned());
+                    let is_new = |o: &&Arc<CObject>| seen.insert(o.serial);
+                    others.extend(rest.iter().filter(is_new).cloned());
                 }
+                _ => others.extend(seen.insert(part.serial).then(|| part.clone())),
             }
-        };
-        let terms = self.terms.iter().map(|term| match &**term {
-            Term::Links { .. } => term.clone(),
-            Term::Objects {
-                links,
-                objects,
-                options,
-            } => Arc::new(Term::Objects {
-                links: links.clone(),
-                objects: match objects {
-                    SObjects::All(environment) => SObjects::All(freeze(environment)),
-                    SObjects::Some(environment, ids) => {
-                        SObjects::Some(freeze(environment), ids.clone())
-                    }
-                },
-                options: *options,
-            }),
-        });
-        let terms = terms.collect();
+        }
+        Self::compound(space, Set::Union { induced, others })
+    }
+
+    /// The intersection of C-objects over one space.
+    pub fn intersection(parts: &[Arc<CObject>]) -> Result<Self> {
+        let space = common_space(parts, "an intersection")?;
+        let mut seen = HashSet::new();
+        let mut all = Vec::new();
+        for part in parts {
+            match &part.set {
+                Set::Intersection(inner) => {
+                    let is_new = |o: &&Arc<CObject>| seen.insert(o.serial);
+                    all.extend(inner.iter().filter(is_new).cloned());
+                }
+                _ => all.extend(seen.insert(part.serial).then(|| part.clone())),
+            }
+        }
+        Self::compound(space, Set::Intersection(all))
+    }
+
+    /// All configurations that are not in a C-object.
+    pub fn complement(part: &Arc<CObject>) -> Result<Self> {
+        if let Set::Complement(inner) = &part.set {
+            let (set, data) = (inner.set.clone(), inner.data.clone());
+            return Ok(Self::with_set(inner.serial, inner.space.clone(), set, data));
+        }
+        Self::compound(part.space.clone(), Set::Complement(part.clone()))
+    }
+
+    /// The configurations of one C-object that are not in another.
+    pub fn difference(of: &Arc<CObject>, without: &Arc<CObject>) -> Result<Self> {
+        Self::intersection(&[of.clone(), Arc::new(Self::complement(without)?)])
+    }
+
+    fn compound(space: Arc<Space>, set: Set) -> Result<Self> {
+        let made = Self::with_set(next_serial(), space, set, None);
+        if made.depth > MOST_DEPTH {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!("the C-objects are nested deeper than {MOST_DEPTH}"),
+            ));
+        }
+        Ok(made)
+    }
+
+    fn with_set(serial: u64, space: Arc<Space>, set: Set, data: Option<UserData>) -> Self {
+        let mut environments: Vec<Arc<Environment>> = set.environments();
+        environments.sort_by_key(|environment| environment.serial());
+        environments.dedup_by_key(|environment| environment.serial());
         Self {
-            space: self.space.clone(),
-            terms,
+            serial,
+            space,
+            depth: 1 + set.parts().iter().map(|part| part.depth).max().unwrap_or(0),
+            unit: set.unit(),
+            needs_coordinates: set.needs_coordinates(),
+            set,
+            data,
+            environments,
         }
     }
 
-    /// The same without what no link that moves takes part in; `None` if nothing is left.
-    pub fn moving(&self, moves: impl Fn(usize) -> bool) -> Option<Self> {
-        let terms = self.terms.iter().filter_map(|term| match &**term {
-            Term::Links { pairs, options } => {
-                let pairs: Vec<[usize; 2]> = pairs
+    /// The same set, carrying data of the caller's: answers hand those of leaves back.
+    pub fn with_data(&self, data: UserData) -> Self {
+        let serial = next_serial();
+        let leaf = Leaf {
+            serial,
+            data: data.value,
+        };
+        let set = match &self.set {
+            Set::Union { induced, others } if self.is_leaf() => Set::Union {
+                induced: induced
                     .iter()
-                    .filter(|pair| pair.iter().any(|&link| moves(link)))
-                    .copied()
-                    .collect();
-                (!pairs.is_empty()).then_some(Term::Links {
-                    pairs,
-                    options: *options,
-                })
+                    .map(|i| {
+                        Arc::new(Induced {
+                            leaf,
+                            data: Some(data.clone()),
+                            ..Induced::clone(i)
+                        })
+                    })
+                    .collect(),
+                others: others.clone(),
+            },
+            Set::Pure(pure) => Set::Pure(PureSet {
+                leaf,
+                data: Some(data.clone()),
+                ..pure.clone()
+            }),
+            compound => compound.clone(),
+        };
+        Self::with_set(serial, self.space.clone(), set, Some(data))
+    }
+
+    fn is_leaf(&self) -> bool {
+        match &self.set {
+            Set::Pure(_) => true,
+            Set::Union { induced, others } => {
+                others.is_empty() && induced.len() == 1 && induced[0].leaf.serial == self.serial
             }
-            Term::Objects {
-                links,
-                objects,
-                options,
-            } => {
-                let links: Vec<usize> = links.iter().filter(|&&l| moves(l)).copied().collect();
-                (!links.is_empty()).then(|| Term::Objects {
-                    links,
-                    objects: match objects {
-                        SObjects::All(environment) => SObjects::All(environment.clone()),
-                        SObjects::Some(environment, ids) => {
-                            SObjects::Some(environment.clone(), ids.clone())
-                        }
-                    },
-                    options: *options,
-                })
-            }
+            _ => false,
+        }
+    }
+
+    /// Of a union the same without pairs of bodies that do not move; `None` if nothing is left. Pure sets stay, and so do the
+    /// links against an environment with objects that links hold.
+    pub fn moving(
+        &self,
+        moves: impl Fn(usize) -> bool,
+        holds: impl Fn(&Environment) -> bool,
+    ) -> Option<Self> {
+        let Set::Union { induced, others } = &self.set else {
+            return None;
+        };
+        let moving = induced.iter().filter_map(|term| {
+            let is_held = term
+                .pairs
+                .environment()
+                .is_some_and(|environment| holds(environment));
+            let pairs = if is_held {
+                term.pairs.clone()
+            } else {
+                term.pairs.moving(&moves)?
+            };
+            Some(Arc::new(Induced {
+                pairs,
+                ..Induced::clone(term)
+            }))
         });
-        let terms: Vec<Arc<Term>> = terms.map(Arc::new).collect();
-        (!terms.is_empty()).then(|| Self {
-            space: self.space.clone(),
-            terms,
+        let induced: Vec<Arc<Induced>> = moving.collect();
+        let is_left = !(induced.is_empty() && others.is_empty());
+        is_left.then(|| {
+            let others = others.clone();
+            let set = Set::Union { induced, others };
+            Self::with_set(self.serial, self.space.clone(), set, None)
         })
+    }
+
+    /// A number no other C-object of this process has.
+    pub fn serial(&self) -> u64 {
+        self.serial
     }
 
     pub fn space(&self) -> &Arc<Space> {
         &self.space
     }
 
-    /// The simple C-objects whose union this is.
-    pub fn terms(&self) -> &[Arc<Term>] {
-        &self.terms
+    pub fn set(&self) -> &Set {
+        &self.set
     }
-}
 
-fn check_options(options: &InducedOptions) -> Result<()> {
-    for (value, name) in [
-        (options.contact_epsilon, "contact_epsilon"),
-        (options.margin, "margin"),
-    ] {
-        require_finite(&[value], name)?;
-        if value < 0.0 {
-            return Err(Error::invalid(format!("{name} is negative: {value}")));
+    pub fn data(&self) -> Option<&UserData> {
+        self.data.as_ref()
+    }
+
+    /// The environments it refers to, each once, in order of serials.
+    pub fn environments(&self) -> &[Arc<Environment>] {
+        &self.environments
+    }
+
+    /// Refuses to answer at link poses where a pure set asks for coordinates.
+    pub fn require_no_coordinates(&self) -> Result<()> {
+        match self.needs_coordinates {
+            Some((pure, name)) => Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "C-object {pure} is {name}, which needs the coordinates: link poses alone do not tell them"
+                ),
+            )),
+            None => Ok(()),
         }
     }
-    Ok(())
+
+    /// Refuses to measure lengths together with units of C-space.
+    pub fn require_one_unit(&self) -> Result<()> {
+        match self.unit {
+            Unit::Mixed(pure) => Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths"
+                ),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// All induced leaves, each once.
+    pub fn induced_leaves(&self) -> Vec<Arc<Induced>> {
+        let mut seen = HashSet::new();
+        let mut found = Vec::new();
+        let mut open = vec![self];
+        let mut visited = HashSet::new();
+        while let Some(next) = open.pop() {
+            if let Set::Union { induced, .. } = &next.set {
+                let is_new = |i: &&Arc<Induced>| seen.insert(i.leaf.serial);
+                found.extend(induced.iter().filter(is_new).cloned());
+            }
+            let parts = next.set.parts().iter().rev();
+            open.extend(
+                parts
+                    .filter(|part| visited.insert(part.serial))
+                    .map(|part| &**part),
+            );
+        }
+        found
+    }
 }
 
-fn require_body(space: &Space, link: usize) -> Result<()> {
-    let found = space.link(link).ok_or_else(|| {
+impl Set {
+    /// The C-objects it is made of, but for what is induced.
+    pub fn parts(&self) -> &[Arc<CObject>] {
+        match self {
+            Self::Union { others, .. } => others,
+            Self::Intersection(parts) => parts,
+            Self::Complement(part) => std::slice::from_ref(part),
+            Self::Pure(_) => &[],
+        }
+    }
+
+    fn environments(&self) -> Vec<Arc<Environment>> {
+        let own = match self {
+            Self::Union { induced, .. } => &induced[..],
+            _ => &[],
+        };
+        let own = own.iter().filter_map(|term| term.pairs.environment());
+        let below = self.parts().iter().flat_map(|part| &part.environments);
+        own.chain(below).cloned().collect()
+    }
+
+    fn needs_coordinates(&self) -> Option<(u64, &'static str)> {
+        match self {
+            Self::Pure(pure) => match pure.shape {
+                PureShape::BeyondWorld => None,
+                _ => Some((pure.leaf.serial, pure.shape.name())),
+            },
+            _ => self.parts().iter().find_map(|part| part.needs_coordinates),
+        }
+    }
+
+    fn unit(&self) -> Unit {
+        let own = match self {
+            Self::Union { induced, .. } if !induced.is_empty() => Unit::Length,
+            Self::Pure(pure) => match (&pure.shape, pure.options.scale) {
+                (PureShape::BeyondWorld, _) | (_, Some(_)) => Unit::Length,
+                _ => Unit::CSpace(pure.leaf.serial),
+            },
+            _ => Unit::None,
+        };
+        let parts = self.parts().iter().map(|part| part.unit);
+        parts.fold(own, |unit, next| match (unit, next) {
+            (Unit::None, other) | (other, Unit::None) => other,
+            (Unit::Mixed(pure), _) | (_, Unit::Mixed(pure)) => Unit::Mixed(pure),
+            (Unit::CSpace(pure), Unit::Length) | (Unit::Length, Unit::CSpace(pure)) => {
+                Unit::Mixed(pure)
+            }
+            (same, _) => same,
+        })
+    }
+}
+
+fn common_space(parts: &[Arc<CObject>], what: &str) -> Result<Arc<Space>> {
+    let first = parts.first().ok_or_else(|| {
         Error::new(
-            ErrorKind::NotFound,
-            format!(
-                "link {link} does not exist; the space has {}",
-                space.link_count()
-            ),
+            ErrorKind::Empty,
+            format!("{what} needs at least one C-object"),
         )
     })?;
-    if found.body.is_none() {
-        return Err(Error::new(
-            ErrorKind::Empty,
-            format!("link {link} (\"{}\") has no body", found.name),
-        ));
+    let serial = first.space.serial();
+    match parts.iter().position(|part| part.space.serial() != serial) {
+        None => Ok(first.space.clone()),
+        Some(i) => Err(Error::invalid(format!(
+            "C-object {i} belongs to another space than C-object 0"
+        ))),
     }
-    Ok(())
 }

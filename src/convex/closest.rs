@@ -14,6 +14,9 @@ pub struct Closest {
     pub distance: f64,
     pub points: [Vec3; 2],
     pub features: [Feature; 2],
+    /// How much more than the pair's error the distance may be above the true one: 0 but for smooth sets whose bounds did
+    /// not come together.
+    pub doubt: f64,
 }
 
 impl Closest {
@@ -22,6 +25,7 @@ impl Closest {
             distance: (points[0] - points[1]).norm(),
             points,
             features,
+            doubt: 0.0,
         }
     }
 
@@ -30,6 +34,7 @@ impl Closest {
             distance: 0.0,
             points: [point; 2],
             features,
+            doubt: 0.0,
         }
     }
 
@@ -128,6 +133,7 @@ pub fn closest_features(
         distance: f64::INFINITY,
         points: [Vec3::zeros(); 2],
         features: [Feature::interior(); 2],
+        doubt: 0.0,
     };
     if crossings {
         if let Some((point, edge, face)) = crossing(a, features_a, b, features_b) {
@@ -186,6 +192,7 @@ fn vertices_over_faces(
                     distance: height.abs(),
                     points: [point, foot],
                     features: [Feature::vertex(i), Feature::face(f)],
+                    doubt: 0.0,
                 });
             }
         }

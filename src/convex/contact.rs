@@ -4,12 +4,14 @@ use nalgebra::Vector2;
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::contact_normal::ContactPair;
+use super::curved::is_curved;
+use super::curved_contact::curved_contacts;
 use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
 
-/// The report's contact modes, r-feature first.
+/// The report's contact modes, r-feature first; and that of sets without features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactMode {
     PointPoint,
@@ -18,6 +20,8 @@ pub enum ContactMode {
     PointFace,
     FacePoint,
     EdgeEdge,
+    /// The boundary of a pure set: no features.
+    PureSet,
 }
 
 /// One contact of the r-primitive with the s-primitive: two points and the unit normal from s to r.
@@ -34,7 +38,23 @@ pub struct Contact {
 
 /// The contacts of the pair (r, s) whose closest points are `closest`, the one at these points first. Empty when the
 /// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
+///
+/// Curved primitives have those of their cores: smooth ones one contact only, whatever touches them along a line or a face.
 pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision) -> Vec<Contact> {
+    if is_curved(r, s) {
+        curved_contacts(r, s, precision)
+    } else {
+        polytope_contacts(r, s, closest, precision)
+    }
+}
+
+/// The contacts of the hulls of two primitives' vertices.
+pub(super) fn polytope_contacts(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    precision: &Precision,
+) -> Vec<Contact> {
     let (size, planar) = (precision.size, precision.planar);
     let pair = ContactPair {
         r,
@@ -127,9 +147,10 @@ pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision
     found
 }
 
-fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
-    use FeatureKind::{Edge, Face, Vertex};
-    match (features[0].kind, features[1].kind) {
+pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
+    use FeatureKind::{Edge, Face, Surface, Vertex};
+    let as_point = |kind| if kind == Surface { Vertex } else { kind };
+    match (as_point(features[0].kind), as_point(features[1].kind)) {
         (Vertex, Vertex) => Some(ContactMode::PointPoint),
         (Vertex, Edge) => Some(ContactMode::PointEdge),
         (Edge, Vertex) => Some(ContactMode::EdgePoint),

@@ -2,7 +2,7 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{feature_normal, gap_along};
-use super::penetration::penetration;
+use super::penetration::polytope_penetration;
 use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
@@ -114,7 +114,7 @@ impl ContactPair<'_> {
         if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MOST_EDGE_PAIRS {
             return None;
         }
-        let found = penetration(self.r, self.s, self.precision);
+        let found = polytope_penetration(self.r, self.s, self.precision);
         (found.depth <= most).then_some(found.direction)
     }
 

@@ -1,6 +1,7 @@
 //! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
 
 use super::closest::{Closest, FeatureSet, closest_features};
+use super::curved::{curved_closest, is_curved};
 use super::placed::{Placed, Precision};
 use crate::gjk::{PointCloud, gjk};
 use crate::pose::Vec3;
@@ -21,6 +22,24 @@ pub fn closest_points(
     pair: &Precision,
     scratch: &mut DistanceScratch,
 ) -> Closest {
+    let mut found = if is_curved(a, b) {
+        curved_closest(a, b, pair, scratch)
+    } else {
+        closest_polytopes(a, b, pair, scratch)
+    };
+    if found.distance <= pair.error {
+        found.distance = 0.0;
+    }
+    found
+}
+
+/// The closest points of the hulls of two primitives' vertices.
+pub fn closest_polytopes(
+    a: &Placed,
+    b: &Placed,
+    pair: &Precision,
+    scratch: &mut DistanceScratch,
+) -> Closest {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
     let mut found = if pair.planar {
         planar_closest(a, b, pair, scratch)
@@ -31,9 +50,6 @@ pub fn closest_points(
     };
     for (placed, side) in [(a, 0), (b, 1)] {
         snap_to_vertex(placed, &mut found, side, pair.error);
-    }
-    if found.distance <= pair.error {
-        found.distance = 0.0;
     }
     found
 }

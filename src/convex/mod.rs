@@ -3,6 +3,8 @@
 mod closest;
 mod contact;
 mod contact_normal;
+mod curved;
+mod curved_contact;
 mod distance;
 mod nearest_edges;
 mod outline;

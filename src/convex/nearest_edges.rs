@@ -65,6 +65,7 @@ impl NearestEdges {
             distance: self.squares.0[lane].sqrt(),
             points: places.map(|place| place.0),
             features: places.map(|place| place.1),
+            doubt: 0.0,
         }
     }
 }

@@ -8,8 +8,11 @@
 
 use std::collections::HashMap;
 
-use super::distance::{DistanceScratch, closest_points};
+use super::curved::is_curved;
+use super::curved_contact::curved_penetration;
+use super::distance::{DistanceScratch, closest_polytopes};
 use super::placed::{Placed, Precision};
+use crate::error::Result;
 use crate::pose::Vec3;
 
 /// The shortest translation of r that leaves r and s touching: by `depth` along `direction`, a unit vector from s to r.
@@ -25,8 +28,17 @@ pub struct Penetration {
 /// How far a corner may reach beyond an edge that supports, relative to the pair's size.
 const SUPPORT_SLACK: f64 = 1e-9;
 
-/// The penetration of two sets that meet.
-pub fn penetration(r: &Placed, s: &Placed, precision: &Precision) -> Penetration {
+/// The penetration of two sets that meet. Fails for smooth ones.
+pub fn penetration(r: &Placed, s: &Placed, precision: &Precision) -> Result<Penetration> {
+    if is_curved(r, s) {
+        curved_penetration(r, s, precision)
+    } else {
+        Ok(polytope_penetration(r, s, precision))
+    }
+}
+
+/// The penetration of the hulls of two primitives' vertices that meet.
+pub(super) fn polytope_penetration(r: &Placed, s: &Placed, precision: &Precision) -> Penetration {
     let mut shortest = Shortest {
         r,
         s,
@@ -108,7 +120,7 @@ fn brought_together(r: &Placed, s: &Placed, shift: Vec3, precision: &Precision) 
         vertices: &vertices,
         ..*r
     };
-    let met = closest_points(&moved, s, precision, &mut DistanceScratch::default());
+    let met = closest_polytopes(&moved, s, precision, &mut DistanceScratch::default());
     [met.points[0] - shift, met.points[1]]
 }
 

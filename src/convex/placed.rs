@@ -57,6 +57,11 @@ impl<'a> Placed<'a> {
         self.rotation.map_or(normal, |rotation| rotation * normal)
     }
 
+    /// Directions of the shape, as columns, in the frame.
+    pub fn turned(&self, axes: &Mat3) -> Mat3 {
+        self.rotation.map_or(*axes, |rotation| rotation * axes)
+    }
+
     /// The mean of the vertices.
     pub fn middle(&self) -> Vec3 {
         self.vertices.iter().sum::<Vec3>() / self.vertices.len() as f64

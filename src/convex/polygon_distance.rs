@@ -106,6 +106,7 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
         distance,
         points,
         features,
+        doubt: 0.0,
     })
 }
 

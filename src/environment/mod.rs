@@ -1,10 +1,18 @@
 //! Environments: the s-objects, added, moved and deleted (§2.2.4, operation 2).
 
+mod attachment;
+mod bounds;
 #[allow(clippy::module_inception)]
 mod environment;
 mod object_tree;
 mod snapshot;
+mod tree_limits;
+mod visit_near;
 
+pub use attachment::Attachment;
+pub use bounds::Bounds;
 pub use environment::{Change, Environment};
-pub use object_tree::{Bounds, Named, NearScratch, ObjectTree};
+pub use object_tree::ObjectTree;
+use snapshot::{Place, Places};
 pub use snapshot::{SObject, Snapshot};
+pub use visit_near::{Named, NearScratch};

@@ -3,8 +3,10 @@
 //! Used for bounds only: whatever the iteration does, `lower` comes from a direction whose support was evaluated, so it
 //! is safe; exact distances are finished on features (see `convex`).
 
+mod refined;
 mod simplex;
 
+pub use self::refined::{Refined, refined};
 use self::simplex::{Corner, Nearest, Simplex};
 use crate::pose::Vec3;
 use crate::tolerance;

@@ -69,6 +69,73 @@ impl Simplex {
         Nearest::Outside(point)
     }
 
+    /// The closest corner that the corners of a set known to be apart from the origin combine to: of four the best three, by
+    /// what is reached and not by sides, which rounding decides where the four are nearly in a plane.
+    ///
+    /// With it the foot, whose direction is that of the three's normal, and so better known.
+    pub fn nearest_apart(&mut self) -> (Corner, Vec3) {
+        let faces: &[[usize; 3]] = match self.len {
+            4 => &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+            _ => &[[0, 1, 2]],
+        };
+        let mut best: Option<(f64, (Corner, Vec3), Self)> = None;
+        for face in faces {
+            let mut part = *self;
+            if self.len == 4 {
+                part.len = 3;
+                for (to, &from) in face.iter().enumerate() {
+                    part.corners[to] = self.corners[from];
+                }
+            }
+            let Nearest::Outside(point) = part.reduce() else {
+                continue;
+            };
+            let corner = part.combined(&point);
+            let reached = corner.difference.norm_squared();
+            if best.as_ref().is_none_or(|(least, _, _)| reached < *least) {
+                best = Some((reached, (corner, point), part));
+            }
+        }
+        match best {
+            Some((_, found, part)) => {
+                *self = part;
+                found
+            }
+            None => (self.corners[0], self.corners[0].difference),
+        }
+    }
+
+    /// The corner that one to three corners combine to at the closest point, which `reduce` gave last: with weights that are
+    /// sure to be none below 0, whatever rounding did to that point.
+    pub fn combined(&self, point: &Vec3) -> Corner {
+        let [first, second, third, _] = self.corners;
+        let towards = |from: Corner, to: Corner, t: f64| Corner {
+            difference: from.difference + (to.difference - from.difference) * t,
+            on_a: from.on_a + (to.on_a - from.on_a) * t,
+        };
+        let (a, b, c) = (first.difference, second.difference, third.difference);
+        let ab = b - a;
+        match self.len {
+            1 => first,
+            2 => {
+                let t = (point - a).dot(&ab) / ab.norm_squared();
+                towards(first, second, t.clamp(0.0, 1.0))
+            }
+            _ => {
+                let (ac, ap) = (c - a, point - a);
+                let normal = ab.cross(&ac);
+                let square = normal.norm_squared();
+                let s = (ap.cross(&ac).dot(&normal) / square).clamp(0.0, 1.0);
+                let t = (ab.cross(&ap).dot(&normal) / square).clamp(0.0, 1.0);
+                let both = s + t;
+                if both <= 0.0 {
+                    return first;
+                }
+                towards(first, towards(second, third, t / both), both.min(1.0))
+            }
+        }
+    }
+
     fn at(&self, i: usize) -> Vec3 {
         self.corners[i].difference
     }
@@ -93,7 +160,8 @@ impl Simplex {
         let square = normal.norm_squared();
         if square > 0.0 {
             // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
-            let weight = |p: Vec3, q: Vec3| normal.dot(&p.cross(&q));
+            // By the edge, whose error is small where the corners are near one another.
+            let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
             if weight(b, c) > 0.0 && weight(c, a) > 0.0 && weight(a, b) > 0.0 {
                 return (normal * (a.dot(&normal) / square), Kept::new([i, j, k]));
             }

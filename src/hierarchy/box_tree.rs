@@ -1,9 +1,13 @@
-//! A tree over oriented boxes, eight children a node: which of many bodies are near.
+//! A tree over oriented boxes, eight children a node: which of many bodies are near. Its clones share the nodes below which
+//! none of them has changed since.
+
+use std::sync::Arc;
 
 use super::binned_split::{levels_for, split_within};
 use super::packed_tree::power_of_two;
-use super::wide_node::{Held, WideNode};
+use super::wide_node::WideNode;
 use super::{Extent, Forest, Node, SubsetTree};
+use crate::cow_vec::CowVec;
 use crate::pose::{Mat3, Vec3};
 
 /// A box around a body.
@@ -14,80 +18,241 @@ pub struct OrientedBox {
     pub axes: Mat3,
 }
 
+/// The boxes that a tree is over, by their places.
+pub trait Boxes {
+    /// The box along the axes of coordinates around one of them.
+    fn extent(&self, place: usize) -> Extent;
+    fn oriented(&self, place: usize) -> OrientedBox;
+}
+
 /// A child that is one of the given boxes.
 pub const BOX: u32 = 1 << 31;
 
-/// Lengths are in units of `scale`, a power of two, from `center`. The children of a node are other nodes, or
-/// [`BOX`] + the place of a box.
+/// The node above what is in none.
+pub(super) const NOWHERE: u32 = u32::MAX;
+
+/// Nodes have names, which are numbers. Each box of a node stands around all that is below.
 #[derive(Clone, Debug, Default)]
 pub struct BoxTree {
-    /// The first is the root.
-    pub nodes: Vec<WideNode>,
+    pub(super) root: Option<Arc<BoxNode>>,
+    /// The node above each node, by their names.
+    pub(super) parents: CowVec<u32, 128>,
+    /// The node of each box, by its place.
+    pub(super) above: CowVec<u32, 128>,
+    pub(super) frame: BoxFrame,
+    /// The sum of half the surfaces of all nodes' boxes.
+    pub(super) surface: f64,
+}
+
+/// It has two children at least, unless it is the root.
+#[derive(Clone, Debug, Default)]
+#[repr(C)]
+pub struct BoxNode {
+    /// In the units of the tree's frame. A child is the name of another node, or [`BOX`] + the place of a box.
+    pub wide: WideNode,
+    /// The children that are nodes.
+    pub below: [Option<Arc<BoxNode>>; 8],
+    /// The box, along the axes of coordinates, of all that is below.
+    pub(super) extent: Extent,
+    pub(super) name: u32,
+}
+
+/// Lengths in nodes are in units of `scale`, a power of two, from `center`.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxFrame {
     pub center: Vec3,
     pub scale: f64,
 }
 
-impl BoxTree {
-    pub fn new(boxes: &[OrientedBox]) -> Self {
-        if boxes.is_empty() {
-            return Self::default();
+impl Default for BoxFrame {
+    fn default() -> Self {
+        Self {
+            center: Vec3::zeros(),
+            scale: 1.0,
         }
-        let extents: Vec<Extent> = boxes.iter().map(|b| Extent::of(&b.corners)).collect();
-        let mut forest = Forest::new(extents);
-        let count = boxes.len();
-        let root = split_within(&mut forest, (0..count as u32).collect(), levels_for(count));
-        let all = forest.extents.clone();
-        let (tree, at) = forest.into_tree(root);
-        let whole = all[root as usize];
-        let mut builder = Builder {
-            extents: at.iter().map(|&body| all[body as usize]).collect(),
-            tree,
-            boxes,
-            packed: Self {
-                nodes: Vec::new(),
+    }
+}
+
+impl BoxTree {
+    /// The tree over some of `places` boxes.
+    pub fn new(taken: &[u32], places: usize, boxes: &impl Boxes) -> Self {
+        let mut above = vec![NOWHERE; places];
+        let mut built = Self::default();
+        if !taken.is_empty() {
+            let extents = taken.iter().map(|&place| boxes.extent(place as usize));
+            let mut forest = Forest::new(extents.collect());
+            let count = taken.len();
+            let root = split_within(&mut forest, (0..count as u32).collect(), levels_for(count));
+            let all = forest.extents.clone();
+            let (tree, at) = forest.into_tree(root);
+            let whole = all[root as usize];
+            built.frame = BoxFrame {
                 center: whole.center(),
                 scale: power_of_two(0.5 * whole.diameter()),
-            },
-        };
-        builder.build();
-        builder.packed
+            };
+            let mut builder = Builder {
+                extents: at.iter().map(|&body| all[body as usize]).collect(),
+                tree,
+                taken,
+                plans: Vec::new(),
+            };
+            builder.plan();
+            built.fill(&builder.plans, &mut above, boxes);
+        }
+        built.above = above.into_iter().collect();
+        built
+    }
+
+    /// Makes the nodes: their names are the places of their plans.
+    fn fill(&mut self, plans: &[Plan], above: &mut [u32], boxes: &impl Boxes) {
+        let mut made: Vec<Option<Arc<BoxNode>>> = plans.iter().map(|_| None).collect();
+        for (name, plan) in plans.iter().enumerate().rev() {
+            let given = |lane: usize| match plan.children[lane] {
+                child if child & BOX == 0 => OrientedBox::from(&plans[child as usize].extent),
+                child => boxes.oriented((child & !BOX) as usize),
+            };
+            let mut below: [Option<Arc<BoxNode>>; 8] = Default::default();
+            for (below, &child) in below.iter_mut().zip(&plan.children) {
+                if child & BOX == 0 {
+                    *below = made[child as usize].take();
+                } else {
+                    above[(child & !BOX) as usize] = name as u32;
+                }
+            }
+            self.surface += plan.extent.half_surface();
+            made[name] = Some(Arc::new(BoxNode {
+                wide: self.frame.packed(&plan.children, &plan.extent, given),
+                below,
+                extent: plan.extent,
+                name: name as u32,
+            }));
+        }
+        self.root = made.swap_remove(0);
+        self.parents = plans.iter().map(|plan| plan.parent).collect();
+    }
+
+    pub fn root(&self) -> Option<&BoxNode> {
+        self.root.as_deref()
+    }
+
+    pub fn frame(&self) -> &BoxFrame {
+        &self.frame
+    }
+
+    /// The box, along the axes of coordinates, of all.
+    pub fn extent(&self) -> Option<&Extent> {
+        self.root().map(|root| &root.extent)
+    }
+
+    /// Half the surfaces of the boxes of all nodes below the root: a descent opens about as many nodes as it is large.
+    pub fn surface(&self) -> f64 {
+        let root = self.extent().map_or(0.0, Extent::half_surface);
+        (self.surface - root).max(0.0)
+    }
+
+    /// No box with this place or a higher one was ever in the tree.
+    pub fn places(&self) -> usize {
+        self.above.len()
+    }
+
+    /// Whether a box is in the tree.
+    pub fn holds(&self, place: usize) -> bool {
+        self.above.get(place).is_some_and(|&node| node != NOWHERE)
+    }
+}
+
+impl BoxFrame {
+    pub(super) fn local(&self, extent: &Extent) -> Extent {
+        Extent {
+            low: (extent.low - self.center) / self.scale,
+            high: (extent.high - self.center) / self.scale,
+        }
+    }
+
+    /// A node with some children, given the box of each and that of all.
+    pub(super) fn packed(
+        &self,
+        children: &[u32],
+        extent: &Extent,
+        given: impl Fn(usize) -> OrientedBox,
+    ) -> WideNode {
+        // Boxes that grow a little are to fit too.
+        const ROOM: f64 = 1.25;
+        let center = (extent.center() - self.center) / self.scale;
+        let mut half = ROOM * 0.5 * extent.size().amax() / self.scale;
+        loop {
+            let mut wide = WideNode::around(&center, half);
+            wide.children[..children.len()].copy_from_slice(children);
+            wide.count = children.len() as u32;
+            if (0..children.len()).all(|lane| self.put(&mut wide, lane, &given(lane))) {
+                return wide;
+            }
+            // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
+            half *= 2.0;
+        }
+    }
+
+    /// Sets the box of a child; false if it does not fit.
+    pub(super) fn put(&self, wide: &mut WideNode, lane: usize, given: &OrientedBox) -> bool {
+        let local = given.corners.map(|c| (c - self.center) / self.scale);
+        wide.put(lane, &local, &given.axes)
+    }
+}
+
+impl From<&Extent> for OrientedBox {
+    fn from(extent: &Extent) -> Self {
+        Self {
+            corners: extent.corners(),
+            axes: Mat3::identity(),
+        }
     }
 }
 
 struct Builder<'a> {
+    /// Over the boxes taken.
     tree: SubsetTree,
+    taken: &'a [u32],
     /// The box of each node of the tree.
     extents: Vec<Extent>,
-    boxes: &'a [OrientedBox],
-    packed: BoxTree,
+    plans: Vec<Plan>,
+}
+
+/// A node to be made. Children that are nodes have later plans, by whose places they are named.
+struct Plan {
+    children: Vec<u32>,
+    extent: Extent,
+    parent: u32,
 }
 
 impl Builder<'_> {
-    fn build(&mut self) {
+    fn plan(&mut self) {
         let first = match self.tree.nodes[0] {
             Node::Leaf { .. } => vec![0],
             Node::Interior { .. } => self.eight_below(0),
         };
-        let mut open = vec![(0, self.add(&first), first)];
-        while let Some((_, index, below)) = open.pop() {
-            for (lane, &child) in below.iter().enumerate() {
-                self.packed.nodes[index].children[lane] = match self.tree.nodes[child as usize] {
-                    Node::Leaf { primitive } => primitive | BOX,
+        let mut open = vec![(self.add(0, NOWHERE), first)];
+        while let Some((plan, below)) = open.pop() {
+            for node in below {
+                let child = match self.tree.nodes[node as usize] {
+                    Node::Leaf { primitive } => self.taken[primitive as usize] | BOX,
                     Node::Interior { .. } => {
-                        let next = self.eight_below(child);
-                        let place = self.add(&next);
-                        open.push((child, place, next));
-                        place as u32
+                        let child = self.add(node, plan);
+                        open.push((child, self.eight_below(node)));
+                        child
                     }
                 };
+                self.plans[plan as usize].children.push(child);
             }
         }
     }
 
-    fn add(&mut self, below: &[u32]) -> usize {
-        let held: Vec<Held> = below.iter().map(|&node| self.held(node)).collect();
-        self.packed.nodes.push(WideNode::new(&held));
-        self.packed.nodes.len() - 1
+    fn add(&mut self, node: u32, parent: u32) -> u32 {
+        self.plans.push(Plan {
+            children: Vec::new(),
+            extent: self.extents[node as usize],
+            parent,
+        });
+        self.plans.len() as u32 - 1
     }
 
     /// Up to eight nodes that stand for one, the largest opened first.
@@ -107,21 +272,5 @@ impl Builder<'_> {
             below.splice(largest..=largest, children);
         }
         below
-    }
-
-    fn held(&self, node: u32) -> Held {
-        let (corners, axes) = match self.tree.nodes[node as usize] {
-            Node::Leaf { primitive } => {
-                let given = &self.boxes[primitive as usize];
-                (given.corners, given.axes)
-            }
-            Node::Interior { .. } => (self.extents[node as usize].corners(), Mat3::identity()),
-        };
-        let local = corners.map(|corner| (corner - self.packed.center) / self.packed.scale);
-        Held {
-            points: local.to_vec(),
-            excess: 0.0,
-            axes,
-        }
     }
 }

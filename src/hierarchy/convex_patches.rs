@@ -206,8 +206,13 @@ impl<'a> Surface<'a> {
 /// Whether some of a primitive lies below all the planes: polygons are clipped, others are taken to.
 fn reaches(primitive: &Convex, planes: &[(Vec3, f64)]) -> bool {
     let height = |(normal, offset): &(Vec3, f64), p: &Vec3| normal.dot(p) - offset;
-    if primitive.faces.len() != 1 {
-        let beyond = |plane| primitive.vertices.iter().all(|v| height(plane, v) >= 0.0);
+    if !primitive.is_flat() {
+        let beyond = |plane| {
+            primitive
+                .bounding_points()
+                .iter()
+                .all(|v| height(plane, v) >= 0.0)
+        };
         return !planes.iter().any(beyond);
     }
     let mut outline = primitive.vertices.clone();
@@ -254,7 +259,10 @@ struct BoxTree {
 
 impl BoxTree {
     fn of(primitives: &[Convex]) -> Self {
-        let extents = primitives.iter().map(|p| Extent::of(&p.vertices)).collect();
+        let extents = primitives
+            .iter()
+            .map(|p| Extent::of(p.bounding_points()))
+            .collect();
         let mut forest = Forest::new(extents);
         let all: Vec<u32> = (0..primitives.len() as u32).collect();
         let levels = levels_for(all.len());

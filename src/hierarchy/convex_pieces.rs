@@ -17,8 +17,8 @@ pub fn convex_pieces(
     if pieces == Pieces::Off {
         return Ok(Vec::new());
     }
-    let first = Extent::of(&primitives[0].vertices);
-    let extents = primitives.iter().map(|p| Extent::of(&p.vertices));
+    let first = Extent::of(primitives[0].bounding_points());
+    let extents = primitives.iter().map(|p| Extent::of(p.bounding_points()));
     let diameter = extents.fold(first, |all, e| all.union(&e)).diameter();
     let edges = SharedEdges::of(primitives);
     progress.at(0.1)?;

@@ -3,7 +3,7 @@
 use crate::pose::Vec3;
 
 /// The box of a set of points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extent {
     pub low: Vec3,
     pub high: Vec3,
@@ -27,6 +27,15 @@ impl Extent {
             low: self.low.inf(&other.low),
             high: self.high.sup(&other.high),
         }
+    }
+
+    pub fn contains(&self, other: &Self) -> bool {
+        (0..3).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
+    }
+
+    /// Whether one of its sides is one of the other's: a box around both may shrink without it.
+    pub fn shares_a_side(&self, other: &Self) -> bool {
+        (0..3).any(|k| self.low[k] == other.low[k] || self.high[k] == other.high[k])
     }
 
     /// The eight corners; bit k of a corner's index says whether it is high along axis k.
@@ -57,5 +66,11 @@ impl Extent {
     pub fn gap(&self, other: &Self) -> f64 {
         let apart = (other.low - self.high).sup(&(self.low - other.high));
         apart.max().max(0.0)
+    }
+
+    /// How far outside a point is along the axis of coordinates along which it is farthest; 0 inside.
+    pub fn outside(&self, point: &Vec3) -> f64 {
+        let beyond = (self.low - point).sup(&(point - self.high));
+        beyond.max().max(0.0)
     }
 }

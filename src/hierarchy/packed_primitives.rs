@@ -39,7 +39,8 @@ impl PackedPrimitives {
             corners: 0,
             is_plain: false,
         };
-        if let [face] = &shape.faces[..]
+        if shape.is_flat()
+            && let [face] = &shape.faces[..]
             && face.vertices.len() <= MOST_CORNERS
         {
             let ring = &face.vertices;

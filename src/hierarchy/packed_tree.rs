@@ -317,7 +317,7 @@ impl Builder<'_> {
             .collect();
         let flat = match self.tree.node(node) {
             Node::Leaf { primitive } => {
-                Some(&self.shapes[primitive as usize]).filter(|shape| shape.faces.len() == 1)
+                Some(&self.shapes[primitive as usize]).filter(|shape| shape.is_flat())
             }
             Node::Interior { .. } => None,
         };

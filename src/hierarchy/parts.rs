@@ -20,10 +20,10 @@ pub struct Part {
 }
 
 impl Part {
-    /// The points whose hull is the part, and how far rounding may have left the part outside that hull.
+    /// The points whose hull is the part, or holds it where it is curved, and how far rounding may have left the part outside that hull.
     pub fn vertices<'a>(&'a self, primitives: &'a [Convex]) -> (&'a [Vec3], f64) {
         match &self.slab {
-            None => (&primitives[self.primitive as usize].vertices, 0.0),
+            None => (primitives[self.primitive as usize].bounding_points(), 0.0),
             Some(slab) => {
                 let largest = slab.iter().map(|p| p.amax()).fold(0.0, f64::max);
                 (slab, tolerance::WRAPPER_ERROR * largest)
@@ -57,7 +57,7 @@ impl Part {
     }
 }
 
-/// Cuts primitives longer than `aspect_limit` times their width into slabs about as long as wide; 0 cuts nothing.
+/// Cuts polytopes longer than `aspect_limit` times their width into slabs about as long as wide; 0 cuts nothing.
 pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     let extents: Vec<Option<(Vec3, f64)>> = if aspect_limit > 0.0 {
         let slender = |p| longest_extent(p).filter(|(_, aspect)| *aspect > aspect_limit);
@@ -131,6 +131,10 @@ fn slabs(primitive: &Convex, along: &Vec3, count: usize) -> Vec<Vec<Vec3>> {
 
 /// The direction in which a primitive is longest for its width, and how many times: along its diameter or longest edge.
 fn longest_extent(primitive: &Convex) -> Option<(Vec3, f64)> {
+    // What is curved is not cut.
+    if primitive.curve.is_some() {
+        return None;
+    }
     let vertices = &primitive.vertices;
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
         let measured = vertices.iter().map(|v| (measure(v), *v));

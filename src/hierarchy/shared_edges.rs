@@ -26,7 +26,7 @@ pub struct SharedEdges {
 }
 
 pub fn is_flat(primitive: &Convex) -> bool {
-    primitive.faces.len() == 1
+    primitive.is_flat()
 }
 
 impl SharedEdges {
@@ -45,7 +45,11 @@ impl SharedEdges {
         let mut uses: Vec<([u32; 2], u32, bool)> = Vec::new();
         let mut vertices = Vec::with_capacity(primitives.len());
         for (i, primitive) in primitives.iter().enumerate() {
-            let own: Vec<u32> = primitive.vertices.iter().map(&mut number).collect();
+            let own: Vec<u32> = primitive
+                .bounding_points()
+                .iter()
+                .map(&mut number)
+                .collect();
             if is_flat(primitive) {
                 for edge in &primitive.edges {
                     let [a, b] = edge.map(|k| own[k as usize]);

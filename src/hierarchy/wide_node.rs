@@ -2,6 +2,7 @@
 //!
 //! Four cache lines hold a node, so that a walk through large trees waits for memory half as often as with single precision.
 
+use super::Extent;
 use super::oriented_box::span;
 use super::packed_box::PackedBox;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
@@ -21,22 +22,19 @@ const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
 pub const SIZE_STEPS: i32 = 8;
 const SIZE_OF_ONE: f64 = 200.0;
 
-/// What a node takes in a file.
-pub const NODE_BYTES: usize = 252;
-
 /// The boxes of a node's children. Two axes of a box are stored, the third, along its shortest side, is their cross product
 /// and so upright to them; centres are relative to an origin, and like half sides in units of a step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct WideNode {
-    axes: [[[i16; 8]; 3]; 2],
-    center: [[i16; 8]; 3],
-    half: [[u16; 8]; 3],
+    pub(super) axes: [[[i16; 8]; 3]; 2],
+    pub(super) center: [[i16; 8]; 3],
+    pub(super) half: [[u16; 8]; 3],
     /// What the children are, to the tree.
     pub children: [u32; 8],
     /// The origin, then the step.
-    frame: [f32; 4],
-    sizes: [u8; 8],
+    pub(super) frame: [f32; 4],
+    pub(super) sizes: [u8; 8],
     pub count: u32,
     /// The lowest primitive below.
     pub lowest: u32,
@@ -61,14 +59,8 @@ impl WideNode {
     /// The boxes of up to eight children, which it leaves to be named. Lengths are at most about 1.
     pub fn new(held: &[Held]) -> Self {
         let mut node = Self {
-            axes: [[[0; 8]; 3]; 2],
-            center: [[0; 8]; 3],
-            half: [[0; 8]; 3],
-            children: [0; 8],
-            frame: [0.0; 4],
-            sizes: [0; 8],
             count: held.len() as u32,
-            lowest: 0,
+            ..Self::default()
         };
         let spans: Vec<(Vec3, Vec3)> = held
             .iter()
@@ -93,7 +85,9 @@ impl WideNode {
         loop {
             node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
             let mut lanes = held.iter().zip(&spans).enumerate();
-            if lanes.all(|(lane, (held, (center, _)))| node.set(lane, held, center)) {
+            if lanes.all(|(lane, (held, (center, _)))| {
+                node.set(lane, &held.points, held.excess, &held.axes, center)
+            }) {
                 return node;
             }
             // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
@@ -101,11 +95,72 @@ impl WideNode {
         }
     }
 
+    /// A node without children, whose boxes may have their centres within `half` of `center` along each axis, and half sides
+    /// of nearly twice that.
+    pub fn around(center: &Vec3, half: f64) -> Self {
+        let origin = each3(|k| center[k] as f32);
+        let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
+        let step = ((half + off.fold(0.0, f64::max)) / MOST_PLACE).max(1e-30) * (1.0 + 1e-6);
+        Self {
+            frame: [origin[0], origin[1], origin[2], step as f32],
+            ..Self::default()
+        }
+    }
+
+    /// Sets the box of a child, around points; false if it does not fit the node.
+    pub fn put(&mut self, lane: usize, points: &[Vec3], axes: &Mat3) -> bool {
+        let (low, high) = span(points, axes);
+        let center = axes * ((low + high) * 0.5);
+        let most = MOST_PLACE * f64::from(self.step());
+        let fits = (0..3).all(|k| (center[k] - f64::from(self.frame[k])).abs() <= most);
+        fits && self.set(lane, points, 0.0, axes, &center)
+    }
+
+    /// What the children are.
+    pub fn children(&self) -> &[u32] {
+        &self.children[..self.count as usize]
+    }
+
+    /// The box, along the axes of coordinates, around one of the boxes.
+    pub fn extent(&self, lane: usize) -> Extent {
+        let given = self.get(lane);
+        let reach = |k: usize| {
+            (0..3)
+                .map(|i| given.axes[i][k].abs() * given.half[i])
+                .sum::<f32>()
+        };
+        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| given.center[k] + side * reach(k)));
+        Extent {
+            low: low.map(f64::from).into(),
+            high: high.map(f64::from).into(),
+        }
+    }
+
+    /// Takes out a child; the last one takes its lane.
+    pub fn take_out(&mut self, lane: usize) {
+        self.count -= 1;
+        let last = self.count as usize;
+        let numbers = self.axes.as_flattened_mut().iter_mut();
+        let numbers = numbers.chain(&mut self.center);
+        numbers.for_each(|numbers| numbers[lane] = numbers[last]);
+        let halves = self.half.iter_mut();
+        halves.for_each(|halves| halves[lane] = halves[last]);
+        self.sizes[lane] = self.sizes[last];
+        self.children[lane] = self.children[last];
+    }
+
     /// Whether the box fits the step.
-    fn set(&mut self, lane: usize, held: &Held, center: &Vec3) -> bool {
+    fn set(
+        &mut self,
+        lane: usize,
+        points: &[Vec3],
+        excess: f64,
+        axes: &Mat3,
+        center: &Vec3,
+    ) -> bool {
         for k in 0..3 {
             for i in 0..2 {
-                let component = (held.axes[(k, i)] * 32768.0).round();
+                let component = (axes[(k, i)] * 32768.0).round();
                 self.axes[i][k][lane] = component.clamp(-MOST_AXIS, MOST_AXIS) as i16;
             }
             let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
@@ -117,13 +172,13 @@ impl WideNode {
         let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
         let inverse = axes.try_inverse().expect("the axes are almost upright");
         for i in 0..3 {
-            let farthest = held.points.iter().fold(0.0, |farthest: f64, p| {
+            let farthest = points.iter().fold(0.0, |farthest: f64, p| {
                 let from_center = p - center;
                 let along = axes.column(i).dot(&from_center).abs();
                 let place = inverse.row(i).dot(&from_center.transpose()).abs();
                 farthest.max(along).max(place)
             });
-            let needed = farthest + held.excess * LONGEST_AXIS;
+            let needed = farthest + excess * LONGEST_AXIS;
             let mut half = (needed / f64::from(self.step())).ceil() as u16;
             while f64::from(f32::from(half) * self.step()) < needed {
                 match half.checked_add(1) {
@@ -137,54 +192,6 @@ impl WideNode {
         let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.max(f64::MIN_POSITIVE).log2();
         self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
         true
-    }
-
-    /// As files hold it, without the lowest primitive, in the order of the fields, little-endian.
-    pub fn to_bytes(&self) -> [u8; NODE_BYTES] {
-        let mut bytes = [0; NODE_BYTES];
-        let mut at = 0;
-        let mut put = |field: &[u8]| {
-            bytes[at..at + field.len()].copy_from_slice(field);
-            at += field.len();
-        };
-        let signed = self.axes.as_flattened().iter().chain(&self.center);
-        signed.flatten().for_each(|x| put(&x.to_le_bytes()));
-        let halves = self.half.as_flattened();
-        halves.iter().for_each(|x| put(&x.to_le_bytes()));
-        self.children.iter().for_each(|x| put(&x.to_le_bytes()));
-        self.frame.iter().for_each(|x| put(&x.to_le_bytes()));
-        put(&self.sizes);
-        put(&self.count.to_le_bytes());
-        bytes
-    }
-
-    /// A node of a file, if it could be one.
-    pub fn from_bytes(bytes: &[u8; NODE_BYTES]) -> Option<Self> {
-        let mut rest = &bytes[..];
-        fn take<const N: usize>(rest: &mut &[u8]) -> [u8; N] {
-            let (taken, after) = rest.split_first_chunk().expect("the sizes of the fields");
-            *rest = after;
-            *taken
-        }
-        let mut signed = || std::array::from_fn(|_| i16::from_le_bytes(take(&mut rest)));
-        let axes = [0, 1].map(|_| [0, 1, 2].map(|_| signed()));
-        let center = [0, 1, 2].map(|_| signed());
-        let half = [0, 1, 2].map(|_| std::array::from_fn(|_| u16::from_le_bytes(take(&mut rest))));
-        let children = std::array::from_fn(|_| u32::from_le_bytes(take(&mut rest)));
-        let mut number = || f32::from_le_bytes(take(&mut rest));
-        let node = Self {
-            axes,
-            center,
-            half,
-            children,
-            frame: [number(), number(), number(), number()],
-            sizes: take(&mut rest),
-            count: u32::from_le_bytes(take(&mut rest)),
-            lowest: 0,
-        };
-        let sensible = |x: f32| x.abs() <= 4.0;
-        let is_sound = node.frame.into_iter().all(sensible);
-        (is_sound && (1..=8).contains(&node.count)).then_some(node)
     }
 
     #[inline(always)]

@@ -9,7 +9,23 @@ pub struct HitKey {
     pub primitives: [u32; 2],
 }
 
-/// A primitive pair with its distance.
+/// Which of two bodies has a piece inside the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Inner {
+    A,
+    B,
+}
+
+impl Inner {
+    pub fn other(self) -> Self {
+        match self {
+            Self::A => Self::B,
+            Self::B => Self::A,
+        }
+    }
+}
+
+/// A primitive pair with its distance; or a piece of one body wholly inside the other, at distance 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     /// The distance less the pair's margin, at least 0.
@@ -17,8 +33,10 @@ pub struct Hit {
     /// The distance itself.
     pub apart: f64,
     pub key: HitKey,
-    /// Where the bodies hold the two primitives.
+    /// Where the bodies hold the two primitives; it means nothing for a piece inside.
     pub places: [u32; 2],
+    /// The primitives do not meet: they stand for a piece, and for what of the other body's boundary is around it.
+    pub contained: Option<Inner>,
 }
 
 impl Hit {
@@ -27,5 +45,6 @@ impl Hit {
         self.distance
             .total_cmp(&other.distance)
             .then(self.key.cmp(&other.key))
+            .then(self.contained.cmp(&other.contained))
     }
 }

@@ -1,14 +1,17 @@
 //! Pairs: two bodies at two poses, no robot (§2.3.3).
 
 mod box_bounds;
+mod containment;
 mod hit;
 mod nearest_first;
 mod pairing;
 mod traversal;
 mod visitors;
+mod winding;
 
 pub use box_bounds::{Motion32, ROUNDING, bounds};
-pub use hit::{Hit, HitKey};
+pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use traversal::{Met, Scratch, Statistics, Visitor, traverse, visit_pair};
 pub use visitors::{Collect, Nearest, Within};
+pub use winding::{RayScratch, Winding, winding};

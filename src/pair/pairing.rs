@@ -8,6 +8,7 @@ use crate::convex::{
     PlacedBuffer, PolygonDistance, Precision, closest_points, contacts, moved, penetration,
     polygon_closest, polygon_distance,
 };
+use crate::error::Result;
 use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
@@ -45,6 +46,8 @@ pub struct Apart {
     pub nearest: Option<Nearest>,
     /// Of others the vector between the closest points, from B to A.
     pub between: Vec3,
+    /// How much more than the pair's error the distance may be above the true one.
+    pub doubt: f64,
 }
 
 /// A contact with its points and normal in the world.
@@ -132,6 +135,7 @@ impl<'a> Pairing<'a> {
             distance: 0.0,
             nearest: None,
             between: Vec3::zeros(),
+            doubt: 0.0,
         };
         match found {
             PolygonDistance::Beyond => return None,
@@ -143,12 +147,13 @@ impl<'a> Pairing<'a> {
                 let closest = self.closest_at(places, scratch);
                 apart.distance = closest.distance;
                 apart.between = closest.points[0] - closest.points[1];
+                apart.doubt = closest.doubt;
             }
         }
         if apart.distance <= self.precision.error {
             apart.distance = 0.0;
         }
-        (apart.distance <= cutoff).then_some(apart)
+        (apart.distance - apart.doubt <= cutoff).then_some(apart)
     }
 
     pub fn met(&self, places: [u32; 2], apart: f64) -> Met {
@@ -165,7 +170,9 @@ impl<'a> Pairing<'a> {
     #[inline(never)]
     fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
         scratch.exact_pairs += 1;
-        let primitives = self.met(places, 0.0).primitives;
+        let [a, b] = [(self.a, places[0]), (self.b, places[1])]
+            .map(|(body, place)| body.packed().primitives().entry(place as usize));
+        let primitives = [a.primitive, b.primitive];
         let [a, b] = self.place(primitives, &mut scratch.buffer);
         closest_points(&a, &b, &self.precision, &mut scratch.distance)
     }
@@ -216,15 +223,16 @@ impl<'a> Pairing<'a> {
     }
 
     /// How deep a primitive pair that meets is in one another, in the world.
-    pub fn world_penetration(&self, primitives: [u32; 2]) -> Penetration {
+    /// Fails for smooth primitives.
+    pub fn world_penetration(&self, primitives: [u32; 2]) -> Result<Penetration> {
         let mut buffer = PlacedBuffer::default();
         let [a, b] = self.place(primitives, &mut buffer);
-        let found = penetration(&a, &b, &self.precision);
-        Penetration {
+        let found = penetration(&a, &b, &self.precision)?;
+        Ok(Penetration {
             depth: found.depth,
             direction: self.frame.rotation * found.direction,
             points: found.points.map(|p| self.frame.transform_point(&p)),
-        }
+        })
     }
 
     /// Both primitives in A's centred frame.

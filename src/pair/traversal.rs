@@ -49,6 +49,7 @@ impl Met {
                 primitives: self.primitives,
             },
             places: self.places,
+            contained: None,
         }
     }
 }
@@ -186,7 +187,8 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         else {
             return ControlFlow::Continue(());
         };
-        let met = self.pairing.met(places, apart.distance);
+        let mut met = self.pairing.met(places, apart.distance);
+        met.error += apart.doubt;
         self.visitor.visit(&met)?;
         if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;

@@ -42,6 +42,21 @@ impl Nearest {
     pub fn limit(&self) -> f64 {
         self.limit
     }
+
+    /// Takes a hit, of which the distance is no less than `lower`, if none better is known.
+    pub fn take(&mut self, hit: Hit, lower: f64) {
+        // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
+        self.lower = self.lower.min(lower);
+        if hit.distance <= self.limit
+            && self
+                .best
+                .as_ref()
+                .is_none_or(|best| hit.order(best).is_lt())
+        {
+            self.limit = hit.distance;
+            self.best = Some(hit);
+        }
+    }
 }
 
 impl Visitor for Nearest {
@@ -63,18 +78,7 @@ impl Visitor for Nearest {
 
     fn visit(&mut self, met: &Met) -> ControlFlow<()> {
         let (distance, lower) = measured(met, self.margin);
-        let hit = met.hit(self.pair, distance);
-        // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
-        self.lower = self.lower.min(lower);
-        if hit.distance <= self.limit
-            && self
-                .best
-                .as_ref()
-                .is_none_or(|best| hit.order(best).is_lt())
-        {
-            self.limit = hit.distance;
-            self.best = Some(hit);
-        }
+        self.take(met.hit(self.pair, distance), lower);
         ControlFlow::Continue(())
     }
 }
@@ -132,6 +136,14 @@ impl Collect {
         self.threshold
     }
 
+    /// Takes a hit that is within the threshold.
+    pub fn take(&mut self, hit: Hit) {
+        self.hits.push(hit);
+        if self.hits.len() > self.max_count.max(512).saturating_mul(2) {
+            self.cut();
+        }
+    }
+
     /// The pairs, nearest first.
     pub fn finish(mut self) -> (Vec<Hit>, bool) {
         self.cut();
@@ -141,7 +153,7 @@ impl Collect {
     fn cut(&mut self) {
         self.hits.sort_unstable_by(Hit::order);
         // A primitive with several leaves is met more than once.
-        self.hits.dedup_by_key(|hit| hit.key);
+        self.hits.dedup_by_key(|hit| (hit.key, hit.contained));
         if self.hits.len() > self.max_count {
             self.hits.truncate(self.max_count);
             self.truncated = true;
@@ -163,10 +175,7 @@ impl Visitor for Collect {
     fn visit(&mut self, met: &Met) -> ControlFlow<()> {
         let (distance, _) = measured(met, self.margin);
         if distance <= self.threshold {
-            self.hits.push(met.hit(self.pair, distance));
-            if self.hits.len() > self.max_count.max(512).saturating_mul(2) {
-                self.cut();
-            }
+            self.take(met.hit(self.pair, distance));
         }
         ControlFlow::Continue(())
     }

@@ -1,6 +1,7 @@
 //! A convex primitive with its features.
 
-use super::{Feature, FeatureKind};
+use super::{Curve, Feature, FeatureKind, Smooth};
+use crate::gjk::{PointCloud, Support};
 use crate::pose::Vec3;
 
 /// A face: its vertices in counter-clockwise order around the unit normal. The normal of a solid's face points outwards.
@@ -11,20 +12,75 @@ pub struct Face {
 }
 
 /// The convex hull of its vertices as a closed set: a point (one edge from a vertex to itself, no face), a segment (no
-/// face), a flat polygon (one face, seen from both sides) or a solid (four faces or more).
+/// face), a flat polygon (one face, seen from both sides) or a solid (four faces or more). What is curved is all within a
+/// radius of that hull, its core, or of a smooth set that stands in the place of its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
     pub vertices: Vec<Vec3>,
     pub edges: Vec<[u32; 2]>,
     pub faces: Vec<Face>,
     /// How far a point that belongs to the set may lie from the vertices' hull, or a vertex from the plane of a face that
-    /// stands for it, at most: 0 but for polygons that are planar, and hulls that are complete, within a tolerance.
+    /// stands for it, at most: 0 but for polygons that are planar, and hulls that are complete, within a tolerance. Of a
+    /// smooth set, how well its distances are known.
     pub deviation: f64,
+    /// `None` for the hull of the vertices and no more.
+    pub curve: Option<Box<Curve>>,
 }
 
 impl Convex {
+    /// Whether the core is a solid polyhedron.
     pub fn is_solid(&self) -> bool {
         self.faces.len() > 1
+    }
+
+    /// Whether this is a flat polygon and no more.
+    pub fn is_flat(&self) -> bool {
+        self.faces.len() == 1 && self.curve.is_none()
+    }
+
+    /// The radius around the core.
+    pub fn radius(&self) -> f64 {
+        self.curve.as_ref().map_or(0.0, |curve| curve.radius)
+    }
+
+    /// The smooth core, around the only vertex.
+    pub fn smooth(&self) -> Option<&Smooth> {
+        self.curve.as_ref().and_then(|curve| curve.smooth.as_ref())
+    }
+
+    /// Points whose hull holds the set: the vertices, unless it is curved.
+    pub fn bounding_points(&self) -> &[Vec3] {
+        self.curve.as_ref().map_or(&self.vertices, |c| c.bounds())
+    }
+
+    /// The point of the set that is farthest along a direction.
+    pub fn farthest(&self, direction: &Vec3) -> Vec3 {
+        let Some(curve) = &self.curve else {
+            return PointCloud(&self.vertices).support(direction);
+        };
+        let core = match &curve.smooth {
+            Some(smooth) => {
+                let local = smooth.kind.support(&smooth.axes.tr_mul(direction));
+                self.vertices[0] + smooth.axes * local
+            }
+            None => PointCloud(&self.vertices).support(direction),
+        };
+        let mut outwards = *direction;
+        if curve.planar {
+            outwards.z = 0.0;
+        }
+        core + outwards.try_normalize(0.0).unwrap_or_default() * curve.radius
+    }
+
+    /// The lowest and highest coordinates of the set.
+    pub fn extent(&self) -> (Vec3, Vec3) {
+        let along = |axis: usize, sign: f64| {
+            let mut direction = Vec3::zeros();
+            direction[axis] = sign;
+            self.farthest(&direction)[axis]
+        };
+        let [low, high] = [-1.0, 1.0].map(|s| Vec3::new(along(0, s), along(1, s), along(2, s)));
+        (low, high)
     }
 
     /// A flat polygon from vertices in cyclic order around `normal`, of which `corners` form a strictly convex outline.
@@ -41,6 +97,7 @@ impl Convex {
                 normal,
             }],
             deviation,
+            curve: None,
         }
     }
 
@@ -48,6 +105,10 @@ impl Convex {
     pub fn recentered(mut self, center: &Vec3) -> Self {
         for vertex in &mut self.vertices {
             *vertex -= center;
+        }
+        if let Some(mut curve) = self.curve.take() {
+            curve.bound(&self);
+            self.curve = Some(curve);
         }
         self
     }
@@ -60,6 +121,7 @@ impl Convex {
             FeatureKind::Edge => self.edges.get(i).map(|edge| edge.to_vec()),
             FeatureKind::Face => self.faces.get(i).map(|face| face.vertices.clone()),
             FeatureKind::Interior => (i == 0).then(|| (0..self.vertices.len() as u32).collect()),
+            FeatureKind::Surface => (i == 0 && self.smooth().is_some()).then(Vec::new),
         }
     }
 }

@@ -8,6 +8,8 @@ pub enum FeatureKind {
     Face,
     /// The inside of a solid, where no boundary feature is involved.
     Interior,
+    /// The surface of a smooth primitive.
+    Surface,
 }
 
 /// One feature of one primitive. A polygon has one face; its edge i joins vertices i and i + 1.
@@ -36,6 +38,13 @@ impl Feature {
         Self {
             kind: FeatureKind::Face,
             index,
+        }
+    }
+
+    pub fn surface() -> Self {
+        Self {
+            kind: FeatureKind::Surface,
+            index: 0,
         }
     }
 

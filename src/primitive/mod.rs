@@ -1,17 +1,25 @@
-//! Primitives: one convex polygon, or the convex hull of points. The leaves of every hierarchy.
+//! Primitives: convex polygons, convex hulls of points, round and smooth sets. The leaves of every hierarchy.
 
 mod convex;
+mod curve;
 mod faces;
 mod feature;
 mod hull;
 mod planar_hull;
 mod polygon;
 mod polyhedron;
+mod ready_made;
+mod smooth;
+mod support_function;
 
 pub use convex::{Convex, Face};
+pub use curve::Curve;
 pub use faces::{FaceSplit, split_face};
 pub use feature::{Feature, FeatureKind};
 pub use hull::{CheckedHull, checked_hull, excess_over, frame_of};
 pub use planar_hull::{convex_hull_2d, monotone_chain, plane_axes};
 pub use polygon::convex_polygon;
 pub use polyhedron::convex_polyhedron;
+pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
+pub use smooth::{Smooth, SmoothKind};
+pub use support_function::{SupportFunction, WatchedSupport};

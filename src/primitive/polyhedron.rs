@@ -45,6 +45,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             edges: vec![[0, 0]],
             faces: Vec::new(),
             deviation: 0.0,
+            curve: None,
         });
     }
     let (_, first) = farthest(&|p| (p - second).norm());
@@ -56,6 +57,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
             edges: vec![[0, 1]],
             faces: Vec::new(),
             deviation: 0.0,
+            curve: None,
         });
     }
     let normal = along.cross(&(third - first)).normalize();
@@ -102,6 +104,7 @@ fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
         edges,
         faces,
         deviation,
+        curve: None,
     })
 }
 

@@ -1,5 +1,6 @@
 //! The answers' types.
 
+use crate::cobject::Leaf;
 use crate::convex::{ContactMode, Penetration};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
@@ -9,6 +10,8 @@ use crate::primitive::Feature;
 pub enum SSide {
     Object(u64),
     Link(usize),
+    /// There is no pair of bodies: a pure set.
+    PureSet,
 }
 
 /// What a distance says.
@@ -33,28 +36,42 @@ pub struct Distance {
     pub upper: f64,
     /// The nearest primitive pair; ties go to the lowest ids.
     pub witness: Option<Witness>,
-    /// The closest points of the witness, and its contact there if it has one.
+    /// The closest points of the witness, and its contact there if it has one. Of a piece that is contained both are the same
+    /// vertex of it.
     pub points: [Vec3; 2],
     pub contact: Option<ContactRecord>,
     /// The version of the environment that was measured; 0 if there is none.
     pub version: u64,
 }
 
-/// A primitive pair. Its contacts are `contact_count` entries of the list it comes in, from `first_contact`.
+/// A primitive pair, a piece of a body inside another body, or a pure set, whose numbers of links and primitives are 0. Its
+/// contacts are `contact_count` entries of the list it comes in, from `first_contact`.
 #[derive(Clone, Copy, Debug)]
 pub struct Witness {
+    /// The leaf of the C-object that it is of.
+    pub leaf: Leaf,
     pub r_link: usize,
+    /// The s-object attached to the link that is the r-side, or 0 for the link's own body.
+    pub r_object: u64,
+    /// The link that the s-object is attached to, if it is.
+    pub s_carrier: Option<usize>,
     pub s_side: SSide,
     pub primitives: [u32; 2],
     pub tags: [u64; 2],
+    /// The user data of the two sides, or 0.
+    pub data: [usize; 2],
     pub distance: f64,
     pub first_contact: usize,
     pub contact_count: usize,
-    /// The primitives' interiors overlap: there is no contact, and no gradient.
+    /// The primitives' interiors overlap, or `contained`: there is no contact, and no gradient.
     pub overlapping: bool,
+    /// A piece of one body lies wholly inside the other, a solid, and the primitives, which do not meet, stand for the two: the
+    /// lowest of the piece, and the lowest of what of the solid's boundary is around it. The distance is 0, whatever that of
+    /// the primitives is.
+    pub contained: bool,
 }
 
-/// One contact, in the world.
+/// One contact, in the world. One of a pure set has neither points nor a normal, unless it is of the world box.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactRecord {
     pub points: [Vec3; 2],
@@ -62,13 +79,15 @@ pub struct ContactRecord {
     pub normal: Vec3,
     /// Less the margin, and at least 0.
     pub distance: f64,
-    /// The same with its sign: negative within the margin, and where the primitives are just inside one another.
+    /// The same with its sign: negative within the margin, and where the primitives are just inside one another, or
+    /// round ones deeper while their cores are apart.
     pub clearance: f64,
     pub mode: ContactMode,
     pub features: [Feature; 2],
 }
 
-/// All primitive pairs within a threshold, nearest first, and their contacts.
+/// All primitive pairs within a threshold, nearest first, and their contacts; with each piece of a body that lies inside
+/// another, at distance 0.
 #[derive(Clone, Debug, Default)]
 pub struct WitnessList {
     pub witnesses: Vec<Witness>,
@@ -91,7 +110,7 @@ pub struct PrimitivePenetration {
     pub penetration: Penetration,
 }
 
-/// All primitive pairs that meet, the deepest first.
+/// All primitive pairs that meet, the deepest first. Pieces of a body inside another have none.
 #[derive(Clone, Debug, Default)]
 pub struct PenetrationList {
     pub penetrations: Vec<PrimitivePenetration>,

@@ -1,16 +1,13 @@
 //! Queries at a configuration: operations 4 to 8 of §2.2.4 and `cstk-pseudo-normal` of Appendix A.
 
-use super::answer::{ContactRecord, Distance, DistanceKind, SSide, Witness, WitnessList};
-use super::at_poses::contact_records;
+use super::answer::{Distance, WitnessList};
 use super::candidates::Wanted;
 use super::context::QueryContext;
-use super::scene::{Configuration, Scene};
-use super::search::Found;
-use super::target::Target;
-use crate::cobject::{CObject, Class};
+use super::scene::{Configuration, Group, Scene};
+use super::set_witnesses::Listed;
+use super::world::World;
+use crate::cobject::{CObject, Class, Set};
 use crate::error::{Error, ErrorKind, Result};
-use crate::robot::Posture;
-use crate::space::Space;
 
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
@@ -18,6 +15,17 @@ pub struct PseudoNormal {
     pub class: Class,
     pub distance: Distance,
     pub list: WitnessList,
+}
+
+/// What of a configuration is wanted besides its class and its distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Shell {
+    /// Witnesses and gradients up to this distance.
+    pub max_shell: f64,
+    /// At most so many witnesses, the nearest.
+    pub max_count: usize,
+    /// Gradients are scaled to length 1, but for those of length 0.
+    pub normalize: bool,
 }
 
 /// Refuses thresholds that are NaN or negative; infinity is welcome.
@@ -31,51 +39,42 @@ pub(super) fn check_threshold(value: f64, name: &str) -> Result<()> {
     Ok(())
 }
 
+/// A union of induced sets alone, as most C-objects are.
+fn only_group(cobject: &CObject) -> Option<&Group> {
+    match cobject.set() {
+        Set::Union { induced, others } if others.is_empty() => Some(induced),
+        _ => None,
+    }
+}
+
+/// The scene of a query. Whether coordinates are needed does not depend on which parts come to be asked.
+pub(super) fn scene<'a>(
+    cobject: &'a CObject,
+    world: &'a World,
+    at: Configuration<'a>,
+) -> Result<Scene<'a>> {
+    if let Configuration::LinkPoses(_) = at {
+        cobject.require_no_coordinates()?;
+    }
+    Scene::new(cobject.space(), world, at)
+}
+
 impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
-        let scene = Scene::new(cobject, at)?;
-        if self.recent_is_within(&scene, 0.0) {
-            return Ok(Class::Inside);
-        }
-        let candidates = scene.candidates(
-            Wanted {
-                in_contact: true,
-                ..Wanted::within(0.0)
-            },
-            &mut self.near,
-        )?;
-        Ok(if self.any_within(&candidates, |_| 0.0) {
-            Class::Inside
-        } else if self.any_in_contact(&candidates, 0.0) {
-            Class::Contact
-        } else {
-            Class::Outside
-        })
+        let world = World::of(cobject);
+        let scene = scene(cobject, &world, at)?;
+        self.class_of(cobject, &scene)
     }
 
-    /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
-    fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> bool {
-        let reaches = |c: &Target| {
-            let epsilon = c.options.contact_epsilon;
-            if epsilon > 0.0 && epsilon >= lower {
-                epsilon
-            } else {
-                f64::NEG_INFINITY
-            }
-        };
-        candidates.iter().any(|c| reaches(c) >= 0.0) && self.any_within(candidates, reaches)
-    }
-
-    /// Whether the distance may be at most `threshold`: doubt within rounding counts as within.
+    /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does a distance of
+    /// which nothing is known.
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
-        let scene = Scene::new(cobject, at)?;
-        if self.recent_is_within(&scene, threshold) {
-            return Ok(true);
-        }
-        let candidates = scene.candidates(Wanted::within(threshold), &mut self.near)?;
-        Ok(self.any_within(&candidates, |_| threshold))
+        cobject.require_one_unit()?;
+        let world = World::of(cobject);
+        let scene = scene(cobject, &world, at)?;
+        self.set_within(cobject, &scene, threshold)
     }
 
     /// Operation 6: the distance from contact, up to `max_distance`, and the nearest primitive pair.
@@ -85,35 +84,24 @@ impl QueryContext {
         at: Configuration,
         max_distance: f64,
     ) -> Result<Distance> {
-        check_threshold(max_distance, "max_distance")?;
-        let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(
-            Wanted {
-                nearest: Some(max_distance),
-                ..Wanted::within(0.0)
-            },
-            &mut self.near,
-        )?;
-        self.distance_among(&scene, &candidates, max_distance)
+        self.distance_in(&World::of(cobject), cobject, at, max_distance)
     }
 
-    fn distance_among(
+    /// The same in a given world.
+    pub fn distance_in(
         &mut self,
-        scene: &Scene,
-        candidates: &[Target],
+        world: &World,
+        cobject: &CObject,
+        at: Configuration,
         max_distance: f64,
     ) -> Result<Distance> {
-        if scene.is_empty() {
-            return Ok(Distance::empty(scene.version));
-        }
-        let found = self.nearest(candidates, max_distance);
-        Ok(Distance {
-            version: scene.version,
-            ..Distance::from_found(&found, candidates, max_distance)
-        })
+        check_threshold(max_distance, "max_distance")?;
+        cobject.require_one_unit()?;
+        let scene = scene(cobject, world, at)?;
+        self.set_distance(cobject, &scene, max_distance)
     }
 
-    /// Operation 7: all primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
+    /// Operation 7: all primitive pairs of the leaves at most `epsilon` apart; of more than `max_count`, the nearest.
     pub fn witnesses(
         &mut self,
         cobject: &CObject,
@@ -121,10 +109,13 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        check_threshold(epsilon, "epsilon")?;
-        let scene = Scene::new(cobject, at)?;
-        let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
-        self.list(&scene, &candidates, epsilon, max_count, None)
+        let with_gradients = false;
+        let listed = Listed {
+            epsilon,
+            max_count,
+            with_gradients,
+        };
+        self.listed(cobject, at, listed)
     }
 
     /// Operation 8: the same, with the gradient of each contact's distance.
@@ -135,42 +126,83 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        check_threshold(epsilon, "epsilon")?;
-        let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates(Wanted::within(epsilon), &mut self.near)?;
-        self.list(&scene, &candidates, epsilon, max_count, scene.posture())
+        let with_gradients = true;
+        let listed = Listed {
+            epsilon,
+            max_count,
+            with_gradients,
+        };
+        self.listed(cobject, Configuration::Coordinates(q), listed)
     }
 
-    /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within
-    /// `max_shell`. With `normalize`, gradients are scaled to unit length.
+    fn listed(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        check_threshold(listed.epsilon, "epsilon")?;
+        cobject.require_one_unit()?;
+        let world = World::of(cobject);
+        let scene = scene(cobject, &world, at)?;
+        self.set_witnesses(cobject, &scene, listed)
+    }
+
+    /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within a shell.
     pub fn pseudo_normal(
         &mut self,
         cobject: &CObject,
         q: &[f64],
-        max_shell: f64,
-        max_count: usize,
-        normalize: bool,
+        shell: &Shell,
     ) -> Result<PseudoNormal> {
-        check_threshold(max_shell, "max_shell")?;
-        let scene = Scene::new(cobject, Configuration::Coordinates(q))?;
-        let candidates = scene.candidates(
-            Wanted {
-                in_contact: true,
-                nearest: Some(f64::INFINITY),
-                ..Wanted::within(max_shell)
+        self.pseudo_normal_in(&World::of(cobject), cobject, q, shell)
+    }
+
+    /// The same in a given world.
+    pub fn pseudo_normal_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        q: &[f64],
+        shell: &Shell,
+    ) -> Result<PseudoNormal> {
+        check_threshold(shell.max_shell, "max_shell")?;
+        cobject.require_one_unit()?;
+        let scene = scene(cobject, world, Configuration::Coordinates(q))?;
+        let listed = Listed {
+            epsilon: shell.max_shell,
+            max_count: shell.max_count,
+            with_gradients: true,
+        };
+        let mut found = match only_group(cobject) {
+            Some(group) => self.group_pseudo_normal(group, &scene, listed)?,
+            None => PseudoNormal {
+                class: self.class_of(cobject, &scene)?,
+                distance: self.set_distance(cobject, &scene, f64::INFINITY)?,
+                list: self.set_witnesses(cobject, &scene, listed)?,
             },
-            &mut self.near,
-        )?;
-        let distance = self.distance_among(&scene, &candidates, f64::INFINITY)?;
-        let mut list = self.list(&scene, &candidates, max_shell, max_count, scene.posture())?;
-        if normalize && list.nv > 0 {
-            for row in list.gradients.chunks_exact_mut(list.nv) {
-                let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
-                if length > 0.0 {
-                    row.iter_mut().for_each(|x| *x /= length);
-                }
-            }
+        };
+        if shell.normalize {
+            found.list.normalize();
         }
+        Ok(found)
+    }
+
+    /// All of a union of induced sets from one look for candidates.
+    fn group_pseudo_normal(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<PseudoNormal> {
+        let wanted = Wanted {
+            in_contact: true,
+            nearest: Some(f64::INFINITY),
+            ..Wanted::within(listed.epsilon)
+        };
+        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
+        let list = self.list(group, scene, &candidates, listed)?;
         let class = if distance.lower == 0.0 {
             Class::Inside
         } else if self.any_in_contact(&candidates, distance.lower) {
@@ -184,116 +216,16 @@ impl QueryContext {
             list,
         })
     }
+}
 
-    /// The witnesses among the candidates, with gradients where a posture is given.
-    fn list(
-        &mut self,
-        scene: &Scene,
-        candidates: &[Target],
-        epsilon: f64,
-        max_count: usize,
-        posture: Option<Posture>,
-    ) -> Result<WitnessList> {
-        let (hits, truncated) = self.collect(candidates, epsilon, max_count);
-        let space = scene.cobject().space();
-        let mut list = WitnessList {
-            truncated,
-            version: scene.version,
-            nv: posture.map_or(0, |_| space.nv()),
-            ..Default::default()
-        };
-        let ranked = by_rank(candidates);
-        for hit in &hits {
-            let target = ranked[hit.key.pair as usize];
-            let first = list.contacts.len();
-            list.push(target, &target.pairing(), hit);
-            if let Some(posture) = posture {
-                for contact in &list.contacts[first..] {
-                    push_gradient(space, posture, target, contact, &mut list.gradients)?;
-                }
+impl WitnessList {
+    /// Scales gradients to length 1, but for those of length 0.
+    fn normalize(&mut self) {
+        for row in self.gradients.chunks_exact_mut(self.nv.max(1)) {
+            let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > 0.0 {
+                row.iter_mut().for_each(|x| *x /= length);
             }
-        }
-        Ok(list)
-    }
-}
-
-/// Appends one row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
-fn push_gradient(
-    space: &Space,
-    posture: Posture,
-    target: &Target,
-    contact: &ContactRecord,
-    rows: &mut Vec<f64>,
-) -> Result<()> {
-    let first = rows.len();
-    rows.resize(first + space.nv(), 0.0);
-    let row = &mut rows[first..];
-    let [on_r, on_s] = &contact.points;
-    let (r_link, s_side) = target.parties();
-    space.add_gradient(posture, r_link, on_r, &contact.normal, row)?;
-    if let SSide::Link(s) = s_side {
-        space.add_gradient(posture, s, on_s, &-contact.normal, row)?;
-    }
-    Ok(())
-}
-
-/// The candidates in the order of their ranks, by which hits name them.
-fn by_rank<'t, 'a>(candidates: &'t [Target<'a>]) -> Vec<&'t Target<'a>> {
-    let mut ranked: Vec<_> = candidates.iter().collect();
-    ranked.sort_unstable_by_key(|candidate| candidate.rank);
-    ranked
-}
-
-impl Distance {
-    pub(super) fn empty(version: u64) -> Self {
-        Self {
-            kind: DistanceKind::Empty,
-            distance: f64::INFINITY,
-            lower: f64::INFINITY,
-            upper: f64::INFINITY,
-            witness: None,
-            points: Default::default(),
-            contact: None,
-            version,
-        }
-    }
-
-    /// The answer to a search among targets up to `max_distance`.
-    pub(super) fn from_found(found: &Found, targets: &[Target], max_distance: f64) -> Self {
-        let Some((hit, target)) = &found.hit else {
-            let errors = targets.iter().map(|t| t.pairing().precision.error);
-            return Self {
-                kind: DistanceKind::BeyondMax,
-                lower: (max_distance - errors.fold(0.0, f64::max)).max(0.0),
-                ..Self::empty(0)
-            };
-        };
-        let pairing = target.pairing();
-        let error = pairing.precision.error;
-        let closest = pairing.closest(hit);
-        // The first is that at the closest points.
-        let contacts = contact_records(&pairing, hit, &closest, target.options.margin);
-        let contact = contacts.into_iter().next();
-        let witness = Witness {
-            contact_count: usize::from(contact.is_some()),
-            overlapping: contact.is_none() && hit.apart == 0.0,
-            ..Witness::of(target, hit)
-        };
-        Self {
-            kind: DistanceKind::Exact,
-            distance: hit.distance,
-            lower: found.lower,
-            // Sets count as meeting up to the error, which that of the measured distance may hide once more.
-            upper: hit.distance
-                + if hit.distance == 0.0 {
-                    2.0 * error
-                } else {
-                    error
-                },
-            witness: Some(witness),
-            points: pairing.world_points(&closest),
-            contact,
-            version: 0,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
 use crate::body::Body;
-use crate::cobject::InducedOptions;
+use crate::cobject::{InducedOptions, Leaf};
 use crate::convex::Closest;
 use crate::error::{Error, Result};
 use crate::pair::{Hit, Pairing};
@@ -31,6 +31,9 @@ fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
         sides: [a, b],
         key: CacheKey::Bodies(a.0.serial(), b.0.serial()),
         options: InducedOptions::default(),
+        data: [a.0.data(), b.0.data()],
+        s_carrier: None,
+        term: 0,
         rank: 0,
         bound: f64::NEG_INFINITY,
     })
@@ -47,7 +50,9 @@ impl QueryContext {
         check_threshold(max_distance, "max_distance")?;
         let targets = [target(a, b)?];
         let found = self.nearest(&targets, max_distance);
-        Ok(Distance::from_found(&found, &targets, max_distance))
+        Ok(Distance::from_found(&found, max_distance, |_| {
+            Leaf::default()
+        }))
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
@@ -74,13 +79,14 @@ impl QueryContext {
             ..Default::default()
         };
         for hit in &hits {
-            list.push(&target, pairing, hit);
+            list.push(&target, pairing, hit, Leaf::default());
         }
         Ok(list)
     }
 
     /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
-    /// deepest.
+    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies wholly inside
+    /// a solid meets no primitive of it, and is not listed.
     pub fn pair_penetration(
         &mut self,
         a: Placement,
@@ -92,12 +98,22 @@ impl QueryContext {
         let (hits, _) = self.collect(std::slice::from_ref(&target), 0.0, usize::MAX);
         let mut penetrations: Vec<PrimitivePenetration> = hits
             .iter()
-            .map(|hit| PrimitivePenetration {
-                primitives: hit.key.primitives,
-                tags: Witness::of(&target, hit).tags,
-                penetration: pairing.world_penetration(hit.key.primitives),
+            .filter(|hit| hit.contained.is_none())
+            .map(|hit| {
+                let primitives = hit.key.primitives;
+                let named = |e: Error| {
+                    e.within(format_args!(
+                        "primitives {} and {}",
+                        primitives[0], primitives[1]
+                    ))
+                };
+                Ok(PrimitivePenetration {
+                    primitives,
+                    tags: Witness::of(&target, hit, Leaf::default()).tags,
+                    penetration: pairing.world_penetration(primitives).map_err(named)?,
+                })
             })
-            .collect();
+            .collect::<Result<_>>()?;
         // Stable: those of equal depth stay in the order of their numbers.
         penetrations.sort_by(|x, y| y.penetration.depth.total_cmp(&x.penetration.depth));
         let truncated = penetrations.len() > max_count;
@@ -113,33 +129,40 @@ impl QueryContext {
 
 impl Witness {
     /// A witness whose contacts are not known yet.
-    pub(super) fn of(target: &Target, hit: &Hit) -> Self {
-        let (r_link, s_side) = target.parties();
+    pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
+        let (r_link, r_object, s_side) = target.parties();
         let [(a, _), (b, _)] = target.sides;
         let [on_a, on_b] = hit.key.primitives;
         Self {
+            leaf,
             r_link,
+            r_object,
+            s_carrier: target.s_carrier,
             s_side,
             primitives: hit.key.primitives,
             tags: [a.tag(on_a), b.tag(on_b)],
+            data: target.data,
             distance: hit.distance,
             first_contact: 0,
             contact_count: 0,
-            overlapping: false,
+            overlapping: hit.contained.is_some(),
+            contained: hit.contained.is_some(),
         }
     }
 }
 
 impl WitnessList {
     /// Takes a primitive pair with its contacts.
-    pub(super) fn push(&mut self, target: &Target, pairing: &Pairing, hit: &Hit) {
-        let closest = pairing.closest(hit);
-        let contacts = contact_records(pairing, hit, &closest, target.options.margin);
+    pub(super) fn push(&mut self, target: &Target, pairing: &Pairing, hit: &Hit, leaf: Leaf) {
+        let contacts = match hit.contained {
+            Some(_) => Vec::new(),
+            None => contact_records(pairing, hit, &pairing.closest(hit), target.options.margin),
+        };
         self.witnesses.push(Witness {
             first_contact: self.contacts.len(),
             contact_count: contacts.len(),
             overlapping: contacts.is_empty() && hit.apart == 0.0,
-            ..Witness::of(target, hit)
+            ..Witness::of(target, hit, leaf)
         });
         self.contacts.extend(contacts);
     }

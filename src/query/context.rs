@@ -15,6 +15,8 @@ pub(super) enum CacheKey {
     Candidate {
         space: u64,
         r_link: usize,
+        /// What is attached to the link and stands for it, or 0.
+        r_object: u64,
         s_side: SSide,
         /// The s-object's body: an id keeps its body for good, but a key must not outlive what it names.
         body: u64,

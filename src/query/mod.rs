@@ -4,24 +4,35 @@
 mod answer;
 mod at_configuration;
 mod at_poses;
+mod body_pairs;
 mod candidates;
 mod context;
+mod distance;
+mod explain;
 mod half_spaces;
+mod link_pairs;
+mod pure_answer;
 mod scene;
 mod search;
 mod segment;
+mod set_witnesses;
+mod sets;
 mod slide;
 mod slide_step;
 mod step_limits;
 mod target;
+mod world;
 
 pub use answer::{
     ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, SSide, Witness,
     WitnessList,
 };
-pub use at_configuration::PseudoNormal;
+pub use at_configuration::{PseudoNormal, Shell};
 pub use context::QueryContext;
+pub use explain::{Explanation, Verdict};
 pub use half_spaces::HalfSpace;
+pub use link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
 pub use scene::Configuration;
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};
 pub use slide_step::{Approach, slide_step, spring_step};
+pub use world::World;

@@ -1,9 +1,9 @@
 //! The searches over many body pairs that the queries share: nearest, within, all within.
 
 use super::context::QueryContext;
-use super::scene::Scene;
+use super::scene::{Group, Scene};
 use super::target::Target;
-use crate::pair::{Collect, Hit, Nearest, Within, traverse, visit_pair};
+use crate::pair::{Collect, Hit, Nearest, Visitor, Within, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
 pub(super) struct Found<'t, 'a> {
@@ -14,7 +14,7 @@ pub(super) struct Found<'t, 'a> {
 }
 
 impl QueryContext {
-    /// The nearest primitive pair over all targets, which come sorted by bound, if one is within `limit`.
+    /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if one is within `limit`.
     pub(super) fn nearest<'t, 'a>(
         &mut self,
         targets: &'t [Target<'a>],
@@ -36,6 +36,10 @@ impl QueryContext {
             visitor.margin = target.options.margin;
             visitor.pair = target.rank;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
+                if pairing.has_solid() && visitor.settled_from() != Some([0, 0]) {
+                    let contained = pairing.contained(target.rank, &mut self.scratch);
+                    contained.iter().for_each(|&hit| visitor.take(hit, 0.0));
+                }
                 let first = self.remembered(&target.key);
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
@@ -43,7 +47,9 @@ impl QueryContext {
         let lower = visitor.lower;
         let hit = visitor.best.and_then(|hit| {
             let target = targets.iter().find(|target| target.rank == hit.key.pair)?;
-            self.remember(target.key, hit.places);
+            if hit.contained.is_none() {
+                self.remember(target.key, hit.places);
+            }
             Some((hit, target))
         });
         Found { hit, lower }
@@ -51,14 +57,19 @@ impl QueryContext {
 
     /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
     /// then nothing else need be asked.
-    pub(super) fn recent_is_within(&mut self, scene: &Scene, threshold: f64) -> bool {
+    pub(super) fn recent_is_within(
+        &mut self,
+        scene: &Scene,
+        group: &Group,
+        threshold: f64,
+    ) -> bool {
         let Some((key, places)) = self
             .recent
             .and_then(|key| Some((key, self.remembered(&key)?)))
         else {
             return false;
         };
-        scene.find(&key).any(|(pairing, options)| {
+        scene.find(group, &key).any(|(pairing, options)| {
             let mut visitor = Within {
                 margin: options.margin,
                 threshold,
@@ -69,7 +80,7 @@ impl QueryContext {
         })
     }
 
-    /// Whether some primitive pair is within the threshold, which may differ from target to target.
+    /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from target to target.
     pub(super) fn any_within(
         &mut self,
         targets: &[Target],
@@ -84,6 +95,9 @@ impl QueryContext {
             let Some(pairing) = target.pairing_within(threshold) else {
                 continue;
             };
+            if pairing.has_solid() && pairing.is_one_inside() {
+                return true;
+            }
             let mut visitor = Within {
                 margin: target.options.margin,
                 threshold,
@@ -99,7 +113,7 @@ impl QueryContext {
         false
     }
 
-    /// All primitive pairs within the threshold, nearest first, and whether there are more than `max_count`.
+    /// All pieces inside other bodies and all primitive pairs within the threshold, nearest first, and whether there are more than `max_count`.
     pub(super) fn collect(
         &mut self,
         targets: &[Target],
@@ -111,6 +125,10 @@ impl QueryContext {
             visitor.margin = target.options.margin;
             visitor.pair = target.rank;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
+                if pairing.has_solid() {
+                    let contained = pairing.contained(target.rank, &mut self.scratch);
+                    contained.into_iter().for_each(|hit| visitor.take(hit));
+                }
                 let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
             }
         }

@@ -1,12 +1,13 @@
 //! The step that slides along contacts instead of running into them (Appendix A: `slide`).
 
-use super::at_configuration::{PseudoNormal, check_threshold};
+use super::at_configuration::{PseudoNormal, Shell, check_threshold};
 use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::segment::motion_bound;
 use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
 use super::step_limits::step_limits;
-use crate::cobject::CObject;
+use super::world::World;
+use crate::cobject::{CObject, PureShape, Set};
 use crate::error::{Error, ErrorKind, Result, require_finite};
 
 /// How to slide.
@@ -33,6 +34,14 @@ impl SlideOptions {
             normalize: false,
             floor: 1.0 / 1024.0,
             max_witnesses: 256,
+        }
+    }
+
+    fn shell(&self) -> Shell {
+        Shell {
+            max_shell: self.max_shell,
+            max_count: self.max_witnesses,
+            normalize: false,
         }
     }
 
@@ -109,6 +118,7 @@ fn approaches(found: &PseudoNormal, length: f64, desired: f64) -> Vec<Approach<'
 
 /// What all tries of one slide share.
 struct Asked<'a> {
+    world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
     here: &'a PseudoNormal,
@@ -133,9 +143,9 @@ impl QueryContext {
         space.check_configuration(q)?;
         space.check_velocity(step, "step")?;
         // One state of the world for all that is asked: else the proof would join distances of several.
-        let cobject = &cobject.frozen();
-        let here =
-            self.pseudo_normal(cobject, q, options.max_shell, options.max_witnesses, false)?;
+        let world = &World::of(cobject);
+        require_union(cobject)?;
+        let here = self.pseudo_normal_in(world, cobject, q, &options.shell())?;
         let ended = |outcome| SlideStep {
             outcome,
             configuration: q.to_vec(),
@@ -151,13 +161,14 @@ impl QueryContext {
         if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
-        if motion_bound(cobject, q, step).is_infinite() {
+        if motion_bound(world, cobject, q, step).is_infinite() {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
             ));
         }
         let asked = Asked {
+            world,
             cobject,
             q,
             here: &here,
@@ -194,6 +205,7 @@ impl QueryContext {
         push: Option<&Push>,
     ) -> Result<Option<(Vec<f64>, f64)>> {
         let &Asked {
+            world,
             cobject,
             q,
             here,
@@ -221,13 +233,7 @@ impl QueryContext {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
-            let there = self.pseudo_normal(
-                cobject,
-                &reached,
-                options.max_shell,
-                options.max_witnesses,
-                false,
-            )?;
+            let there = self.pseudo_normal_in(world, cobject, &reached, &options.shell())?;
             if overlaps(&there, options) {
                 return Ok(None);
             }
@@ -252,7 +258,7 @@ impl QueryContext {
         // A push alone must win more than steps that gain may lose, or the two would take turns.
         let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
         let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
-        if !goes_on || !self.may_move(cobject, q, &way, here, options.max_shell)? {
+        if !goes_on || !self.may_move(asked, &way)? {
             return Ok(None);
         }
         Ok(Some((reached, distance)))
@@ -260,15 +266,17 @@ impl QueryContext {
 
     /// Whether the way is free. From a touching start no proof can begin: the first [`ON_TRUST`] of the shell is taken on
     /// the word of the contacts, which the step leaves or keeps to first order; the rest is proved.
-    fn may_move(
-        &mut self,
-        cobject: &CObject,
-        q: &[f64],
-        way: &[f64],
-        here: &PseudoNormal,
-        max_shell: f64,
-    ) -> Result<bool> {
-        let motion = motion_bound(cobject, q, way);
+    fn may_move(&mut self, asked: &Asked, way: &[f64]) -> Result<bool> {
+        let &Asked {
+            world,
+            cobject,
+            q,
+            here,
+            options,
+            ..
+        } = asked;
+        let max_shell = options.max_shell;
+        let motion = motion_bound(world, cobject, q, way);
         let mut start = 0.0;
         if here.distance.lower <= 0.0 && motion > 0.0 {
             // Contacts that are not listed have no word to be taken.
@@ -283,12 +291,32 @@ impl QueryContext {
                 return Ok(false);
             }
         }
-        self.way_is_free(cobject, q, way, start)
+        self.way_is_free(world, cobject, q, way, start)
     }
 }
 
 /// How far, as a part of the shell or of the smallest link, a touching robot may move before a distance must prove it free.
 const ON_TRUST: f64 = 1e-4;
+
+/// Refuses sets whose distance says too little for a proof.
+fn require_union(cobject: &CObject) -> Result<()> {
+    let measures = |cobject: &CObject| match cobject.set() {
+        Set::Pure(pure) => !matches!(pure.shape, PureShape::Predicate(_)),
+        Set::Union { others, .. } => others.is_empty(),
+        _ => false,
+    };
+    let all = match cobject.set() {
+        Set::Union { others, .. } => others.iter().all(|other| measures(other)),
+        _ => measures(cobject),
+    };
+    if all {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::Unsupported,
+        "slides need a union of induced sets and of pure sets that are no predicates: no way through others can be proved free",
+    ))
+}
 
 fn smallest_radius(cobject: &CObject) -> f64 {
     let space = cobject.space();

@@ -16,6 +16,12 @@ pub(super) struct Target<'a> {
     pub sides: [Placement<'a>; 2],
     pub key: CacheKey,
     pub options: InducedOptions,
+    /// The user data of the two sides, or 0.
+    pub data: [usize; 2],
+    /// The link that holds the s-object, if it is attached.
+    pub s_carrier: Option<usize>,
+    /// Which induced set of the group holds it.
+    pub term: u32,
     /// Among all of a search, in order of ids: hits name their pair by it.
     pub rank: u32,
     /// A safe lower bound of the distance less the margin.
@@ -23,12 +29,17 @@ pub(super) struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// The link, and what is on the other side. Where there is no robot, both are 0.
+    /// The link, what is attached to it and stands for it (or 0), and what is on the other side. Without a robot all are 0.
     #[inline(always)]
-    pub fn parties(&self) -> (usize, SSide) {
+    pub fn parties(&self) -> (usize, u64, SSide) {
         match self.key {
-            CacheKey::Candidate { r_link, s_side, .. } => (r_link, s_side),
-            CacheKey::Bodies(..) => (0, SSide::Object(0)),
+            CacheKey::Candidate {
+                r_link,
+                r_object,
+                s_side,
+                ..
+            } => (r_link, r_object, s_side),
+            CacheKey::Bodies(..) => (0, 0, SSide::Object(0)),
         }
     }
 

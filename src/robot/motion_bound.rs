@@ -6,12 +6,17 @@ impl Robot {
     /// No point of the link's body moves farther than this, in the world, while the robot goes from q with constant velocity
     /// v for a unit of time. Infinite where a custom joint does not state its speeds.
     pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
+        match &self.links()[link].body {
+            Some(body) => self.reach_motion_bound(link, body.reach(), q, v),
+            None => 0.0,
+        }
+    }
+
+    /// The same for whatever is fixed to the link, no farther than `reach` from its origin.
+    pub fn reach_motion_bound(&self, link: usize, reach: f64, q: &[f64], v: &[f64]) -> f64 {
         let links = self.links();
-        let Some(body) = &links[link].body else {
-            return 0.0;
-        };
         // The reach is the largest distance from the current joint's origin to a point of the body.
-        let mut reach = body.center().norm() + body.radius();
+        let mut reach = reach;
         let mut bound = 0.0;
         let mut next = Some(link);
         while let Some(index) = next {

@@ -1,5 +1,6 @@
 //! Pictures: the scene at a configuration as a glTF binary file (Appendix A's `show-c-object`).
 
+mod curved;
 mod glb;
 mod nodes;
 mod scene;

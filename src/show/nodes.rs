@@ -4,12 +4,13 @@ use std::path::Path;
 
 use serde_json::json;
 
+use super::curved::curved_surface;
 use super::glb::{Colour, Document, Triangles, require_glb};
-use super::shapes::add_primitive;
+use super::shapes::{add_primitive, add_surface};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{Node, Surface};
-use crate::pose::{Pose, Vec3};
+use crate::pose::Pose;
 use crate::whole_file::write_whole;
 
 /// Colours of neighbouring nodes.
@@ -41,9 +42,13 @@ pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
                 Node::Interior { .. } => body.tree().wrapper(node).surface(),
                 Node::Leaf { primitive } => {
                     let primitive = &body.primitives()[primitive as usize];
-                    Surface {
-                        vertices: primitive.vertices.clone(),
-                        faces: primitive.faces.iter().map(|f| f.vertices.clone()).collect(),
+                    if primitive.curve.is_some() {
+                        curved_surface(primitive)
+                    } else {
+                        Surface {
+                            vertices: primitive.vertices.clone(),
+                            faces: primitive.faces.iter().map(|f| f.vertices.clone()).collect(),
+                        }
                     }
                 }
             };
@@ -81,18 +86,4 @@ pub fn show_nodes(body: &Body, nodes: &[u32], path: &Path) -> Result<()> {
         }
     }
     write_whole(path, &document.into_bytes(json!({ "nodes": nodes.len() })))
-}
-
-fn add_surface(triangles: &mut Triangles, surface: &Surface) {
-    for face in &surface.faces {
-        let corner = |k: usize| surface.vertices[face[k] as usize];
-        let fan = (1..face.len() - 1).map(|k| [corner(0), corner(k), corner(k + 1)]);
-        let sum: Vec3 = fan.clone().map(|[a, b, c]| (b - a).cross(&(c - a))).sum();
-        let Some(normal) = sum.try_normalize(0.0) else {
-            continue;
-        };
-        for corners in fan {
-            triangles.push(corners, normal);
-        }
-    }
 }

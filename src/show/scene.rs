@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use super::glb::{Document, Triangles, require_glb};
 use super::shapes::{add_arrow, add_ball, add_rod, of_body};
 use crate::body::Body;
-use crate::cobject::{CObject, SObjects, Term};
+use crate::cobject::{BodyPairs, CObject};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
-use crate::query::{PseudoNormal, QueryContext, SSide};
+use crate::query::{PseudoNormal, QueryContext, SSide, Shell, World};
 use crate::robot::Posture;
 use crate::whole_file::write_whole;
 
@@ -21,17 +21,17 @@ const MOST_WITNESSES: usize = 64;
 /// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
 pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     require_glb(path)?;
-    let epsilon = cobject
-        .terms()
-        .iter()
-        .map(|term| match &**term {
-            Term::Objects { options, .. } | Term::Links { options, .. } => options.contact_epsilon,
-        })
-        .fold(0.0, f64::max);
+    let epsilons = cobject.induced_leaves().into_iter();
+    let epsilons = epsilons.map(|term| term.options.contact_epsilon);
+    let shell = Shell {
+        max_shell: epsilons.fold(0.0, f64::max),
+        max_count: MOST_WITNESSES,
+        normalize: false,
+    };
     // One state of the world for the whole picture.
-    let cobject = &cobject.frozen();
-    let found = QueryContext::new().pseudo_normal(cobject, q, epsilon, MOST_WITNESSES, false)?;
-    let mut drawing = Drawing::new(cobject, q)?;
+    let world = &World::of(cobject);
+    let found = QueryContext::new().pseudo_normal_in(world, cobject, q, &shell)?;
+    let mut drawing = Drawing::new(world, cobject, q)?;
     drawing.draw_bodies();
     drawing.draw_witnesses(&found)?;
     let extras = json!({
@@ -48,6 +48,7 @@ fn finite(x: f64) -> Value {
 }
 
 struct Drawing<'a> {
+    world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
     poses: Vec<Pose>,
@@ -58,12 +59,13 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(cobject: &'a CObject, q: &'a [f64]) -> Result<Self> {
+    fn new(world: &'a World, cobject: &'a CObject, q: &'a [f64]) -> Result<Self> {
         let space = cobject.space();
         let sizes = (0..space.link_count())
             .filter_map(|link| space.link(link)?.body.as_ref())
             .map(|body| body.radius());
         Ok(Self {
+            world,
             cobject,
             q,
             poses: space.link_poses(q)?,
@@ -96,21 +98,23 @@ impl<'a> Drawing<'a> {
             }
         }
         let mut drawn = Vec::new();
-        for term in self.cobject.terms() {
-            let Term::Objects { objects, .. } = &**term else {
+        for term in self.cobject.induced_leaves() {
+            let BodyPairs::Objects { objects, .. } = &term.pairs else {
                 continue;
             };
-            let (SObjects::All(environment) | SObjects::Some(environment, _)) = objects;
-            for object in &environment.snapshot().objects {
-                let chosen = match objects {
-                    SObjects::All(_) => true,
-                    SObjects::Some(_, ids) => ids.contains(&object.id),
-                };
-                if chosen && !drawn.contains(&object.id) {
+            let Some(snapshot) = self.world.snapshot(objects.environment()) else {
+                continue;
+            };
+            for object in snapshot.objects() {
+                if objects.contains(object.id) && !drawn.contains(&object.id) {
                     drawn.push(object.id);
                     let name = format!("s-object {}", object.id);
                     let extras = json!({ "id": object.id });
-                    self.draw_body(&name, &object.body, &object.pose, object_material, extras);
+                    let pose = match &object.attachment {
+                        None => object.pose,
+                        Some(held) => self.poses[held.link].compose(&object.pose),
+                    };
+                    self.draw_body(&name, &object.body, &pose, object_material, extras);
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! Triangles of bodies, arrows and balls.
 
+use super::curved::curved_surface;
 use super::glb::Triangles;
 use crate::body::Body;
+use crate::hierarchy::Surface;
 use crate::pose::Vec3;
 use crate::primitive::{Convex, plane_axes};
 
@@ -16,6 +18,10 @@ pub fn of_body(body: &Body) -> Triangles {
 
 /// The faces of a primitive; a segment becomes a rod, a point a ball.
 pub fn add_primitive(triangles: &mut Triangles, primitive: &Convex, thickness: f64) {
+    if primitive.curve.is_some() {
+        add_surface(triangles, &curved_surface(primitive));
+        return;
+    }
     for face in &primitive.faces {
         let corner = |i: usize| primitive.vertices[face.vertices[i] as usize];
         for i in 1..face.vertices.len() - 1 {
@@ -30,6 +36,21 @@ pub fn add_primitive(triangles: &mut Triangles, primitive: &Convex, thickness: f
         );
         add_ball(triangles, &a, 2.0 * thickness);
         add_rod(triangles, &a, &b, thickness, thickness);
+    }
+}
+
+/// The faces of a surface, each flat.
+pub fn add_surface(triangles: &mut Triangles, surface: &Surface) {
+    for face in &surface.faces {
+        let corner = |k: usize| surface.vertices[face[k] as usize];
+        let fan = (1..face.len() - 1).map(|k| [corner(0), corner(k), corner(k + 1)]);
+        let sum: Vec3 = fan.clone().map(|[a, b, c]| (b - a).cross(&(c - a))).sum();
+        let Some(normal) = sum.try_normalize(0.0) else {
+            continue;
+        };
+        for corners in fan {
+            triangles.push(corners, normal);
+        }
     }
 }
 

@@ -11,4 +11,5 @@ mod world_box;
 pub use crate::robot::Coordinate;
 pub use sampling::Sampler;
 pub use space::{Offset, Space};
+pub use tangent::shorter_way;
 pub use world_box::WorldBox;

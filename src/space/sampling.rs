@@ -39,13 +39,19 @@ impl Space {
                 ),
             ));
         }
+        Ok(self.sample_beside(sampler, &self.neutral()))
+    }
+
+    /// The same, but that coordinates without bounds are those of `beside`.
+    pub fn sample_beside(&self, sampler: &mut Sampler, beside: &[f64]) -> Vec<f64> {
         let mut q = Vec::with_capacity(self.nq());
-        for coordinate in self.coordinates() {
+        for (coordinate, &x) in self.coordinates().iter().zip(beside) {
             q.push(match *coordinate {
                 Coordinate::Circle => sampler.unit() * TAU,
-                Coordinate::Interval { lower, upper } => {
+                Coordinate::Interval { lower, upper } if (upper - lower).is_finite() => {
                     (lower + (upper - lower) * sampler.unit()).clamp(lower, upper)
                 }
+                Coordinate::Interval { .. } => x,
                 Coordinate::Quaternion => 0.0,
             });
         }
@@ -56,6 +62,6 @@ impl Space {
             let (t, d) = (sampler.unit() * TAU).sin_cos();
             q[at..at + 4].copy_from_slice(&[large * s, large * c, small * t, small * d]);
         }
-        Ok(q)
+        q
     }
 }

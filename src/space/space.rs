@@ -227,7 +227,23 @@ impl Space {
         self.robots[robot].motion_bound(link - offset.link, &q[self.coordinates_of(robot)], v)
     }
 
-    fn robot_of(&self, link: usize) -> usize {
+    /// The same for whatever is fixed to the link, no farther than `reach` from its origin.
+    pub fn reach_motion_bound(&self, link: usize, reach: f64, q: &[f64], v: &[f64]) -> f64 {
+        let robot = self.robot_of(link);
+        let offset = self.offsets[robot];
+        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
+        let q = &q[self.coordinates_of(robot)];
+        self.robots[robot].reach_motion_bound(link - offset.link, reach, q, v)
+    }
+
+    /// The link that a link is joined to; `None` for the world.
+    pub fn parent(&self, link: usize) -> Option<usize> {
+        let first = self.offsets[self.robot_of(link)].link;
+        Some(first + self.link(link)?.parent?)
+    }
+
+    /// Which of the robots a link belongs to.
+    pub fn robot_of(&self, link: usize) -> usize {
         self.offsets.partition_point(|offset| offset.link <= link) - 1
     }
 

@@ -103,6 +103,58 @@ impl Space {
         reached
     }
 
+    /// The derivative with respect to the velocities of what has derivative `by_coordinate` with respect to the coordinates.
+    /// Entries of quaternions are passed over.
+    pub fn by_velocity(&self, q: &[f64], by_coordinate: &[f64]) -> Vec<f64> {
+        let mut row = vec![0.0; self.nv()];
+        for block in self.blocks() {
+            let (c, k) = (block.coordinate, block.velocity);
+            match block.kind {
+                BlockKind::Line => row[k] = by_coordinate[c],
+                BlockKind::Rotation => {}
+                BlockKind::Placement => {
+                    let here = Placement::read(&q[c..c + 7]);
+                    let turned =
+                        here.rotation.inverse() * Vec3::from_column_slice(&by_coordinate[c..c + 3]);
+                    row[k..k + 3].copy_from_slice(turned.as_slice());
+                }
+            }
+        }
+        row
+    }
+
+    /// How q1 is off q0, run by run: angles the shorter way round, shifts in the robot's frame, and turns in the turned frame.
+    /// As [`Space::difference`], but that shifts and turns of free joints are told apart: the length is a metric, that of the
+    /// product of lines, circles and rotations.
+    pub fn offset(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
+        let mut offset = self.difference(q0, q1);
+        for block in self.blocks() {
+            if block.kind == BlockKind::Placement {
+                let (c, k) = (block.coordinate, block.velocity);
+                let [from, to] = [q0, q1].map(|q| Placement::read(&q[c..c + 7]));
+                let shift = to.translation - from.translation;
+                let turn = turn_between(&from.rotation, &to.rotation);
+                offset[k..k + 3].copy_from_slice(shift.as_slice());
+                offset[k + 3..k + 6].copy_from_slice(turn.as_slice());
+            }
+        }
+        offset
+    }
+
+    /// The same with shifts in the moved frame of q1: the direction in which the offset's length grows.
+    pub fn offset_as_velocity(&self, q1: &[f64], offset: &[f64]) -> Vec<f64> {
+        let mut v = offset.to_vec();
+        for block in self.blocks() {
+            if block.kind == BlockKind::Placement {
+                let (c, k) = (block.coordinate, block.velocity);
+                let to = Placement::read(&q1[c..c + 7]);
+                let shift = to.rotation.inverse() * Vec3::from_column_slice(&offset[k..k + 3]);
+                v[k..k + 3].copy_from_slice(shift.as_slice());
+            }
+        }
+        v
+    }
+
     /// The length of the difference, each velocity times its weight; no weights mean 1.
     pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
         let difference = self.difference(q0, q1);
@@ -120,7 +172,7 @@ impl Space {
 }
 
 /// The same angle within [-pi, pi).
-fn shorter_way(angle: f64) -> f64 {
+pub fn shorter_way(angle: f64) -> f64 {
     if (-PI..PI).contains(&angle) {
         return angle;
     }

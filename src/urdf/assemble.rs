@@ -45,7 +45,8 @@ pub struct UrdfOptions {
     pub prefix: String,
     /// Folders in which packages are looked for.
     pub search: Vec<PathBuf>,
-    /// Into how many sides the circles of spheres, cylinders and capsules are divided, at least 3.
+    /// Into how many sides the circles of spheres, cylinders and capsules are divided, at least 3: polyhedra that hold them.
+    /// 0 for the shapes themselves.
     pub sides: usize,
     /// How the links' hierarchies are built.
     pub hierarchy: HierarchyOptions,
@@ -60,7 +61,7 @@ impl Default for UrdfOptions {
             at: Pose::identity(),
             prefix: String::new(),
             search: Vec::new(),
-            sides: 32,
+            sides: 0,
             hierarchy: HierarchyOptions::default(),
         }
     }
@@ -83,9 +84,9 @@ pub fn add_urdf_file(
             "a URDF robot needs a robot builder of dimension 3",
         ));
     }
-    if !(3..=MOST_SIDES).contains(&options.sides) {
+    if options.sides != 0 && !(3..=MOST_SIDES).contains(&options.sides) {
         return Err(Error::invalid(format!(
-            "sides is {}; 3 to {MOST_SIDES} are possible",
+            "sides is {}; 0 and 3 to {MOST_SIDES} are possible",
             options.sides
         )));
     }

@@ -1,4 +1,4 @@
-//! The shapes of URDF as primitives. Round ones become polyhedra that hold them, so that what is called free is free.
+//! The shapes of URDF as primitives. Round ones may become polyhedra that hold them, so that what is called free is free.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -15,14 +15,14 @@ use crate::xml::place;
 pub struct ShapeReader<'a> {
     pub folder: &'a Path,
     pub search: &'a [PathBuf],
-    /// Into how many sides a circle is divided.
+    /// Into how many sides a circle is divided; 0 for none.
     pub sides: usize,
     pub meshes: HashMap<PathBuf, Arc<Mesh>>,
 }
 
 impl ShapeReader<'_> {
-    /// The link's shapes in its frame; primitives of polyhedra are tagged with the number of the shape, those of meshes with
-    /// the face's number in its file.
+    /// The link's shapes in its frame; primitives are tagged with the number of the shape, those of meshes with the face's
+    /// number in its file.
     pub fn read(&mut self, link: &LinkElement) -> Result<BodyBuilder> {
         let mut builder = BodyBuilder::new(3)?;
         for (i, geometry) in link.geometry.iter().enumerate() {
@@ -47,6 +47,17 @@ impl ShapeReader<'_> {
                     Vec3::new(half(0), half(1), half(2))
                 });
                 add_polyhedron(builder, corners, at, tag)
+            }
+            Shape::Sphere { radius } if self.sides == 0 => {
+                builder.add_sphere(&at.translation, *radius, tag)
+            }
+            Shape::Cylinder { radius, length } if self.sides == 0 => {
+                builder.add_cylinder(at, *radius, 0.5 * length, tag)
+            }
+            Shape::Capsule { radius, length } if self.sides == 0 => {
+                let [a, b] =
+                    [-0.5, 0.5].map(|end| at.transform_point(&(Vec3::z() * (end * length))));
+                builder.add_capsule(&a, &b, *radius, tag)
             }
             Shape::Sphere { radius } => {
                 let points = around_sphere(*radius, self.sides);

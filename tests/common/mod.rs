@@ -3,15 +3,19 @@
 
 #![allow(dead_code)] // every test file uses a part of this module
 
+pub mod changing;
 pub mod checked;
 pub mod containment;
 pub mod differences;
 pub mod expansion;
 pub mod facing;
+pub mod files;
 pub mod models;
 pub mod oracle;
 pub mod placed;
 pub mod random;
 pub mod robots;
 pub mod shapes;
+pub mod surfaces;
+pub mod touch;
 pub mod trees;

@@ -71,6 +71,7 @@ pub fn environment(objects: &[(&Arc<Body>, Pose)]) -> (Arc<Environment>, Vec<u64
         .map(|(body, pose)| Change::Add {
             body: (*body).clone(),
             pose: *pose,
+            data: None,
         })
         .collect();
     let (ids, _) = environment.apply(&changes).unwrap();
@@ -91,6 +92,7 @@ pub fn against_with(
         space.clone(),
         &[],
         SObjects::All(environment.clone()),
+        &[],
         options,
     )
     .unwrap()
@@ -102,6 +104,7 @@ pub fn against_one(space: &Arc<Space>, environment: &Arc<Environment>, id: u64) 
         space.clone(),
         &[],
         SObjects::Some(environment.clone(), vec![id]),
+        &[],
         InducedOptions::default(),
     )
     .unwrap()

@@ -1,0 +1,267 @@
+/* Hostile input to grasps, to pairs that may meet, and to the choice of link pairs; and what they
+ * do when all is well. */
+#include <math.h>
+
+#include "check.h"
+#include "fixture.h"
+
+typedef struct applied {
+    uint64_t ids[1];
+    uint64_t version;
+} applied;
+
+static void refuse(const fixture *f, const cstk_environment_change *change, cstk_status status,
+                   const char *culprit) {
+    applied out;
+    CHECK_REFUSED(out, cstk_environment_apply(f->environment, change, 1, out.ids, &out.version),
+                  status, culprit);
+}
+
+static void attach_refusals(const fixture *f) {
+    const uint32_t touch[] = {1, 2};
+    const uint32_t nowhere[] = {1, FIXTURE_LINKS};
+    cstk_environment_change good;
+    CHECK_OK(cstk_environment_change_default(&good, sizeof good));
+    good.kind = CSTK_CHANGE_ATTACH;
+    good.id = f->box;
+    good.space = f->space;
+    good.link = FIXTURE_TIP;
+    good.touch_links = touch;
+    good.touch_count = 2;
+    cstk_environment_change change = good;
+    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
+        change.space = bad->handle;
+        refuse(f, &change, bad->status, "changes[0].space");
+    }
+    change = good;
+    change.id = f->box + 1000000;
+    refuse(f, &change, CSTK_NOT_FOUND, "s-object");
+    change = good;
+    change.link = FIXTURE_LINKS;
+    refuse(f, &change, CSTK_NOT_FOUND, "link 4");
+    change = good;
+    change.touch_links = nowhere;
+    refuse(f, &change, CSTK_NOT_FOUND, "touch link 4");
+    change.touch_links = NULL;
+    refuse(f, &change, CSTK_NULL_ARGUMENT, "changes[0].touch_links");
+    change = good;
+    change.pose[3] = NAN;
+    refuse(f, &change, CSTK_NOT_FINITE, "changes[0].pose");
+    change = good;
+    change.pose[0] = 2;
+    refuse(f, &change, CSTK_NOT_A_ROTATION, "changes[0].pose");
+    fixture_unchanged(f);
+}
+
+/* An object in the hand of a robot of another space is refused by those that meet it, and answers
+ * again when let go. */
+static void attach_elsewhere(const fixture *f) {
+    cstk_space *other = NULL;
+    cstk_environment *world = NULL;
+    cstk_cobject *set = NULL;
+    cstk_class where;
+    cstk_environment_change change;
+    CHECK_OK(cstk_space_create((const cstk_robot *const *)&f->robot, 1, NULL, 0, NULL, &other));
+    CHECK_OK(cstk_environment_create(&world));
+    CHECK_OK(cstk_environment_change_default(&change, sizeof change));
+    change.body = f->body;
+    CHECK_OK(cstk_environment_apply(world, &change, 1, &change.id, NULL));
+    CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, world, NULL, 0, NULL, &set));
+    change.kind = CSTK_CHANGE_ATTACH;
+    change.space = other;
+    CHECK_OK(cstk_environment_apply(world, &change, 1, NULL, NULL));
+    CHECK_FAILS(cstk_classify(f->query, set, f->q, FIXTURE_NQ, &where), CSTK_UNSUPPORTED,
+                "another space");
+    change.kind = CSTK_CHANGE_MOVE;
+    CHECK_OK(cstk_environment_apply(world, &change, 1, NULL, NULL));
+    CHECK_OK(cstk_classify(f->query, set, f->q, FIXTURE_NQ, &where));
+    CHECK_OK(cstk_cobject_release(set));
+    CHECK_OK(cstk_environment_release(world));
+    CHECK_OK(cstk_space_release(other));
+}
+
+static int destroyed;
+
+static void count_destroyed(void *data) {
+    CHECK(data == &destroyed);
+    ++destroyed;
+}
+
+/* Held by the tip, the box is on the r-side against another one, and an s-object to the links. */
+static void grasp_and_release(const fixture *f) {
+    cstk_environment *world = NULL;
+    cstk_cobject *set = NULL;
+    cstk_environment_change changes[2];
+    uint64_t ids[2];
+    destroyed = 0;
+    CHECK_OK(cstk_environment_create(&world));
+    for (int i = 0; i < 2; ++i) {
+        CHECK_OK(cstk_environment_change_default(&changes[i], sizeof changes[i]));
+        changes[i].body = f->body;
+        changes[i].pose[3] = 50.0 * (i + 1);
+        changes[i].data = &destroyed;
+        changes[i].destroy = count_destroyed;
+    }
+    changes[1].pose[0] = 7;
+    CHECK_FAILS(cstk_environment_apply(world, changes, 2, ids, NULL), CSTK_NOT_A_ROTATION,
+                "changes[1].pose");
+    CHECK(destroyed == 0);
+    changes[1].pose[0] = 1;
+    CHECK_OK(cstk_environment_apply(world, changes, 2, ids, NULL));
+    CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, world, NULL, 0, NULL, &set));
+    cstk_distance_result free_distance;
+    cstk_distance_result held_distance;
+    CHECK_OK(cstk_distance(f->query, set, f->q, FIXTURE_NQ, INFINITY, &free_distance));
+    CHECK(free_distance.witness.s_data == &destroyed && free_distance.witness.r_object == 0);
+    CHECK(free_distance.witness.s_link == CSTK_NONE);
+
+    cstk_environment_change hold;
+    CHECK_OK(cstk_environment_change_default(&hold, sizeof hold));
+    hold.kind = CSTK_CHANGE_ATTACH;
+    hold.id = ids[0];
+    hold.space = f->space;
+    hold.link = FIXTURE_TIP;
+    hold.pose[3] = 40.0;
+    CHECK_OK(cstk_environment_apply(world, &hold, 1, NULL, NULL));
+    double pose[12];
+    CHECK_OK(cstk_environment_object_pose(world, ids[0], pose));
+    CHECK(pose[3] == 40.0);
+    CHECK_OK(cstk_distance(f->query, set, f->q, FIXTURE_NQ, INFINITY, &held_distance));
+    CHECK(held_distance.has_witness);
+    cstk_witness_list list;
+    CHECK_OK(cstk_witnesses(f->query, set, f->q, FIXTURE_NQ, INFINITY, 100000, &list));
+    int by_hand = 0;
+    for (size_t i = 0; i < list.witness_count; ++i) {
+        const cstk_witness *w = &list.witnesses[i];
+        CHECK(w->s_object != ids[0] || (w->s_link == FIXTURE_TIP && w->r_link != FIXTURE_TIP));
+        by_hand += w->r_object == ids[0] && w->r_link == FIXTURE_TIP && w->s_object == ids[1];
+    }
+    CHECK(by_hand > 0);
+
+    /* The two may meet: named in the options of another set. */
+    cstk_allowed_pair pair = {FIXTURE_TIP, 0, ids[0], ids[1]};
+    cstk_cobject_options options;
+    cstk_cobject *allowing = NULL;
+    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    options.allowed = &pair;
+    options.allowed_count = 1;
+    CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, world, NULL, 0, &options, &allowing));
+    CHECK_OK(cstk_witnesses(f->query, allowing, f->q, FIXTURE_NQ, INFINITY, 100000, &list));
+    for (size_t i = 0; i < list.witness_count; ++i) {
+        CHECK(list.witnesses[i].r_object == 0);
+    }
+    CHECK_OK(cstk_cobject_release(allowing));
+
+    hold.kind = CSTK_CHANGE_MOVE;
+    hold.pose[3] = 50.0;
+    CHECK_OK(cstk_environment_apply(world, &hold, 1, NULL, NULL));
+    CHECK_OK(cstk_distance(f->query, set, f->q, FIXTURE_NQ, INFINITY, &held_distance));
+    CHECK(held_distance.distance == free_distance.distance);
+    CHECK(held_distance.environment_version == 3);
+
+    for (int i = 0; i < 2; ++i) {
+        changes[i].kind = CSTK_CHANGE_DELETE;
+        changes[i].id = ids[i];
+    }
+    CHECK_OK(cstk_environment_apply(world, changes, 2, NULL, NULL));
+    CHECK(destroyed == 2);
+    CHECK_OK(cstk_cobject_release(set));
+    CHECK_OK(cstk_environment_release(world));
+    CHECK(destroyed == 2);
+}
+
+static void allowed_refusals(const fixture *f) {
+    const uint32_t links[] = {1, 3};
+    cstk_allowed_pair pair = {FIXTURE_LINKS, 0, 0, 1};
+    cstk_cobject *out;
+    cstk_cobject_options options;
+    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    options.allowed_count = 1;
+    CHECK_REFUSED(out,
+                  cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
+                  CSTK_NULL_ARGUMENT, "allowed");
+    options.allowed = &pair;
+    CHECK_REFUSED(out,
+                  cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
+                  CSTK_NOT_FOUND, "allowed[0]");
+    CHECK_REFUSED(out, cstk_cobject_induced_links(f->space, links, 1, &options, &out),
+                  CSTK_UNSUPPORTED, "allowed");
+    options.allowed_count = SIZE_MAX / 2;
+    CHECK_REFUSED(out,
+                  cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
+                  CSTK_WRONG_SIZE, "allowed");
+    fixture_unchanged(f);
+}
+
+static int stop(double fraction, void *user) {
+    (void)fraction;
+    (void)user;
+    return 1;
+}
+
+static void refuse_pairs(const fixture *f, const cstk_link_pair_options *options,
+                         cstk_status status, const char *culprit) {
+    cstk_link_pair_list out;
+    CHECK_REFUSED(out, cstk_link_pairs(f->query, f->space, options, NULL, NULL, &out), status,
+                  culprit);
+}
+
+static void link_pairs(const fixture *f) {
+    cstk_link_pair_list out;
+    cstk_link_pair_options options;
+    CHECK_FAILS(cstk_link_pair_options_default(NULL, sizeof options), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_link_pair_options_default(&options, 7), CSTK_WRONG_SIZE, "size");
+    CHECK_OK(cstk_link_pair_options_default(&options, sizeof options));
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(out, cstk_link_pairs(bad->handle, f->space, NULL, NULL, NULL, &out),
+                      bad->status, "query");
+    }
+    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
+        CHECK_REFUSED(out, cstk_link_pairs(f->query, bad->handle, NULL, NULL, NULL, &out),
+                      bad->status, "space");
+    }
+    EACH_BAD_OPTIONS(options, bad) { refuse_pairs(f, bad->options, bad->status, "options"); }
+    CHECK_FAILS(cstk_link_pairs(f->query, f->space, NULL, NULL, NULL, NULL), CSTK_NULL_ARGUMENT,
+                "out");
+    cstk_link_pair_options changed = options;
+    changed.samples = 0;
+    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "samples");
+    changed.samples = UINT64_MAX;
+    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "samples");
+    changed = options;
+    changed.margin = -1;
+    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "margin");
+    changed.margin = NAN;
+    refuse_pairs(f, &changed, CSTK_NOT_FINITE, "margin");
+    changed = options;
+    changed.always = 1.5;
+    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "always");
+    const double rest[FIXTURE_NQ] = {0, NAN, 0};
+    changed = options;
+    changed.rest = rest;
+    refuse_pairs(f, &changed, CSTK_NOT_FINITE, "rest");
+    CHECK_REFUSED(out, cstk_link_pairs(f->query, f->space, NULL, stop, NULL, &out), CSTK_CANCELLED,
+                  "progress");
+
+    /* Three links with bodies in a row: two joined pairs, and one of the first with the last. */
+    CHECK_OK(cstk_link_pairs(f->query, f->space, NULL, NULL, NULL, &out));
+    CHECK(out.count == 3);
+    CHECK(out.pairs[0].r_link == 1 && out.pairs[0].s_link == 2);
+    CHECK(out.pairs[0].verdict == CSTK_PAIR_ADJACENT && out.pairs[2].verdict == CSTK_PAIR_ADJACENT);
+    CHECK(out.pairs[1].r_link == 1 && out.pairs[1].s_link == 3);
+    CHECK(out.tested_count ==
+          (out.pairs[1].verdict == CSTK_PAIR_TEST || out.pairs[1].verdict == CSTK_PAIR_NEVER));
+    fixture_unchanged(f);
+}
+
+int main(void) {
+    fixture f;
+    fixture_create(&f);
+    attach_refusals(&f);
+    attach_elsewhere(&f);
+    grasp_and_release(&f);
+    allowed_refusals(&f);
+    link_pairs(&f);
+    fixture_release(&f);
+    return check_result();
+}

@@ -1,0 +1,97 @@
+//! The closed surface of a body that is declared solid.
+
+use super::closed_surface::closed_surface;
+use super::surface_edges::Outline;
+use crate::error::Result;
+use crate::hierarchy::Extent;
+use crate::pose::Vec3;
+use crate::primitive::Convex;
+
+/// Which polygons of a body are the boundary of a solid, and which way round. The solid is where the boundary's winding
+/// number is not 0: where shells overlap too, and not in a cavity, whose shell faces the other way than the one around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// Per primitive how the boundary uses it: 1 as its vertices run, -1 the other way round, 0 not at all.
+    pub(super) signs: Vec<i8>,
+    /// Faces that had no area, without which the boundary would not close: their vertices as the boundary runs round them.
+    pub(super) scraps: Vec<Vec<Vec3>>,
+    extent: Extent,
+}
+
+/// A face without area, which became no primitive.
+#[derive(Clone, Debug)]
+pub(super) struct Scrap {
+    pub vertices: Vec<Vec3>,
+    pub tag: u64,
+}
+
+impl Solid {
+    /// The solid that polygons bound, if they bound one. `is_face` tells which primitives are the faces of it.
+    pub(super) fn checked(
+        primitives: &[Convex],
+        tags: &[u64],
+        is_face: &[bool],
+        scraps: &[Scrap],
+    ) -> Result<(Vec<i8>, Vec<Vec<Vec3>>)> {
+        let faces = (0..).zip(primitives.iter().zip(tags));
+        let outlines: Vec<Outline> = faces
+            .filter(|(i, _)| is_face[*i as usize])
+            .map(|(i, (primitive, &tag))| Outline {
+                vertices: &primitive.vertices,
+                primitive: Some(i),
+                tag,
+            })
+            .chain(scraps.iter().map(|scrap| Outline {
+                vertices: &scrap.vertices,
+                primitive: None,
+                tag: scrap.tag,
+            }))
+            .collect();
+        let mut signs = vec![0; primitives.len()];
+        let mut needed = Vec::new();
+        for (outline, sign) in outlines.iter().zip(closed_surface(&outlines)?) {
+            match (outline.primitive, sign) {
+                (Some(primitive), _) => signs[primitive as usize] = sign,
+                (None, 0) => {}
+                (None, 1) => needed.push(outline.vertices.to_vec()),
+                (None, _) => needed.push(outline.vertices.iter().rev().copied().collect()),
+            }
+        }
+        Ok((signs, needed))
+    }
+
+    /// From what [`Solid::checked`] found, or a file holds, in the body's own frame; `None` where nothing bounds a solid.
+    pub(super) fn new(
+        signs: Vec<i8>,
+        scraps: Vec<Vec<Vec3>>,
+        primitives: &[Convex],
+    ) -> Option<Self> {
+        let used = primitives.iter().zip(&signs);
+        let used = used.filter(|(_, sign)| **sign != 0);
+        let extent = used
+            .map(|(primitive, _)| &primitive.vertices)
+            .chain(&scraps)
+            .map(|vertices| Extent::of(vertices))
+            .reduce(|all, extent| all.union(&extent))?;
+        Some(Self {
+            signs,
+            scraps,
+            extent,
+        })
+    }
+
+    /// How the boundary uses a primitive: 1 as its vertices run, -1 the other way round, 0 not at all.
+    pub fn sign(&self, primitive: u32) -> i32 {
+        self.signs[primitive as usize].into()
+    }
+
+    /// What closes the boundary between the primitives, as it runs round them.
+    pub fn scraps(&self) -> &[Vec<Vec3>] {
+        &self.scraps
+    }
+
+    /// The box of the boundary.
+    pub fn extent(&self) -> &Extent {
+        &self.extent
+    }
+}

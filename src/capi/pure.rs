@@ -1,0 +1,197 @@
+//! Pure sets: C-objects given by coordinates, or by functions of the caller.
+
+use std::sync::Arc;
+
+use super::boundary::{Failure, guard};
+use super::cobject::cstk_cobject;
+use super::handle;
+use super::input::{OptionsStruct, Output, options, options_or_default, slice, write_defaults};
+use super::predicate::{Functions, cstk_predicate};
+use super::space::cstk_space;
+use super::status::cstk_status;
+use crate::cobject::{CObject, PureOptions, PureShape};
+use crate::space::Space;
+
+/// How a pure set measures. Write it with cstk_pure_options_default first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_pure_options {
+    pub size: u32,
+    pub cookie: u32,
+    /// Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space. Default 0.
+    pub contact_epsilon: f64,
+    /// The length that a unit of C-space stands for. Distances of the set are multiplied by it, and so can be compared with
+    /// those of induced sets; 0, the default: they are not, and queries of distance of both together are refused.
+    pub scale: f64,
+}
+
+// SAFETY: repr(C), two u32 and two doubles.
+unsafe impl OptionsStruct for cstk_pure_options {
+    const COOKIE: u32 = 0x4353_0402;
+    const NAME: &'static str = "cstk_pure_options";
+    fn defaults() -> Self {
+        Self {
+            size: 0,
+            cookie: 0,
+            contact_epsilon: 0.0,
+            scale: 0.0,
+        }
+    }
+}
+
+/// Writes the default options. `size` is sizeof(cstk_pure_options).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pure_options_default(
+    out: *mut cstk_pure_options,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+unsafe fn make(
+    space: *const cstk_space,
+    given: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+    shape: impl FnOnce(&Space) -> Result<PureShape, Failure>,
+) -> Result<(), Failure> {
+    let space = handle::share::<Space>(space, "space")?;
+    let out = Output::checked(out, "out")?;
+    // SAFETY: checked for size and cookie.
+    let given = unsafe { options_or_default(given, "options")? };
+    let options = PureOptions {
+        contact_epsilon: given.contact_epsilon,
+        scale: (given.scale != 0.0).then_some(given.scale),
+    };
+    let shape = shape(&space)?;
+    let made = CObject::pure(space, shape, options)?;
+    out.write(handle::create(Arc::new(made)));
+    Ok(())
+}
+
+/// One number a coordinate. Their count is checked before they are read.
+unsafe fn coordinates(
+    space: &Space,
+    values: *const f64,
+    nq: usize,
+    name: &str,
+) -> Result<Vec<f64>, Failure> {
+    if nq != space.nq() {
+        let coordinates = space.nq();
+        return Err(Failure::new(
+            cstk_status::CSTK_WRONG_SIZE,
+            format!("{name} has {nq} entries, but the space has {coordinates} coordinates"),
+        ));
+    }
+    // SAFETY: as the caller states.
+    Ok(unsafe { slice(values, nq, name)? }.to_vec())
+}
+
+/// Makes the set of configurations with a coordinate beyond its range in the space: the joint limits as an obstacle. At a
+/// limit the configuration is not inside yet (the set is open). Distances are those from the nearest limit, in units of the
+/// coordinates. `options` may be NULL for the defaults, here and below. A space without limits gives an empty set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_limits(
+    space: *const cstk_space,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: as the caller states.
+    guard(|| unsafe { make(space, options, out, |_| Ok(PureShape::BeyondLimits)) })
+}
+
+/// Makes the set of configurations at which the origin of some link is outside the world box of the space. It measures in
+/// lengths, whatever the scale, and answers at link poses too. Open, as cstk_cobject_limits.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_world(
+    space: *const cstk_space,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: as the caller states.
+    guard(|| unsafe { make(space, options, out, |_| Ok(PureShape::BeyondWorld)) })
+}
+
+/// Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
+/// INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i] upwards
+/// to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of the sum of the squares, angles the shorter way round.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_box(
+    space: *const cstk_space,
+    low: *const f64,
+    high: *const f64,
+    nq: usize,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the lengths.
+    guard(|| unsafe {
+        make(space, options, out, |space| {
+            Ok(PureShape::Box {
+                low: coordinates(space, low, nq, "low")?,
+                high: coordinates(space, high, nq, "high")?,
+            })
+        })
+    })
+}
+
+/// Makes the set of configurations with normal . q <= offset (`nq` doubles). Entries for coordinates on circles and of
+/// quaternions must be 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_halfspace(
+    space: *const cstk_space,
+    normal: *const f64,
+    nq: usize,
+    offset: f64,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    guard(|| unsafe {
+        make(space, options, out, |space| {
+            let normal = coordinates(space, normal, nq, "normal")?;
+            Ok(PureShape::HalfSpace { normal, offset })
+        })
+    })
+}
+
+/// Makes the set of configurations at most `radius` from `center` (`nq` doubles): by the root of the sum of the squares of
+/// differences, angles the shorter way round, quaternions by the angle of the turn, free joints by shift and turn.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_ball(
+    space: *const cstk_space,
+    center: *const f64,
+    nq: usize,
+    radius: f64,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    guard(|| unsafe {
+        make(space, options, out, |space| {
+            let center = coordinates(space, center, nq, "center")?;
+            Ok(PureShape::Ball { center, radius })
+        })
+    })
+}
+
+/// Makes a set that functions of the caller define. `predicate` is copied; its data are given back when nothing refers to the
+/// set any more, and not when this call fails.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_predicate(
+    space: *const cstk_space,
+    predicate: *const cstk_predicate,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL, size and cookie.
+        let given = unsafe { self::options(predicate, "predicate")? };
+        let functions = Arc::new(Functions::new(&given)?);
+        let shape = PureShape::Predicate(functions.clone());
+        // SAFETY: as the caller states.
+        unsafe { make(space, options, out, |_| Ok(shape))? };
+        functions.take_ownership();
+        Ok(())
+    })
+}

@@ -1,0 +1,205 @@
+//! Induced sets: the configurations at which bodies meet (§2.2.4).
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use super::Leaf;
+use crate::environment::Environment;
+use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::space::Space;
+use crate::user_data::UserData;
+
+/// How an induced C-object measures.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct InducedOptions {
+    /// Distances up to this (and above 0) classify as contact.
+    pub contact_epsilon: f64,
+    /// Grows the s-objects: it is taken off every distance.
+    pub margin: f64,
+}
+
+/// The s-side of an induced C-object.
+#[derive(Clone, Debug)]
+pub enum SObjects {
+    /// All objects of an environment, those added later too.
+    All(Arc<Environment>),
+    /// Some objects, by id. One that is deleted contributes the empty set.
+    Some(Arc<Environment>, Vec<u64>),
+}
+
+/// A pair of bodies that is left out: what stands on the r-side, and an s-object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct AllowedPair {
+    /// A link; with an attached object, the one that holds it.
+    pub link: usize,
+    /// An object attached to the link, or 0 for the link's own body.
+    pub attached: u64,
+    /// The s-object.
+    pub object: u64,
+}
+
+/// The body pairs of an induced set.
+#[derive(Clone, Debug)]
+pub enum BodyPairs {
+    /// Links of the space against s-objects, but for the pairs allowed to meet, in their order.
+    Objects {
+        links: Vec<usize>,
+        objects: SObjects,
+        allowed: Vec<AllowedPair>,
+    },
+    /// Links against links; the second of a pair is the nominal s-object.
+    Links { pairs: Vec<[usize; 2]> },
+}
+
+/// The set of configurations at which some pair of bodies meets.
+#[derive(Clone, Debug)]
+pub struct Induced {
+    pub leaf: Leaf,
+    /// What the leaf's data are kept by: it must outlive every set that holds the leaf.
+    pub data: Option<UserData>,
+    pub pairs: BodyPairs,
+    pub options: InducedOptions,
+}
+
+impl SObjects {
+    pub fn environment(&self) -> &Arc<Environment> {
+        let (Self::All(environment) | Self::Some(environment, _)) = self;
+        environment
+    }
+
+    pub fn contains(&self, id: u64) -> bool {
+        match self {
+            Self::All(_) => true,
+            Self::Some(_, ids) => ids.contains(&id),
+        }
+    }
+}
+
+impl BodyPairs {
+    /// Links against s-objects. No links given means all links that have a body.
+    pub(super) fn with_objects(
+        space: &Space,
+        links: &[usize],
+        objects: SObjects,
+        allowed: &[AllowedPair],
+    ) -> Result<Self> {
+        let links = if links.is_empty() {
+            let with_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
+            let found: Vec<usize> = (0..space.link_count()).filter(with_body).collect();
+            if found.is_empty() {
+                return Err(Error::new(
+                    ErrorKind::Empty,
+                    "no link of the space has a body",
+                ));
+            }
+            found
+        } else {
+            for &link in links {
+                require_body(space, link)?;
+            }
+            links.to_vec()
+        };
+        for (i, pair) in allowed.iter().enumerate() {
+            require_link(space, pair.link).map_err(|e| e.within(format_args!("allowed[{i}]")))?;
+        }
+        let mut allowed = allowed.to_vec();
+        allowed.sort_unstable();
+        allowed.dedup();
+        Ok(Self::Objects {
+            links,
+            objects,
+            allowed,
+        })
+    }
+
+    /// Links against links, each pair once.
+    pub(super) fn of_links(space: &Space, pairs: &[[usize; 2]]) -> Result<Self> {
+        if pairs.is_empty() {
+            return Err(Error::new(ErrorKind::Empty, "no link pair given"));
+        }
+        for (i, pair) in pairs.iter().enumerate() {
+            let named = |error: Error| error.within(format_args!("pair {i}"));
+            for &link in pair {
+                require_body(space, link).map_err(named)?;
+            }
+            if pair[0] == pair[1] {
+                return Err(named(Error::invalid(format!(
+                    "link {} is paired with itself",
+                    pair[0]
+                ))));
+            }
+        }
+        let mut seen = HashSet::new();
+        let is_new = |&&[r, s]: &&[usize; 2]| seen.insert([r.min(s), r.max(s)]);
+        let pairs = pairs.iter().filter(is_new).copied().collect();
+        Ok(Self::Links { pairs })
+    }
+
+    /// Those that some link takes part in that moves; `None` if there are none.
+    pub fn moving(&self, moves: &impl Fn(usize) -> bool) -> Option<Self> {
+        match self {
+            Self::Links { pairs } => {
+                let moving = pairs.iter().filter(|pair| pair.iter().any(|&l| moves(l)));
+                let pairs: Vec<[usize; 2]> = moving.copied().collect();
+                (!pairs.is_empty()).then_some(Self::Links { pairs })
+            }
+            Self::Objects {
+                links,
+                objects,
+                allowed,
+            } => {
+                let links: Vec<usize> = links.iter().filter(|&&l| moves(l)).copied().collect();
+                (!links.is_empty()).then(|| Self::Objects {
+                    links,
+                    objects: objects.clone(),
+                    allowed: allowed.clone(),
+                })
+            }
+        }
+    }
+
+    pub fn environment(&self) -> Option<&Arc<Environment>> {
+        match self {
+            Self::Objects { objects, .. } => Some(objects.environment()),
+            Self::Links { .. } => None,
+        }
+    }
+}
+
+impl InducedOptions {
+    pub(super) fn check(&self) -> Result<()> {
+        for (value, name) in [
+            (self.contact_epsilon, "contact_epsilon"),
+            (self.margin, "margin"),
+        ] {
+            require_finite(&[value], name)?;
+            if value < 0.0 {
+                return Err(Error::invalid(format!("{name} is negative: {value}")));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn require_link(space: &Space, link: usize) -> Result<&crate::robot::Link> {
+    space.link(link).ok_or_else(|| {
+        Error::new(
+            ErrorKind::NotFound,
+            format!(
+                "link {link} does not exist; the space has {}",
+                space.link_count()
+            ),
+        )
+    })
+}
+
+fn require_body(space: &Space, link: usize) -> Result<()> {
+    let found = require_link(space, link)?;
+    if found.body.is_none() {
+        return Err(Error::new(
+            ErrorKind::Empty,
+            format!("link {link} (\"{}\") has no body", found.name),
+        ));
+    }
+    Ok(())
+}

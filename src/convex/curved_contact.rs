@@ -1,0 +1,139 @@
+//! Contacts and penetration of curved primitives: those of their cores, moved outwards by the radii.
+
+use super::closest::Closest;
+use super::contact::{Contact, mode_of, polytope_contacts};
+use super::curved::{Core, core_closest, is_smooth, refined_cores, smooth_closest};
+use super::distance::DistanceScratch;
+use super::penetration::{Penetration, polytope_penetration};
+use super::placed::{Placed, Precision};
+use crate::error::{Error, ErrorKind, Result};
+use crate::gjk::Support;
+use crate::pose::Vec3;
+use crate::tolerance;
+
+/// The contacts of a pair of which one at least is curved. As long as the cores are apart they are exact, however deep the
+/// sets around them are in one another.
+pub fn curved_contacts(r: &Placed, s: &Placed, precision: &Precision) -> Vec<Contact> {
+    let mut found: Vec<Contact> = if is_smooth(r, s) {
+        smooth_contact(r, s, precision).into_iter().collect()
+    } else {
+        let mut cores = core_closest(r, s, precision, &mut DistanceScratch::default());
+        if cores.distance <= precision.error {
+            cores.distance = 0.0;
+        }
+        polytope_contacts(r, s, &cores, precision)
+    };
+    let [radius_r, radius_s] = [r, s].map(|placed| placed.shape.radius());
+    for contact in &mut found {
+        let gap = contact.gap - radius_r - radius_s;
+        contact.gap = if gap.abs() > precision.error {
+            gap
+        } else {
+            0.0
+        };
+        contact.distance = contact.gap.max(0.0);
+        contact.points[0] -= contact.normal * radius_r;
+        contact.points[1] += contact.normal * radius_s;
+    }
+    if found.iter().any(|contact| contact.gap < 0.0) {
+        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    }
+    found
+}
+
+/// Cores that are farther apart than this, in L, have a normal that their closest points tell.
+const APART: f64 = 1e-6;
+
+/// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
+fn smooth_contact(r: &Placed, s: &Placed, precision: &Precision) -> Option<Contact> {
+    let (closest, direction) = smooth_closest(r, s, precision);
+    let (normal, gap, points) = if closest.distance > APART * precision.size {
+        (direction, closest.distance, closest.points)
+    } else {
+        touch(r, s, &closest, direction, precision)?
+    };
+    Some(Contact {
+        points,
+        normal,
+        distance: gap.max(0.0),
+        gap,
+        mode: mode_of(closest.features)?,
+        features: closest.features,
+    })
+}
+
+/// The normal of cores that touch, or are just in one another, with the gap along it and the points there.
+///
+/// Moved apart along the normal by a little, the cores are nearest along that same normal. It is found by moving them apart
+/// along the last guess, from far to near. Whatever that comes to, the gap is that of the supports along the direction.
+fn touch(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    direction: Vec3,
+    precision: &Precision,
+) -> Option<(Vec3, f64, [Vec3; 2])> {
+    const STEPS: i32 = 40;
+    const LAST_SHIFT: f64 = 1e-4;
+    let apart = r.middle() - s.middle();
+    let guesses = [direction, closest.points[0] - closest.points[1], apart];
+    let mut normal = guesses
+        .iter()
+        .find_map(|guess| guess.try_normalize(1e-3 * precision.error))
+        .unwrap_or_else(Vec3::x);
+    // Where a direction is known the sets are not in one another, and it is a good guess.
+    let mut shift = if direction == Vec3::zeros() {
+        1.0
+    } else {
+        LAST_SHIFT
+    };
+    let mut points = closest.points;
+    for _ in 0..STEPS {
+        let by = normal * (shift * precision.size);
+        let found = refined_cores(r, s, by, by, precision);
+        if found.direction == Vec3::zeros() {
+            return None;
+        }
+        points = [found.points[0] - by, found.points[1]];
+        let turned = (found.direction - normal).norm();
+        normal = found.direction;
+        if shift <= LAST_SHIFT && turned <= 1e-12 {
+            break;
+        }
+        shift = (0.1 * shift).max(LAST_SHIFT);
+    }
+    let [nearest, farthest] = [Core::of(r).support(&-normal), Core::of(s).support(&normal)];
+    let gap = normal.dot(&(nearest - farthest));
+    (gap >= -tolerance::JUST_INSIDE * precision.size).then_some((normal, gap, points))
+}
+
+/// The penetration of two sets of which one at least is curved. Smooth cores are refused: the shortest way out of them has no
+/// closed form.
+pub fn curved_penetration(r: &Placed, s: &Placed, precision: &Precision) -> Result<Penetration> {
+    if is_smooth(r, s) {
+        return Err(Error::new(
+            ErrorKind::Unsupported,
+            "the penetration of cylinders, cones, ellipsoids and support functions is not computed",
+        ));
+    }
+    let radii = [r, s].map(|placed| placed.shape.radius());
+    let cores = core_closest(r, s, precision, &mut DistanceScratch::default());
+    let inner = if cores.distance > precision.error {
+        let between = cores.points[0] - cores.points[1];
+        Penetration {
+            depth: -cores.distance,
+            direction: between / cores.distance,
+            points: cores.points,
+        }
+    } else {
+        polytope_penetration(r, s, precision)
+    };
+    Ok(Penetration {
+        depth: (inner.depth + radii[0] + radii[1]).max(0.0),
+        direction: inner.direction,
+        points: [
+            inner.points[0] - inner.direction * radii[0],
+            inner.points[1] + inner.direction * radii[1],
+        ],
+    })
+}

@@ -1,0 +1,95 @@
+//! What bounds a body at a pose.
+
+use crate::body::Body;
+use crate::hierarchy::{Extent, OrientedBox};
+use crate::lanes::{along64, each3};
+use crate::pose::{Mat3, Pose, Vec3};
+use crate::tolerance;
+
+/// What bounds a body at a pose: a ball, and a box.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bounds {
+    center: Vec3,
+    radius: f64,
+    pub(super) box_center: Vec3,
+    /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
+    pub(super) axes: [Vec3; 2],
+    pub(super) half: Vec3,
+    /// No corner of the box is farther from its centre.
+    pub(super) box_radius: f64,
+    /// How far the body's primitives may be from what their features say (see `Body::deviation`).
+    pub(super) deviation: f64,
+    /// No coordinate that went into these is larger: their rounding is in proportion to it.
+    pub(super) reach: f64,
+}
+
+impl Bounds {
+    #[inline(always)]
+    pub fn of(body: &Body, pose: &Pose) -> Self {
+        let whole = body.packed().whole();
+        let origin = pose.transform_point(body.center());
+        let turned = each3(|k| {
+            let row = each3(|j| pose.rotation[(k, j)]);
+            along64(&whole.frame, &row).0
+        });
+        let column = |i: usize| Vec3::new(turned[0][i], turned[1][i], turned[2][i]);
+        Self {
+            center: origin + column(3),
+            radius: whole.ball_radius,
+            box_center: origin + column(2),
+            axes: [column(0), column(1)],
+            half: whole.half,
+            box_radius: whole.radius,
+            deviation: body.deviation(),
+            reach: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
+        }
+    }
+
+    /// A safe lower and a safe upper bound of the distance of two bodies, by their balls.
+    #[inline(always)]
+    pub fn distance(&self, other: &Bounds) -> [f64; 2] {
+        let apart = (self.center - other.center).norm();
+        let radii = self.radius + other.radius;
+        let reach = self.reach.max(other.reach);
+        let slack = slack(reach, self.deviation + other.deviation);
+        [apart - radii - slack, apart + radii + slack]
+    }
+
+    /// The box, along the axes of coordinates, around that of the body.
+    pub(super) fn extent(&self) -> Extent {
+        let [x, y] = &self.axes;
+        let reach = x.abs() * self.half.x + y.abs() * self.half.y + x.cross(y).abs() * self.half.z;
+        Extent {
+            low: self.box_center - reach,
+            high: self.box_center + reach,
+        }
+    }
+
+    pub(super) fn oriented_box(&self) -> OrientedBox {
+        let whole = Extent {
+            low: -self.half,
+            high: self.half,
+        };
+        let [x, y] = self.axes;
+        let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
+        let x = x.normalize();
+        let y = (y - x * x.dot(&y)).normalize();
+        OrientedBox {
+            corners: whole.corners().map(|c| self.box_center + axes * c),
+            axes: Mat3::from_columns(&[x, y, x.cross(&y)]),
+        }
+    }
+}
+
+#[inline(always)]
+fn l1_norm(v: &Vec3) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
+/// error of the distances on both sides of a comparison (see `Pairing::slack`).
+#[inline(always)]
+pub(super) fn slack(reach: f64, deviation: f64) -> f64 {
+    let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
+    4.0 * rounding * reach + 2.0 * deviation
+}

@@ -1,0 +1,120 @@
+//! The same iteration carried on until its bounds meet: the distance of sets whose surfaces are no polygons.
+
+use super::Support;
+use super::simplex::{Corner, Nearest, Simplex};
+use crate::pose::Vec3;
+use crate::tolerance;
+
+/// What was found out about the distance of two sets A and B, whatever their surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct Refined {
+    /// The distance is at least this, up to the rounding of one support evaluation.
+    pub lower: f64,
+    /// The unit direction from B to A that proves `lower`; zero if there is none.
+    pub direction: Vec3,
+    /// The distance is at most this: that of `points`. Infinite if nothing was found, 0 for sets that overlap.
+    pub upper: f64,
+    /// A point of A and one of B.
+    pub points: [Vec3; 2],
+    pub iterations: u32,
+}
+
+/// More steps than this bring nothing.
+const MOST_STEPS: u32 = 400;
+
+/// So many steps in a row may bring nothing.
+const MOST_IDLE: u32 = 50;
+
+/// A search begins anew so often where it got stuck.
+const MOST_RESTARTS: u32 = 8;
+
+/// Bounds the distance of A and B until the bounds are `accepted` apart, or no step brings them nearer. `start` is a guess
+/// of the direction from B to A.
+pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64) -> Refined {
+    let mut found = Refined {
+        lower: 0.0,
+        direction: Vec3::zeros(),
+        upper: f64::INFINITY,
+        points: [Vec3::zeros(); 2],
+        iterations: 0,
+    };
+    let mut v = if start == Vec3::zeros() {
+        Vec3::x()
+    } else {
+        start
+    };
+    let mut simplex = Simplex::empty();
+    let mut scale = 0.0f64;
+    let (mut least, mut idle) = (f64::INFINITY, 0);
+    let mut restarts = 0;
+    while found.iterations < MOST_STEPS {
+        found.iterations += 1;
+        let length = v.norm();
+        let on_a = a.support(&-v);
+        let on_b = b.support(&v);
+        let difference = on_a - on_b;
+        scale = scale.max(difference.norm());
+        let lower = v.dot(&difference) / length;
+        if lower > found.lower {
+            found.lower = lower;
+            found.direction = v / length;
+        }
+        if difference.norm() < found.upper {
+            found.upper = difference.norm();
+            found.points = [on_a, on_b];
+        }
+        if found.upper - found.lower <= accepted {
+            break;
+        }
+        let rounding = 4.0 * tolerance::EPSILON * scale;
+        let gap = found.upper - found.lower;
+        idle = if gap < least { 0 } else { idle + 1 };
+        least = least.min(gap);
+        let next = if idle > MOST_IDLE || simplex.contains(&difference) || simplex.is_full() {
+            None
+        } else {
+            simplex.push(Corner { difference, on_a });
+            if found.lower > rounding {
+                Some(simplex.nearest_apart())
+            } else {
+                match simplex.reduce() {
+                    Nearest::Inside { common, .. } => {
+                        found.upper = 0.0;
+                        found.points = [common; 2];
+                        break;
+                    }
+                    // A point of the difference, whatever rounding did to the foot on a needle of a triangle.
+                    Nearest::Outside(point) => Some((simplex.combined(&point), point)),
+                }
+            }
+        };
+        let Some((nearest, foot)) = next else {
+            // Where rounding has spoilt the corners, others are begun with from the best direction known.
+            restarts += 1;
+            if restarts > MOST_RESTARTS || found.direction == Vec3::zeros() {
+                break;
+            }
+            idle = 0;
+            simplex = Simplex::empty();
+            let between = (found.points[0] - found.points[1]) / found.upper;
+            // Each time another one, from the nearest points' to the one that proves most, and as far beyond.
+            let part = f64::from(restarts) / 4.0;
+            v = between + (found.direction - between) * part;
+            continue;
+        };
+        let upper = nearest.difference.norm();
+        if upper < found.upper {
+            found.upper = upper;
+            found.points = [nearest.on_a, nearest.on_a - nearest.difference];
+        }
+        if upper <= rounding {
+            break;
+        }
+        v = if foot == Vec3::zeros() {
+            nearest.difference
+        } else {
+            foot
+        };
+    }
+    found
+}

@@ -1,0 +1,175 @@
+//! Which pieces of one body lie wholly inside the other, where that is a solid.
+//!
+//! A piece hangs together, so that where it does not meet the boundary it lies inside or outside as any point of it does.
+
+use std::ops::ControlFlow;
+
+use super::hit::{Hit, HitKey, Inner};
+use super::pairing::Pairing;
+use super::traversal::{Met, Scratch, Visitor, traverse};
+use super::winding::{RayScratch, winding};
+use crate::body::{Body, Piece, Solid};
+use crate::pose::{Pose, Vec3};
+
+/// A piece that may lie inside a solid.
+#[derive(Clone, Copy)]
+struct Candidate {
+    inner: Inner,
+    piece: u32,
+    /// The lowest of the piece, and the lowest of what is around it, in the order of the bodies.
+    primitives: [u32; 2],
+}
+
+impl<'a> Pairing<'a> {
+    /// Whether one of the bodies is a solid, in which the other could be.
+    #[inline(always)]
+    pub fn has_solid(&self) -> bool {
+        self.a.solid().is_some() || self.b.solid().is_some()
+    }
+
+    /// Whether a piece of one body lies inside the other, or meets it.
+    pub fn is_one_inside(&self) -> bool {
+        let mut found = false;
+        self.visit_candidates(|_| {
+            found = true;
+            ControlFlow::Break(())
+        });
+        found
+    }
+
+    /// The pieces of either body that lie wholly inside the other, in the order of the primitives that stand for them; as
+    /// hits of the given pair of bodies.
+    pub fn contained(&self, pair: u32, scratch: &mut Scratch) -> Vec<Hit> {
+        let mut candidates = Vec::new();
+        self.visit_candidates(|candidate| {
+            candidates.push(candidate);
+            ControlFlow::Continue(())
+        });
+        if candidates.is_empty() {
+            return Vec::new();
+        }
+        // Of those that meet the boundary nothing is known.
+        let mut apart = Apart {
+            pairing: self,
+            candidates,
+        };
+        let _ = traverse(self, None, scratch, &mut apart);
+        let mut found: Vec<Hit> = apart.candidates.iter().map(|c| c.hit(pair)).collect();
+        found.sort_unstable_by(Hit::order);
+        found
+    }
+
+    /// A point of the piece that a hit found inside, in the world, for both bodies.
+    pub fn points_inside(&self, inner: Inner, hit: &Hit) -> [Vec3; 2] {
+        let primitive = hit.key.primitives[inner as usize];
+        let start = self.body(inner).primitives()[primitive as usize].vertices[0];
+        let at_home = match inner {
+            Inner::A => start,
+            Inner::B => self.relative.transform_point(&start),
+        };
+        [self.frame.transform_point(&at_home); 2]
+    }
+
+    fn body(&self, inner: Inner) -> &'a Body {
+        match inner {
+            Inner::A => self.a,
+            Inner::B => self.b,
+        }
+    }
+
+    /// Shows the pieces a point of which is inside the other body, until the visitor breaks.
+    fn visit_candidates(&self, mut visit: impl FnMut(Candidate) -> ControlFlow<()>) {
+        let mut rays = RayScratch::default();
+        for inner in [Inner::A, Inner::B] {
+            let outer = self.body(inner.other());
+            let Some(solid) = outer.solid() else {
+                continue;
+            };
+            let into_outer = match inner {
+                Inner::A => self.relative.inverse(),
+                Inner::B => self.relative,
+            };
+            let ball = self.body(inner).tree().wrapper(0);
+            let outside = solid
+                .extent()
+                .outside(&into_outer.transform_point(&ball.center));
+            if outside > ball.radius + self.slack() {
+                continue;
+            }
+            for (number, piece) in (0..).zip(&self.body(inner).pieces().list) {
+                let Some(around) = around(outer, piece, &into_outer, &mut rays) else {
+                    continue;
+                };
+                let primitives = match inner {
+                    Inner::A => [piece.lowest, around],
+                    Inner::B => [around, piece.lowest],
+                };
+                let candidate = Candidate {
+                    inner,
+                    piece: number,
+                    primitives,
+                };
+                if visit(candidate).is_break() {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// The lowest primitive of what of the solid is around the first end of a piece.
+fn around(outer: &Body, piece: &Piece, pose: &Pose, rays: &mut RayScratch) -> Option<u32> {
+    let [start, end] = piece.ends.map(|end| pose.transform_point(&end));
+    if outer.solid()?.extent().outside(&end) > 0.0 {
+        return None;
+    }
+    let found = winding(outer, &start, rays);
+    let piece = found.piece.filter(|_| found.number != 0)?;
+    Some(outer.pieces().list[piece as usize].lowest)
+}
+
+impl Candidate {
+    fn hit(&self, pair: u32) -> Hit {
+        Hit {
+            distance: 0.0,
+            apart: 0.0,
+            key: HitKey {
+                pair,
+                primitives: self.primitives,
+            },
+            places: [0; 2],
+            contained: Some(self.inner),
+        }
+    }
+}
+
+/// The candidates that keep apart from the boundary they may lie in.
+struct Apart<'a> {
+    pairing: &'a Pairing<'a>,
+    candidates: Vec<Candidate>,
+}
+
+impl Visitor for Apart<'_> {
+    const REFINES: bool = false;
+
+    fn bound(&self) -> f64 {
+        0.0
+    }
+
+    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+        if met.apart == 0.0 {
+            let pairing = self.pairing;
+            self.candidates.retain(|candidate| {
+                let inner = candidate.inner;
+                let [own, other] = [inner, inner.other()].map(|of| met.primitives[of as usize]);
+                let is_boundary = |solid: &Solid| solid.sign(other) != 0;
+                pairing.body(inner).pieces().of(own) != candidate.piece
+                    || !pairing.body(inner.other()).solid().is_some_and(is_boundary)
+            });
+        }
+        match self.candidates.is_empty() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

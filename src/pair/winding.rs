@@ -1,0 +1,229 @@
+//! How often a solid's boundary winds around a point: the faces that a ray from the point goes through, each counted by the
+//! side it comes from.
+//!
+//! Coordinates are rounded to a lattice of 2^-60 of the boundary's largest, and products of their differences are whole
+//! numbers of less than 128 bits: seen along the ray, on which side of an edge the point lies is decided exactly, and
+//! where it lies on one as if it were moved by (e, e^2), e smaller than any number. So each ray goes through the insides of
+//! faces only, and as moving vertices leaves a closed surface closed, the count is that of the lattice's surface, which is
+//! within 2^-59 of the boundary's largest coordinate of the given one.
+//!
+//! A face over the point is above it by no less than their distance. The height is a mean of the corners' with weights that
+//! are products known to their last bit, so that it is right to 4 EPSILON of the largest coordinate: for points farther
+//! from the boundary than a pair's error the sign is certain.
+
+use super::box_bounds::{ROUNDING, bounds};
+use crate::body::{Body, Solid};
+use crate::hierarchy::{PackedBox, PackedTree, Unit, power_of_two};
+use crate::lanes::{Instructions, Work, each3, with_widest};
+use crate::pose::Vec3;
+
+/// The lattice has so many steps to the largest coordinate.
+const STEPS: f64 = (1u64 << 60) as f64;
+
+/// How a solid's boundary lies around a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Winding {
+    /// How often it winds around the point, counter-clockwise seen from outside: 0 for a point outside of the solid.
+    pub number: i32,
+    /// The first of the body's pieces that winds around it.
+    pub piece: Option<u32>,
+}
+
+/// Memory of rays, reused from one to the next.
+#[derive(Default)]
+pub struct RayScratch {
+    open: Vec<Unit>,
+    primitives: Vec<u32>,
+    /// How often each piece that a ray goes through winds around the point.
+    counts: Vec<(u32, i32)>,
+}
+
+/// How the boundary of a body winds around a point of the body's own frame; not at all if the body is no solid. Right for
+/// points farther from the boundary than the error of a pair (see `Precision`).
+pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
+    let Some((solid, ray)) = body
+        .solid()
+        .and_then(|solid| Some((solid, Ray::out_of(solid, point)?)))
+    else {
+        return Winding::default();
+    };
+    with_widest(Descent {
+        tree: body.packed(),
+        one: ray.in_units(body.packed().scale()),
+        scratch: &mut *scratch,
+    });
+    let RayScratch {
+        primitives, counts, ..
+    } = scratch;
+    // What has several leaves is met more than once.
+    primitives.sort_unstable();
+    primitives.dedup();
+    counts.clear();
+    let mut count = |piece: u32, passes: i32| {
+        if passes != 0 {
+            match counts.iter_mut().find(|(known, _)| *known == piece) {
+                Some((_, count)) => *count += passes,
+                None => counts.push((piece, passes)),
+            }
+        }
+    };
+    for &primitive in &*primitives {
+        let sign = solid.sign(primitive);
+        if sign != 0 {
+            let ring = &body.primitives()[primitive as usize].vertices;
+            count(body.pieces().of(primitive), sign * ray.passes(ring));
+        }
+    }
+    for (i, ring) in solid.scraps().iter().enumerate() {
+        count(body.pieces().of_scrap(i), ray.passes(ring));
+    }
+    let around = counts.iter().filter(|(_, count)| *count != 0);
+    Winding {
+        number: counts.iter().map(|(_, count)| count).sum(),
+        piece: around.map(|(piece, _)| *piece).min(),
+    }
+}
+
+/// A ray along an axis of coordinates.
+struct Ray {
+    from: Vec3,
+    axis: usize,
+    /// Whether it goes up the axis.
+    up: bool,
+    /// To where it leaves the boundary's box.
+    length: f64,
+    /// Steps of the lattice per unit.
+    steps: f64,
+    /// The point on the lattice.
+    start: [i64; 3],
+}
+
+impl Ray {
+    /// The shortest way out of a solid's box; none for points outside of it.
+    fn out_of(solid: &Solid, point: &Vec3) -> Option<Self> {
+        let extent = solid.extent();
+        if extent.outside(point) > 0.0 {
+            return None;
+        }
+        let (below, above) = (point - extent.low, extent.high - point);
+        let (down, up) = (below.imin(), above.imin());
+        let is_up = above[up] < below[down];
+        let steps = STEPS / power_of_two(extent.low.amax().max(extent.high.amax()));
+        Some(Self {
+            from: *point,
+            axis: if is_up { up } else { down },
+            up: is_up,
+            length: above[up].min(below[down]),
+            steps,
+            start: each3(|k| (point[k] * steps) as i64),
+        })
+    }
+
+    /// The ray as a box, in units of a tree.
+    fn in_units(&self, unit: f64) -> PackedBox {
+        let mut middle = self.from;
+        middle[self.axis] += if self.up { 0.5 } else { -0.5 } * self.length;
+        let mut half = [0.0; 3];
+        half[self.axis] = ((0.5 * self.length / unit) as f32).next_up();
+        PackedBox {
+            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            center: each3(|k| (middle[k] / unit) as f32),
+            half,
+        }
+    }
+
+    /// How often the ray goes out through what a ring of vertices bounds, less how often in: the ring runs counter-clockwise
+    /// seen from outside.
+    fn passes(&self, ring: &[Vec3]) -> i32 {
+        let first = self.seen(&ring[0]);
+        let mut before = self.seen(&ring[1]);
+        let mut count = 0;
+        for vertex in &ring[2..] {
+            let next = self.seen(vertex);
+            count += pass([&first, &before, &next]);
+            before = next;
+        }
+        if self.up { count } else { -count }
+    }
+
+    /// A vertex from the point: across the ray, then along it.
+    fn seen(&self, vertex: &Vec3) -> [i64; 3] {
+        let along = |k: usize| (vertex[k] * self.steps) as i64 - self.start[k];
+        let height = along(self.axis);
+        [
+            along((self.axis + 1) % 3),
+            along((self.axis + 2) % 3),
+            if self.up { height } else { -height },
+        ]
+    }
+}
+
+/// Whether the triangle lies over the point and around it: 1 counter-clockwise as the coordinates across the ray have it, -1
+/// clockwise, else 0.
+fn pass(corners: [&[i64; 3]; 3]) -> i32 {
+    let [a, b, c] = corners;
+    let sides = [side(b, c), side(c, a), side(a, b)];
+    let [(x, _), (y, _), (z, _)] = sides;
+    if x != y || y != z || x == 0 {
+        return 0;
+    }
+    let height = |corner: &[i64; 3], (_, weight): (i32, f64)| weight.abs() * corner[2] as f64;
+    let above = height(a, sides[0]) + height(b, sides[1]) + height(c, sides[2]);
+    if above > 0.0 { x } else { 0 }
+}
+
+/// On which side of the line from a to b the point lies, which is moved by (e, e^2): 1 if on the left; and twice the area
+/// between, unmoved.
+fn side(a: &[i64; 3], b: &[i64; 3]) -> (i32, f64) {
+    let product = |i: i64, j: i64| i128::from(i) * i128::from(j);
+    let area = product(a[0], b[1]) - product(a[1], b[0]);
+    let moved = || (a[1] - b[1]).signum() as i32;
+    let moved_more = || (b[0] - a[0]).signum() as i32;
+    let side = match area.signum() as i32 {
+        0 if a[1] != b[1] => moved(),
+        0 => moved_more(),
+        side => side,
+    };
+    (side, area as f64)
+}
+
+/// Finds the primitives whose boxes a ray may go through.
+struct Descent<'a> {
+    tree: &'a PackedTree,
+    one: PackedBox,
+    scratch: &'a mut RayScratch,
+}
+
+impl Work for Descent<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) {
+        // All is within the tree's unit, and the boxes hold the primitives as they are; the lattice moves them by far less
+        // than what is left.
+        const CUTOFF: f32 = 2.0 * ROUNDING as f32;
+        let RayScratch {
+            open, primitives, ..
+        } = self.scratch;
+        primitives.clear();
+        open.clear();
+        open.push(self.tree.root());
+        while let Some(unit) = open.pop() {
+            if unit.is_leaf() {
+                let place = self.tree.place(unit) as usize;
+                primitives.push(self.tree.primitives().entry(place).primitive);
+                continue;
+            }
+            let index = self.tree.index(unit);
+            let eight = self.tree.node(index).boxes(lanes, 1.0);
+            let bounds = bounds(lanes, &eight, &self.one, false);
+            let children = self.tree.children(index);
+            let mut near = lanes.at_most(bounds, CUTOFF) & ((1 << children.count) - 1);
+            while near != 0 {
+                let lane = near.trailing_zeros() as usize & 7;
+                near &= near - 1;
+                open.push(children.units[lane]);
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Smooth convex sets, each by its support function around its own origin.
+
+use super::support_function::WatchedSupport;
+use crate::pose::{Mat3, Vec3};
+
+/// A smooth set in its local frame, whose origin is a point of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SmoothKind {
+    /// Around the local z axis, from -half_length to half_length.
+    Cylinder {
+        radius: f64,
+        half_length: f64,
+    },
+    /// Around the local z axis: the base at -height / 2, the apex at height / 2.
+    Cone {
+        radius: f64,
+        height: f64,
+    },
+    Ellipsoid {
+        semi_axes: Vec3,
+    },
+    /// A function of the caller's, whose frame is the body's.
+    Function(WatchedSupport),
+}
+
+/// A smooth set with the directions of its local axes, as columns, in the frame of its primitive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Smooth {
+    pub kind: SmoothKind,
+    pub axes: Mat3,
+}
+
+impl SmoothKind {
+    /// The point farthest along a direction of any length, in the local frame.
+    pub fn support(&self, direction: &Vec3) -> Vec3 {
+        let along = direction.z;
+        let across = (direction.x * direction.x + direction.y * direction.y).sqrt();
+        let on_circle = |radius: f64, z: f64| {
+            let scale = if across > 0.0 { radius / across } else { 0.0 };
+            Vec3::new(direction.x * scale, direction.y * scale, z)
+        };
+        match self {
+            Self::Cylinder {
+                radius,
+                half_length,
+            } => {
+                let z = if along == 0.0 {
+                    0.0
+                } else {
+                    half_length.copysign(along)
+                };
+                on_circle(*radius, z)
+            }
+            Self::Cone { radius, height } => {
+                let half = 0.5 * height;
+                if along * height >= radius * across {
+                    Vec3::new(0.0, 0.0, half)
+                } else {
+                    on_circle(*radius, -half)
+                }
+            }
+            Self::Ellipsoid { semi_axes } => {
+                let scaled = semi_axes.component_mul(direction);
+                let length = scaled.norm();
+                if length > 0.0 {
+                    semi_axes.component_mul(&scaled) / length
+                } else {
+                    Vec3::zeros()
+                }
+            }
+            Self::Function(function) => function.support(direction),
+        }
+    }
+
+    /// Points whose hull holds the set, in the local frame.
+    pub fn bounding_points(&self) -> Vec<Vec3> {
+        match self {
+            Self::Cylinder {
+                radius,
+                half_length,
+            } => {
+                let high = Vec3::new(*radius, *radius, *half_length);
+                corners(&-high, &high)
+            }
+            Self::Cone { radius, height } => {
+                let (r, half) = (*radius, 0.5 * height);
+                let base = [(-r, -r), (r, -r), (r, r), (-r, r)];
+                let mut points = base.map(|(x, y)| Vec3::new(x, y, -half)).to_vec();
+                points.push(Vec3::new(0.0, 0.0, half));
+                points
+            }
+            Self::Ellipsoid { semi_axes } => corners(&-semi_axes, semi_axes),
+            Self::Function(function) => {
+                let (low, high) = function.extent();
+                corners(&low, &high)
+            }
+        }
+    }
+}
+
+fn corners(low: &Vec3, high: &Vec3) -> Vec<Vec3> {
+    let pick = |i: usize, axis: usize| [low, high][i >> axis & 1][axis];
+    (0..8)
+        .map(|i| Vec3::new(pick(i, 0), pick(i, 1), pick(i, 2)))
+        .collect()
+}

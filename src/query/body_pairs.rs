@@ -1,0 +1,368 @@
+//! The body pairs that induced sets hold in a scene.
+
+use std::sync::Arc;
+
+use super::answer::SSide;
+use super::candidates::{Candidates, Wanted};
+use super::context::CacheKey;
+use super::scene::{Group, Held, Scene};
+use super::target::{Placement, Target};
+use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
+use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
+use crate::error::{Error, Result};
+use crate::pair::Pairing;
+
+/// What stands on the r-side: a link's own body, or an s-object attached to it.
+#[derive(Clone, Copy)]
+struct RSide {
+    link: usize,
+    /// The object's id, or 0.
+    attached: u64,
+}
+
+/// An induced set of links against s-objects, its number in the group, and the state it sees.
+struct ObjectsTerm<'t, 's> {
+    links: &'t [usize],
+    objects: &'t SObjects,
+    allowed: &'t [AllowedPair],
+    options: &'t InducedOptions,
+    number: u32,
+    snapshot: &'s Snapshot,
+}
+
+impl ObjectsTerm<'_, '_> {
+    /// Whether the set holds the pair of an r-side, whose link is one of its links, and an s-object.
+    fn admits(&self, r: RSide, object: &SObject) -> bool {
+        let pair = AllowedPair {
+            link: r.link,
+            attached: r.attached,
+            object: object.id,
+        };
+        if !self.allowed.is_empty() && self.allowed.binary_search(&pair).is_ok() {
+            return false;
+        }
+        let Some(attachment) = &object.attachment else {
+            return true;
+        };
+        // What is attached does not meet what holds it, and of two attached ones the lower stands on the r-side.
+        let touches = attachment.link == r.link
+            || (r.attached == 0 && attachment.touch_links.contains(&r.link));
+        let is_mirrored = r.attached > object.id
+            && self.objects.contains(r.attached)
+            && self.links.contains(&attachment.link);
+        !touches && !is_mirrored
+    }
+}
+
+/// The s-side of a pair: the object, where it is, and the link that holds it.
+struct SObjectAt<'s> {
+    object: &'s SObject,
+    placement: Placement<'s>,
+    carrier: Option<usize>,
+}
+
+impl<'a> Scene<'a> {
+    /// Whether there is no pair of bodies at all, as far as that is seen at a glance.
+    pub fn is_empty(&self, group: &Group) -> bool {
+        group.iter().all(|term| match &term.pairs {
+            BodyPairs::Links { pairs } => pairs.is_empty(),
+            BodyPairs::Objects { links, objects, .. } => {
+                let Some(snapshot) = self.world().snapshot(objects.environment()) else {
+                    return true;
+                };
+                let no_object = match objects {
+                    SObjects::All(_) => snapshot.is_empty(),
+                    SObjects::Some(_, ids) => ids.iter().all(|id| snapshot.find(*id).is_none()),
+                };
+                links.is_empty() || no_object
+            }
+        })
+    }
+
+    /// The body pairs that a search may need, each once, ranked by ids and sorted by bound.
+    pub fn candidates(
+        &self,
+        group: &Group,
+        wanted: Wanted,
+        scratch: &mut NearScratch,
+    ) -> Result<Vec<Target<'_>>> {
+        let mut candidates = Candidates::new(wanted);
+        for (number, term) in (0..).zip(group) {
+            match &term.pairs {
+                BodyPairs::Links { pairs } => {
+                    self.offer_links(pairs, &term.options, number, &mut candidates);
+                }
+                BodyPairs::Objects {
+                    links,
+                    objects,
+                    allowed,
+                } => {
+                    let Some(snapshot) = self.world().snapshot(objects.environment()) else {
+                        continue;
+                    };
+                    self.check_dimensions(links, snapshot)?;
+                    let term = ObjectsTerm {
+                        links,
+                        objects,
+                        allowed,
+                        options: &term.options,
+                        number,
+                        snapshot,
+                    };
+                    self.offer_objects(&term, &mut candidates, scratch);
+                }
+            }
+        }
+        Ok(candidates.finish())
+    }
+
+    fn offer_links<'s>(
+        &'s self,
+        pairs: &[[usize; 2]],
+        options: &InducedOptions,
+        term: u32,
+        candidates: &mut Candidates<'s>,
+    ) {
+        // Most links are in several pairs.
+        let mut known: Vec<Option<Bounds>> = vec![None; self.space().link_count()];
+        for &[r, s] in pairs {
+            if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
+                let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
+                    *known[link].get_or_insert_with(|| Bounds::of(body, pose))
+                });
+                let target = || {
+                    let r = RSide {
+                        link: r,
+                        attached: 0,
+                    };
+                    Target {
+                        options: *options,
+                        term,
+                        data: [a.0.data(), b.0.data()],
+                        ..self.target(r, SSide::Link(s), [a, b])
+                    }
+                };
+                candidates.offer(options, [&on_r, &on_s], f64::NEG_INFINITY, target);
+            }
+        }
+    }
+
+    fn check_dimensions(&self, links: &[usize], snapshot: &Snapshot) -> Result<()> {
+        let Some(object) = snapshot.first() else {
+            return Ok(());
+        };
+        let differs = |&&r: &&usize| {
+            let body = self.link(r).map(|(body, _)| body);
+            body.is_some_and(|body| body.dimension() != object.body.dimension())
+        };
+        match links.iter().find(differs) {
+            Some(r) => Err(Error::invalid(format!(
+                "s-object {} and link {r} differ in dimension",
+                object.id
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn offer_objects<'s>(
+        &'s self,
+        term: &ObjectsTerm<'_, 's>,
+        candidates: &mut Candidates<'s>,
+        scratch: &mut NearScratch,
+    ) {
+        let &ObjectsTerm {
+            links,
+            objects,
+            options,
+            snapshot,
+            ..
+        } = term;
+        let of_links = links.iter().filter_map(|&link| {
+            let (body, pose) = self.link(link)?;
+            Some((link, body, pose))
+        });
+        // What is attached to a link goes on with numbers after those of all links.
+        let first_held = self.space().link_count();
+        let environment = objects.environment().serial();
+        let held = self.held().iter().enumerate();
+        let held = held.filter(move |(_, held)| held.environment == environment);
+        let of_held = held
+            .clone()
+            .filter(|(_, held)| links.contains(&held.attachment.link))
+            .map(|(i, held)| (first_held + i, &*held.object.body, &held.pose));
+        let bodies = of_links.chain(of_held);
+        let reach = candidates.reach(options);
+        let mut offer =
+            |named: &Named<'s>, bounds: &Bounds, at: SObjectAt<'s>, other: &Bounds, bound| {
+                let &(number, body, pose) = named;
+                let (link, attached, r_data) = match number.checked_sub(first_held) {
+                    None => (number, 0, body.data()),
+                    Some(i) => {
+                        let Held {
+                            object, attachment, ..
+                        } = &self.held()[i];
+                        (attachment.link, object.id, object.data())
+                    }
+                };
+                let r = RSide { link, attached };
+                if !term.admits(r, at.object) {
+                    return candidates.reach(options);
+                }
+                let target = || Target {
+                    options: *options,
+                    term: term.number,
+                    data: [r_data, at.object.data()],
+                    s_carrier: at.carrier,
+                    ..self.target(r, SSide::Object(at.object.id), [(body, pose), at.placement])
+                };
+                candidates.offer(options, [bounds, other], bound, target)
+            };
+        let in_world = |place: usize| {
+            let object = snapshot.object(place);
+            SObjectAt {
+                object,
+                placement: (&*object.body, &object.pose),
+                carrier: None,
+            }
+        };
+        match objects {
+            SObjects::All(_) => {
+                snapshot.tree().visit_near(
+                    bodies.clone(),
+                    reach,
+                    scratch,
+                    |named, bounds, place, bound| {
+                        offer(
+                            named,
+                            bounds,
+                            in_world(place),
+                            snapshot.bounds(place),
+                            bound,
+                        )
+                    },
+                );
+            }
+            SObjects::Some(_, ids) => {
+                for named in bodies.clone() {
+                    let bounds = Bounds::of(named.1, named.2);
+                    let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
+                    for place in places.filter(|&place| snapshot.object(place).attachment.is_none())
+                    {
+                        let other = snapshot.bounds(place);
+                        offer(&named, &bounds, in_world(place), other, f64::NEG_INFINITY);
+                    }
+                }
+            }
+        }
+        for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
+            let other = Bounds::of(&held.object.body, &held.pose);
+            for named in bodies.clone() {
+                let bounds = Bounds::of(named.1, named.2);
+                offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn target<'s>(&self, r: RSide, s_side: SSide, sides: [Placement<'s>; 2]) -> Target<'s> {
+        Target {
+            sides,
+            key: CacheKey::Candidate {
+                space: self.space().serial(),
+                r_link: r.link,
+                r_object: r.attached,
+                s_side,
+                body: sides[1].0.serial(),
+            },
+            options: InducedOptions::default(),
+            data: [0; 2],
+            s_carrier: None,
+            term: 0,
+            rank: 0,
+            bound: f64::NEG_INFINITY,
+        }
+    }
+
+    /// The body pair that a key names, with the options of each term that holds it; nothing if none does (any more).
+    pub fn find<'s>(
+        &'s self,
+        group: &'s Group,
+        key: &CacheKey,
+    ) -> impl Iterator<Item = (Pairing<'s>, InducedOptions)> {
+        let named = match *key {
+            CacheKey::Candidate {
+                space,
+                r_link: link,
+                r_object: attached,
+                s_side,
+                ..
+            } if space == self.space().serial() => Some((RSide { link, attached }, s_side)),
+            _ => None,
+        };
+        let pairing = move |term: &'s Arc<Induced>| -> Option<(Pairing<'s>, InducedOptions)> {
+            let (r, s_side) = named?;
+            let [(a, pose_a), (b, pose_b)] = match (&term.pairs, s_side) {
+                (BodyPairs::Links { pairs }, SSide::Link(s)) => {
+                    let is_held = r.attached == 0 && pairs.contains(&[r.link, s]);
+                    is_held.then_some(())?;
+                    [self.link(r.link)?, self.link(s)?]
+                }
+                (
+                    BodyPairs::Objects {
+                        links,
+                        objects,
+                        allowed,
+                    },
+                    SSide::Object(id),
+                ) => {
+                    let is_chosen = links.contains(&r.link) && objects.contains(id);
+                    is_chosen.then_some(())?;
+                    let environment = objects.environment();
+                    let snapshot = self.world().snapshot(environment)?;
+                    let object = snapshot.find(id)?;
+                    let term = ObjectsTerm {
+                        links,
+                        objects,
+                        allowed,
+                        options: &term.options,
+                        number: 0,
+                        snapshot,
+                    };
+                    term.admits(r, object).then_some(())?;
+                    let held = |id: u64| {
+                        let mut all = self.held().iter();
+                        let is =
+                            |h: &&Held| h.object.id == id && h.environment == environment.serial();
+                        all.find(is)
+                    };
+                    let on_r = match r.attached {
+                        0 => self.link(r.link)?,
+                        id => {
+                            let held = held(id).filter(|held| held.attachment.link == r.link)?;
+                            (&*held.object.body, &held.pose)
+                        }
+                    };
+                    let pose = match object.attachment {
+                        None => &object.pose,
+                        Some(_) => &held(id)?.pose,
+                    };
+                    [on_r, (&*object.body, pose)]
+                }
+                _ => return None,
+            };
+            let fits = a.dimension() == b.dimension();
+            fits.then(|| (Pairing::new(a, pose_a, b, pose_b), term.options))
+        };
+        group.iter().filter_map(pairing)
+    }
+}
+
+impl<'a> Held<'a> {
+    fn as_s_side(&self) -> SObjectAt<'_> {
+        SObjectAt {
+            object: self.object,
+            placement: (&*self.object.body, &self.pose),
+            carrier: Some(self.attachment.link),
+        }
+    }
+}

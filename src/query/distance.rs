@@ -1,0 +1,183 @@
+//! Distances as answers: from what a search found, of nothing, of a pure set.
+
+use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
+use super::at_poses::contact_records;
+use super::search::Found;
+use crate::cobject::{Leaf, Reach};
+
+impl Distance {
+    pub(super) fn empty(version: u64) -> Self {
+        Self {
+            kind: DistanceKind::Empty,
+            distance: f64::INFINITY,
+            lower: f64::INFINITY,
+            upper: f64::INFINITY,
+            witness: None,
+            points: Default::default(),
+            contact: None,
+            version,
+        }
+    }
+
+    /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
+    pub(super) fn from_found(found: &Found, max_distance: f64, leaf: impl Fn(u32) -> Leaf) -> Self {
+        let Some((hit, target)) = &found.hit else {
+            // Pairs that were not looked at are farther, whatever the error of their distance.
+            return Self {
+                kind: DistanceKind::BeyondMax,
+                lower: max_distance.min(found.lower),
+                ..Self::empty(0)
+            };
+        };
+        let pairing = target.pairing();
+        let error = pairing.precision.error;
+        let (points, contact) = match hit.contained {
+            Some(inner) => (pairing.points_inside(inner, hit), None),
+            None => {
+                let closest = pairing.closest(hit);
+                // The first is that at the closest points.
+                let contacts = contact_records(&pairing, hit, &closest, target.options.margin);
+                (pairing.world_points(&closest), contacts.into_iter().next())
+            }
+        };
+        let witness = Witness {
+            contact_count: usize::from(contact.is_some()),
+            overlapping: contact.is_none() && hit.apart == 0.0,
+            ..Witness::of(target, hit, leaf(target.term))
+        };
+        Self {
+            kind: DistanceKind::Exact,
+            distance: hit.distance,
+            lower: found.lower,
+            // Sets count as meeting up to the error, which that of the measured distance may hide once more.
+            upper: hit.distance
+                + if hit.distance == 0.0 {
+                    2.0 * error
+                } else {
+                    error
+                },
+            witness: Some(witness),
+            points,
+            contact,
+            version: 0,
+        }
+    }
+
+    /// The answer of a pure set, up to `max_distance`.
+    pub(super) fn from_reach(
+        reach: Reach,
+        max_distance: f64,
+        witness: Witness,
+        contact: Option<ContactRecord>,
+    ) -> Self {
+        if reach.lower == f64::INFINITY {
+            return Self::empty(0);
+        }
+        if reach.distance > max_distance {
+            return Self {
+                kind: DistanceKind::BeyondMax,
+                lower: max_distance.min(reach.lower),
+                ..Self::empty(0)
+            };
+        }
+        Self {
+            kind: if reach.is_exact {
+                DistanceKind::Exact
+            } else {
+                DistanceKind::LowerBound
+            },
+            distance: reach.distance,
+            lower: reach.lower,
+            upper: reach.upper,
+            witness: Some(witness),
+            points: contact.map_or_else(Default::default, |contact| contact.points),
+            contact,
+            version: 0,
+        }
+    }
+
+    /// Of a set that is known to hold the configuration, or known by nothing.
+    pub(super) fn of_place(is_inside: bool) -> Self {
+        Self {
+            kind: if is_inside {
+                DistanceKind::Exact
+            } else {
+                DistanceKind::LowerBound
+            },
+            distance: 0.0,
+            lower: 0.0,
+            upper: if is_inside { 0.0 } else { f64::INFINITY },
+            ..Self::empty(0)
+        }
+    }
+
+    /// That of a union: the least. Of equal ones that given first.
+    pub(super) fn least(self, other: Self) -> Self {
+        let (best, rest) = if other.order_in_union() < self.order_in_union() {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        if best.kind == DistanceKind::Empty {
+            return best;
+        }
+        let lower = best.lower.min(rest.lower);
+        let upper = best.upper.min(rest.upper);
+        let is_undecided = rest.kind == DistanceKind::LowerBound && rest.lower < best.distance;
+        if is_undecided && best.kind != DistanceKind::LowerBound {
+            return Self {
+                kind: DistanceKind::LowerBound,
+                distance: lower,
+                lower,
+                upper,
+                ..best
+            };
+        }
+        Self {
+            lower,
+            upper,
+            ..best
+        }
+    }
+
+    /// What is known to be near comes first, then what may be, then what is too far, then nothing.
+    fn order_in_union(&self) -> (u8, f64) {
+        match self.kind {
+            DistanceKind::Exact => (0, self.distance),
+            DistanceKind::LowerBound => (1, self.lower),
+            DistanceKind::BeyondMax => (2, 0.0),
+            DistanceKind::Empty => (3, 0.0),
+        }
+    }
+
+    /// That of an intersection: no less than the most of all. It is known only where it is 0, or infinite.
+    pub(super) fn most(self, other: Self) -> Self {
+        let rank = |d: &Self| match d.kind {
+            DistanceKind::Empty => 2,
+            DistanceKind::BeyondMax => 1,
+            DistanceKind::Exact | DistanceKind::LowerBound => 0,
+        };
+        let is_more = (rank(&other), other.lower) > (rank(&self), self.lower);
+        let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
+        if is_zero(&self) && is_zero(&other) {
+            return Self {
+                upper: self.upper.max(other.upper),
+                ..self
+            };
+        }
+        let (most, _) = if is_more {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        match most.kind {
+            DistanceKind::Empty | DistanceKind::BeyondMax => most,
+            DistanceKind::Exact | DistanceKind::LowerBound => Self {
+                kind: DistanceKind::LowerBound,
+                distance: most.lower,
+                upper: f64::INFINITY,
+                ..most
+            },
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! Which leaves of a C-object's tree, and which feature pairs, made its class (§2.2.4, operations 4 and 5).
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use super::answer::WitnessList;
+use super::at_configuration::scene;
+use super::context::QueryContext;
+use super::scene::{Configuration, Group, Scene};
+use super::set_witnesses::{Listed, pure_witnesses};
+use super::world::World;
+use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
+use crate::error::Result;
+
+/// What one leaf says.
+#[derive(Clone, Copy, Debug)]
+pub struct Verdict {
+    pub leaf: Leaf,
+    /// The class with respect to the leaf itself.
+    pub class: Class,
+    /// The tree takes the leaf's complement.
+    pub complemented: bool,
+    /// The class of the whole rests on this leaf: on the way down from the root, the part's class was that of each union and
+    /// intersection that holds it.
+    pub decisive: bool,
+    /// The pairs that made the leaf's class, if it is decisive: those that meet, or that are in contact.
+    pub first_witness: usize,
+    pub witness_count: usize,
+}
+
+/// A class with its reasons.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    pub class: Class,
+    /// Every leaf; one whose complement is meant too stands twice.
+    pub leaves: Vec<Verdict>,
+    pub list: WitnessList,
+}
+
+/// A leaf of the tree, as it is asked.
+#[derive(Clone, Copy)]
+enum Asked<'a> {
+    Induced(&'a Group),
+    Pure(&'a PureSet),
+}
+
+impl Asked<'_> {
+    fn leaf(&self) -> Leaf {
+        match self {
+            Self::Induced(group) => group[0].leaf,
+            Self::Pure(set) => set.leaf,
+        }
+    }
+}
+
+/// The classes of all parts, by their numbers.
+struct Classes<'a> {
+    scene: &'a Scene<'a>,
+    leaves: HashMap<u64, Class>,
+    compounds: HashMap<u64, Class>,
+}
+
+impl QueryContext {
+    /// The class of a configuration, which leaves made it, and by which pairs of primitives: at most `max_count`.
+    pub fn explain(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        max_count: usize,
+    ) -> Result<Explanation> {
+        let world = World::of(cobject);
+        let scene = scene(cobject, &world, at)?;
+        let mut classes = Classes {
+            scene: &scene,
+            leaves: HashMap::new(),
+            compounds: HashMap::new(),
+        };
+        let class = self.class_of_all(cobject, &mut classes)?;
+        let mut explanation = Explanation {
+            class,
+            leaves: Vec::new(),
+            list: WitnessList {
+                version: world.version(),
+                ..WitnessList::default()
+            },
+        };
+        for (asked, complemented, decisive) in verdicts(cobject, &classes) {
+            let leaf = asked.leaf();
+            let class = classes.leaves[&leaf.serial];
+            let first_witness = explanation.list.witnesses.len();
+            if decisive {
+                let room = max_count - first_witness;
+                let list = self.reasons(asked, class, room, &scene)?;
+                explanation.list.truncated |= list.truncated;
+                for witness in &list.witnesses {
+                    explanation.list.take(&list, witness);
+                }
+            }
+            explanation.leaves.push(Verdict {
+                leaf,
+                class,
+                complemented,
+                decisive,
+                first_witness,
+                witness_count: explanation.list.witnesses.len() - first_witness,
+            });
+        }
+        Ok(explanation)
+    }
+
+    /// The class of a part, and of all below it: nothing is passed over.
+    fn class_of_all(&mut self, cobject: &CObject, classes: &mut Classes) -> Result<Class> {
+        if let Some(class) = classes.compounds.get(&cobject.serial()) {
+            return Ok(*class);
+        }
+        let mut parts = Vec::new();
+        for asked in own_leaves(cobject) {
+            let serial = asked.leaf().serial;
+            let class = match classes.leaves.get(&serial) {
+                Some(class) => *class,
+                None => match asked {
+                    Asked::Induced(group) => self.class_of_group(group, classes.scene)?,
+                    Asked::Pure(set) => set.classify(&classes.scene.stand())?,
+                },
+            };
+            classes.leaves.insert(serial, class);
+            parts.push(class);
+        }
+        for part in cobject.set().parts() {
+            parts.push(self.class_of_all(part, classes)?);
+        }
+        let parts = parts.into_iter();
+        let class = match cobject.set() {
+            Set::Union { .. } | Set::Pure(_) => parts.max().unwrap_or(Class::Outside),
+            Set::Intersection(_) => parts.min().unwrap_or(Class::Inside),
+            Set::Complement(_) => parts.max().unwrap_or(Class::Outside).reversed(),
+        };
+        classes.compounds.insert(cobject.serial(), class);
+        Ok(class)
+    }
+
+    /// What made a leaf's class.
+    fn reasons(
+        &mut self,
+        asked: Asked,
+        class: Class,
+        max_count: usize,
+        scene: &Scene,
+    ) -> Result<WitnessList> {
+        let epsilon = match (class, asked) {
+            (Class::Outside, _) => return Ok(WitnessList::default()),
+            (Class::Inside, _) => 0.0,
+            (Class::Contact, Asked::Induced(group)) => group[0].options.contact_epsilon,
+            (Class::Contact, Asked::Pure(set)) => set.epsilon(),
+        };
+        let listed = Listed {
+            epsilon,
+            max_count,
+            with_gradients: false,
+        };
+        match asked {
+            Asked::Induced(group) => self.group_witnesses(group, scene, listed),
+            Asked::Pure(set) => pure_witnesses(&[(set, false)], scene, listed),
+        }
+    }
+}
+
+/// The leaves that a part holds itself.
+fn own_leaves(cobject: &CObject) -> impl Iterator<Item = Asked<'_>> {
+    let induced = match cobject.set() {
+        Set::Union { induced, .. } => &induced[..],
+        _ => &[],
+    };
+    let pure = match cobject.set() {
+        Set::Pure(set) => Some(Asked::Pure(set)),
+        _ => None,
+    };
+    induced.chunks(1).map(Asked::Induced).chain(pure)
+}
+
+/// All leaves from the first on, each with whether its complement is meant and whether it decides.
+fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(Asked<'a>, bool, bool)> {
+    let mut found: Vec<(Asked<'a>, bool, bool)> = Vec::new();
+    let mut place_of: HashMap<(u64, bool), usize> = HashMap::new();
+    let mut seen: HashSet<(u64, bool, bool)> = HashSet::new();
+    let mut open: Vec<(&'a CObject, bool, bool)> = vec![(cobject, false, true)];
+    while let Some((next, complemented, decides)) = open.pop() {
+        if !seen.insert((next.serial(), complemented, decides)) {
+            continue;
+        }
+        let class = classes.compounds[&next.serial()];
+        for asked in own_leaves(next) {
+            let serial = asked.leaf().serial;
+            let decisive = decides && classes.leaves[&serial] == class;
+            let place = *place_of.entry((serial, complemented)).or_insert_with(|| {
+                found.push((asked, complemented, false));
+                found.len() - 1
+            });
+            found[place].2 |= decisive;
+        }
+        let is_complement = matches!(next.set(), Set::Complement(_));
+        let below = |part: &'a Arc<CObject>| {
+            let decides = decides && (is_complement || classes.compounds[&part.serial()] == class);
+            (&**part, complemented != is_complement, decides)
+        };
+        open.extend(next.set().parts().iter().rev().map(below));
+    }
+    found
+}

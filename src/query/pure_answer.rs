@@ -1,0 +1,136 @@
+//! What queries answer about a pure set.
+
+use super::answer::{ContactRecord, Distance, SSide, Witness};
+use super::scene::Scene;
+use crate::cobject::{Class, PureSet, Reach, WorldPlace};
+use crate::convex::ContactMode;
+use crate::error::Result;
+use crate::pose::Vec3;
+use crate::primitive::Feature;
+
+/// A pure set, or its complement, at one configuration.
+#[derive(Clone, Copy)]
+pub(super) struct PureAt<'a> {
+    pub set: &'a PureSet,
+    /// The complement is meant.
+    pub complement: bool,
+    pub scene: &'a Scene<'a>,
+}
+
+/// A pure set that is near, with its contact, and the gradient where it was asked for.
+pub(super) struct PureWitness {
+    pub witness: Witness,
+    pub contact: Option<ContactRecord>,
+    pub row: Vec<f64>,
+}
+
+impl PureAt<'_> {
+    pub fn class(&self) -> Result<Class> {
+        let class = self.set.classify(&self.scene.stand())?;
+        Ok(class.reversed_if(self.complement))
+    }
+
+    /// How far it is; of a set that does not measure whether it holds the configuration, and nothing else.
+    pub fn reach(&self) -> Result<Reach> {
+        if let Some(measure) = self.set.measure(&self.scene.stand())? {
+            return Ok(measure.reach(self.complement));
+        }
+        let is_inside = self.class()? == Class::Inside;
+        Ok(Reach {
+            distance: 0.0,
+            lower: 0.0,
+            upper: if is_inside { 0.0 } else { f64::INFINITY },
+            is_exact: is_inside,
+        })
+    }
+
+    pub fn distance(&self, max_distance: f64) -> Result<Distance> {
+        let reach = self.reach()?;
+        let contact = self.contact(&reach)?;
+        let mut witness = self.witness(&reach);
+        witness.contact_count = usize::from(contact.is_some());
+        Ok(Distance::from_reach(reach, max_distance, witness, contact))
+    }
+
+    /// The witness, its contact and its gradient, if the set may be within `epsilon`; the gradient only where it is asked for.
+    pub fn within(&self, epsilon: f64, with_gradient: bool) -> Result<Option<PureWitness>> {
+        let reach = self.reach()?;
+        let measures = reach.is_exact || reach.lower > 0.0;
+        if reach.lower > epsilon || reach.lower == f64::INFINITY || !measures {
+            return Ok(None);
+        }
+        let contact = self.contact(&reach)?;
+        let mut row = Vec::new();
+        if with_gradient && contact.is_some() {
+            let gradient = self.set.gradient(&self.scene.stand())?;
+            let sign = self.sign();
+            row = gradient.into_iter().map(|x| x * sign).collect();
+        }
+        let mut witness = self.witness(&reach);
+        witness.contact_count = usize::from(contact.is_some());
+        witness.overlapping = contact.is_none();
+        Ok(Some(PureWitness {
+            witness,
+            contact,
+            row,
+        }))
+    }
+
+    fn sign(&self) -> f64 {
+        if self.complement { -1.0 } else { 1.0 }
+    }
+
+    fn witness(&self, reach: &Reach) -> Witness {
+        Witness {
+            leaf: self.set.leaf,
+            r_link: 0,
+            r_object: 0,
+            s_carrier: None,
+            s_side: SSide::PureSet,
+            primitives: [0; 2],
+            tags: [0; 2],
+            data: [0; 2],
+            distance: reach.distance,
+            first_contact: 0,
+            contact_count: 0,
+            overlapping: false,
+            contained: false,
+        }
+    }
+
+    /// A contact where the signed distance is known.
+    fn contact(&self, reach: &Reach) -> Result<Option<ContactRecord>> {
+        let Some(measure) = self.set.measure(&self.scene.stand())? else {
+            return Ok(None);
+        };
+        let knows = if measure.signed > 0.0 {
+            !(self.complement && measure.is_bound)
+        } else {
+            measure.knows_depth
+        };
+        if !knows || !measure.signed.is_finite() {
+            return Ok(None);
+        }
+        let mut contact = ContactRecord {
+            points: [Vec3::zeros(); 2],
+            normal: Vec3::zeros(),
+            distance: reach.distance,
+            clearance: measure.signed * self.sign(),
+            mode: ContactMode::PureSet,
+            features: [Feature::interior(); 2],
+        };
+        if let Some(place) = self.set.place(&self.scene.stand()) {
+            contact.place(&place, self.sign());
+        }
+        Ok(Some(contact))
+    }
+}
+
+impl ContactRecord {
+    /// Puts the contact where a link's origin is next to the world box.
+    fn place(&mut self, place: &WorldPlace, sign: f64) {
+        let normal = place.normal * sign;
+        self.points = [place.point, place.point - normal * self.clearance];
+        self.normal = normal;
+    }
+}

@@ -1,0 +1,232 @@
+//! Witnesses of sets: of all their leaves, nearest first.
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use super::answer::{ContactRecord, SSide, Witness, WitnessList};
+use super::candidates::Wanted;
+use super::context::QueryContext;
+use super::pure_answer::{PureAt, PureWitness};
+use super::scene::{Group, Scene};
+use super::target::Target;
+use crate::cobject::{CObject, Induced, PureSet, Set};
+use crate::error::Result;
+use crate::robot::Posture;
+use crate::space::Space;
+
+/// The leaves of a C-object, each once: unions of induced sets, and pure sets with whether their complements are meant.
+#[derive(Default)]
+pub(super) struct Leaves<'a> {
+    pub groups: Vec<Vec<Arc<Induced>>>,
+    pub pure: Vec<(&'a PureSet, bool)>,
+}
+
+impl<'a> Leaves<'a> {
+    pub fn of(cobject: &'a CObject) -> Self {
+        let mut found = Self::default();
+        let mut seen = HashSet::new();
+        let mut seen_leaves = HashSet::new();
+        let mut open = vec![(cobject, false)];
+        while let Some((next, complement)) = open.pop() {
+            match next.set() {
+                Set::Pure(set) => {
+                    if seen_leaves.insert((set.leaf.serial, complement)) {
+                        found.pure.push((set, complement));
+                    }
+                    continue;
+                }
+                Set::Union { induced, .. } => {
+                    let is_new =
+                        |term: &&Arc<Induced>| seen_leaves.insert((term.leaf.serial, false));
+                    let group: Vec<Arc<Induced>> = induced.iter().filter(is_new).cloned().collect();
+                    found.groups.extend((!group.is_empty()).then_some(group));
+                }
+                _ => {}
+            }
+            let complement = complement != matches!(next.set(), Set::Complement(_));
+            for part in next.set().parts().iter().rev() {
+                let is_leaf = matches!(part.set(), Set::Pure(_));
+                if is_leaf || seen.insert((part.serial(), complement)) {
+                    open.push((part, complement));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// What is asked of witnesses.
+#[derive(Clone, Copy)]
+pub(super) struct Listed {
+    pub epsilon: f64,
+    pub max_count: usize,
+    pub with_gradients: bool,
+}
+
+impl QueryContext {
+    pub(super) fn set_witnesses(
+        &mut self,
+        cobject: &CObject,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        let leaves = Leaves::of(cobject);
+        let mut lists = Vec::with_capacity(leaves.groups.len() + 1);
+        for group in &leaves.groups {
+            lists.push(self.group_witnesses(group, scene, listed)?);
+        }
+        if !leaves.pure.is_empty() {
+            lists.push(pure_witnesses(&leaves.pure, scene, listed)?);
+        }
+        if lists.len() == 1
+            && let Some(only) = lists.pop()
+        {
+            return Ok(only);
+        }
+        Ok(WitnessList::merged(lists, scene, listed))
+    }
+
+    pub(super) fn group_witnesses(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        let wanted = Wanted::within(listed.epsilon);
+        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        self.list(group, scene, &candidates, listed)
+    }
+
+    /// The witnesses among the candidates.
+    pub(super) fn list(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        candidates: &[Target],
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        let (hits, truncated) = self.collect(candidates, listed.epsilon, listed.max_count);
+        let posture = scene.posture().filter(|_| listed.with_gradients);
+        let mut list = WitnessList {
+            truncated,
+            ..WitnessList::empty(scene, listed)
+        };
+        let ranked = by_rank(candidates);
+        for hit in &hits {
+            let target = ranked[hit.key.pair as usize];
+            let first = list.contacts.len();
+            let leaf = group[target.term as usize].leaf;
+            list.push(target, &target.pairing(), hit, leaf);
+            if let Some(posture) = posture {
+                for contact in &list.contacts[first..] {
+                    push_gradient(scene.space(), posture, target, contact, &mut list.gradients)?;
+                }
+            }
+        }
+        Ok(list)
+    }
+}
+
+pub(super) fn pure_witnesses(
+    leaves: &[(&PureSet, bool)],
+    scene: &Scene,
+    listed: Listed,
+) -> Result<WitnessList> {
+    let mut found: Vec<PureWitness> = Vec::new();
+    for &(set, complement) in leaves {
+        let pure = PureAt {
+            set,
+            complement,
+            scene,
+        };
+        found.extend(pure.within(listed.epsilon, listed.with_gradients)?);
+    }
+    // Stable: equal ones stay in the order of the leaves.
+    found.sort_by(|a, b| a.witness.distance.total_cmp(&b.witness.distance));
+    let mut list = WitnessList::empty(scene, listed);
+    list.truncated = found.len() > listed.max_count;
+    for next in found.into_iter().take(listed.max_count) {
+        list.witnesses.push(Witness {
+            first_contact: list.contacts.len(),
+            ..next.witness
+        });
+        list.contacts.extend(next.contact);
+        list.gradients.extend(next.row);
+    }
+    Ok(list)
+}
+
+impl WitnessList {
+    fn empty(scene: &Scene, listed: Listed) -> Self {
+        Self {
+            version: scene.version(),
+            nv: if listed.with_gradients {
+                scene.space().nv()
+            } else {
+                0
+            },
+            ..Self::default()
+        }
+    }
+
+    /// Several lists as one: the nearest first, of equal ones those of earlier lists.
+    fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: Listed) -> Self {
+        let mut merged = Self::empty(scene, listed);
+        let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
+        merged.truncated = count > listed.max_count || lists.iter().any(|list| list.truncated);
+        let all = lists
+            .iter()
+            .flat_map(|list| list.witnesses.iter().map(move |witness| (list, witness)));
+        let mut all: Vec<(&WitnessList, &Witness)> = all.collect();
+        all.sort_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
+        for (list, witness) in all.into_iter().take(listed.max_count) {
+            merged.take(list, witness);
+        }
+        merged
+    }
+
+    /// Takes a witness of another list, with its contacts.
+    pub(super) fn take(&mut self, list: &WitnessList, witness: &Witness) {
+        let contacts = witness.first_contact..witness.first_contact + witness.contact_count;
+        self.witnesses.push(Witness {
+            first_contact: self.contacts.len(),
+            ..*witness
+        });
+        if list.nv > 0 && !list.gradients.is_empty() {
+            let rows = contacts.start * list.nv..contacts.end * list.nv;
+            self.gradients.extend_from_slice(&list.gradients[rows]);
+        }
+        self.contacts.extend_from_slice(&list.contacts[contacts]);
+    }
+}
+
+/// Appends one row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
+fn push_gradient(
+    space: &Space,
+    posture: Posture,
+    target: &Target,
+    contact: &ContactRecord,
+    rows: &mut Vec<f64>,
+) -> Result<()> {
+    let first = rows.len();
+    rows.resize(first + space.nv(), 0.0);
+    let row = &mut rows[first..];
+    let [on_r, on_s] = &contact.points;
+    let (r_link, _, s_side) = target.parties();
+    space.add_gradient(posture, r_link, on_r, &contact.normal, row)?;
+    let moved_with = match s_side {
+        SSide::Link(s) => Some(s),
+        _ => target.s_carrier,
+    };
+    if let Some(s) = moved_with {
+        space.add_gradient(posture, s, on_s, &-contact.normal, row)?;
+    }
+    Ok(())
+}
+
+/// The candidates in the order of their ranks, by which hits name them.
+fn by_rank<'t, 'a>(candidates: &'t [Target<'a>]) -> Vec<&'t Target<'a>> {
+    let mut ranked: Vec<_> = candidates.iter().collect();
+    ranked.sort_unstable_by_key(|candidate| candidate.rank);
+    ranked
+}

@@ -1,0 +1,70 @@
+//! The states of environments that queries see.
+
+use std::sync::Arc;
+
+use crate::cobject::CObject;
+use crate::environment::{Attachment, Environment, SObject, Snapshot};
+use crate::error::{Error, ErrorKind, Result};
+use crate::space::Space;
+
+/// One snapshot of each environment that a C-object refers to: what a query, or several that belong together, see.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// By serials of environments, in their order.
+    snapshots: Vec<(u64, Arc<Snapshot>)>,
+    version: u64,
+}
+
+impl World {
+    /// The world as it is now.
+    pub fn of(cobject: &CObject) -> Self {
+        let environments = cobject.environments().iter();
+        let snapshots: Vec<(u64, Arc<Snapshot>)> = environments
+            .map(|environment| (environment.serial(), environment.snapshot()))
+            .collect();
+        let versions = snapshots.iter().map(|(_, snapshot)| snapshot.version);
+        Self {
+            version: versions.max().unwrap_or(0),
+            snapshots,
+        }
+    }
+
+    /// The largest version of the environments.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The s-objects attached to links of a space, with their environments' serial numbers. Those attached elsewhere are
+    /// errors: where they are is not known here.
+    pub fn attached<'a>(
+        &'a self,
+        space: &Space,
+    ) -> impl Iterator<Item = Result<(u64, &'a SObject, &'a Attachment)>> {
+        let serial = space.serial();
+        let all = self.snapshots.iter().flat_map(|(environment, snapshot)| {
+            let attached = snapshot.attached();
+            attached.map(move |object| (*environment, object, object.attachment.as_deref()))
+        });
+        all.filter_map(move |(environment, object, attachment)| {
+            let attachment = attachment?;
+            Some(if attachment.space == serial {
+                Ok((environment, object, attachment))
+            } else {
+                let id = object.id;
+                Err(Error::new(
+                    ErrorKind::Unsupported,
+                    format!("s-object {id} is attached to a link of another space"),
+                ))
+            })
+        })
+    }
+
+    /// The state of an environment; `None` if the world is that of a C-object that does not refer to it.
+    pub fn snapshot(&self, environment: &Environment) -> Option<&Arc<Snapshot>> {
+        let serial = environment.serial();
+        let place = self
+            .snapshots
+            .binary_search_by_key(&serial, |(serial, _)| *serial);
+        Some(&self.snapshots[place.ok()?].1)
+    }
+}

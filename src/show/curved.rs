@@ -1,0 +1,47 @@
+//! Curved primitives as meshes.
+
+use crate::hierarchy::Surface;
+use crate::pose::Vec3;
+use crate::primitive::Convex;
+
+/// Directions are taken on so many circles of latitude, and so many on each.
+const RINGS: usize = 16;
+const SECTORS: usize = 32;
+
+/// A curved primitive's points that are farthest along evenly spread directions, joined as the directions are: a mesh within
+/// the set, its corners on the surface. Of a set in the plane the outline.
+pub fn curved_surface(primitive: &Convex) -> Surface {
+    use std::f64::consts::{PI, TAU};
+    let at = |ring: usize, sector: usize| {
+        let (polar, azimuth) = (
+            PI * ring as f64 / RINGS as f64,
+            TAU * sector as f64 / SECTORS as f64,
+        );
+        let direction = Vec3::new(
+            polar.sin() * azimuth.cos(),
+            polar.sin() * azimuth.sin(),
+            polar.cos(),
+        );
+        primitive.farthest(&direction)
+    };
+    if primitive.curve.as_ref().is_some_and(|curve| curve.planar) {
+        return Surface {
+            vertices: (0..SECTORS).map(|s| at(RINGS / 2, s)).collect(),
+            faces: vec![(0..SECTORS as u32).collect()],
+        };
+    }
+    let mut vertices = Vec::with_capacity((RINGS + 1) * SECTORS);
+    for ring in 0..=RINGS {
+        vertices.extend((0..SECTORS).map(|sector| at(ring, sector)));
+    }
+    let mut faces = Vec::with_capacity(2 * RINGS * SECTORS);
+    for ring in 0..RINGS {
+        for sector in 0..SECTORS {
+            let node = |ring: usize, sector: usize| (ring * SECTORS + sector % SECTORS) as u32;
+            let [a, b] = [node(ring, sector), node(ring + 1, sector)];
+            let [c, d] = [node(ring + 1, sector + 1), node(ring, sector + 1)];
+            faces.extend([vec![a, b, c], vec![a, c, d]]);
+        }
+    }
+    Surface { vertices, faces }
+}

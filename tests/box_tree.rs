@@ -1,0 +1,229 @@
+//! The tree over boxes that come, move and go: whatever was done to it, each box of a node stands around all that is below.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use cstk::hierarchy::{
+    BOX, BoxFrame, BoxNode, BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox, PackedBox,
+};
+use cstk::pose::{Mat3, Vec3};
+
+use common::random::Random;
+use common::shapes::box_corners;
+
+/// Boxes by their places, and which of them are in the tree.
+#[derive(Clone)]
+struct Set {
+    boxes: Vec<OrientedBox>,
+    held: BTreeSet<usize>,
+}
+
+impl Boxes for Set {
+    fn extent(&self, place: usize) -> Extent {
+        Extent::of(&self.boxes[place].corners)
+    }
+
+    fn oriented(&self, place: usize) -> OrientedBox {
+        self.boxes[place]
+    }
+}
+
+fn random_box(random: &mut Random, center: Vec3, size: f64) -> OrientedBox {
+    let axes = random.rotation();
+    // The shortest side is the last.
+    let sides = [size, size * random.within(0.1, 1.0), size * 0.1];
+    let corners = box_corners(sides);
+    OrientedBox {
+        corners: std::array::from_fn(|i| center + axes * corners[i]),
+        axes,
+    }
+}
+
+/// What was found below a node.
+#[derive(Default)]
+struct Below {
+    places: Vec<usize>,
+    surface: f64,
+    depth: usize,
+}
+
+/// Walks all of a tree and checks every box by the corners below it.
+fn check(node: &BoxNode, frame: &BoxFrame, set: &Set, is_root: bool) -> Below {
+    let mut found = Below::default();
+    let children = node.wide.children();
+    assert!(is_root || children.len() >= 2);
+    for (lane, &child) in children.iter().enumerate() {
+        let below = match &node.below[lane] {
+            Some(below) => {
+                assert_eq!(child & BOX, 0);
+                check(below, frame, set, false)
+            }
+            None => Below {
+                places: vec![(child & !BOX) as usize],
+                ..Below::default()
+            },
+        };
+        for &place in &below.places {
+            for corner in &set.boxes[place].corners {
+                assert_holds(
+                    &node.wide.get(lane),
+                    &((corner - frame.center) / frame.scale),
+                );
+            }
+        }
+        found.places.extend(below.places);
+        found.surface += below.surface;
+        found.depth = found.depth.max(below.depth + 1);
+    }
+    let corners = found.places.iter().flat_map(|&i| set.boxes[i].corners);
+    found.surface += Extent::of(&corners.collect::<Vec<_>>()).half_surface();
+    found
+}
+
+/// In both meanings of a box.
+fn assert_holds(given: &PackedBox, point: &Vec3) {
+    let wide = |v: &[f32; 3]| Vec3::new(v[0].into(), v[1].into(), v[2].into());
+    let axes = Mat3::from_columns(&given.axes.map(|axis| wide(&axis)));
+    let from_center = point - wide(&given.center);
+    let half = wide(&given.half);
+    let along = axes.tr_mul(&from_center);
+    let places = axes.try_inverse().unwrap() * from_center;
+    for k in 0..3 {
+        let most = half[k] + 1e-12;
+        assert!(along[k].abs() <= most && places[k].abs() <= most);
+    }
+}
+
+fn check_all(tree: &BoxTree, set: &Set) -> usize {
+    let Some(root) = tree.root() else {
+        assert!(set.held.is_empty());
+        return 0;
+    };
+    let found = check(root, tree.frame(), set, true);
+    let mut places = found.places;
+    places.sort_unstable();
+    assert!(places.iter().eq(&set.held), "{places:?} {:?}", set.held);
+    let corners = places.iter().flat_map(|&i| set.boxes[i].corners);
+    let root = Extent::of(&corners.collect::<Vec<_>>());
+    assert_eq!(tree.extent(), Some(&root));
+    let below = found.surface - root.half_surface();
+    assert!((tree.surface() - below).abs() <= 1e-9 * found.surface);
+    found.depth
+}
+
+fn built(set: &Set) -> BoxTree {
+    let taken: Vec<u32> = set.held.iter().map(|&place| place as u32).collect();
+    BoxTree::new(&taken, set.boxes.len(), set)
+}
+
+#[test]
+fn boxes_stand_around_all_that_is_below() {
+    let mut random = Random::new(1);
+    for case in 0..24 {
+        let half = [1.0, 1e-3, 1e5][case % 3];
+        let size = half * [0.1, 1e-4, 2.0][case / 3 % 3];
+        let count = 1 + random.below(100);
+        let away = random.point(10.0 * half);
+        let place = |random: &mut Random| {
+            let center = away + random.point(half);
+            random_box(random, center, size)
+        };
+        let mut set = Set {
+            boxes: (0..count).map(|_| place(&mut random)).collect(),
+            held: (0..count).collect(),
+        };
+        let mut tree = built(&set);
+        check_all(&tree, &set);
+        let mut kept = Vec::new();
+        for step in 0..600 {
+            let index = random.below(set.boxes.len());
+            let before = set.extent(index);
+            if step % 97 == 0 {
+                kept.push((tree.clone(), set.clone()));
+            }
+            // Now more come, now more go, at times all.
+            let going = step % 200 > 120;
+            if !set.held.contains(&index) || (!going && random.below(3) == 0) {
+                set.boxes.push(place(&mut random));
+                let index = set.boxes.len() - 1;
+                set.held.insert(index);
+                BoxTreeChanges {
+                    tree: &mut tree,
+                    boxes: &set,
+                }
+                .insert(index);
+            } else if going {
+                set.held.remove(&index);
+                let mut changes = BoxTreeChanges {
+                    tree: &mut tree,
+                    boxes: &set,
+                };
+                changes.remove(index, &before);
+                assert!(!tree.holds(index));
+            } else {
+                let near = random.below(2) == 0;
+                let center = if near {
+                    0.5 * (before.low + before.high) + random.point(0.1 * size)
+                } else {
+                    away + random.point(half)
+                };
+                set.boxes[index] = random_box(&mut random, center, size);
+                BoxTreeChanges {
+                    tree: &mut tree,
+                    boxes: &set,
+                }
+                .follow(index, &before);
+            }
+            if step % 7 == 0 {
+                check_all(&tree, &set);
+            }
+        }
+        for (tree, set) in &kept {
+            check_all(tree, set);
+        }
+        for index in std::mem::take(&mut set.held) {
+            let before = set.extent(index);
+            BoxTreeChanges {
+                tree: &mut tree,
+                boxes: &set,
+            }
+            .remove(index, &before);
+        }
+        check_all(&tree, &set);
+        assert_eq!(tree.surface(), 0.0);
+    }
+}
+
+/// Boxes that come in the worst order do not make the tree deep: it grows by a level when the root is split, and each node
+/// of a split has three children or more.
+#[test]
+fn rows_of_boxes_make_no_deep_tree() {
+    let mut random = Random::new(2);
+    let count = 3000;
+    let along: [fn(f64) -> Vec3; 3] = [
+        |x| Vec3::new(x, 0.0, 0.0),
+        |x| Vec3::new(x, x * x * 1e-3, -x),
+        |_| Vec3::zeros(),
+    ];
+    for line in along {
+        let mut set = Set {
+            boxes: (0..count)
+                .map(|i| random_box(&mut random, line(0.01 * f64::from(i)), 0.02))
+                .collect(),
+            held: [0, count as usize - 1].into(),
+        };
+        let mut tree = built(&set);
+        for index in 1..count as usize - 1 {
+            set.held.insert(index);
+            BoxTreeChanges {
+                tree: &mut tree,
+                boxes: &set,
+            }
+            .insert(index);
+        }
+        let depth = check_all(&tree, &set);
+        // Three to the eighth are more.
+        assert!(depth <= 9, "{depth}");
+    }
+}
