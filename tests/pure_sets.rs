@@ -258,7 +258,7 @@ fn gradients_are_the_derivatives_of_clearances() {
             let set = pure(&space, shape, Some(1.5));
             let mut clearance = |q: &[f64]| {
                 let list = query.gradients(&set, q, f64::INFINITY, 10).unwrap();
-                assert_eq!(list.witnesses[0].s_side, SSide::PureSet);
+                assert!(matches!(list.witnesses[0].s_side, SSide::PureSet(_)));
                 let contact = list.contacts.first().map(|c| c.clearance);
                 contact.map(|clearance| (clearance, list.gradients))
             };
@@ -362,7 +362,7 @@ fn lengths_and_units_of_c_space_are_not_mixed() {
         let of_limits = list
             .witnesses
             .iter()
-            .find(|w| w.s_side == SSide::PureSet)
+            .find(|w| matches!(w.s_side, SSide::PureSet(_)))
             .unwrap();
         assert_eq!(of_limits.contact_count, 1);
         assert_eq!(list.gradients[of_limits.first_contact], -scale);

@@ -5,10 +5,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::pieces::Pieces;
 use super::solid::Solid;
+use crate::error::{Error, Result};
 use crate::hierarchy::{BuildTimes, PackedTree, WrapperTree};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
-use crate::user_data::{UserData, value_of};
+use crate::user_data::UserData;
 
 /// A rigid union of convex primitives, in a frame of its own whose origin is `center` in the caller's frame: the middle
 /// of the primitives' box. Distances are computed around it, so that bodies modelled far from their origin lose nothing.
@@ -27,7 +28,7 @@ pub struct Body {
     /// Made when first asked for, but for solids.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
-    pub(super) data: Option<UserData>,
+    data: OnceLock<UserData>,
 }
 
 /// What became of the input, and what was built.
@@ -73,7 +74,7 @@ impl Body {
             solid: None,
             pieces: OnceLock::new(),
             statistics,
-            data: None,
+            data: OnceLock::new(),
         }
     }
 
@@ -123,7 +124,14 @@ impl Body {
 
     /// The number of the caller's data, or 0.
     pub fn data(&self) -> usize {
-        value_of(&self.data)
+        self.data.get().map_or(0, |data| data.value)
+    }
+
+    /// Attaches the caller's data; once.
+    pub fn set_data(&self, data: UserData) -> Result<()> {
+        self.data
+            .set(data)
+            .map_err(|_| Error::invalid("the body has data already"))
     }
 
     pub fn tag(&self, primitive: u32) -> u64 {

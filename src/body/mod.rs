@@ -5,6 +5,7 @@ mod body;
 mod builder;
 mod closed_surface;
 mod collada;
+mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
@@ -17,6 +18,7 @@ mod vertex_numbers;
 
 pub use body::{Body, BodyStatistics};
 pub use builder::{BodyBuilder, Mesh};
+pub use farthest::Farthest;
 pub use mesh_file::read_mesh_file;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;

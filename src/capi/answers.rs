@@ -6,7 +6,9 @@ use super::body::cstk_feature_kind;
 use super::user_data::address;
 use crate::cobject::Class;
 use crate::convex::ContactMode;
-use crate::query::{ContactRecord, Distance, DistanceKind, PrimitivePenetration, SSide, Witness};
+use crate::query::{
+    ContactRecord, Distance, DistanceKind, PrimitivePenetration, PurePlace, SSide, Witness,
+};
 
 /// Stands for "no such number" in fields that hold a link's number.
 pub const CSTK_NONE: u32 = 0xFFFF_FFFF;
@@ -44,7 +46,7 @@ pub enum cstk_contact_mode {
     CSTK_FACE_POINT = 4,
     CSTK_EDGE_EDGE = 5,
     /// The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
-    /// origin.
+    /// origin, of a floor those of the link's lowest point.
     CSTK_PURE_SET = 6,
 }
 
@@ -73,7 +75,8 @@ pub struct cstk_contact {
     pub reserved: [u64; 2],
 }
 
-/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE.
+/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE, but for
+/// `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness {
@@ -99,7 +102,9 @@ pub struct cstk_witness {
     /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet: they
     /// stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
     pub contained: bool,
-    pub reserved_bytes: [u8; 6],
+    pub reserved_bytes: [u8; 2],
+    /// The coordinate that decides, where joint limits or a C-space box are near; else CSTK_NONE.
+    pub coordinate: u32,
     /// The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
     pub cobject: u64,
     pub cobject_data: *mut c_void,
@@ -282,7 +287,8 @@ impl From<&Witness> for cstk_witness {
                 (witness.r_link as u32, id, carrier)
             }
             SSide::Link(link) => (witness.r_link as u32, 0, link as u32),
-            SSide::PureSet => (CSTK_NONE, 0, CSTK_NONE),
+            SSide::PureSet(PurePlace::World) => (witness.r_link as u32, 0, CSTK_NONE),
+            SSide::PureSet(_) => (CSTK_NONE, 0, CSTK_NONE),
         };
         Self {
             r_link,
@@ -297,7 +303,11 @@ impl From<&Witness> for cstk_witness {
             contact_count: witness.contact_count as u32,
             overlapping: witness.overlapping,
             contained: witness.contained,
-            reserved_bytes: [0; 6],
+            reserved_bytes: [0; 2],
+            coordinate: match witness.s_side {
+                SSide::PureSet(PurePlace::Coordinate(i)) => i as u32,
+                _ => CSTK_NONE,
+            },
             cobject: witness.leaf.serial,
             cobject_data: address(witness.leaf.data),
             r_data: address(witness.data[0]),
@@ -323,7 +333,8 @@ impl cstk_witness {
             contact_count: 0,
             overlapping: false,
             contained: false,
-            reserved_bytes: [0; 6],
+            reserved_bytes: [0; 2],
+            coordinate: CSTK_NONE,
             cobject: 0,
             cobject_data: std::ptr::null_mut(),
             r_data: std::ptr::null_mut(),

@@ -1,34 +1,21 @@
-//! Bodies and their builders.
+//! Bodies.
 
 use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
-use super::boundary::{Failure, guard};
-use super::exclusive::exclusively;
+use super::boundary::guard;
+use super::custom_joint::cstk_destroy_fn;
 use super::handle::{self, Noun};
-use super::hierarchy::cstk_hierarchy_options;
-use super::input::{Output, OutputSlice, options_or_default, path, points, slice};
+use super::input::{Output, OutputSlice, path};
 use super::status::cstk_status;
-use crate::body::{Body, BodyBuilder, Mesh};
+use super::user_data::{Kept, address};
+use crate::body::Body;
 use crate::error::{Error, ErrorKind};
 use crate::primitive::{Feature, FeatureKind};
-
-/// Collects the primitives of a body.
-pub struct cstk_body_builder {
-    _opaque: [u8; 0],
-}
 
 /// A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
 pub struct cstk_body {
     _opaque: [u8; 0],
-}
-
-pub(super) struct Builder(Mutex<BodyBuilder>);
-
-impl Noun for Builder {
-    type Handle = cstk_body_builder;
-    const KIND: u32 = 1;
-    const NAME: &'static str = "cstk_body_builder";
 }
 
 impl Noun for Body {
@@ -36,10 +23,6 @@ impl Noun for Body {
     const KIND: u32 = 2;
     const NAME: &'static str = "cstk_body";
 }
-
-/// Hears how far a long call has come, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_CANCELLED. It is
-/// called on the thread that made the call; it must not throw.
-pub type cstk_progress_fn = Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>;
 
 /// What became of a body's input, and what was built.
 #[repr(C)]
@@ -105,215 +88,6 @@ impl cstk_feature_kind {
     }
 }
 
-pub(super) fn with_builder(
-    builder: *mut cstk_body_builder,
-    action: impl FnOnce(&mut BodyBuilder) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    // A callback may release the caller's last reference meanwhile.
-    let builder = handle::share::<Builder>(builder, "builder")?;
-    // Additions are made whole or not at all, so that a fault leaves the builder sound.
-    exclusively(&builder.0, "the builder", |_| {}, action)
-}
-
-/// Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
-/// surfaces, unless cstk_body_builder_set_solid says otherwise). Release it with cstk_body_builder_release.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_create(
-    dimension: u32,
-    out: *mut *mut cstk_body_builder,
-) -> cstk_status {
-    guard(|| {
-        let out = Output::checked(out, "out")?;
-        let builder = Builder(Mutex::new(BodyBuilder::new(dimension)?));
-        out.write(handle::create(Arc::new(builder)));
-        Ok(())
-    })
-}
-
-/// Adds a reference. CSTK_WRONG_HANDLE if it is no builder.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_retain(builder: *mut cstk_body_builder) -> cstk_status {
-    guard(|| handle::retain::<Builder>(builder, "builder"))
-}
-
-/// Drops a reference; the last one frees the builder. NULL is a no-op.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_release(builder: *mut cstk_body_builder) -> cstk_status {
-    guard(|| handle::release::<Builder>(builder, "builder"))
-}
-
-/// Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, either way round. In space it is a
-/// surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
-///
-/// CSTK_DEGENERATE, CSTK_NOT_CONVEX or CSTK_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
-/// by 1e-12 of the polygon's diameter; use cstk_body_builder_add_mesh to have other polygons split.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_add_polygon(
-    builder: *mut cstk_body_builder,
-    xyz: *const f64,
-    point_count: usize,
-    tag: u64,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states the length.
-            let vertices = unsafe { points(xyz, point_count, "xyz")? };
-            let index = builder.len();
-            Ok(builder
-                .add_polygon(&vertices, tag)
-                .map_err(|e| e.within(format_args!("polygon (primitive {index})")))?)
-        })
-    })
-}
-
-/// Adds the convex hull of `point_count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
-/// points are no more than that. Points inside the hull are ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
-    builder: *mut cstk_body_builder,
-    xyz: *const f64,
-    point_count: usize,
-    tag: u64,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states the length.
-            let vertices = unsafe { points(xyz, point_count, "xyz")? };
-            let index = builder.len();
-            Ok(builder
-                .add_polyhedron(&vertices, tag)
-                .map_err(|e| e.within(format_args!("polyhedron (primitive {index})")))?)
-        })
-    })
-}
-
-/// Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
-/// `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
-/// NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
-///
-/// Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
-/// cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
-/// match, CSTK_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_add_mesh(
-    builder: *mut cstk_body_builder,
-    vertices: *const f64,
-    vertex_count: usize,
-    face_sizes: *const u32,
-    face_count: usize,
-    indices: *const u32,
-    index_count: usize,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states the lengths.
-            let (vertices, indices) = unsafe {
-                (
-                    points(vertices, vertex_count, "vertices")?,
-                    slice(indices, index_count, "indices")?,
-                )
-            };
-            let face_sizes = if face_sizes.is_null() {
-                // One more than there are indices for is enough to name the face that lacks them.
-                vec![3; face_count.min(index_count / 3 + 1)]
-            } else {
-                // SAFETY: as above.
-                unsafe { slice(face_sizes, face_count, "face_sizes")? }.to_vec()
-            };
-            let mesh = Mesh {
-                vertices,
-                face_sizes,
-                indices: indices.to_vec(),
-            };
-            Ok(builder.add_mesh(&mesh)?)
-        })
-    })
-}
-
-/// Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj, .stl (ASCII or binary) or .dae
-/// (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
-/// CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
-    builder: *mut cstk_body_builder,
-    file: *const c_char,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states that it is terminated.
-            let file = unsafe { path(file, "file")? };
-            Ok(builder.add_mesh_file(file)?)
-        })
-    })
-}
-
-/// Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
-/// the default). In a solid the inside counts: a body wholly inside it meets it, at distance 0. Polyhedra are solid by
-/// themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
-///
-/// It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
-/// their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
-/// without area that were left out count where others need them to join. Faces that alone share an edge are turned
-/// round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
-/// where the boundary's winding number is not 0. So shells may overlap; a cavity is a shell that faces the other way than
-/// the one around it; and a boundary that faces inwards all over bounds the same solid.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_set_solid(
-    builder: *mut cstk_body_builder,
-    solid: bool,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            builder.set_solid(solid);
-            Ok(())
-        })
-    })
-}
-
-/// Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
-/// defaults; `progress` may be NULL, `user` is passed to it. CSTK_EMPTY if nothing was added. For a body declared solid,
-/// CSTK_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
-/// CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
-///
-/// The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon;
-/// build once and share, or keep the body in a file (cstk_body_save).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_build(
-    builder: *mut cstk_body_builder,
-    options: *const cstk_hierarchy_options,
-    progress: cstk_progress_fn,
-    user: *mut c_void,
-    out: *mut *mut cstk_body,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            let out = Output::checked(out, "out")?;
-            // SAFETY: checked for size and cookie.
-            let options = unsafe { options_or_default(options, "options")? };
-            let options = options.decode()?;
-            let mut report = reporter(progress, user);
-            let body = builder.build(&options, &mut report)?;
-            out.write(handle::create(Arc::new(body)));
-            Ok(())
-        })
-    })
-}
-
-/// Tells the caller's progress function, if there is one, how far a build is.
-pub(super) fn reporter(
-    progress: cstk_progress_fn,
-    user: *mut c_void,
-) -> impl FnMut(f64) -> Result<(), Error> {
-    move |fraction| match progress {
-        // SAFETY: the caller gives a function of this type.
-        Some(progress) if unsafe { progress(fraction, user) } != 0 => Err(Error::new(
-            ErrorKind::Cancelled,
-            "the progress function ended the work",
-        )),
-        _ => Ok(()),
-    }
-}
-
 /// Adds a reference.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_retain(body: *mut cstk_body) -> cstk_status {
@@ -324,6 +98,41 @@ pub unsafe extern "C" fn cstk_body_retain(body: *mut cstk_body) -> cstk_status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_release(body: *mut cstk_body) -> cstk_status {
     guard(|| handle::release::<Body>(body, "body"))
+}
+
+/// Attaches data of the caller's to a body, however it was made (§2.2.3): witnesses hand them back, as `r_data` for a link's
+/// body, and as `s_data` for a link's or for that of an s-object without data of its own. Once for each body: the second call
+/// is CSTK_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by whichever thread drops the last reference to the
+/// body, and not when this call fails. Other threads may ask about the body meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_set_data(
+    body: *mut cstk_body,
+    data: *mut c_void,
+    destroy: cstk_destroy_fn,
+) -> cstk_status {
+    guard(|| {
+        let body = handle::borrow::<Body>(body, "body")?;
+        let kept = Kept::new(data, destroy);
+        if let Some(data) = kept.as_user_data() {
+            body.set_data(data)?;
+        }
+        kept.take_ownership();
+        Ok(())
+    })
+}
+
+/// Writes the data attached to a body, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_data(
+    body: *const cstk_body,
+    out: *mut *mut c_void,
+) -> cstk_status {
+    guard(|| {
+        let body = handle::borrow::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        out.write(address(body.data()));
+        Ok(())
+    })
 }
 
 /// Writes counts and extents.

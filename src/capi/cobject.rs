@@ -105,7 +105,8 @@ pub unsafe extern "C" fn cstk_cobject_options_default(
 ///
 /// `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
 /// meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
-/// always be nearest. The robot with itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+/// always be nearest. Links 0 to i - 1 give the set of the first i links. The robot with itself is not meant; see
+/// cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
 /// added later too. An object that is deleted later contributes nothing; one of another dimension than the
 /// robots is refused by the queries that meet it. `options` may be NULL for the defaults.
 #[unsafe(no_mangle)]
@@ -150,7 +151,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
 
 /// Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
 /// other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
-/// joined touch at every configuration; leave such pairs out.
+/// joined touch at every configuration; leave such pairs out. Without any pair the set is empty.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced_links(
     space: *const cstk_space,

@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::body::{cstk_progress_fn, reporter};
+use super::body_builder::{cstk_progress_fn, reporter};
 use super::boundary::{Failure, guard};
 use super::handle;
 use super::input::{OptionsStruct, Output, options_or_default, slice, write_defaults};
@@ -78,6 +78,9 @@ pub struct cstk_link_pair {
     pub r_link: u32,
     pub s_link: u32,
     pub verdict: cstk_pair_verdict,
+    /// The robots that the two are of, in the order of the space's.
+    pub r_robot: u32,
+    pub s_robot: u32,
     pub reserved: u32,
     /// The share of the samples in which they touch; 0 where the verdict needed none.
     pub share: f64,
@@ -108,7 +111,9 @@ pub unsafe extern "C" fn cstk_link_pair_options_default(
 
 /// Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
 /// touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
-/// robots are always tested. Give `tested` to cstk_cobject_induced_links; to allow further pairs, leave them out. `options`
+/// robots are always tested. Give `tested` to cstk_cobject_induced_links (it may be empty); to
+/// allow further pairs, leave them out. Two links may count as touching by `margin`: take no less than the margin of that set
+/// together with its contact epsilon, else pairs are tested that are always in contact. `options`
 /// may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_link_pairs(
@@ -170,6 +175,8 @@ impl From<&LinkPair> for cstk_link_pair {
                 PairVerdict::Always => cstk_pair_verdict::CSTK_PAIR_ALWAYS,
                 PairVerdict::Never => cstk_pair_verdict::CSTK_PAIR_NEVER,
             },
+            r_robot: pair.robots[0] as u32,
+            s_robot: pair.robots[1] as u32,
             reserved: 0,
             share: pair.share,
         }

@@ -22,6 +22,8 @@ pub mod pose;
 
 pub mod hierarchy;
 
+pub mod body_builder;
+
 pub mod body;
 
 pub mod shapes;

@@ -10,6 +10,7 @@ use super::predicate::{Functions, cstk_predicate};
 use super::space::cstk_space;
 use super::status::cstk_status;
 use crate::cobject::{CObject, PureOptions, PureShape};
+use crate::pose::Vec3;
 use crate::space::Space;
 
 /// How a pure set measures. Write it with cstk_pure_options_default first.
@@ -110,6 +111,36 @@ pub unsafe extern "C" fn cstk_cobject_world(
 ) -> cstk_status {
     // SAFETY: as the caller states.
     guard(|| unsafe { make(space, options, out, |_| Ok(PureShape::BeyondWorld)) })
+}
+
+/// Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
+/// (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
+/// `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
+/// floor. What links hold is not meant.
+///
+/// Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
+/// at link poses too. Contacts are at that point (see CSTK_PURE_SET), and have a gradient where it is inside as well. The
+/// distance from its complement is not known where it is not 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_floor(
+    space: *const cstk_space,
+    links: *const u32,
+    link_count: usize,
+    normal: *const f64,
+    offset: f64,
+    options: *const cstk_pure_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the lengths.
+    guard(|| unsafe {
+        make(space, options, out, |space| {
+            let links = slice(links, link_count, "links")?;
+            let links: Vec<usize> = links.iter().map(|&link| link as usize).collect();
+            let normal = slice(normal, 3, "normal")?;
+            let normal = Vec3::new(normal[0], normal[1], normal[2]);
+            Ok(PureShape::floor(space, &links, &normal, offset)?)
+        })
+    })
 }
 
 /// Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and

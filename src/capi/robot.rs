@@ -201,7 +201,7 @@ pub unsafe extern "C" fn cstk_robot_joint_name(
     })
 }
 
-fn write_text(
+pub(super) fn write_text(
     text: &str,
     buffer: *mut c_char,
     capacity: usize,

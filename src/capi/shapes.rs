@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::body::{cstk_body_builder, with_builder};
+use super::body_builder::{cstk_body_builder, with_builder};
 use super::boundary::{Failure, guard};
 use super::custom_joint::cstk_destroy_fn;
 use super::input::{array, points, pose, slice};

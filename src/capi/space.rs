@@ -1,11 +1,12 @@
 //! Spaces.
 
+use std::ffi::c_char;
 use std::sync::Arc;
 
 use super::boundary::guard;
 use super::handle::{self, Noun};
 use super::input::{Output, array, slice};
-use super::robot::cstk_robot;
+use super::robot::{cstk_robot, write_text};
 use super::status::cstk_status;
 use crate::error::{Error, ErrorKind};
 use crate::robot::Robot;
@@ -168,6 +169,24 @@ pub unsafe extern "C" fn cstk_space_size(
         nv.write(space.nv());
         link_count.write(space.link_count());
         Ok(())
+    })
+}
+
+/// Writes the name of a link, numbered through the space; see cstk_robot_link_name.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_link_name(
+    space: *const cstk_space,
+    link: u32,
+    buffer: *mut c_char,
+    capacity: usize,
+    length: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::borrow::<Space>(space, "space")?;
+        let found = space
+            .link(link as usize)
+            .ok_or_else(|| absent("link", link as usize, space.link_count()))?;
+        write_text(&found.name, buffer, capacity, length)
     })
 }
 

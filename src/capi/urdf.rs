@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::path::{Path, PathBuf};
 
-use super::body::{cstk_progress_fn, reporter};
+use super::body_builder::{cstk_progress_fn, reporter};
 use super::boundary::{Failure, guard};
 use super::hierarchy::cstk_hierarchy_options;
 use super::input::{

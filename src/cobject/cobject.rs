@@ -234,8 +234,17 @@ impl CObject {
         }
     }
 
-    /// Of a union the same without pairs of bodies that do not move; `None` if nothing is left. Pure sets stay, and so do the
-    /// links against an environment with objects that links hold.
+    /// The union of what is induced, without anything else.
+    pub fn induced_part(&self) -> Self {
+        let set = Set::Union {
+            induced: self.induced_leaves(),
+            others: Vec::new(),
+        };
+        Self::with_set(self.serial, self.space.clone(), set, None)
+    }
+
+    /// Of a union the same without pairs of bodies that do not move, or links over a floor; `None` if nothing is left. Other
+    /// pure sets stay, and so do the links against an environment with objects that links hold.
     pub fn moving(
         &self,
         moves: impl Fn(usize) -> bool,
@@ -260,9 +269,17 @@ impl CObject {
             }))
         });
         let induced: Vec<Arc<Induced>> = moving.collect();
+        let others = others.iter().filter_map(|other| match &other.set {
+            Set::Pure(pure) => {
+                let set = Set::Pure(pure.moving(&moves)?);
+                let space = other.space.clone();
+                Some(Arc::new(Self::with_set(other.serial, space, set, None)))
+            }
+            _ => Some(other.clone()),
+        });
+        let others: Vec<Arc<Self>> = others.collect();
         let is_left = !(induced.is_empty() && others.is_empty());
         is_left.then(|| {
-            let others = others.clone();
             let set = Set::Union { induced, others };
             Self::with_set(self.serial, self.space.clone(), set, None)
         })
@@ -361,10 +378,10 @@ impl Set {
 
     fn needs_coordinates(&self) -> Option<(u64, &'static str)> {
         match self {
-            Self::Pure(pure) => match pure.shape {
-                PureShape::BeyondWorld => None,
-                _ => Some((pure.leaf.serial, pure.shape.name())),
-            },
+            Self::Pure(pure) => {
+                let names = (pure.leaf.serial, pure.shape.name());
+                (!pure.shape.is_in_world()).then_some(names)
+            }
             _ => self.parts().iter().find_map(|part| part.needs_coordinates),
         }
     }
@@ -372,10 +389,10 @@ impl Set {
     fn unit(&self) -> Unit {
         let own = match self {
             Self::Union { induced, .. } if !induced.is_empty() => Unit::Length,
-            Self::Pure(pure) => match (&pure.shape, pure.options.scale) {
-                (PureShape::BeyondWorld, _) | (_, Some(_)) => Unit::Length,
-                _ => Unit::CSpace(pure.leaf.serial),
-            },
+            Self::Pure(pure) if pure.shape.is_in_world() || pure.options.scale.is_some() => {
+                Unit::Length
+            }
+            Self::Pure(pure) => Unit::CSpace(pure.leaf.serial),
             _ => Unit::None,
         };
         let parts = self.parts().iter().map(|part| part.unit);

@@ -114,9 +114,6 @@ impl BodyPairs {
 
     /// Links against links, each pair once.
     pub(super) fn of_links(space: &Space, pairs: &[[usize; 2]]) -> Result<Self> {
-        if pairs.is_empty() {
-            return Err(Error::new(ErrorKind::Empty, "no link pair given"));
-        }
         for (i, pair) in pairs.iter().enumerate() {
             let named = |error: Error| error.within(format_args!("pair {i}"));
             for &link in pair {

@@ -33,10 +33,12 @@ pub struct Measure {
     pub knows_depth: bool,
 }
 
-/// A link's origin that leaves the world box, and the direction out of the set, towards the inside of the box.
+/// Where in the world a set is near: a point of a link (its origin, for the world box), and the direction out of the set.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldPlace {
     pub link: usize,
+    /// Of the link's body, if the point is one of it.
+    pub primitive: Option<u32>,
     pub point: Vec3,
     pub normal: Vec3,
 }
@@ -140,7 +142,7 @@ impl PureSet {
     /// What measures are multiplied by. The world box is measured in lengths already.
     pub fn scale(&self) -> f64 {
         match self.shape {
-            PureShape::BeyondWorld => 1.0,
+            _ if self.shape.is_in_world() => 1.0,
             _ => self.options.scale.unwrap_or(1.0),
         }
     }
@@ -182,6 +184,20 @@ impl PureSet {
                     knows_depth: predicate.knows_depth(),
                 }
             }
+            PureShape::Floor {
+                links,
+                normal,
+                offset,
+            } => {
+                let (signed, _) = over_floor(at, links, normal, *offset);
+                let reach = links.iter().map(|&link| reach_of(at, link));
+                Measure {
+                    signed,
+                    error: DISTANCE_ERROR * reach.fold(offset.abs(), f64::max),
+                    is_bound: false,
+                    knows_depth: false,
+                }
+            }
             PureShape::BeyondWorld => {
                 let (signed, _) = beyond_world(at);
                 let size = at.poses.iter().map(|pose| pose.translation.amax());
@@ -206,12 +222,33 @@ impl PureSet {
         Ok(Some(found))
     }
 
-    /// Where in the world, for the world box.
+    /// Where in the world, for sets that are there.
     pub fn place(&self, at: &Stand) -> Option<WorldPlace> {
-        match self.shape {
+        match &self.shape {
             PureShape::BeyondWorld => beyond_world(at).1,
+            PureShape::Floor {
+                links,
+                normal,
+                offset,
+            } => over_floor(at, links, normal, *offset).1,
             _ => None,
         }
+    }
+
+    /// The coordinate that decides the measure of limits or a box: the one farthest beyond its interval, or nearest to an end
+    /// of it.
+    pub fn coordinate(&self, at: &Stand) -> Option<usize> {
+        let spans = self.spans(at.space, at.q?)?;
+        let known = spans
+            .iter()
+            .enumerate()
+            .filter_map(|(i, span)| Some((i, (*span)?.beyond)));
+        let most = known.clone().map(|(_, beyond)| beyond);
+        let most = most.fold(f64::NEG_INFINITY, f64::max);
+        known
+            .into_iter()
+            .find(|(_, beyond)| *beyond == most)
+            .map(|(i, _)| i)
     }
 
     /// The derivative of the measure, one entry a velocity.
@@ -235,8 +272,8 @@ impl PureSet {
                     .map_err(|e| self.named(Error::new(ErrorKind::Callback, e.message)))?;
                 row
             }
-            PureShape::BeyondWorld => {
-                let (_, place) = beyond_world(at);
+            PureShape::BeyondWorld | PureShape::Floor { .. } => {
+                let place = self.place(at);
                 let mut row = vec![0.0; space.nv()];
                 if let Some(place) = place {
                     let posture = Posture { q, poses: at.poses };
@@ -272,24 +309,13 @@ impl PureSet {
     /// The measure before the scale, its error, and its derivative by the coordinates.
     fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64, Vec<f64>) {
         match &self.shape {
-            PureShape::BeyondLimits => {
-                let spans: Vec<Option<Span>> = space
-                    .coordinates()
-                    .iter()
-                    .zip(q)
-                    .map(|(&coordinate, &x)| match coordinate {
-                        Coordinate::Interval { lower, upper } => span(coordinate, x, lower, upper),
-                        _ => None,
-                    })
-                    .collect();
-                let (within, error, slopes) = of_spans(&spans);
-                (-within, error, slopes.iter().map(|x| -x).collect())
-            }
-            PureShape::Box { low, high } => {
-                let spans: Vec<Option<Span>> = (0..q.len())
-                    .map(|i| span(space.coordinates()[i], q[i], low[i], high[i]))
-                    .collect();
-                of_spans(&spans)
+            PureShape::BeyondLimits | PureShape::Box { .. } => {
+                let spans = self.spans(space, q).unwrap_or_default();
+                let (measure, error, slopes) = of_spans(&spans);
+                if matches!(self.shape, PureShape::Box { .. }) {
+                    return (measure, error, slopes);
+                }
+                (-measure, error, slopes.iter().map(|x| -x).collect())
             }
             PureShape::HalfSpace { normal, offset } => {
                 let length = norm(normal);
@@ -307,8 +333,24 @@ impl PureSet {
                 let error = 8.0 * (q.len() as f64).sqrt() * EPSILON * size;
                 (norm(&offset) - radius, error, Vec::new())
             }
-            PureShape::BeyondWorld | PureShape::Predicate(_) => (f64::INFINITY, 0.0, Vec::new()),
+            PureShape::BeyondWorld | PureShape::Floor { .. } | PureShape::Predicate(_) => {
+                (f64::INFINITY, 0.0, Vec::new())
+            }
         }
+    }
+
+    /// How far each coordinate is from the ends of its interval, for limits and boxes.
+    fn spans(&self, space: &Space, q: &[f64]) -> Option<Vec<Option<Span>>> {
+        let coordinates = space.coordinates().iter().zip(q).enumerate();
+        let spans = coordinates.map(|(i, (&coordinate, &x))| match &self.shape {
+            PureShape::BeyondLimits => match coordinate {
+                Coordinate::Interval { lower, upper } => Some(span(coordinate, x, lower, upper)),
+                _ => Some(None),
+            },
+            PureShape::Box { low, high } => Some(span(coordinate, x, low[i], high[i])),
+            _ => None,
+        });
+        spans.collect()
     }
 
     fn coordinates<'a>(&self, at: &Stand<'a>) -> Result<&'a [f64]> {
@@ -442,12 +484,50 @@ fn beyond_world(at: &Stand) -> (f64, Option<WorldPlace>) {
             least = clear;
             place = Some(WorldPlace {
                 link,
+                primitive: None,
                 point,
                 normal,
             });
         }
     }
     (least, place)
+}
+
+/// How far over a floor the lowest point of some links is, and that point.
+fn over_floor(
+    at: &Stand,
+    links: &[usize],
+    normal: &Vec3,
+    offset: f64,
+) -> (f64, Option<WorldPlace>) {
+    let mut least = f64::INFINITY;
+    let mut place = None;
+    for &link in links {
+        let Some(body) = at.space.link(link).and_then(|link| link.body.as_deref()) else {
+            continue;
+        };
+        let pose = &at.poses[link];
+        let lowest = body.farthest(&-pose.rotation.tr_mul(normal));
+        let point = pose.transform_point(&(lowest.point + body.center()));
+        let over = normal.dot(&point) - offset;
+        if over < least {
+            least = over;
+            place = Some(WorldPlace {
+                link,
+                primitive: Some(lowest.primitive),
+                point,
+                normal: *normal,
+            });
+        }
+    }
+    (least, place)
+}
+
+/// No coordinate that goes into the points of a link is larger.
+fn reach_of(at: &Stand, link: usize) -> f64 {
+    let body = at.space.link(link).and_then(|link| link.body.as_deref());
+    let body = body.map_or(0.0, |body| body.reach() + body.deviation() / DISTANCE_ERROR);
+    at.poses[link].translation.norm() + body
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::{Leaf, Predicate};
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
+use crate::pose::Vec3;
 use crate::robot::Coordinate;
 use crate::space::Space;
 use crate::tolerance;
@@ -26,6 +27,13 @@ pub enum PureShape {
     BeyondLimits,
     /// Where the origin of some link is outside the world box; measures in lengths. Open.
     BeyondWorld,
+    /// Where the body of some of the links reaches the half-space normal . x <= offset of the world; the normal has length 1.
+    /// Measures in lengths.
+    Floor {
+        links: Vec<usize>,
+        normal: Vec3,
+        offset: f64,
+    },
     /// Where every coordinate is in its interval; on a circle the arc from `low` upwards to `high`.
     Box { low: Vec<f64>, high: Vec<f64> },
     /// Where normal . q <= offset.
@@ -58,11 +66,52 @@ impl PureShape {
         match self {
             Self::BeyondLimits => "a set beyond limits",
             Self::BeyondWorld => "a set beyond the world box",
+            Self::Floor { .. } => "a floor",
             Self::Box { .. } => "a box",
             Self::HalfSpace { .. } => "a half-space",
             Self::Ball { .. } => "a ball",
             Self::Predicate(_) => "a predicate",
         }
+    }
+
+    /// A floor for links, or for all that have a body if none is named. The normal may have any length, which the offset is
+    /// in units of.
+    pub fn floor(space: &Space, links: &[usize], normal: &Vec3, offset: f64) -> Result<Self> {
+        require_coordinates(normal.as_slice(), "normal entry")?;
+        require_coordinates(&[offset], "offset")?;
+        if space.dimension() == 2 && normal.z != 0.0 {
+            return Err(Error::invalid(format!(
+                "the normal leaves the plane of the space: its z is {}",
+                normal.z
+            )));
+        }
+        let largest = normal.amax();
+        if largest < 1e-100 {
+            return Err(Error::new(
+                ErrorKind::Degenerate,
+                "the floor's normal has no length",
+            ));
+        }
+        let scaled = normal / largest;
+        let length = scaled.norm();
+        let has_body = |&link: &usize| space.link(link).is_some_and(|link| link.body.is_some());
+        let mut chosen: Vec<usize> = match links {
+            [] => (0..space.link_count()).filter(has_body).collect(),
+            _ => links.to_vec(),
+        };
+        check_links(space, &chosen)?;
+        chosen.sort_unstable();
+        chosen.dedup();
+        Ok(Self::Floor {
+            links: chosen,
+            normal: scaled / length,
+            offset: offset / largest / length,
+        })
+    }
+
+    /// Whether it measures in lengths by itself, and link poses are enough to tell.
+    pub fn is_in_world(&self) -> bool {
+        matches!(self, Self::BeyondWorld | Self::Floor { .. })
     }
 
     /// Whether its boundary is not part of it.
@@ -73,6 +122,7 @@ impl PureShape {
     pub(super) fn check(&self, space: &Space) -> Result<()> {
         match self {
             Self::BeyondLimits | Self::BeyondWorld | Self::Predicate(_) => Ok(()),
+            Self::Floor { links, .. } => check_links(space, links),
             Self::Box { low, high } => check_box(space, low, high),
             Self::HalfSpace { normal, offset } => check_half_space(space, normal, *offset),
             Self::Ball { center, radius } => {
@@ -86,6 +136,20 @@ impl PureShape {
                 Ok(())
             }
         }
+    }
+}
+
+impl PureSet {
+    /// Of a floor that for the links that move; `None` if there are none.
+    pub(super) fn moving(&self, moves: &impl Fn(usize) -> bool) -> Option<Self> {
+        let mut kept = self.clone();
+        if let PureShape::Floor { links, .. } = &mut kept.shape {
+            links.retain(|&link| moves(link));
+            if links.is_empty() {
+                return None;
+            }
+        }
+        Some(kept)
     }
 }
 
@@ -108,6 +172,17 @@ impl PureOptions {
             }
         }
         Ok(())
+    }
+}
+
+fn check_links(space: &Space, links: &[usize]) -> Result<()> {
+    let count = space.link_count();
+    match links.iter().find(|link| **link >= count) {
+        Some(link) => Err(Error::new(
+            ErrorKind::NotFound,
+            format!("link {link} does not exist; the space has {count}, counted from 0"),
+        )),
+        None => Ok(()),
     }
 }
 

@@ -121,7 +121,7 @@ impl ObjectTree {
         let is_loose = self.surface() > 1.3 * more * surface;
         is_blurred && changes > self.count / 16
             || self.strays.len() > strays + self.count / 8
-            || is_loose && changes > self.count / 4 + 8
+            || is_loose && changes > self.count
             || self.count > 2 * count + 8
             || changes > 4 * self.count + 64
             || self.tree.places() > 2 * self.count + 64

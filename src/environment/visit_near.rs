@@ -3,10 +3,10 @@
 use super::bounds::{Bounds, slack};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
-use crate::hierarchy::{BOX, BoxNode, PackedBox, power_of_two};
+use crate::hierarchy::{BOX, BoxNode, Extent, PackedBox, power_of_two};
 use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
-use crate::pose::Pose;
+use crate::pose::{Pose, Vec3};
 
 impl ObjectTree {
     /// Visits, for each of some bodies, the objects that may be within a limit of it: by the body's name and pose, what
@@ -44,13 +44,18 @@ pub struct NearScratch(Vec<Open<'static>>);
 #[derive(Clone, Copy, Debug, Default)]
 struct Open<'a> {
     bound: f32,
-    /// An object by its place, if it is no node.
+    /// A stray by its place, if it is no node.
     place: u32,
     node: Option<&'a BoxNode>,
+    /// For which bodies: a bit each.
+    bodies: u64,
 }
 
 /// A name, a body and its pose.
 pub type Named<'b> = (usize, &'b Body, &'b Pose);
+
+/// So many bodies go down the tree together.
+const TOGETHER: usize = u64::BITS as usize;
 
 struct Visit<'a, 'o, B, V> {
     objects: &'o ObjectTree,
@@ -69,63 +74,128 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
+        let mut bodies: Vec<(Named, Bounds)> = Vec::with_capacity(self.bodies.size_hint().0);
+        loop {
+            let next = self.bodies.by_ref().take(TOGETHER);
+            bodies.extend(next.map(|named| (named, Bounds::of(named.1, named.2))));
+            if bodies.is_empty() {
+                return;
+            }
+            self.descend(lanes, &bodies);
+            bodies.clear();
+        }
+    }
+}
+
+impl<'b, B, V> Visit<'_, '_, B, V>
+where
+    V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
+{
+    #[inline(always)]
+    fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
+        let descent = Descent::new(self.objects, bodies);
+        let all = u64::MAX >> (TOGETHER - bodies.len());
+        let first = |node, place| Open {
+            bound: f32::NEG_INFINITY,
+            place,
+            node,
+            bodies: all,
+        };
+        self.open.clear();
+        // Those that are not in the tree come last.
+        let strays = self.objects.strays.iter();
+        self.open.extend(strays.map(|&place| first(None, place)));
         let root = self.objects.tree.root();
-        for named in self.bodies {
-            let (_, body, pose) = named;
-            let body = Bounds::of(body, pose);
-            let descent = Descent::new(self.objects, &body);
-            let first = |node, place| Open {
-                bound: f32::NEG_INFINITY,
-                place,
-                node,
+        self.open.extend(root.map(|root| first(Some(root), 0)));
+        while let Some(next) = self.open.pop() {
+            let Some(node) = next.node else {
+                for (named, body) in bodies {
+                    let at_least = f64::NEG_INFINITY;
+                    self.limit = (self.visit)(named, body, next.place as usize, at_least);
+                }
+                continue;
             };
-            self.open.clear();
-            // Those that are not in the tree come last.
-            let strays = self.objects.strays.iter();
-            self.open.extend(strays.map(|&place| first(None, place)));
-            self.open.extend(root.map(|root| first(Some(root), 0)));
-            while let Some(Open { bound, place, node }) = self.open.pop() {
-                let cutoff = descent.cutoff(self.limit);
-                if bound > cutoff {
+            let mut cutoff = descent.cutoff(self.limit);
+            if next.bound > cutoff {
+                continue;
+            }
+            let wide = &node.wide;
+            let eight = wide.boxes(lanes, descent.unit);
+            let children = (1 << wide.count) - 1;
+            if next.bodies == all && bodies.len() > 1 {
+                // Far from the bodies, all of them are elsewhere, or go the same way.
+                let bounds = bounds(lanes, &eight, &descent.around, false);
+                let near = lanes.at_most(bounds, cutoff) & children;
+                if near == 0 {
                     continue;
                 }
-                let Some(node) = node else {
-                    let at_least = descent.lower(bound);
-                    self.limit = (self.visit)(&named, &body, place as usize, at_least);
+                let lane = near.trailing_zeros() as usize & 7;
+                let below = node.below[lane].as_deref();
+                if near.is_power_of_two() && below.is_some() {
+                    self.open.push(Open {
+                        bound: lanes.array(bounds)[lane],
+                        node: below,
+                        ..next
+                    });
                     continue;
-                };
-                let wide = &node.wide;
-                let eight = wide.boxes(lanes, descent.unit);
-                let bounds = bounds(lanes, &eight, &descent.one, false);
-                let mut near = lanes.at_most(bounds, cutoff) & ((1 << wide.count) - 1);
+                }
+            }
+            let mut nearest = [f32::INFINITY; 8];
+            let mut of_lanes = [0; 8];
+            let mut rest = next.bodies;
+            while rest != 0 {
+                let at = rest.trailing_zeros() as usize;
+                let bit = rest & rest.wrapping_neg();
+                rest ^= bit;
+                let bounds = bounds(lanes, &eight, &descent.bodies[at], false);
+                let mut near = lanes.at_most(bounds, cutoff) & children;
                 let bounds = lanes.array(bounds);
-                let first = self.open.len();
                 while near != 0 {
                     let lane = near.trailing_zeros() as usize & 7;
                     near &= near - 1;
-                    let bound = bounds[lane];
-                    let mut at = self.open.len();
-                    self.open.push(Open {
-                        bound,
-                        place: wide.children[lane] & !BOX,
-                        node: node.below[lane].as_deref(),
-                    });
-                    // The nearest goes on top.
-                    while at > first && self.open[at - 1].bound < bound {
-                        self.open.swap(at - 1, at);
-                        at -= 1;
+                    let child = wide.children[lane];
+                    if child & BOX == 0 {
+                        of_lanes[lane] |= bit;
+                        nearest[lane] = nearest[lane].min(bounds[lane]);
+                    } else if bounds[lane] <= cutoff {
+                        let (named, body) = &bodies[at];
+                        let place = (child & !BOX) as usize;
+                        let at_least = descent.lower(bounds[lane]);
+                        self.limit = (self.visit)(named, body, place, at_least);
+                        cutoff = descent.cutoff(self.limit);
                     }
+                }
+            }
+            let first = self.open.len();
+            for lane in 0..wide.count as usize & 15 {
+                let lane = lane & 7;
+                if of_lanes[lane] == 0 {
+                    continue;
+                }
+                let bound = nearest[lane];
+                let mut at = self.open.len();
+                self.open.push(Open {
+                    bound,
+                    place: 0,
+                    node: node.below[lane].as_deref(),
+                    bodies: of_lanes[lane],
+                });
+                // The nearest goes on top.
+                while at > first && self.open[at - 1].bound < bound {
+                    self.open.swap(at - 1, at);
+                    at -= 1;
                 }
             }
         }
     }
 }
 
-/// A body as it goes down the tree. Lengths in single precision are in units of a power of two next above the size of the
-/// two.
+/// Bodies as they go down the tree. Lengths in single precision are in units of a power of two next above the size of all.
 struct Descent {
-    /// The body's box, from the tree's centre.
-    one: PackedBox,
+    /// The bodies' boxes, from the tree's centre.
+    bodies: Vec<PackedBox>,
+    /// A box around all of them.
+    around: PackedBox,
     /// The unit of the tree, and that of the descent.
     unit: f32,
     scale: f64,
@@ -136,25 +206,43 @@ struct Descent {
 
 impl Descent {
     #[inline(always)]
-    fn new(objects: &ObjectTree, body: &Bounds) -> Self {
+    fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)]) -> Self {
         let frame = objects.tree.frame();
-        let from_center = body.box_center - frame.center;
-        let size = objects.radius.max(from_center.norm() + body.box_radius);
+        let mut size = objects.radius;
+        let (mut reach, mut deviation) = (objects.reach, 0.0f64);
+        for (_, body) in bodies {
+            let from_center = body.box_center - frame.center;
+            size = size.max(from_center.norm() + body.box_radius);
+            reach = reach.max(body.reach);
+            deviation = deviation.max(body.deviation);
+        }
         let scale = power_of_two(size);
         let inverse_scale = 1.0 / scale;
-        let reach = objects.reach.max(body.reach);
-        let [x, y] = [&body.axes[0], &body.axes[1]];
-        let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
+        let mut whole: Option<Extent> = None;
+        let bodies = bodies.iter().map(|(_, body)| {
+            let extent = body.extent();
+            whole = Some(whole.map_or(extent, |whole| whole.union(&extent)));
+            packed(
+                &[body.axes[0], body.axes[1]],
+                &(body.box_center - frame.center),
+                &body.half,
+                inverse_scale,
+            )
+        });
+        let bodies = bodies.collect();
+        let whole = whole.unwrap_or_default();
         Self {
-            one: PackedBox {
-                axes: [x, y, cross3(&x, &y)],
-                center: each3(|k| (from_center[k] * inverse_scale) as f32),
-                half: each3(|i| ((body.half[i] * inverse_scale) as f32).next_up()),
-            },
+            bodies,
+            around: packed(
+                &[Vec3::x(), Vec3::y()],
+                &(whole.center() - frame.center),
+                &(0.5 * (whole.high - whole.low)),
+                inverse_scale,
+            ),
             unit: (frame.scale * inverse_scale) as f32,
             scale,
             inverse_scale,
-            slack: slack(reach, objects.deviation + body.deviation) + ROUNDING * size,
+            slack: slack(reach, objects.deviation + deviation) + ROUNDING * size,
         }
     }
 
@@ -168,5 +256,16 @@ impl Descent {
     #[inline(always)]
     fn lower(&self, bound: f32) -> f64 {
         f64::from(bound) * self.scale - self.slack
+    }
+}
+
+/// A box in single precision, in units of a power of two.
+#[inline(always)]
+fn packed([x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3, inverse_scale: f64) -> PackedBox {
+    let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
+    PackedBox {
+        axes: [x, y, cross3(&x, &y)],
+        center: each3(|k| (center[k] * inverse_scale) as f32),
+        half: each3(|i| ((half[i] * inverse_scale) as f32).next_up()),
     }
 }

@@ -11,7 +11,18 @@ pub enum SSide {
     Object(u64),
     Link(usize),
     /// There is no pair of bodies: a pure set.
-    PureSet,
+    PureSet(PurePlace),
+}
+
+/// Where a pure set is near.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PurePlace {
+    /// At all coordinates together.
+    Configuration,
+    /// At the coordinate of limits or a box that decides.
+    Coordinate(usize),
+    /// In the world: at the origin of the r-link, for the world box, or at its primitive, for a floor.
+    World,
 }
 
 /// What a distance says.
@@ -44,8 +55,8 @@ pub struct Distance {
     pub version: u64,
 }
 
-/// A primitive pair, a piece of a body inside another body, or a pure set, whose numbers of links and primitives are 0. Its
-/// contacts are `contact_count` entries of the list it comes in, from `first_contact`.
+/// A primitive pair, a piece of a body inside another body, or a pure set, whose numbers of links and primitives are 0 unless
+/// it is one of the world. Its contacts are `contact_count` entries of the list it comes in, from `first_contact`.
 #[derive(Clone, Copy, Debug)]
 pub struct Witness {
     /// The leaf of the C-object that it is of.
@@ -71,7 +82,7 @@ pub struct Witness {
     pub contained: bool,
 }
 
-/// One contact, in the world. One of a pure set has neither points nor a normal, unless it is of the world box.
+/// One contact, in the world. One of a pure set has neither points nor a normal, unless it is of the world box or a floor.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactRecord {
     pub points: [Vec3; 2],

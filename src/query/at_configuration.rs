@@ -67,6 +67,12 @@ impl QueryContext {
         self.class_of(cobject, &scene)
     }
 
+    /// The same in a given world, at a configuration.
+    pub fn classify_in(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<Class> {
+        let scene = scene(cobject, world, Configuration::Coordinates(q))?;
+        self.class_of(cobject, &scene)
+    }
+
     /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does a distance of
     /// which nothing is known.
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {

@@ -52,6 +52,8 @@ pub enum PairVerdict {
 #[derive(Clone, Copy, Debug)]
 pub struct LinkPair {
     pub links: [usize; 2],
+    /// The robots that the two are of.
+    pub robots: [usize; 2],
     pub verdict: PairVerdict,
     /// The share of the samples in which the two touch; 0 where the verdict needed none.
     pub share: f64,
@@ -193,6 +195,7 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
         let lowest = &lowest;
         links[i + 1..].iter().map(move |&s| LinkPair {
             links: [r, s],
+            robots: [r, s].map(|link| space.robot_of(link)),
             verdict: if joined(s) || lowest[r] == lowest[s] {
                 PairVerdict::Adjacent
             } else {

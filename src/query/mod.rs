@@ -24,8 +24,8 @@ mod target;
 mod world;
 
 pub use answer::{
-    ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, SSide, Witness,
-    WitnessList,
+    ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, PurePlace, SSide,
+    Witness, WitnessList,
 };
 pub use at_configuration::{PseudoNormal, Shell};
 pub use context::QueryContext;

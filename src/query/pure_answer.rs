@@ -1,8 +1,8 @@
 //! What queries answer about a pure set.
 
-use super::answer::{ContactRecord, Distance, SSide, Witness};
+use super::answer::{ContactRecord, Distance, PurePlace, SSide, Witness};
 use super::scene::Scene;
-use crate::cobject::{Class, PureSet, Reach, WorldPlace};
+use crate::cobject::{Class, PureSet, PureShape, Reach, WorldPlace};
 use crate::convex::ContactMode;
 use crate::error::Result;
 use crate::pose::Vec3;
@@ -81,15 +81,27 @@ impl PureAt<'_> {
     }
 
     fn witness(&self, reach: &Reach) -> Witness {
+        let stand = self.scene.stand();
+        let world = self.set.place(&stand);
+        let coordinate = self.set.coordinate(&stand);
+        let place = match coordinate {
+            Some(coordinate) => PurePlace::Coordinate(coordinate),
+            None if world.is_some() => PurePlace::World,
+            None => PurePlace::Configuration,
+        };
+        let link = world.map_or(0, |place| place.link);
+        let primitive = world.and_then(|place| place.primitive).unwrap_or(0);
+        let body = stand.space.link(link).and_then(|link| link.body.as_deref());
+        let body = body.filter(|_| matches!(world, Some(place) if place.primitive.is_some()));
         Witness {
             leaf: self.set.leaf,
-            r_link: 0,
+            r_link: link,
             r_object: 0,
             s_carrier: None,
-            s_side: SSide::PureSet,
-            primitives: [0; 2],
-            tags: [0; 2],
-            data: [0; 2],
+            s_side: SSide::PureSet(place),
+            primitives: [primitive, 0],
+            tags: [body.map_or(0, |body| body.tag(primitive)), 0],
+            data: [body.map_or(0, |body| body.data()), 0],
             distance: reach.distance,
             first_contact: 0,
             contact_count: 0,
@@ -106,7 +118,8 @@ impl PureAt<'_> {
         let knows = if measure.signed > 0.0 {
             !(self.complement && measure.is_bound)
         } else {
-            measure.knows_depth
+            // How deep a link is in a floor says less than how far the robot is from being out, but tells the way.
+            measure.knows_depth || matches!(self.set.shape, PureShape::Floor { .. })
         };
         if !knows || !measure.signed.is_finite() {
             return Ok(None);
@@ -127,7 +140,7 @@ impl PureAt<'_> {
 }
 
 impl ContactRecord {
-    /// Puts the contact where a link's origin is next to the world box.
+    /// Puts the contact where a link is next to the world box or a floor.
     fn place(&mut self, place: &WorldPlace, sign: f64) {
         let normal = place.normal * sign;
         self.points = [place.point, place.point - normal * self.clearance];

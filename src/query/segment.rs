@@ -105,6 +105,11 @@ fn pure_motion_bound(cobject: &CObject, q: &[f64], v: &[f64]) -> f64 {
     };
     match pure.shape {
         PureShape::Predicate(_) => f64::INFINITY,
+        PureShape::Floor { ref links, .. } => {
+            let space = cobject.space();
+            let links = links.iter().map(|&link| space.motion_bound(link, q, v));
+            links.fold(0.0, f64::max)
+        }
         PureShape::BeyondWorld => {
             let space = cobject.space();
             let links = 0..space.link_count();

@@ -30,13 +30,19 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     };
     // One state of the world for the whole picture.
     let world = &World::of(cobject);
-    let found = QueryContext::new().pseudo_normal_in(world, cobject, q, &shell)?;
+    // Limits without a scale have no place in the world: what is near is shown without them.
+    let in_lengths = cobject.require_one_unit().is_err();
+    let part = in_lengths.then(|| cobject.induced_part());
+    let measured = part.as_ref().unwrap_or(cobject);
+    let context = &mut QueryContext::new();
+    let class = context.classify_in(world, cobject, q)?;
+    let found = context.pseudo_normal_in(world, measured, q, &shell)?;
     let mut drawing = Drawing::new(world, cobject, q)?;
     drawing.draw_bodies();
     drawing.draw_witnesses(&found)?;
     let extras = json!({
         "configuration": q,
-        "class": format!("{:?}", found.class),
+        "class": format!("{class:?}"),
         "distance": finite(found.distance.distance),
     });
     write_whole(path, &drawing.document.into_bytes(extras))
