@@ -316,11 +316,7 @@ fn polygons(random: &mut Random) -> Vec<Shape> {
 
 /// A tenth of the cases, unless all are asked for.
 fn share() -> usize {
-    if std::env::var_os("CSTK_ALL_CASES").is_some() {
-        1
-    } else {
-        10
-    }
+    if common::all_cases() { 1 } else { 10 }
 }
 
 /// Each mode with each joint often enough that every mode and every joint has ten thousand cases.

@@ -13,6 +13,7 @@ use cstk::error::ErrorKind;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext, SSide};
 use cstk::space::Space;
+use cstk::user_data::UserData;
 
 use common::changing::{
     Model, any_pose, beside_one, change, configurations, made_anew, options, spatial_bodies,
@@ -25,7 +26,7 @@ use common::shapes::{cuboid, planar};
 fn answers(cobject: &CObject, ids: &[u64], at: &[[f64; 6]], context: &mut QueryContext) -> String {
     let place = |side: SSide| match side {
         SSide::Object(id) => ids.iter().position(|&other| other == id).unwrap(),
-        SSide::Link(_) | SSide::PureSet => unreachable!("only objects are in the C-object"),
+        SSide::Link(_) | SSide::PureSet(_) => unreachable!("only objects are in the C-object"),
     };
     let mut said = String::new();
     for q in at {
@@ -324,4 +325,32 @@ fn planar_environments_change_as_well() {
             assert_eq!(found.lower.to_bits(), other.lower.to_bits());
         }
     }
+}
+
+/// What is dropped with the last state that holds an object may itself change the environment.
+#[test]
+fn what_an_object_keeps_may_change_the_environment() {
+    struct Changes(
+        std::sync::Weak<Environment>,
+        Arc<std::sync::atomic::AtomicU64>,
+    );
+    impl Drop for Changes {
+        fn drop(&mut self) {
+            if let Some(environment) = self.0.upgrade() {
+                let (_, version) = environment.apply(&[]).unwrap();
+                self.1.store(version, std::sync::atomic::Ordering::Relaxed);
+            }
+        }
+    }
+    let environment = Arc::new(Environment::default());
+    let seen = Arc::new(std::sync::atomic::AtomicU64::new(0));
+    let keeper = Changes(Arc::downgrade(&environment), seen.clone());
+    let add = Change::Add {
+        body: cuboid([1.0; 3]).body,
+        pose: Pose::identity(),
+        data: Some(UserData::new(1, Some(Arc::new(keeper)))),
+    };
+    let (ids, _) = environment.apply(&[add]).unwrap();
+    environment.apply(&[Change::Delete { id: ids[0] }]).unwrap();
+    assert_eq!(seen.load(std::sync::atomic::Ordering::Relaxed), 3);
 }

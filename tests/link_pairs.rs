@@ -222,3 +222,31 @@ fn options_are_checked() {
     let ended = query.link_pairs(&space, &LinkPairOptions::default(), &mut stopped);
     assert_eq!(ended.unwrap_err().kind, ErrorKind::Cancelled);
 }
+
+/// Links on either side of one without a body are joined, whichever way the chain runs.
+#[test]
+fn frames_without_a_body_join() {
+    let (fixed, turning) = (JointKind::Fixed, JointKind::Revolute);
+    let small = || Some(cuboid([0.2, 0.2, 0.2], Vec3::zeros()));
+    let links = vec![
+        // 0: a root without a body. 1 is fixed to it, 2 turns on it, 3 on a frame that turns on it.
+        part(None, fixed.clone(), [0.0; 3], None),
+        part(Some(0), fixed.clone(), [1.0, 0.0, 0.0], small()),
+        part(Some(0), turning.clone(), [0.0, 3.0, 0.0], small()),
+        part(Some(0), turning.clone(), [0.0; 3], None),
+        part(Some(3), turning.clone(), [0.0, 0.0, 5.0], small()),
+        // 5 stands on 4 with a body.
+        part(Some(4), turning, [0.0, 0.0, 3.0], small()),
+    ];
+    let pairs = judged(&space(vec![robot(3, links)]), &LinkPairOptions::default());
+    for joined in [[1, 2], [1, 4], [2, 4], [4, 5]] {
+        assert_eq!(
+            verdict(&pairs, joined).0,
+            PairVerdict::Adjacent,
+            "{joined:?}"
+        );
+    }
+    for apart in [[1, 5], [2, 5]] {
+        assert_ne!(verdict(&pairs, apart).0, PairVerdict::Adjacent, "{apart:?}");
+    }
+}

@@ -165,7 +165,7 @@ fn balls_measure_turns_by_their_angle() {
 #[test]
 fn the_world_box_holds_the_links_origins() {
     let space = mixed();
-    let world = pure(&space, PureShape::BeyondWorld, None);
+    let world = pure(&space, PureShape::beyond_world(&space), None);
     let q = with(&[(0, 2.0), (7, 1.0), (8, 4.5), (9, 1.0)]);
     assert!((distance(&world, &q) - 0.5).abs() < 1e-14);
     let out = with(&[(8, 9.0), (9, 11.0)]);
@@ -241,7 +241,7 @@ fn gradients_are_the_derivatives_of_clearances() {
         }
         let shapes = [
             PureShape::BeyondLimits,
-            PureShape::BeyondWorld,
+            PureShape::beyond_world(&space),
             PureShape::Box { low, high },
             PureShape::HalfSpace {
                 normal,
@@ -570,4 +570,45 @@ fn shapes_are_checked() {
     };
     assert_eq!(refused(ball(1.0), scaled(-1.0)), InvalidArgument);
     assert_eq!(refused(ball(1.0), scaled(f64::NAN)), NotFinite);
+}
+
+/// A base on the world box's bottom: not out, and in nobody's way.
+#[test]
+fn the_boundary_of_the_world_box_is_allowed() {
+    let mut links = vec![
+        link(None, JointKind::Fixed, Vec3::z()),
+        link(Some(0), JointKind::Prismatic, Vec3::z()),
+    ];
+    let body = cuboid([0.2; 3]).body;
+    links[1].body = Some(body.clone());
+    let world = WorldBox {
+        low: [-1.0, -1.0, 0.0],
+        high: [1.0, 1.0, 2.0],
+    };
+    let space = Arc::new(Space::new(vec![robot(3, links)], &[], world).unwrap());
+    let (obstacles, _) = environment(&[(&body, Pose::from_translation(Vec3::new(9.0, 0.0, 0.0)))]);
+    let induced = Arc::new(against_with(&space, &obstacles, InducedOptions::default()));
+    let options = PureOptions::default();
+    let beyond = CObject::pure(space.clone(), PureShape::beyond_world(&space), options).unwrap();
+    let beyond = Arc::new(beyond);
+    let union = CObject::union(&[induced, beyond.clone()]).unwrap();
+    let mut query = QueryContext::new();
+    let q = [0.5];
+    let at = Configuration::Coordinates(&q);
+    assert_eq!(query.classify(&union, at).unwrap(), Class::Outside);
+    let list = query.witnesses(&beyond, at, 0.0, 10).unwrap();
+    assert!(!list.witnesses[0].overlapping);
+    assert_eq!(list.contacts[0].clearance, 0.0);
+    let options = SlideOptions::with_shell(0.2);
+    let step = query.slide(&union, &q, &[0.3], &options).unwrap();
+    assert_eq!(step.configuration, [0.8]);
+    // The link that moves is held up.
+    let mut q = q.to_vec();
+    for _ in 0..30 {
+        q = query
+            .slide(&union, &q, &[0.1], &options)
+            .unwrap()
+            .configuration;
+    }
+    assert!(q[0] < 2.0 && q[0] > 1.9, "{q:?}");
 }

@@ -7,6 +7,7 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 
+use common::all_cases;
 use common::random::Random;
 
 /// A set at a pose, as the test knows it.
@@ -45,6 +46,30 @@ impl Set {
             Ellipsoid(axes) => axes.component_mul(d).norm(),
             Ball(radius) => radius * d.norm(),
             Points(points) => points.iter().map(|p| p.dot(d)).fold(f64::MIN, f64::max),
+        }
+    }
+
+    /// The point farthest along a direction.
+    fn farthest(&self, d: &Vec3) -> Vec3 {
+        let across = d.x.hypot(d.y);
+        let rim = |radius: f64, z: f64| match across {
+            0.0 => Vec3::new(0.0, 0.0, z),
+            _ => Vec3::new(d.x * radius / across, d.y * radius / across, z),
+        };
+        match self {
+            Cylinder(radius, half) if d.z == 0.0 => rim(*radius, 0.0 * half),
+            Cylinder(radius, half) => rim(*radius, half.copysign(d.z)),
+            Cone(radius, height) if d.z * height > radius * across => Vec3::z() * (0.5 * height),
+            Cone(radius, height) => rim(*radius, -0.5 * height),
+            Ellipsoid(axes) => {
+                let scaled = axes.component_mul(d);
+                axes.component_mul(&scaled) / scaled.norm()
+            }
+            Ball(radius) => d * (radius / d.norm()),
+            Points(points) => {
+                let along = |p: &&Vec3, q: &&Vec3| p.dot(d).total_cmp(&q.dot(d));
+                *points.iter().max_by(along).unwrap()
+            }
         }
     }
 
@@ -231,5 +256,45 @@ fn near_contact_the_distance_keeps_its_digits() {
             let normal = found.contact.unwrap().normal;
             assert!((normal + flat).amax() < 1e-6, "{gap} {normal} {flat}");
         }
+    }
+}
+
+/// Between two planes a little apart, each touched by one of the sets: the gap is the distance, however the bodies are turned.
+/// Smooth sets next to flat ones make tetrahedra to which rounding alone gives an inside.
+#[test]
+fn a_gap_is_never_taken_for_contact() {
+    let mut random = Random::new(23);
+    let count = if all_cases() { 400_000 } else { 40_000 };
+    for _ in 0..count {
+        let spread = [0.01, 1.0][random.below(2)];
+        let (smooth, flat) = (random.below(3), 4 + random.below(3));
+        let smooth = random_set(&mut random, smooth, spread);
+        let flat = random_set(&mut random, flat, spread);
+        let turn = match random.below(4) {
+            0 => Pose::identity().rotation,
+            _ => random.rotation(),
+        };
+        let mut way = match random.below(4) {
+            0 => [Vec3::x(), Vec3::y(), Vec3::z(), -Vec3::z()][random.below(4)],
+            _ => random.unit(),
+        };
+        if random.below(5) == 0 {
+            way = (way + Vec3::z() * 10f64.powf(random.within(0.0, 8.0))).normalize();
+        }
+        let gap = 10f64.powf(random.within(-10.0, -6.0));
+        let pose = Pose {
+            rotation: turn,
+            translation: smooth.farthest(&way) + way * gap
+                - turn * flat.farthest(&-turn.tr_mul(&way)),
+        };
+        let (a, b) = (smooth.body(), flat.body());
+        let found =
+            QueryContext::new().pair_distance((&a, &Pose::identity()), (&b, &pose), f64::INFINITY);
+        let found = found.unwrap();
+        let rounding = 1e-14 * a.reach().max(pose.translation.norm() + b.reach());
+        assert!(
+            found.lower <= gap + rounding && gap - rounding <= found.upper && found.lower > 0.0,
+            "{smooth:?} {flat:?} {pose:?} {gap:e} {found:?}"
+        );
     }
 }

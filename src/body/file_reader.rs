@@ -246,7 +246,8 @@ impl Reader<'_> {
             let sign = i8::from_le_bytes(self.take()?);
             let is_possible = match sign {
                 0 => true,
-                _ => sign.abs() == 1 && primitive.faces.len() == 1,
+                -1 | 1 => primitive.faces.len() == 1,
+                _ => false,
             };
             is_possible
                 .then_some(sign)

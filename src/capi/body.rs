@@ -111,7 +111,7 @@ pub unsafe extern "C" fn cstk_body_set_data(
     destroy: cstk_destroy_fn,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let kept = Kept::new(data, destroy);
         if let Some(data) = kept.as_user_data() {
             body.set_data(data)?;
@@ -128,7 +128,7 @@ pub unsafe extern "C" fn cstk_body_get_data(
     out: *mut *mut c_void,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         out.write(address(body.data()));
         Ok(())
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
     out: *mut cstk_body_statistics,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         let s = body.statistics();
         out.write(cstk_body_statistics {
@@ -177,7 +177,7 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
     count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
         let count = Output::checked(count, "count")?;
         let kind = cstk_feature_kind::decode(kind)
@@ -222,7 +222,7 @@ pub unsafe extern "C" fn cstk_body_save(
     file: *const c_char,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         // SAFETY: checked for NULL; the caller states that it is terminated.
         let file = unsafe { path(file, "file")? };
         Ok(body.save(file)?)

@@ -20,7 +20,7 @@ pub unsafe extern "C" fn cstk_space_contains(
     out: *mut bool,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let q = unsafe { configuration(space, q, nq, "q")? };
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn cstk_space_within_limits(
     coordinate: *mut u32,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         let coordinate = Output::optional(coordinate, "coordinate")?;
         // SAFETY: checked for NULL; the caller states the length.
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn cstk_space_within_world(
     link: *mut u32,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         let link = Output::optional(link, "link")?;
         // SAFETY: checked for NULL; the caller states the length.
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn cstk_space_link_poses(
     poses: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(poses, 12 * space.link_count(), "poses")?;
         // SAFETY: checked for NULL; the caller states the length.
         let q = unsafe { configuration(space, q, nq, "q")? };
@@ -110,7 +110,7 @@ pub unsafe extern "C" fn cstk_space_jacobian(
     jacobian: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(jacobian, 6 * space.nv(), "jacobian")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, point) = unsafe {
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn cstk_space_jacobian(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_neutral(space: *const cstk_space, q: *mut f64) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(q, space.nq(), "q")?;
         out.write(&space.neutral());
         Ok(())
@@ -155,7 +155,7 @@ pub unsafe extern "C" fn cstk_space_step(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(out, space.nq(), "out")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, v) = unsafe { (configuration(space, q, nq, "q")?, slice(v, nv, "v")?) };
@@ -176,7 +176,7 @@ pub unsafe extern "C" fn cstk_space_difference(
     v: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(v, space.nv(), "v")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
@@ -198,7 +198,7 @@ pub unsafe extern "C" fn cstk_space_interpolate(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = OutputSlice::checked(out, space.nq(), "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
@@ -222,7 +222,7 @@ pub unsafe extern "C" fn cstk_space_distance(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
@@ -252,7 +252,7 @@ pub unsafe extern "C" fn cstk_space_sample(
     q: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let advanced = Output::checked(state, "state")?;
         let out = OutputSlice::checked(q, space.nq(), "q")?;
         // SAFETY: checked for NULL and alignment above.
@@ -297,7 +297,7 @@ unsafe fn change(
     out: *mut f64,
     change: impl Fn(&Space, &[f64]) -> Vec<f64>,
 ) -> Result<(), Failure> {
-    let space = handle::borrow::<Space>(space, "space")?;
+    let space = &*handle::share::<Space>(space, "space")?;
     let out = OutputSlice::checked(out, space.nq(), "out")?;
     // SAFETY: as the caller states.
     let q = unsafe { configuration(space, q, nq, "q")? };

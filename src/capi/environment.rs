@@ -59,8 +59,8 @@ pub struct cstk_environment_change {
     pub body: *const cstk_body,
     /// Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
     pub pose: [f64; 12],
-    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. Queries in other spaces that meet
-    /// the object are refused with CSTK_UNSUPPORTED. The object moves with the link. In a set of links against
+    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets
+    /// that the object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the link. In a set of links against
     /// s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
     /// s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
     pub space: *const cstk_space,
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn cstk_environment_apply(
     version: *mut u64,
 ) -> cstk_status {
     guard(|| {
-        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
         let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
         let version = Output::optional(version, "version")?;
         let (mut read, mut kept) = (Vec::new(), Vec::new());
@@ -195,7 +195,7 @@ unsafe fn change_from(
             pose: pose()?,
         })
     } else if is(cstk_change_kind::CSTK_CHANGE_ATTACH) {
-        let space = handle::borrow::<Space>(change.space, &format!("changes[{i}].space"))?;
+        let space = &*handle::share::<Space>(change.space, &format!("changes[{i}].space"))?;
         let count = change.touch_count as usize;
         let name = format!("changes[{i}].touch_links");
         // SAFETY: checked for NULL; the header states the length.
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn cstk_environment_snapshot(
     out: *mut *mut cstk_environment,
 ) -> cstk_status {
     guard(|| {
-        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
         let out = Output::checked(out, "out")?;
         out.write(handle::create(Arc::new(environment.freeze())));
         Ok(())
@@ -239,7 +239,7 @@ pub unsafe extern "C" fn cstk_environment_state(
     version: *mut u64,
 ) -> cstk_status {
     guard(|| {
-        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
         let object_count = Output::optional(object_count, "object_count")?;
         let version = Output::optional(version, "version")?;
         let now = environment.snapshot();
@@ -257,7 +257,7 @@ pub unsafe extern "C" fn cstk_environment_object_pose(
     pose: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let environment = handle::borrow::<Environment>(environment, "environment")?;
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
         let out = OutputSlice::checked(pose, 12, "pose")?;
         let now = environment.snapshot();
         let object = now.find(id).ok_or_else(|| {

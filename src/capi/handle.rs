@@ -88,17 +88,12 @@ fn slot_of<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a 
     }
 }
 
-/// The object behind a handle, for the time of a call: the caller holds a reference meanwhile.
-pub fn borrow<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a T, Failure> {
-    let slot = slot_of::<T>(handle, argument)?;
-    // SAFETY: a slot of this kind holds a live Arc<T>, kept by the reference the caller holds.
-    Ok(unsafe { &*slot.value.load(Ordering::Relaxed).cast::<T>() })
-}
-
-/// A share of the object behind a handle, to be kept.
+/// A share of the object behind a handle, to be kept, or for the time of a call: functions of the caller that it calls may
+/// release the handle.
 pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>, Failure> {
-    let value: *const T = borrow::<T>(handle, argument)?;
-    // SAFETY: the pointer came from Arc::into_raw, and the Arc is alive.
+    let slot = slot_of::<T>(handle, argument)?;
+    let value: *const T = slot.value.load(Ordering::Relaxed).cast::<T>();
+    // SAFETY: a slot of this kind holds a pointer from Arc::into_raw, and the caller holds a reference, so it is alive.
     unsafe {
         Arc::increment_strong_count(value);
         Ok(Arc::from_raw(value))

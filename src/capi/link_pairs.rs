@@ -126,7 +126,7 @@ pub unsafe extern "C" fn cstk_link_pairs(
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
-            let space = handle::borrow::<Space>(space, "space")?;
+            let space = &*handle::share::<Space>(space, "space")?;
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for size and cookie.
             let given = unsafe { options_or_default(options, "options")? };

@@ -120,7 +120,7 @@ pub unsafe extern "C" fn cstk_body_get_hierarchy(
     out: *mut cstk_hierarchy_statistics,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         let s = body.tree().statistics();
         let times = body.statistics().times;
@@ -154,7 +154,7 @@ pub unsafe extern "C" fn cstk_body_get_level(
     out: *mut cstk_level_statistics,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         let s = body.tree().level_statistics(level)?;
         out.write(cstk_level_statistics {
@@ -179,7 +179,7 @@ pub unsafe extern "C" fn cstk_body_level(
     count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let room = OutputSlice::checked(nodes, max_count, "nodes")?;
         let count = Output::checked(count, "count")?;
         body.tree().require_level(level)?;
@@ -201,7 +201,7 @@ pub unsafe extern "C" fn cstk_body_cover(
     count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let room = OutputSlice::checked(nodes, max_count, "nodes")?;
         let count = Output::checked(count, "count")?;
         if max_count == 0 {
@@ -222,7 +222,7 @@ pub unsafe extern "C" fn cstk_body_get_node(
     out: *mut cstk_hierarchy_node,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         require_node(body, node)?;
         let wrapper = body.tree().wrapper(node);
@@ -256,7 +256,7 @@ pub unsafe extern "C" fn cstk_body_node_corners(
     count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
         let count = Output::checked(count, "count")?;
         require_node(body, node)?;
@@ -282,7 +282,7 @@ pub unsafe extern "C" fn cstk_body_nodes_mesh(
     out: *mut *mut cstk_mesh,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let nodes = unsafe { slice(nodes, node_count, "nodes")? };
@@ -325,7 +325,7 @@ pub unsafe extern "C" fn cstk_body_show_nodes(
     file: *const c_char,
 ) -> cstk_status {
     guard(|| {
-        let body = handle::borrow::<Body>(body, "body")?;
+        let body = &*handle::share::<Body>(body, "body")?;
         // SAFETY: checked for NULL; the caller states the length and the terminator.
         let (nodes, file) = unsafe { (slice(nodes, node_count, "nodes")?, path(file, "file")?) };
         Ok(show_nodes(body, nodes, file)?)
@@ -351,7 +351,7 @@ pub unsafe extern "C" fn cstk_mesh_get(
     out: *mut cstk_mesh_view,
 ) -> cstk_status {
     guard(|| {
-        let mesh = handle::borrow::<Mesh>(mesh, "mesh")?;
+        let mesh = &*handle::share::<Mesh>(mesh, "mesh")?;
         let out = Output::checked(out, "out")?;
         out.write(cstk_mesh_view {
             vertices: mesh.xyz.as_ptr(),

@@ -24,8 +24,8 @@ unsafe fn run<T>(
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
-            let a = handle::borrow::<Body>(body_a, "body_a")?;
-            let b = handle::borrow::<Body>(body_b, "body_b")?;
+            let a = &*handle::share::<Body>(body_a, "body_a")?;
+            let b = &*handle::share::<Body>(body_b, "body_b")?;
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for NULL; the header states the lengths.
             let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };

@@ -181,6 +181,10 @@ impl Predicate for Functions {
         Ok(Some(distance))
     }
 
+    fn measures(&self) -> bool {
+        self.given.distance.is_some()
+    }
+
     fn is_exact(&self) -> bool {
         self.given.distance_is_bound == 0
     }

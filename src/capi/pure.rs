@@ -110,7 +110,11 @@ pub unsafe extern "C" fn cstk_cobject_world(
     out: *mut *mut cstk_cobject,
 ) -> cstk_status {
     // SAFETY: as the caller states.
-    guard(|| unsafe { make(space, options, out, |_| Ok(PureShape::BeyondWorld)) })
+    guard(|| unsafe {
+        make(space, options, out, |space| {
+            Ok(PureShape::beyond_world(space))
+        })
+    })
 }
 
 /// Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world

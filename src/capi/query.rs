@@ -8,6 +8,7 @@ use super::answers::{
 };
 use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
+use super::environment::cstk_environment;
 use super::exclusive::exclusively;
 use super::explain::cstk_verdict;
 use super::handle::{self, Noun};
@@ -16,6 +17,8 @@ use super::link_pairs::cstk_link_pair;
 use super::robot::link_poses;
 use super::status::cstk_status;
 use crate::cobject::CObject;
+use crate::environment::Environment;
+use crate::error::{Error, ErrorKind};
 use crate::query::{
     Configuration, LinkPair, PairVerdict, PenetrationList, QueryContext, Shell, WitnessList,
 };
@@ -188,6 +191,28 @@ pub unsafe extern "C" fn cstk_query_release(query: *mut cstk_query) -> cstk_stat
     guard(|| handle::release::<Query>(query, "query"))
 }
 
+/// Writes the version of an environment that the last query with this context saw: of each environment that its C-object
+/// refers to. CSTK_NOT_FOUND if it refers to others only, or nothing was asked yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_get_version(
+    query: *mut cstk_query,
+    environment: *const cstk_environment,
+    out: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let environment = handle::share::<Environment>(environment, "environment")?;
+            let out = Output::checked(out, "out")?;
+            let version = state.context.version_seen(&environment).ok_or_else(|| {
+                let message = "the last query with this context did not look at the environment";
+                Error::new(ErrorKind::NotFound, message)
+            })?;
+            out.write(version);
+            Ok(())
+        })
+    })
+}
+
 /// The work a query context has done.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -268,7 +293,10 @@ pub unsafe extern "C" fn cstk_classify_at(
 }
 
 /// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
-/// as within; with threshold 0 the answer is that of cstk_classify being CSTK_INSIDE. Cheaper than a distance.
+/// as within. Of unions of induced sets and closed pure sets it is true with threshold 0 where cstk_classify says
+/// CSTK_INSIDE. At the boundary of an open set (at a joint limit, say), and where of an intersection or a complement only a
+/// lower bound of the distance is known, it is true where the class is less: ask cstk_classify whether a configuration is
+/// allowed. Cheaper than a distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_within(
     query: *mut cstk_query,

@@ -44,7 +44,7 @@ pub unsafe extern "C" fn cstk_robot_size(
     link_count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         let nq = Output::optional(nq, "nq")?;
         let nv = Output::optional(nv, "nv")?;
         let link_count = Output::optional(link_count, "link_count")?;
@@ -84,7 +84,7 @@ unsafe fn find(
     what: &str,
     find: impl Fn(&Robot, &str) -> Option<usize>,
 ) -> Result<(), Failure> {
-    let robot = handle::borrow::<Robot>(robot, "robot")?;
+    let robot = &*handle::share::<Robot>(robot, "robot")?;
     let out = Output::checked(out, "out")?;
     // SAFETY: as the caller states.
     let name = unsafe { text(name, "name")? };
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn cstk_robot_link_info(
     out: *mut cstk_link_info,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         let out = Output::checked(out, "out")?;
         let link = link_of(robot, link)?;
         let joint = &link.joint;
@@ -157,7 +157,7 @@ pub unsafe extern "C" fn cstk_robot_get_body(
     out: *mut *mut cstk_body,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         let out = Output::checked(out, "out")?;
         let found = link_of(robot, link)?;
         let body = found.body.clone().ok_or_else(|| {
@@ -181,7 +181,7 @@ pub unsafe extern "C" fn cstk_robot_link_name(
     length: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         write_text(&link_of(robot, link)?.name, buffer, capacity, length)
     })
 }
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn cstk_robot_joint_name(
     length: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         write_text(&link_of(robot, link)?.joint_name, buffer, capacity, length)
     })
 }
@@ -260,7 +260,7 @@ pub unsafe extern "C" fn cstk_robot_link_pose(
     pose: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         let out = OutputSlice::checked(pose, 12, "pose")?;
         // SAFETY: checked for NULL; the caller states the length.
         let q = unsafe { slice(q, nq, "q")? };
@@ -282,7 +282,7 @@ pub unsafe extern "C" fn cstk_robot_jacobian(
     jacobian: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let robot = handle::borrow::<Robot>(robot, "robot")?;
+        let robot = &*handle::share::<Robot>(robot, "robot")?;
         let out = OutputSlice::checked(jacobian, 6 * robot.nv(), "jacobian")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, point) = unsafe { (slice(q, nq, "q")?, array::<3>(point, "point")?) };

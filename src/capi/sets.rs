@@ -109,7 +109,7 @@ pub unsafe extern "C" fn cstk_cobject_with_data(
     out: *mut *mut cstk_cobject,
 ) -> cstk_status {
     guard(|| {
-        let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+        let cobject = &*handle::share::<CObject>(cobject, "cobject")?;
         let out = Output::checked(out, "out")?;
         let kept = Kept::new(data, destroy);
         let made = match kept.as_user_data() {
@@ -123,7 +123,8 @@ pub unsafe extern "C" fn cstk_cobject_with_data(
 }
 
 /// Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
-/// either may be NULL. No two C-objects of a process have one number.
+/// either may be NULL. No two sets of a process have one number; the
+/// complement of a complement is the set itself, and so has its number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_get_data(
     cobject: *const cstk_cobject,
@@ -131,7 +132,7 @@ pub unsafe extern "C" fn cstk_cobject_get_data(
     number: *mut u64,
 ) -> cstk_status {
     guard(|| {
-        let cobject = handle::borrow::<CObject>(cobject, "cobject")?;
+        let cobject = &*handle::share::<CObject>(cobject, "cobject")?;
         let data = Output::optional(data, "data")?;
         let number = Output::optional(number, "number")?;
         data.write(address(value_of(&cobject.data().cloned())));

@@ -161,7 +161,7 @@ pub unsafe extern "C" fn cstk_space_size(
     link_count: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let nq = Output::optional(nq, "nq")?;
         let nv = Output::optional(nv, "nv")?;
         let link_count = Output::optional(link_count, "link_count")?;
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn cstk_space_link_name(
     length: *mut usize,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let found = space
             .link(link as usize)
             .ok_or_else(|| absent("link", link as usize, space.link_count()))?;
@@ -208,7 +208,7 @@ pub unsafe extern "C" fn cstk_space_get_offset(
     out: *mut cstk_space_offset,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         let offset = space
             .offsets()
@@ -232,7 +232,7 @@ pub unsafe extern "C" fn cstk_space_get_range(
     out: *mut cstk_range,
 ) -> cstk_status {
     guard(|| {
-        let space = handle::borrow::<Space>(space, "space")?;
+        let space = &*handle::share::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         let range = space
             .coordinates()

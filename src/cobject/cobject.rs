@@ -244,27 +244,14 @@ impl CObject {
     }
 
     /// Of a union the same without pairs of bodies that do not move, or links over a floor; `None` if nothing is left. Other
-    /// pure sets stay, and so do the links against an environment with objects that links hold.
-    pub fn moving(
-        &self,
-        moves: impl Fn(usize) -> bool,
-        holds: impl Fn(&Environment) -> bool,
-    ) -> Option<Self> {
+    /// pure sets stay. Links that rest meet what moving ones hold.
+    pub fn moving(&self, moves: impl Fn(usize) -> bool) -> Option<Self> {
         let Set::Union { induced, others } = &self.set else {
             return None;
         };
         let moving = induced.iter().filter_map(|term| {
-            let is_held = term
-                .pairs
-                .environment()
-                .is_some_and(|environment| holds(environment));
-            let pairs = if is_held {
-                term.pairs.clone()
-            } else {
-                term.pairs.moving(&moves)?
-            };
             Some(Arc::new(Induced {
-                pairs,
+                pairs: term.pairs.moving(&moves)?,
                 ..Induced::clone(term)
             }))
         });
@@ -392,7 +379,10 @@ impl Set {
             Self::Pure(pure) if pure.shape.is_in_world() || pure.options.scale.is_some() => {
                 Unit::Length
             }
-            Self::Pure(pure) => Unit::CSpace(pure.leaf.serial),
+            Self::Pure(pure) => match &pure.shape {
+                PureShape::Predicate(predicate) if !predicate.measures() => Unit::None,
+                _ => Unit::CSpace(pure.leaf.serial),
+            },
             _ => Unit::None,
         };
         let parts = self.parts().iter().map(|part| part.unit);

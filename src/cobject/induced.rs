@@ -41,9 +41,12 @@ pub struct AllowedPair {
 /// The body pairs of an induced set.
 #[derive(Clone, Debug)]
 pub enum BodyPairs {
-    /// Links of the space against s-objects, but for the pairs allowed to meet, in their order.
+    /// Links of the space, and what they hold, against s-objects, but for the pairs allowed to meet, in their order. A link
+    /// without a body stands for what it holds.
     Objects {
         links: Vec<usize>,
+        /// Links that meet only what `links` hold.
+        resting: Vec<usize>,
         objects: SObjects,
         allowed: Vec<AllowedPair>,
     },
@@ -76,7 +79,7 @@ impl SObjects {
 }
 
 impl BodyPairs {
-    /// Links against s-objects. No links given means all links that have a body.
+    /// Links against s-objects. No links given means all, of which some must have a body.
     pub(super) fn with_objects(
         space: &Space,
         links: &[usize],
@@ -84,18 +87,18 @@ impl BodyPairs {
         allowed: &[AllowedPair],
     ) -> Result<Self> {
         let links = if links.is_empty() {
-            let with_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
-            let found: Vec<usize> = (0..space.link_count()).filter(with_body).collect();
-            if found.is_empty() {
+            let all = 0..space.link_count();
+            let has_body = |link: usize| space.link(link).is_some_and(|l| l.body.is_some());
+            if !all.clone().any(has_body) {
                 return Err(Error::new(
                     ErrorKind::Empty,
                     "no link of the space has a body",
                 ));
             }
-            found
+            all.collect()
         } else {
             for &link in links {
-                require_body(space, link)?;
+                require_link(space, link)?;
             }
             links.to_vec()
         };
@@ -107,6 +110,7 @@ impl BodyPairs {
         allowed.dedup();
         Ok(Self::Objects {
             links,
+            resting: Vec::new(),
             objects,
             allowed,
         })
@@ -144,10 +148,13 @@ impl BodyPairs {
                 links,
                 objects,
                 allowed,
+                ..
             } => {
-                let links: Vec<usize> = links.iter().filter(|&&l| moves(l)).copied().collect();
+                let (links, resting): (Vec<usize>, Vec<usize>) =
+                    links.iter().partition(|&&link| moves(link));
                 (!links.is_empty()).then(|| Self::Objects {
                     links,
+                    resting,
                     objects: objects.clone(),
                     allowed: allowed.clone(),
                 })

@@ -198,9 +198,9 @@ impl PureSet {
                     knows_depth: false,
                 }
             }
-            PureShape::BeyondWorld => {
-                let (signed, _) = beyond_world(at);
-                let size = at.poses.iter().map(|pose| pose.translation.amax());
+            PureShape::BeyondWorld { links } => {
+                let (signed, _) = beyond_world(at, links);
+                let size = links.iter().map(|&link| at.poses[link].translation.amax());
                 Measure {
                     signed,
                     error: DISTANCE_ERROR * size.fold(0.0, f64::max),
@@ -225,7 +225,7 @@ impl PureSet {
     /// Where in the world, for sets that are there.
     pub fn place(&self, at: &Stand) -> Option<WorldPlace> {
         match &self.shape {
-            PureShape::BeyondWorld => beyond_world(at).1,
+            PureShape::BeyondWorld { links } => beyond_world(at, links).1,
             PureShape::Floor {
                 links,
                 normal,
@@ -272,7 +272,7 @@ impl PureSet {
                     .map_err(|e| self.named(Error::new(ErrorKind::Callback, e.message)))?;
                 row
             }
-            PureShape::BeyondWorld | PureShape::Floor { .. } => {
+            PureShape::BeyondWorld { .. } | PureShape::Floor { .. } => {
                 let place = self.place(at);
                 let mut row = vec![0.0; space.nv()];
                 if let Some(place) = place {
@@ -333,7 +333,7 @@ impl PureSet {
                 let error = 8.0 * (q.len() as f64).sqrt() * EPSILON * size;
                 (norm(&offset) - radius, error, Vec::new())
             }
-            PureShape::BeyondWorld | PureShape::Floor { .. } | PureShape::Predicate(_) => {
+            PureShape::BeyondWorld { .. } | PureShape::Floor { .. } | PureShape::Predicate(_) => {
                 (f64::INFINITY, 0.0, Vec::new())
             }
         }
@@ -454,12 +454,12 @@ pub struct Reach {
 
 /// How far within the world box the links' origins are: the least of all, negative where one is outside, and there minus the
 /// most that one is. With the place that decides.
-fn beyond_world(at: &Stand) -> (f64, Option<WorldPlace>) {
+fn beyond_world(at: &Stand, links: &[usize]) -> (f64, Option<WorldPlace>) {
     let world = at.space.world();
     let mut least = f64::INFINITY;
     let mut place = None;
-    for (link, pose) in at.poses.iter().enumerate() {
-        let point = pose.translation;
+    for &link in links {
+        let point = at.poses[link].translation;
         let mut outside = Vec3::zeros();
         let mut within = (f64::INFINITY, Vec3::zeros());
         // The plane has no height.

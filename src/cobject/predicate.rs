@@ -12,6 +12,11 @@ pub trait Predicate: Send + Sync {
     /// is known). `None` if the set does not measure.
     fn distance(&self, q: &[f64]) -> Result<Option<f64>>;
 
+    /// Whether there are distances at all.
+    fn measures(&self) -> bool {
+        true
+    }
+
     /// Whether distances are exact; else the truth may be more.
     fn is_exact(&self) -> bool;
 

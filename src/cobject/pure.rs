@@ -25,8 +25,8 @@ pub struct PureOptions {
 pub enum PureShape {
     /// Where some coordinate is beyond its range. Open: at a limit the robot is not out yet.
     BeyondLimits,
-    /// Where the origin of some link is outside the world box; measures in lengths. Open.
-    BeyondWorld,
+    /// Where the origin of some of the links is outside the world box; measures in lengths. Open.
+    BeyondWorld { links: Vec<usize> },
     /// Where the body of some of the links reaches the half-space normal . x <= offset of the world; the normal has length 1.
     /// Measures in lengths.
     Floor {
@@ -65,12 +65,19 @@ impl PureShape {
     pub fn name(&self) -> &'static str {
         match self {
             Self::BeyondLimits => "a set beyond limits",
-            Self::BeyondWorld => "a set beyond the world box",
+            Self::BeyondWorld { .. } => "a set beyond the world box",
             Self::Floor { .. } => "a floor",
             Self::Box { .. } => "a box",
             Self::HalfSpace { .. } => "a half-space",
             Self::Ball { .. } => "a ball",
             Self::Predicate(_) => "a predicate",
+        }
+    }
+
+    /// The world box for all links.
+    pub fn beyond_world(space: &Space) -> Self {
+        Self::BeyondWorld {
+            links: (0..space.link_count()).collect(),
         }
     }
 
@@ -111,18 +118,18 @@ impl PureShape {
 
     /// Whether it measures in lengths by itself, and link poses are enough to tell.
     pub fn is_in_world(&self) -> bool {
-        matches!(self, Self::BeyondWorld | Self::Floor { .. })
+        matches!(self, Self::BeyondWorld { .. } | Self::Floor { .. })
     }
 
     /// Whether its boundary is not part of it.
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::BeyondLimits | Self::BeyondWorld)
+        matches!(self, Self::BeyondLimits | Self::BeyondWorld { .. })
     }
 
     pub(super) fn check(&self, space: &Space) -> Result<()> {
         match self {
-            Self::BeyondLimits | Self::BeyondWorld | Self::Predicate(_) => Ok(()),
-            Self::Floor { links, .. } => check_links(space, links),
+            Self::BeyondLimits | Self::Predicate(_) => Ok(()),
+            Self::BeyondWorld { links } | Self::Floor { links, .. } => check_links(space, links),
             Self::Box { low, high } => check_box(space, low, high),
             Self::HalfSpace { normal, offset } => check_half_space(space, normal, *offset),
             Self::Ball { center, radius } => {
@@ -140,10 +147,10 @@ impl PureShape {
 }
 
 impl PureSet {
-    /// Of a floor that for the links that move; `None` if there are none.
+    /// Of a floor, or the world box, that for the links that move; `None` if there are none.
     pub(super) fn moving(&self, moves: &impl Fn(usize) -> bool) -> Option<Self> {
         let mut kept = self.clone();
-        if let PureShape::Floor { links, .. } = &mut kept.shape {
+        if let PureShape::Floor { links, .. } | PureShape::BeyondWorld { links } = &mut kept.shape {
             links.retain(|&link| moves(link));
             if links.is_empty() {
                 return None;

@@ -94,8 +94,10 @@ impl Environment {
                 "the environment is a snapshot; it cannot be changed",
             ));
         }
+        // What the state before does not share is freed when no lock is held any more: that runs functions of the caller.
+        let before;
         let _alone = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
-        let before = self.snapshot();
+        before = self.snapshot();
         let mut next = Snapshot::clone(&before);
         let mut ids = Vec::with_capacity(changes.len());
         let mut places = Vec::with_capacity(changes.len());
@@ -111,7 +113,6 @@ impl Environment {
         next.update_tree(&places);
         next.version += 1;
         let version = next.version;
-        // What the state before does not share is freed when nobody waits for the lock.
         *self.state.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(next);
         Ok((ids, version))
     }

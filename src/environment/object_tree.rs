@@ -105,8 +105,9 @@ impl ObjectTree {
         }
     }
 
-    /// Whether the tree is to be built anew: after so many changes that each bears a small part of it.
-    pub fn is_worn(&self) -> bool {
+    /// Whether the tree is to be built anew: after so many changes that each bears a small part of it. `objects` counts those
+    /// too that are not in the world.
+    pub fn is_worn(&self, objects: usize) -> bool {
         let Wear {
             changes,
             count,
@@ -124,7 +125,7 @@ impl ObjectTree {
             || is_loose && changes > self.count
             || self.count > 2 * count + 8
             || changes > 4 * self.count + 64
-            || self.tree.places() > 2 * self.count + 64
+            || self.tree.places() > 2 * objects + 64
     }
 
     fn measure(&mut self, bounds: &Bounds) {

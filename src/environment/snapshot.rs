@@ -185,7 +185,7 @@ impl Snapshot {
                 self.places.get_mut(place).measure();
                 self.tree.update(place, &from, &self.places);
             }
-            if !self.tree.is_worn() {
+            if !self.tree.is_worn(self.count) {
                 return;
             }
         }

@@ -102,11 +102,11 @@ where
             bodies: all,
         };
         self.open.clear();
-        // Those that are not in the tree come last.
-        let strays = self.objects.strays.iter();
-        self.open.extend(strays.map(|&place| first(None, place)));
+        // Those that are not in the tree come first: they may be the only near ones, and how near shortens the way.
         let root = self.objects.tree.root();
         self.open.extend(root.map(|root| first(Some(root), 0)));
+        let strays = self.objects.strays.iter();
+        self.open.extend(strays.map(|&place| first(None, place)));
         while let Some(next) = self.open.pop() {
             let Some(node) = next.node else {
                 for (named, body) in bodies {

@@ -90,9 +90,9 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, cutoff: f64) -> Gj
             on_a,
         });
         match simplex.reduce() {
-            Nearest::Inside { margin, common } => {
+            Nearest::Inside { margin, at } => {
                 found.overlap = margin;
-                found.common = common;
+                found.common = at.on_a;
                 found.upper = 0.0;
                 return found;
             }

@@ -47,6 +47,7 @@ pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64)
     let mut scale = 0.0f64;
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let mut restarts = 0;
+    let mut is_apart = false;
     while found.iterations < MOST_STEPS {
         found.iterations += 1;
         let length = v.norm();
@@ -74,14 +75,19 @@ pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64)
             None
         } else {
             simplex.push(Corner { difference, on_a });
-            if found.lower > rounding {
+            if is_apart || found.lower > rounding {
                 Some(simplex.nearest_apart())
             } else {
                 match simplex.reduce() {
-                    Nearest::Inside { common, .. } => {
+                    Nearest::Inside { at, .. } if at.difference.norm() <= rounding => {
                         found.upper = 0.0;
-                        found.points = [common; 2];
+                        found.points = [at.on_a; 2];
                         break;
+                    }
+                    // The four lie in a plane, and nothing is inside: on from a point that they do combine to.
+                    Nearest::Inside { at, .. } => {
+                        simplex = Simplex::empty();
+                        Some((at, at.difference))
                     }
                     // A point of the difference, whatever rounding did to the foot on a needle of a triangle.
                     Nearest::Outside(point) => Some((simplex.combined(&point), point)),
@@ -91,11 +97,18 @@ pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64)
         let Some((nearest, foot)) = next else {
             // Where rounding has spoilt the corners, others are begun with from the best direction known.
             restarts += 1;
-            if restarts > MOST_RESTARTS || found.direction == Vec3::zeros() {
+            let is_known = found.direction != Vec3::zeros();
+            if restarts > MOST_RESTARTS || !is_known && is_apart {
                 break;
             }
             idle = 0;
             simplex = Simplex::empty();
+            if !is_known {
+                // So near that the direction between points is mostly rounding: that of a triangle's normal is not.
+                is_apart = true;
+                v = found.points[0] - found.points[1];
+                continue;
+            }
             let between = (found.points[0] - found.points[1]) / found.upper;
             // Each time another one, from the nearest points' to the one that proves most, and as far beyond.
             let part = f64::from(restarts) / 4.0;

@@ -20,8 +20,9 @@ pub struct Simplex {
 pub enum Nearest {
     /// Outside; the closest point.
     Outside(Vec3),
-    /// Inside a tetrahedron, at least `margin` from its faces; `common` is the point of A, and of B, that meets there.
-    Inside { margin: f64, common: Vec3 },
+    /// Inside a tetrahedron, at least `margin` from its faces. The corners combine to `at`, which is the origin but for
+    /// rounding: far from it where the tetrahedron is flat, and rounding decided the sides.
+    Inside { margin: f64, at: Corner },
 }
 
 impl Simplex {
@@ -97,12 +98,22 @@ impl Simplex {
             }
         }
         match best {
-            Some((_, found, part)) => {
+            Some((_, (corner, foot), part)) => {
                 *self = part;
-                found
+                (corner, self.upright(&foot))
             }
             None => (self.corners[0], self.corners[0].difference),
         }
+    }
+
+    /// The foot on a segment with what rounding left of it along the segment taken off: little for the point, but not for its
+    /// direction, where the origin is near.
+    fn upright(&self, foot: &Vec3) -> Vec3 {
+        if self.len != 2 {
+            return *foot;
+        }
+        let along = self.at(1) - self.at(0);
+        foot - along * (foot.dot(&along) / along.norm_squared())
     }
 
     /// The corner that one to three corners combine to at the closest point, which `reduce` gave last: with weights that are
@@ -201,12 +212,14 @@ impl Simplex {
         }
         best.ok_or_else(|| {
             let total: f64 = weights.iter().sum();
-            Nearest::Inside {
-                margin,
-                common: (0..4)
-                    .map(|i| self.corners[i].on_a * (weights[i] / total))
+            let all = || self.corners.iter().zip(weights.map(|w| w / total));
+            let at = Corner {
+                difference: all()
+                    .map(|(corner, weight)| corner.difference * weight)
                     .sum(),
-            }
+                on_a: all().map(|(corner, weight)| corner.on_a * weight).sum(),
+            };
+            Nearest::Inside { margin, at }
         })
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn scene<'a>(
 impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
-        let world = World::of(cobject);
+        let world = self.look(cobject);
         let scene = scene(cobject, &world, at)?;
         self.class_of(cobject, &scene)
     }
@@ -78,7 +78,7 @@ impl QueryContext {
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         cobject.require_one_unit()?;
-        let world = World::of(cobject);
+        let world = self.look(cobject);
         let scene = scene(cobject, &world, at)?;
         self.set_within(cobject, &scene, threshold)
     }
@@ -90,7 +90,8 @@ impl QueryContext {
         at: Configuration,
         max_distance: f64,
     ) -> Result<Distance> {
-        self.distance_in(&World::of(cobject), cobject, at, max_distance)
+        let world = self.look(cobject);
+        self.distance_in(&world, cobject, at, max_distance)
     }
 
     /// The same in a given world.
@@ -149,7 +150,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         check_threshold(listed.epsilon, "epsilon")?;
         cobject.require_one_unit()?;
-        let world = World::of(cobject);
+        let world = self.look(cobject);
         let scene = scene(cobject, &world, at)?;
         self.set_witnesses(cobject, &scene, listed)
     }
@@ -161,7 +162,8 @@ impl QueryContext {
         q: &[f64],
         shell: &Shell,
     ) -> Result<PseudoNormal> {
-        self.pseudo_normal_in(&World::of(cobject), cobject, q, shell)
+        let world = self.look(cobject);
+        self.pseudo_normal_in(&world, cobject, q, shell)
     }
 
     /// The same in a given world.

@@ -9,7 +9,7 @@ use super::scene::{Group, Held, Scene};
 use super::target::{Placement, Target};
 use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 
 /// What stands on the r-side: a link's own body, or an s-object attached to it.
@@ -23,6 +23,8 @@ struct RSide {
 /// An induced set of links against s-objects, its number in the group, and the state it sees.
 struct ObjectsTerm<'t, 's> {
     links: &'t [usize],
+    /// Those that meet only what `links` hold.
+    resting: &'t [usize],
     objects: &'t SObjects,
     allowed: &'t [AllowedPair],
     options: &'t InducedOptions,
@@ -44,6 +46,15 @@ impl ObjectsTerm<'_, '_> {
         let Some(attachment) = &object.attachment else {
             return true;
         };
+        // A pair of attached ones may have been named from either side.
+        let turned = AllowedPair {
+            link: attachment.link,
+            attached: object.id,
+            object: r.attached,
+        };
+        if r.attached != 0 && self.allowed.binary_search(&turned).is_ok() {
+            return false;
+        }
         // What is attached does not meet what holds it, and of two attached ones the lower stands on the r-side.
         let touches = attachment.link == r.link
             || (r.attached == 0 && attachment.touch_links.contains(&r.link));
@@ -79,6 +90,35 @@ impl<'a> Scene<'a> {
         })
     }
 
+    /// Refuses sets that no search can answer, whatever it would look at first: bodies of planes and of space, and s-objects
+    /// that are attached to links of another space, so that nobody knows here where they are.
+    pub fn check(&self, group: &Group) -> Result<()> {
+        for term in group {
+            let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
+                continue;
+            };
+            let Some(snapshot) = self.world().snapshot(objects.environment()) else {
+                continue;
+            };
+            self.check_dimensions(links, snapshot)?;
+            let elsewhere = |object: &&SObject| {
+                let space = object
+                    .attachment
+                    .as_ref()
+                    .map(|attachment| attachment.space);
+                space != Some(self.space().serial()) && objects.contains(object.id)
+            };
+            if let Some(object) = snapshot.attached().find(elsewhere) {
+                let id = object.id;
+                return Err(Error::new(
+                    ErrorKind::Unsupported,
+                    format!("s-object {id} is attached to a link of another space"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
     /// The body pairs that a search may need, each once, ranked by ids and sorted by bound.
     pub fn candidates(
         &self,
@@ -86,6 +126,7 @@ impl<'a> Scene<'a> {
         wanted: Wanted,
         scratch: &mut NearScratch,
     ) -> Result<Vec<Target<'_>>> {
+        self.check(group)?;
         let mut candidates = Candidates::new(wanted);
         for (number, term) in (0..).zip(group) {
             match &term.pairs {
@@ -94,15 +135,16 @@ impl<'a> Scene<'a> {
                 }
                 BodyPairs::Objects {
                     links,
+                    resting,
                     objects,
                     allowed,
                 } => {
                     let Some(snapshot) = self.world().snapshot(objects.environment()) else {
                         continue;
                     };
-                    self.check_dimensions(links, snapshot)?;
                     let term = ObjectsTerm {
                         links,
+                        resting,
                         objects,
                         allowed,
                         options: &term.options,
@@ -177,10 +219,11 @@ impl<'a> Scene<'a> {
             snapshot,
             ..
         } = term;
-        let of_links = links.iter().filter_map(|&link| {
+        let with_body = |&link: &usize| {
             let (body, pose) = self.link(link)?;
             Some((link, body, pose))
-        });
+        };
+        let of_links = links.iter().filter_map(with_body);
         // What is attached to a link goes on with numbers after those of all links.
         let first_held = self.space().link_count();
         let environment = objects.environment().serial();
@@ -256,7 +299,9 @@ impl<'a> Scene<'a> {
         }
         for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
             let other = Bounds::of(&held.object.body, &held.pose);
-            for named in bodies.clone() {
+            let is_moved = links.contains(&held.attachment.link);
+            let resting = term.resting.iter().filter(|_| is_moved);
+            for named in bodies.clone().chain(resting.filter_map(with_body)) {
                 let bounds = Bounds::of(named.1, named.2);
                 offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
             }
@@ -312,6 +357,7 @@ impl<'a> Scene<'a> {
                         links,
                         objects,
                         allowed,
+                        ..
                     },
                     SSide::Object(id),
                 ) => {
@@ -322,6 +368,7 @@ impl<'a> Scene<'a> {
                     let object = snapshot.find(id)?;
                     let term = ObjectsTerm {
                         links,
+                        resting: &[],
                         objects,
                         allowed,
                         options: &term.options,

@@ -114,13 +114,19 @@ fn without_repeats(found: Vec<Target>) -> Vec<Target> {
             .rev()
             .take_while(|known| known.parties() == next.parties());
         let known = same_ids.into_iter().find(|known| {
-            let [(body, pose), (other_body, other_pose)] = [known.sides[1], next.sides[1]];
-            pose == other_pose && body.serial() == other_body.serial()
+            let sides = known.sides.iter().zip(&next.sides);
+            let mut sides = sides
+                .map(|((a, pose_a), (b, pose_b))| pose_a == pose_b && a.serial() == b.serial());
+            sides.all(|is_same| is_same)
         });
         match known {
             None => kept.push(next),
             Some(known) => {
                 let reach = |o: &InducedOptions| o.margin + o.contact_epsilon;
+                let by_reach = |o: &InducedOptions| (o.margin, o.contact_epsilon);
+                if by_reach(&next.options) > by_reach(&known.options) {
+                    known.term = next.term;
+                }
                 let merged = &mut known.options;
                 let farthest = reach(merged).max(reach(&next.options));
                 merged.margin = merged.margin.max(next.options.margin);

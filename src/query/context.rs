@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use foldhash::fast::RandomState;
 
 use super::answer::SSide;
-use crate::environment::NearScratch;
+use super::world::World;
+use crate::cobject::CObject;
+use crate::environment::{Environment, NearScratch};
 use crate::pair::{Scratch, Statistics};
 
 /// Names a body pair across queries: a space and two of its parties, or two bodies.
@@ -31,6 +33,8 @@ pub struct QueryContext {
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
+    /// The versions of environments, by their serial numbers, that the last query saw.
+    seen: Vec<(u64, u64)>,
 }
 
 impl QueryContext {
@@ -39,6 +43,21 @@ impl QueryContext {
 
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// The world as a C-object sees it now, which [`QueryContext::version_seen`] tells from then on.
+    pub(super) fn look(&mut self, cobject: &CObject) -> World {
+        let world = World::of(cobject);
+        self.seen.clear();
+        self.seen.extend(world.versions());
+        world
+    }
+
+    /// The version of an environment that the last query with this context saw, if it was one of a C-object that refers to it.
+    pub fn version_seen(&self, environment: &Environment) -> Option<u64> {
+        let serial = environment.serial();
+        let found = self.seen.iter().find(|(known, _)| *known == serial);
+        found.map(|(_, version)| *version)
     }
 
     /// Work done since the context was made or last reset.

@@ -49,13 +49,13 @@ impl Distance {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower: found.lower,
-            // Sets count as meeting up to the error, which that of the measured distance may hide once more.
-            upper: hit.distance
-                + if hit.distance == 0.0 {
-                    2.0 * error
-                } else {
-                    error
-                },
+            // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
+            // doubt where that was not found exactly.
+            upper: if hit.distance == 0.0 {
+                (2.0 * error).max(hit.apart - target.options.margin + error)
+            } else {
+                hit.distance + error
+            },
             witness: Some(witness),
             points,
             contact,
@@ -160,8 +160,10 @@ impl Distance {
         let is_more = (rank(&other), other.lower) > (rank(&self), self.lower);
         let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
         if is_zero(&self) && is_zero(&other) {
+            // Sets that meet the configuration up to rounding need not meet each other there.
+            let is_certain = self.upper == 0.0 && other.upper == 0.0;
             return Self {
-                upper: self.upper.max(other.upper),
+                upper: if is_certain { 0.0 } else { f64::INFINITY },
                 ..self
             };
         }

@@ -8,7 +8,6 @@ use super::at_configuration::scene;
 use super::context::QueryContext;
 use super::scene::{Configuration, Group, Scene};
 use super::set_witnesses::{Listed, pure_witnesses};
-use super::world::World;
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
 
@@ -68,7 +67,7 @@ impl QueryContext {
         at: Configuration,
         max_count: usize,
     ) -> Result<Explanation> {
-        let world = World::of(cobject);
+        let world = self.look(cobject);
         let scene = scene(cobject, &world, at)?;
         let mut classes = Classes {
             scene: &scene,

@@ -173,12 +173,24 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
             "no link of the space has a body",
         ));
     }
-    let next_below = |link: usize| {
-        let mut below = space.parent(link);
-        while let Some(next) = below.filter(|next| !has_body(next)) {
-            below = space.parent(next);
+    // Links without a body hang together in parts, which the lowest of each names.
+    let mut part: Vec<usize> = (0..space.link_count()).collect();
+    for link in 0..space.link_count() {
+        if let Some(parent) = space.parent(link).filter(|parent| !has_body(parent)) {
+            if !has_body(&link) {
+                part[link] = part[parent];
+            }
         }
-        below
+    }
+    // What a link stands on: a link with a body, or a part without one, which stands on a link itself, or on nothing.
+    let below = |link: usize| space.parent(link).map(|parent| part[parent]);
+    let are_joined = |r: usize, s: usize| {
+        let stands_on = |s: usize, r: usize| {
+            let next = below(s);
+            next == Some(r) || next.is_some_and(|next| !has_body(&next) && below(next) == Some(r))
+        };
+        let shared = below(r).filter(|next| !has_body(next) && below(s) == Some(*next));
+        stands_on(r, s) || stands_on(s, r) || shared.is_some()
     };
     // Links that are fixed to each other move as one, which the lowest of them stands for.
     let mut lowest: Vec<usize> = (0..space.link_count()).collect();
@@ -191,12 +203,12 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
         }
     }
     let pairs = links.iter().enumerate().flat_map(|(i, &r)| {
-        let joined = move |s: usize| next_below(s) == Some(r) || next_below(r) == Some(s);
         let lowest = &lowest;
+        let are_joined = &are_joined;
         links[i + 1..].iter().map(move |&s| LinkPair {
             links: [r, s],
             robots: [r, s].map(|link| space.robot_of(link)),
-            verdict: if joined(s) || lowest[r] == lowest[s] {
+            verdict: if are_joined(r, s) || lowest[r] == lowest[s] {
                 PairVerdict::Adjacent
             } else {
                 PairVerdict::Test

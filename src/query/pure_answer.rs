@@ -118,8 +118,11 @@ impl PureAt<'_> {
         let knows = if measure.signed > 0.0 {
             !(self.complement && measure.is_bound)
         } else {
-            // How deep a link is in a floor says less than how far the robot is from being out, but tells the way.
-            measure.knows_depth || matches!(self.set.shape, PureShape::Floor { .. })
+            // How deep a link is in a floor says less than how far the robot is from being out, but tells the way. At the
+            // boundary of an open set nothing is deep.
+            let is_at_boundary = self.set.shape.is_open() && measure.signed >= -measure.error;
+            let is_floor = matches!(self.set.shape, PureShape::Floor { .. });
+            measure.knows_depth || is_floor || is_at_boundary
         };
         if !knows || !measure.signed.is_finite() {
             return Ok(None);

@@ -72,16 +72,15 @@ impl<'a> Scene<'a> {
                 (None, Cow::Borrowed(poses))
             }
         };
-        let held = world.attached(space).map(|found| {
-            let (environment, object, attachment) = found?;
-            Ok(Held {
+        let held = world
+            .attached(space)
+            .map(|(environment, object, attachment)| Held {
                 environment,
                 object,
                 attachment,
                 pose: poses[attachment.link].compose(&object.pose),
-            })
-        });
-        let held = held.collect::<Result<_>>()?;
+            });
+        let held = held.collect();
         Ok(Self {
             space,
             q,

@@ -3,6 +3,7 @@
 use super::context::QueryContext;
 use super::scene::{Group, Scene};
 use super::target::Target;
+use crate::error::Result;
 use crate::pair::{Collect, Hit, Nearest, Visitor, Within, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
@@ -62,14 +63,15 @@ impl QueryContext {
         scene: &Scene,
         group: &Group,
         threshold: f64,
-    ) -> bool {
+    ) -> Result<bool> {
+        scene.check(group)?;
         let Some((key, places)) = self
             .recent
             .and_then(|key| Some((key, self.remembered(&key)?)))
         else {
-            return false;
+            return Ok(false);
         };
-        scene.find(group, &key).any(|(pairing, options)| {
+        Ok(scene.find(group, &key).any(|(pairing, options)| {
             let mut visitor = Within {
                 margin: options.margin,
                 threshold,
@@ -77,7 +79,7 @@ impl QueryContext {
             };
             let _ = visit_pair(&pairing, places, &mut self.scratch, &mut visitor);
             visitor.found.is_some()
-        })
+        }))
     }
 
     /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from target to target.

@@ -32,11 +32,7 @@ impl QueryContext {
         // What rests may be as near as it likes.
         let space = cobject.space();
         let moves = |link: usize| space.reach_motion_bound(link, 1.0, q, v) > 0.0;
-        let holds = |environment: &Environment| {
-            let now = world.snapshot(environment);
-            now.is_some_and(|now| now.attached().next().is_some())
-        };
-        let Some(cobject) = &cobject.moving(moves, holds) else {
+        let Some(cobject) = &cobject.moving(moves) else {
             return Ok(true);
         };
         let mut t = start;
@@ -110,11 +106,11 @@ fn pure_motion_bound(cobject: &CObject, q: &[f64], v: &[f64]) -> f64 {
             let links = links.iter().map(|&link| space.motion_bound(link, q, v));
             links.fold(0.0, f64::max)
         }
-        PureShape::BeyondWorld => {
+        PureShape::BeyondWorld { ref links } => {
             let space = cobject.space();
-            let links = 0..space.link_count();
             links
-                .map(|link| space.reach_motion_bound(link, 0.0, q, v))
+                .iter()
+                .map(|&link| space.reach_motion_bound(link, 0.0, q, v))
                 .fold(0.0, f64::max)
         }
         _ => pure.options.scale.unwrap_or(1.0) * dot(v, v).sqrt(),

@@ -117,7 +117,7 @@ impl QueryContext {
 
     /// Operation 4 for a union of induced sets.
     pub(super) fn class_of_group(&mut self, group: &Group, scene: &Scene) -> Result<Class> {
-        if self.recent_is_within(scene, group, 0.0) {
+        if self.recent_is_within(scene, group, 0.0)? {
             return Ok(Class::Inside);
         }
         let wanted = Wanted {
@@ -215,7 +215,7 @@ impl QueryContext {
     }
 
     fn group_within(&mut self, group: &Group, scene: &Scene, threshold: f64) -> Result<bool> {
-        if self.recent_is_within(scene, group, threshold) {
+        if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
         let candidates = scene.candidates(group, Wanted::within(threshold), &mut self.near)?;

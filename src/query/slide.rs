@@ -143,7 +143,7 @@ impl QueryContext {
         space.check_configuration(q)?;
         space.check_velocity(step, "step")?;
         // One state of the world for all that is asked: else the proof would join distances of several.
-        let world = &World::of(cobject);
+        let world = &self.look(cobject);
         require_union(cobject)?;
         let here = self.pseudo_normal_in(world, cobject, q, &options.shell())?;
         let ended = |outcome| SlideStep {

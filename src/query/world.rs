@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::cobject::CObject;
 use crate::environment::{Attachment, Environment, SObject, Snapshot};
-use crate::error::{Error, ErrorKind, Result};
 use crate::space::Space;
 
 /// One snapshot of each environment that a C-object refers to: what a query, or several that belong together, see.
@@ -34,28 +33,25 @@ impl World {
         self.version
     }
 
-    /// The s-objects attached to links of a space, with their environments' serial numbers. Those attached elsewhere are
-    /// errors: where they are is not known here.
+    /// The version of each environment, by serial numbers.
+    pub fn versions(&self) -> impl Iterator<Item = (u64, u64)> {
+        let all = self.snapshots.iter();
+        all.map(|(serial, snapshot)| (*serial, snapshot.version))
+    }
+
+    /// The s-objects attached to links of a space, with their environments' serial numbers.
     pub fn attached<'a>(
         &'a self,
         space: &Space,
-    ) -> impl Iterator<Item = Result<(u64, &'a SObject, &'a Attachment)>> {
+    ) -> impl Iterator<Item = (u64, &'a SObject, &'a Attachment)> {
         let serial = space.serial();
         let all = self.snapshots.iter().flat_map(|(environment, snapshot)| {
             let attached = snapshot.attached();
             attached.map(move |object| (*environment, object, object.attachment.as_deref()))
         });
         all.filter_map(move |(environment, object, attachment)| {
-            let attachment = attachment?;
-            Some(if attachment.space == serial {
-                Ok((environment, object, attachment))
-            } else {
-                let id = object.id;
-                Err(Error::new(
-                    ErrorKind::Unsupported,
-                    format!("s-object {id} is attached to a link of another space"),
-                ))
-            })
+            let attachment = attachment.filter(|attachment| attachment.space == serial)?;
+            Some((environment, object, attachment))
         })
     }
 

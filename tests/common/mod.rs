@@ -19,3 +19,8 @@ pub mod shapes;
 pub mod surfaces;
 pub mod touch;
 pub mod trees;
+
+/// Whether tests run all their cases, or a part that is soon done.
+pub fn all_cases() -> bool {
+    std::env::var_os("CSTK_ALL_CASES").is_some()
+}
