@@ -557,12 +557,37 @@ static void explanations(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(destroyed == 0);
 }
 
+/* A robot with an object in its hand, over a floor. */
+static void worlds(const cstk::Space &space, const cstk::Body &body) {
+    int mark = 0;
+    const cstk::Body held = cstk::BodyBuilder().add_sphere({0, 0, 0}, 0.5).build();
+    held.set_data(&mark);
+    REQUIRE(held.data() == &mark && body.data() == nullptr);
+    cstk::Environment world;
+    const std::uint64_t id = world.add(held, cstk::translation(0, 0, 50));
+    const std::vector<double> q(space.nq(), 0.0);
+    cstk::Query query;
+    const cstk::CObject ground = cstk::CObject::floor(space, {0, 0, 4}, -400);
+    REQUIRE(query.distance(ground, q).distance > 90);
+    const std::uint32_t hand = static_cast<std::uint32_t>(space.link_count() - 1);
+    world.attach(id, space, hand, cstk::translation(0, 0, 20));
+    const std::uint64_t wall = world.add(body, cstk::translation(0, 0, 30));
+    const cstk::CObject all = cstk::CObject::induced(space, world);
+    const cstk_distance_result found = query.distance(all, q);
+    REQUIRE(found.witness.r_object == id && found.witness.s_object == wall);
+    REQUIRE(found.witness.r_data == &mark && query.version(world) == world.version());
+    world.move(id, cstk::translation(0, 0, 50));
+    REQUIRE(query.distance(all, q).witness.r_object == 0);
+    REQUIRE(space.link_name(hand) == "link1" && query.link_pairs(space).empty());
+}
+
 static void sets() {
     const cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
     const cstk::Space space = make_space(body);
     pure_sets(space);
     predicates(space);
     explanations(space, body);
+    worlds(space, body);
 }
 
 static void urdf() {

@@ -95,12 +95,12 @@ static cstk_status witnesses_at(const question *a, answer *out) {
     return cstk_witnesses_at(a->query, a->set, a->at, a->count, 10.0, 16, &out->list);
 }
 
-/* Those that only compare classes come first, then those that measure, then those at link poses. */
-static const ask_fn forms[] = {classify,  explain,       within,      distance, witnesses,
-                               gradients, pseudo_normal, show,        slide,    classify_at,
-                               within_at, distance_at,   witnesses_at};
+/* Those that only compare classes come first (pictures leave out what has no place in the world), then those that measure, then those at link poses. */
+static const ask_fn forms[] = {classify,  explain,   show,          within,      distance,
+                               witnesses, gradients, pseudo_normal, slide,       classify_at,
+                               within_at, distance_at, witnesses_at};
 
-enum { BY_CLASS = 2, SLIDE = 8, BY_POSES = 9, FORMS = sizeof forms / sizeof forms[0] };
+enum { BY_CLASS = 3, SLIDE = 8, BY_POSES = 9, FORMS = sizeof forms / sizeof forms[0] };
 
 /* Calls from `first` on up to `last` are refused. */
 static void refuse(const question *a, int first, int last, cstk_status status,

@@ -325,7 +325,7 @@ enum cstk_contact_mode
   CSTK_EDGE_EDGE = 5,
   /**
    * The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
-   * origin.
+   * origin, of a floor those of the link's lowest point.
    */
   CSTK_PURE_SET = 6,
 };
@@ -713,6 +713,11 @@ typedef struct cstk_hierarchy_options {
 typedef int32_t (*cstk_progress_fn)(double fraction, void *user);
 
 /**
+ * Gives user data back to the caller, once, when nothing refers to it any more.
+ */
+typedef void (*cstk_destroy_fn)(void *user);
+
+/**
  * What became of a body's input, and what was built.
  */
 typedef struct cstk_body_statistics {
@@ -755,11 +760,6 @@ typedef struct cstk_body_statistics {
  * Returns CSTK_OK, or anything else when it fails.
  */
 typedef int32_t (*cstk_support_fn)(const double *direction, double *point, void *user);
-
-/**
- * Gives user data back to the caller, once, when nothing refers to it any more.
- */
-typedef void (*cstk_destroy_fn)(void *user);
 
 /**
  * What a body's hierarchy is like.
@@ -1104,8 +1104,8 @@ typedef struct cstk_environment_change {
    */
   double pose[12];
   /**
-   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. Queries in other spaces that meet
-   * the object are refused with CSTK_UNSUPPORTED. The object moves with the link. In a set of links against
+   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets
+   * that the object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the link. In a set of links against
    * s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
    * s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
    */
@@ -1260,7 +1260,8 @@ typedef struct cstk_query_statistics {
 } cstk_query_statistics;
 
 /**
- * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE.
+ * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE, but for
+ * `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
  */
 typedef struct cstk_witness {
   /**
@@ -1301,7 +1302,11 @@ typedef struct cstk_witness {
    * stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
    */
   bool contained;
-  uint8_t reserved_bytes[6];
+  uint8_t reserved_bytes[2];
+  /**
+   * The coordinate that decides, where joint limits or a C-space box are near; else CSTK_NONE.
+   */
+  uint32_t coordinate;
   /**
    * The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
    */
@@ -1378,7 +1383,7 @@ typedef struct cstk_distance_result {
    */
   double lower;
   /**
-   * Never below the truth.
+   * Never below the truth: infinite where an intersection holds the configuration up to rounding only.
    */
   double upper;
   /**
@@ -1524,6 +1529,11 @@ typedef struct cstk_link_pair {
   uint32_t r_link;
   uint32_t s_link;
   cstk_pair_verdict verdict;
+  /**
+   * The robots that the two are of, in the order of the space's.
+   */
+  uint32_t r_robot;
+  uint32_t s_robot;
   uint32_t reserved;
   /**
    * The share of the samples in which they touch; 0 where the verdict needed none.
@@ -1860,6 +1870,21 @@ cstk_status cstk_body_retain(struct cstk_body *body);
  * Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
  */
 cstk_status cstk_body_release(struct cstk_body *body);
+
+/**
+ * Attaches data of the caller's to a body, however it was made (§2.2.3): witnesses hand them back, as `r_data` for a link's
+ * body, and as `s_data` for a link's or for that of an s-object without data of its own. Once for each body: the second call
+ * is CSTK_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by whichever thread drops the last reference to the
+ * body, and not when this call fails. Other threads may ask about the body meanwhile.
+ */
+cstk_status cstk_body_set_data(struct cstk_body *body,
+                               void *data,
+                               cstk_destroy_fn destroy);
+
+/**
+ * Writes the data attached to a body, or NULL.
+ */
+cstk_status cstk_body_get_data(const struct cstk_body *body, void **out);
 
 /**
  * Writes counts and extents.
@@ -2255,7 +2280,7 @@ cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
  * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
  *
  * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
- * cstk_range_kind. `world_box` holds low x, y, z, high x, y, z: where the links' origins may be; NULL for everywhere.
+ * cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the links' origins may be; NULL for everywhere.
  * Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make a planar
  * world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
  */
@@ -2283,6 +2308,15 @@ cstk_status cstk_space_size(const struct cstk_space *space,
                             size_t *nq,
                             size_t *nv,
                             size_t *link_count);
+
+/**
+ * Writes the name of a link, numbered through the space; see cstk_robot_link_name.
+ */
+cstk_status cstk_space_link_name(const struct cstk_space *space,
+                                 uint32_t link,
+                                 char *buffer,
+                                 size_t capacity,
+                                 size_t *length);
 
 /**
  * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own.
@@ -2488,7 +2522,8 @@ cstk_status cstk_cobject_options_default(struct cstk_cobject_options *out, size_
  *
  * `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
  * meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
- * always be nearest. The robot with itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
+ * always be nearest. Links 0 to i - 1 give the set of the first i links. The robot with itself is not meant; see
+ * cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
  * added later too. An object that is deleted later contributes nothing; one of another dimension than the
  * robots is refused by the queries that meet it. `options` may be NULL for the defaults.
  */
@@ -2504,7 +2539,7 @@ cstk_status cstk_cobject_induced(const struct cstk_space *space,
 /**
  * Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
  * other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
- * joined touch at every configuration; leave such pairs out.
+ * joined touch at every configuration; leave such pairs out. Without any pair the set is empty.
  */
 cstk_status cstk_cobject_induced_links(const struct cstk_space *space,
                                        const uint32_t *pairs,
@@ -2576,7 +2611,8 @@ cstk_status cstk_cobject_with_data(const struct cstk_cobject *cobject,
 
 /**
  * Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
- * either may be NULL. No two C-objects of a process have one number.
+ * either may be NULL. No two sets of a process have one number; the
+ * complement of a complement is the set itself, and so has its number.
  */
 cstk_status cstk_cobject_get_data(const struct cstk_cobject *cobject,
                                   void **data,
@@ -2606,6 +2642,24 @@ cstk_status cstk_cobject_limits(const struct cstk_space *space,
  * lengths, whatever the scale, and answers at link poses too. Open, as cstk_cobject_limits.
  */
 cstk_status cstk_cobject_world(const struct cstk_space *space,
+                               const struct cstk_pure_options *options,
+                               struct cstk_cobject **out);
+
+/**
+ * Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
+ * (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
+ * `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
+ * floor. What links hold is not meant.
+ *
+ * Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
+ * at link poses too. Contacts are at that point (see CSTK_PURE_SET), and have a gradient where it is inside as well. The
+ * distance from its complement is not known where it is not 0.
+ */
+cstk_status cstk_cobject_floor(const struct cstk_space *space,
+                               const uint32_t *links,
+                               size_t link_count,
+                               const double *normal,
+                               double offset,
                                const struct cstk_pure_options *options,
                                struct cstk_cobject **out);
 
@@ -2668,6 +2722,14 @@ cstk_status cstk_query_retain(struct cstk_query *query);
 cstk_status cstk_query_release(struct cstk_query *query);
 
 /**
+ * Writes the version of an environment that the last query with this context saw: of each environment that its C-object
+ * refers to. CSTK_NOT_FOUND if it refers to others only, or nothing was asked yet.
+ */
+cstk_status cstk_query_get_version(struct cstk_query *query,
+                                   const struct cstk_environment *environment,
+                                   uint64_t *out);
+
+/**
  * Writes the work done since the context was made, or since the last call with `reset`.
  */
 cstk_status cstk_query_get_statistics(struct cstk_query *query,
@@ -2697,7 +2759,10 @@ cstk_status cstk_classify_at(struct cstk_query *query,
 
 /**
  * Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
- * as within; with threshold 0 the answer is that of cstk_classify being CSTK_INSIDE. Cheaper than a distance.
+ * as within. Of unions of induced sets and closed pure sets it is true with threshold 0 where cstk_classify says
+ * CSTK_INSIDE. At the boundary of an open set (at a joint limit, say), and where of an intersection or a complement only a
+ * lower bound of the distance is known, it is true where the class is less: ask cstk_classify whether a configuration is
+ * allowed. Cheaper than a distance.
  */
 cstk_status cstk_within(struct cstk_query *query,
                         const struct cstk_cobject *cobject,
@@ -2809,7 +2874,9 @@ cstk_status cstk_link_pair_options_default(struct cstk_link_pair_options *out, s
 /**
  * Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
  * touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
- * robots are always tested. Give `tested` to cstk_cobject_induced_links; to allow further pairs, leave them out. `options`
+ * robots are always tested. Give `tested` to cstk_cobject_induced_links (it may be empty); to
+ * allow further pairs, leave them out. Two links may count as touching by `margin`: take no less than the margin of that set
+ * together with its contact epsilon, else pairs are tested that are always in contact. `options`
  * may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
  */
 cstk_status cstk_link_pairs(struct cstk_query *query,

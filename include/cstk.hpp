@@ -214,6 +214,12 @@ inline cstk_cobject_options cobject_options(double contact_epsilon = 0, double m
     return options;
 }
 
+inline cstk_link_pair_options link_pair_options() {
+    cstk_link_pair_options options;
+    check(cstk_link_pair_options_default(&options, sizeof options));
+    return options;
+}
+
 inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale = 0) {
     cstk_pure_options options;
     check(cstk_pure_options_default(&options, sizeof options));
@@ -299,6 +305,17 @@ public:
     }
 
     void save(const std::string &file) const { check(cstk_body_save(get(), file.c_str())); }
+
+    /// Data that witnesses hand back; once for each body.
+    void set_data(void *data, cstk_destroy_fn destroy = nullptr) const {
+        check(cstk_body_set_data(get(), data, destroy));
+    }
+
+    void *data() const {
+        void *data = nullptr;
+        check(cstk_body_get_data(get(), &data));
+        return data;
+    }
 
     cstk_hierarchy_statistics hierarchy() const {
         cstk_hierarchy_statistics out;
@@ -747,6 +764,16 @@ public:
         return count;
     }
 
+    /// The name of a link, numbered through the space.
+    std::string link_name(std::uint32_t link) const {
+        std::size_t length = 0;
+        check(cstk_space_link_name(get(), link, nullptr, 0, &length));
+        std::string out(length + 1, '\0');
+        check(cstk_space_link_name(get(), link, out.data(), out.size(), nullptr));
+        out.resize(length);
+        return out;
+    }
+
     bool contains(Span<double> q) const {
         bool out = false;
         check(cstk_space_contains(get(), q.data(), q.size(), &out));
@@ -886,6 +913,18 @@ public:
 
     void remove(std::uint64_t id) {
         apply_one(change(CSTK_CHANGE_DELETE, id, nullptr, identity()));
+    }
+
+    /// Fixes an s-object to a link of a space, `pose` in the link's frame; move() lets it go. The links in `touching` may meet
+    /// it: the fingers, say.
+    void attach(std::uint64_t id, const Space &space, std::uint32_t link, const Pose &pose,
+                Span<std::uint32_t> touching = {}) {
+        cstk_environment_change attached = change(CSTK_CHANGE_ATTACH, id, nullptr, pose);
+        attached.space = space.get();
+        attached.link = link;
+        attached.touch_links = touching.data();
+        attached.touch_count = static_cast<std::uint32_t>(touching.size());
+        apply_one(attached);
     }
 
     /// Applies all changes as one; returns the ids they are about.
@@ -1037,6 +1076,16 @@ public:
         cstk_cobject *out = nullptr;
         check(cstk_cobject_halfspace(space.get(), normal.data(), normal.size(), offset, &options,
                                      &out));
+        return CObject(out);
+    }
+
+    /// Where a link's body reaches normal . x <= offset of the world; no links for all.
+    static CObject floor(const Space &space, const std::array<double, 3> &normal, double offset,
+                         Span<std::uint32_t> links = {},
+                         const cstk_pure_options &options = pure_options()) {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_floor(space.get(), links.data(), links.size(), normal.data(), offset,
+                                 &options, &out));
         return CObject(out);
     }
 
@@ -1220,6 +1269,26 @@ public:
     }
 
     /// The class, and which leaves and pairs made it.
+    /// The version of an environment that the last query saw.
+    std::uint64_t version(const Environment &environment) const {
+        std::uint64_t out = 0;
+        check(cstk_query_get_version(get(), environment.get(), &out));
+        return out;
+    }
+
+    /// Which pairs of links to test for self-collision, for CObject::induced_links().
+    std::vector<std::array<std::uint32_t, 2>>
+    link_pairs(const Space &space,
+               const cstk_link_pair_options &options = link_pair_options()) const {
+        cstk_link_pair_list list;
+        check(cstk_link_pairs(get(), space.get(), &options, nullptr, nullptr, &list));
+        std::vector<std::array<std::uint32_t, 2>> pairs(list.tested_count);
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            pairs[i] = {list.tested[2 * i], list.tested[2 * i + 1]};
+        }
+        return pairs;
+    }
+
     cstk_explanation explain(const CObject &cobject, Span<double> q,
                              std::size_t max_count = 4096) const {
         cstk_explanation out;

@@ -148,7 +148,7 @@ pub struct cstk_distance_result {
     pub distance: f64,
     /// Never above the truth. Where `distance` is finite, 0 exactly when that is.
     pub lower: f64,
-    /// Never below the truth.
+    /// Never below the truth: infinite where an intersection holds the configuration up to rounding only.
     pub upper: f64,
     /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
     /// inside a solid, a vertex of the piece.

@@ -406,10 +406,15 @@ impl Measure {
     /// What it says of the distance from the set, or from its complement.
     pub fn reach(&self, from_complement: bool) -> Reach {
         let Self { signed, error, .. } = *self;
+        let certain = if from_complement {
+            signed > error
+        } else {
+            signed < -error
+        };
         let here = Reach {
             distance: 0.0,
             lower: 0.0,
-            upper: 2.0 * error,
+            upper: if certain { 0.0 } else { 2.0 * error },
             is_exact: true,
         };
         let (away, is_bound) = if !from_complement {

@@ -52,7 +52,10 @@ impl Distance {
             // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
             // doubt where that was not found exactly.
             upper: if hit.distance == 0.0 {
-                (2.0 * error).max(hit.apart - target.options.margin + error)
+                match hit.apart - target.options.margin + error {
+                    beyond if beyond <= 0.0 => 0.0,
+                    beyond => beyond.max(2.0 * error),
+                }
             } else {
                 hit.distance + error
             },
@@ -161,11 +164,19 @@ impl Distance {
         let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
         if is_zero(&self) && is_zero(&other) {
             // Sets that meet the configuration up to rounding need not meet each other there.
-            let is_certain = self.upper == 0.0 && other.upper == 0.0;
-            return Self {
-                upper: if is_certain { 0.0 } else { f64::INFINITY },
-                ..self
+            let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
+            let is_certain = is_inside(&self) && is_inside(&other);
+            let widest = if other.upper > self.upper {
+                other
+            } else {
+                self
             };
+            let upper = if is_certain {
+                widest.upper
+            } else {
+                f64::INFINITY
+            };
+            return Self { upper, ..widest };
         }
         let (most, _) = if is_more {
             (other, self)

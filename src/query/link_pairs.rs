@@ -176,10 +176,9 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
     // Links without a body hang together in parts, which the lowest of each names.
     let mut part: Vec<usize> = (0..space.link_count()).collect();
     for link in 0..space.link_count() {
-        if let Some(parent) = space.parent(link).filter(|parent| !has_body(parent)) {
-            if !has_body(&link) {
-                part[link] = part[parent];
-            }
+        let parent = space.parent(link).filter(|parent| !has_body(parent));
+        if let Some(parent) = parent.filter(|_| !has_body(&link)) {
+            part[link] = part[parent];
         }
     }
     // What a link stands on: a link with a body, or a part without one, which stands on a link itself, or on nothing.

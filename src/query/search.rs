@@ -3,8 +3,9 @@
 use super::context::QueryContext;
 use super::scene::{Group, Scene};
 use super::target::Target;
+use crate::cobject::InducedOptions;
 use crate::error::Result;
-use crate::pair::{Collect, Hit, Nearest, Visitor, Within, traverse, visit_pair};
+use crate::pair::{Collect, Hit, Nearest, Pairing, Scratch, Visitor, Within, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
 pub(super) struct Found<'t, 'a> {
@@ -64,22 +65,53 @@ impl QueryContext {
         group: &Group,
         threshold: f64,
     ) -> Result<bool> {
-        scene.check(group)?;
-        let Some((key, places)) = self
-            .recent
-            .and_then(|key| Some((key, self.remembered(&key)?)))
-        else {
-            return Ok(false);
-        };
-        Ok(scene.find(group, &key).any(|(pairing, options)| {
+        let mut is_within = false;
+        self.visit_recent(scene, group, |pairing, places, options, scratch| {
             let mut visitor = Within {
                 margin: options.margin,
                 threshold,
                 found: None,
             };
-            let _ = visit_pair(&pairing, places, &mut self.scratch, &mut visitor);
-            visitor.found.is_some()
-        }))
+            let _ = visit_pair(pairing, places, scratch, &mut visitor);
+            is_within |= visitor.found.is_some();
+        })?;
+        Ok(is_within)
+    }
+
+    /// How far the primitive pair is that was found last, up to `limit`: nothing farther need be looked at.
+    pub(super) fn recent_distance(
+        &mut self,
+        scene: &Scene,
+        group: &Group,
+        limit: f64,
+    ) -> Result<f64> {
+        let mut least = limit;
+        self.visit_recent(scene, group, |pairing, places, options, scratch| {
+            let mut visitor = Nearest::up_to(least);
+            visitor.margin = options.margin;
+            let _ = visit_pair(pairing, places, scratch, &mut visitor);
+            least = visitor.limit();
+        })?;
+        Ok(least)
+    }
+
+    /// Visits the primitive pair that was found last, once for each term that holds it.
+    fn visit_recent(
+        &mut self,
+        scene: &Scene,
+        group: &Group,
+        mut visit: impl FnMut(&Pairing, [u32; 2], &InducedOptions, &mut Scratch),
+    ) -> Result<()> {
+        scene.check(group)?;
+        let recent = self
+            .recent
+            .and_then(|key| Some((key, self.remembered(&key)?)));
+        if let Some((key, places)) = recent {
+            for (pairing, options) in scene.find(group, &key) {
+                visit(&pairing, places, &options, &mut self.scratch);
+            }
+        }
+        Ok(())
     }
 
     /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from target to target.

@@ -295,8 +295,9 @@ impl QueryContext {
         scene: &Scene,
         max_distance: f64,
     ) -> Result<Distance> {
+        let nearest = self.recent_distance(scene, group, max_distance)?;
         let wanted = Wanted {
-            nearest: Some(max_distance),
+            nearest: Some(nearest),
             ..Wanted::within(0.0)
         };
         let candidates = scene.candidates(group, wanted, &mut self.near)?;
