@@ -713,7 +713,7 @@ typedef struct cstk_hierarchy_options {
 typedef int32_t (*cstk_progress_fn)(double fraction, void *user);
 
 /**
- * Gives user data back to the caller, once, when nothing refers to it any more.
+ * Gives user data back to the caller, once, when nothing refers to it any more. It may call the library.
  */
 typedef void (*cstk_destroy_fn)(void *user);
 
@@ -1840,7 +1840,7 @@ cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
  * their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
  * without area that were left out count where others need them to join. Faces that alone share an edge are turned
  * round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
- * where the boundary's winding number is not 0. So shells may overlap; a cavity is a shell that faces the other way than
+ * where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell that faces the other way than
  * the one around it; and a boundary that faces inwards all over bounds the same solid.
  */
 cstk_status cstk_body_builder_set_solid(struct cstk_body_builder *builder,
@@ -2004,7 +2004,8 @@ cstk_status cstk_body_builder_add_rounded_polyhedron(struct cstk_body_builder *b
 /**
  * Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
  * of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
- * added then.
+ * added then. Building takes up to 60 microseconds and 3 kB a point with a radius: for clouds of millions keep one point
+ * of each small cube, and let the radius cover the others.
  */
 cstk_status cstk_body_builder_add_points(struct cstk_body_builder *builder,
                                          const double *xyz,
@@ -2482,6 +2483,9 @@ cstk_status cstk_environment_change_default(struct cstk_environment_change *out,
  * Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
  * about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
  * are unique in the process. All changes have the size of the first.
+ *
+ * A change takes some microseconds, whatever the number of objects; at times the tree over them is built anew (2
+ * microseconds an object). Other threads that change wait meanwhile; those that query never do.
  *
  * CSTK_NOT_FOUND for an id that is not there (any more), CSTK_UNSUPPORTED for a snapshot.
  */

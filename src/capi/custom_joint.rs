@@ -23,7 +23,7 @@ pub type cstk_joint_jacobian_fn = Option<
     unsafe extern "C" fn(q: *const f64, n: usize, jacobian: *mut f64, user: *mut c_void) -> i32,
 >;
 
-/// Gives user data back to the caller, once, when nothing refers to it any more.
+/// Gives user data back to the caller, once, when nothing refers to it any more. It may call the library.
 pub type cstk_destroy_fn = Option<unsafe extern "C" fn(user: *mut c_void)>;
 
 /// A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default

@@ -137,6 +137,9 @@ pub unsafe extern "C" fn cstk_environment_change_default(
 /// about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
 /// are unique in the process. All changes have the size of the first.
 ///
+/// A change takes some microseconds, whatever the number of objects; at times the tree over them is built anew (2
+/// microseconds an object). Other threads that change wait meanwhile; those that query never do.
+///
 /// CSTK_NOT_FOUND for an id that is not there (any more), CSTK_UNSUPPORTED for a snapshot.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_apply(

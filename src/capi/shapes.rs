@@ -184,7 +184,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
 
 /// Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
 /// of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
-/// added then.
+/// added then. Building takes up to 60 microseconds and 3 kB a point with a radius: for clouds of millions keep one point
+/// of each small cube, and let the radius cover the others.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_points(
     builder: *mut cstk_body_builder,
