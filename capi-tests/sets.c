@@ -208,6 +208,7 @@ static void check_names(const cube *c, const cstk_witness *w, int leaf) {
     /* The world box names the link that decides. */
     const uint32_t link = leaf == WORLD ? w->r_link : leaf_is_pure(leaf) ? CSTK_NONE : CUBE_LINK;
     CHECK(w->r_link == link && w->s_link == CSTK_NONE && (leaf != WORLD || link <= CUBE_LINK));
+    CHECK(!w->complemented || leaf_is_pure(leaf));
     CHECK((w->coordinate < NQ) == (leaf == LIMITS || leaf == BOX));
     CHECK(w->s_object == (leaf_is_pure(leaf) ? 0 : c->objects[leaf]) && w->r_object == 0);
     CHECK(w->r_tag == (leaf_is_pure(leaf) ? 0 : 7) && w->s_tag == w->r_tag);

@@ -226,7 +226,8 @@ enum cstk_joint_kind
    */
   CSTK_JOINT_SPHERICAL = 4,
   /**
-   * Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's frame.
+   * Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's
+   * frame.
    */
   CSTK_JOINT_FREE = 5,
   /**
@@ -289,7 +290,7 @@ enum cstk_distance_kind
    */
   CSTK_EXACT = 0,
   /**
-   * Only `lower` and `upper` are known.
+   * Only `lower` and `upper` are known; `distance` repeats `lower`.
    */
   CSTK_LOWER_BOUND = 1,
   /**
@@ -324,8 +325,8 @@ enum cstk_contact_mode
   CSTK_FACE_POINT = 4,
   CSTK_EDGE_EDGE = 5,
   /**
-   * The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
-   * origin, of a floor those of the link's lowest point.
+   * The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the
+   * link's origin, of a floor those of the link's lowest point.
    */
   CSTK_PURE_SET = 6,
 };
@@ -420,10 +421,10 @@ enum cstk_slide_outcome
    */
   CSTK_SLIDE_INSIDE = 1,
   /**
-   * No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a range
-   * of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as the
-   * floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
-   * than a hundredth of its length along the step asked for, to first order.
+   * No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
+   * range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
+   * the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
+   * gains more than a hundredth of its length along the step asked for, to first order.
    */
   CSTK_SLIDE_BLOCKED = 2,
 };
@@ -489,7 +490,10 @@ enum cstk_change_kind
    */
   CSTK_CHANGE_DELETE = 2,
   /**
-   * Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew.
+   * Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew. To take an
+   * object from where it stands, `pose` is the inverse of the link's pose composed with the object's; to set it down
+   * there again, CSTK_CHANGE_MOVE to the link's pose composed with that. Attached once more, it gets another pose or
+   * other touch links.
    */
   CSTK_CHANGE_ATTACH = 3,
 };
@@ -890,10 +894,10 @@ typedef int32_t (*cstk_joint_jacobian_fn)(const double *q, size_t n, double *jac
 
 /**
  * A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
- * first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they must
- * be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or left unwritten in
- * a Jacobian) are answered with CSTK_NOT_FINITE, a pose that is none (or left unwritten) with CSTK_NOT_A_ROTATION, one that
- * leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_INVALID_ARGUMENT.
+ * first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they
+ * must be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or
+ * left unwritten in a Jacobian) are answered with CSTK_NOT_FINITE, a pose that is none (or left unwritten) with
+ * CSTK_NOT_A_ROTATION, one that leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_INVALID_ARGUMENT.
  */
 typedef struct cstk_custom_joint {
   uint32_t size;
@@ -1033,8 +1037,8 @@ typedef struct cstk_urdf_options {
    */
   int32_t parent;
   /**
-   * 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided, 3 to
-   * 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
+   * 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided,
+   * 3 to 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
    */
   uint32_t sides;
   /**
@@ -1104,10 +1108,12 @@ typedef struct cstk_environment_change {
    */
   double pose[12];
   /**
-   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets
-   * that the object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the link. In a set of links against
-   * s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
-   * s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
+   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets that the
+   * object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the
+   * link. In a set of links against s-objects it is tested against the other s-objects as the link itself is (r_object
+   * of a witness names it), and as an s-object against the links, but for the one that holds it and `touch_count`
+   * others, `touch_links` (the fingers, say). These may touch it only while it is held: for approach and retreat make
+   * a second set with `allowed` of cstk_cobject_options.
    */
   const struct cstk_space *space;
   const uint32_t *touch_links;
@@ -1156,7 +1162,8 @@ typedef struct cstk_cobject_options {
    */
   double margin;
   /**
-   * Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none.
+   * Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none. Ids
+   * are not checked: an object may come later. Sets are made in no time; who allows other pairs makes another one.
    */
   const struct cstk_allowed_pair *allowed;
   size_t allowed_count;
@@ -1185,9 +1192,9 @@ typedef int32_t (*cstk_predicate_gradient_fn)(const double *q,
 
 /**
  * A set by functions of the caller. Write it with cstk_predicate_default first. The functions are called by any thread
- * that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call back
- * into the query that asks. What they write is checked: numbers that are none, a class that is none, and a distance that
- * does not fit the class are answered with CSTK_CALLBACK_FAILED.
+ * that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call
+ * back into the query that asks. Slides take no sets with predicates. What they write is checked: numbers that are none,
+ * a class that is none, and a distance that does not fit the class are answered with CSTK_CALLBACK_FAILED.
  */
 typedef struct cstk_predicate {
   uint32_t size;
@@ -1203,6 +1210,7 @@ typedef struct cstk_predicate {
   cstk_predicate_distance_fn distance;
   /**
    * May be NULL: then cstk_gradients and cstk_pseudo_normal are refused within epsilon of the set (CSTK_UNSUPPORTED).
+   * Without a distance function either, the set has no gradients: no witness outside, one without a contact inside.
    */
   cstk_predicate_gradient_fn gradient;
   /**
@@ -1230,7 +1238,8 @@ typedef struct cstk_pure_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space. Default 0.
+   * Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space, for floors and the world box in
+   * lengths. Default 0.
    */
   double contact_epsilon;
   /**
@@ -1260,8 +1269,8 @@ typedef struct cstk_query_statistics {
 } cstk_query_statistics;
 
 /**
- * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE, but for
- * `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
+ * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE,
+ * but for `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
  */
 typedef struct cstk_witness {
   /**
@@ -1298,22 +1307,29 @@ typedef struct cstk_witness {
    */
   bool overlapping;
   /**
-   * A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet: they
-   * stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+   * A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet:
+   * they stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
    */
   bool contained;
-  uint8_t reserved_bytes[2];
   /**
-   * The coordinate that decides, where joint limits or a C-space box are near; else CSTK_NONE.
+   * The set's complement is meant.
+   */
+  bool complemented;
+  uint8_t reserved_bytes[1];
+  /**
+   * Of joint limits and C-space boxes the coordinate that decides: the one farthest beyond its range, or nearest to
+   * its end (distances combine all); else CSTK_NONE.
    */
   uint32_t coordinate;
   /**
-   * The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
+   * The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of
+   * bodies.
    */
   uint64_t cobject;
   void *cobject_data;
   /**
-   * The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there are none.
+   * The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there
+   * are none.
    */
   void *r_data;
   void *s_data;
@@ -1383,7 +1399,7 @@ typedef struct cstk_distance_result {
    */
   double lower;
   /**
-   * Never below the truth: infinite where an intersection holds the configuration up to rounding only.
+   * Never below the truth: infinite where of an intersection, a difference or a complement no more is known.
    */
   double upper;
   /**
@@ -1620,8 +1636,8 @@ typedef struct cstk_slide_options {
    */
   double desired_distance;
   /**
-   * Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
-   * is left of the step. (The report's normalize?)
+   * Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default,
+   * leaves what is left of the step. (The report's normalize?)
    */
   uint32_t normalize;
   /**
@@ -1701,8 +1717,8 @@ cstk_status cstk_pose_compose(const double *a,
                               double *out);
 
 /**
- * The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
- * may be the same.
+ * The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles
+ * each; both may be the same.
  */
 cstk_status cstk_pose_inverse(const double *pose_12,
                               double *out);
@@ -1733,9 +1749,9 @@ cstk_status cstk_euler_from_rotation(const double *rotation,
                                      double *yaw_pitch_roll);
 
 /**
- * The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity. `frame`
- * is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial columns of (33),
- * with which only the inertial form combines.
+ * The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity.
+ * `frame` is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial
+ * columns of (33), with which only the inertial form combines.
  */
 cstk_status cstk_euler_rates(const double *yaw_pitch_roll,
                              int32_t frame,
@@ -1837,11 +1853,11 @@ cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
  * themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
  *
  * It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
- * their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
- * without area that were left out count where others need them to join. Faces that alone share an edge are turned
- * round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
- * where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell that faces the other way than
- * the one around it; and a boundary that faces inwards all over bounds the same solid.
+ * their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other;
+ * faces without area that were left out count where others need them to join. Faces that alone share an edge are turned
+ * round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is
+ * inside where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell
+ * that faces the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
  */
 cstk_status cstk_body_builder_set_solid(struct cstk_body_builder *builder,
                                         bool solid);
@@ -2028,8 +2044,8 @@ cstk_status cstk_body_builder_add_height_field(struct cstk_body_builder *builder
                                                double base);
 
 /**
- * Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that means
- * for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+ * Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that
+ * means for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
  *
  * The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
  * not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:
@@ -2108,9 +2124,9 @@ cstk_status cstk_body_nodes_mesh(const struct cstk_body *body,
                                  struct cstk_mesh **out);
 
 /**
- * Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
- * primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO
- * if that fails.
+ * Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in
+ * different colours, leaves as their primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is
+ * written whole or not at all; CSTK_IO if that fails.
  */
 cstk_status cstk_body_show_nodes(const struct cstk_body *body,
                                  const uint32_t *nodes,
@@ -2262,13 +2278,15 @@ cstk_status cstk_robot_build(struct cstk_robot_builder *builder,
 cstk_status cstk_urdf_options_default(struct cstk_urdf_options *out, size_t size);
 
 /**
- * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before children,
- * branch by branch, the branches of a link in the order of its joints in the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
- * NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
+ * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before
+ * children, branch by branch, the branches of a link in the order of its joints in the file; the root link's number is
+ * written to `root`, which may be NULL. `urdf_options` may be NULL for the defaults; `progress`, which may be NULL, is
+ * told the part of the links that is done, `user` is passed to it.
  *
- * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
- * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes are
- * surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
+ * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
+ * box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
+ * are surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name
+ * the file, the line and the element; the builder is then as it was.
  */
 cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
                                          const char *file,
@@ -2281,9 +2299,10 @@ cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
  * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
  *
  * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
- * cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the links' origins may be; NULL for everywhere.
- * Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make a planar
- * world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
+ * cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the
+ * links' origins may be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer
+ * anywhere. Robots of dimension 2 make a planar world, of dimension 3 a spatial one (the report's
+ * make-c-space-planar-world and make-c-space-3d-world).
  */
 cstk_status cstk_space_create(const struct cstk_robot *const *robots,
                               size_t robot_count,
@@ -2510,7 +2529,8 @@ cstk_status cstk_environment_state(const struct cstk_environment *environment,
                                    uint64_t *version);
 
 /**
- * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to. CSTK_NOT_FOUND if there is none with this id.
+ * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to.
+ * CSTK_NOT_FOUND if there is none with this id.
  */
 cstk_status cstk_environment_object_pose(const struct cstk_environment *environment,
                                          uint64_t id,
@@ -2524,12 +2544,14 @@ cstk_status cstk_cobject_options_default(struct cstk_cobject_options *out, size_
 /**
  * Makes the set of configurations at which a link meets an s-object.
  *
- * `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
- * meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
- * always be nearest. Links 0 to i - 1 give the set of the first i links. The robot with itself is not meant; see
- * cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
- * added later too. An object that is deleted later contributes nothing; one of another dimension than the
- * robots is refused by the queries that meet it. `options` may be NULL for the defaults.
+ * `links` holds `link_count` numbers of links of the space; with `link_count` 0 all are meant (CSTK_EMPTY if none has a
+ * body), those too that no joint moves, such as a base: their gradients are 0, and they may always be nearest. What a
+ * link of these holds is tested with it (see CSTK_CHANGE_ATTACH): a frame without a body, such as a tool's, counts for
+ * what it holds, and must be among `links` for that. Links 0 to i - 1 give the set of the first i links. The robot with
+ * itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with
+ * `id_count` 0 all its objects are meant, those added later too. An object that is deleted later contributes nothing;
+ * one of another dimension than the robots is refused by the queries that meet it. `options` may be NULL for the
+ * defaults.
  */
 cstk_status cstk_cobject_induced(const struct cstk_space *space,
                                  const uint32_t *links,
@@ -2572,11 +2594,11 @@ cstk_status cstk_cobject_release(struct cstk_cobject *cobject);
  * - a complement is taken of the leaves, by De Morgan's laws. From the complement of a pure set (no predicate) the distance
  *   is exact; from that of an induced set it is 0 where nothing meets, and not known inside: CSTK_LOWER_BOUND, from 0.
  *
- * cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every induced
- * leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the derivatives of
- * those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0, but the class is
- * not CSTK_INSIDE. Lengths and units of C-space are not compared: CSTK_UNSUPPORTED for distances where a pure set without a
- * scale meets an induced one.
+ * cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
+ * induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the
+ * derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
+ * but the class is not CSTK_INSIDE. Lengths and units of C-space are not compared: CSTK_UNSUPPORTED for distances where
+ * a pure set without a scale meets an induced one.
  */
 cstk_status cstk_cobject_union(const struct cstk_cobject *const *parts,
                                size_t count,
@@ -2653,7 +2675,8 @@ cstk_status cstk_cobject_world(const struct cstk_space *space,
  * Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
  * (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
  * `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
- * floor. What links hold is not meant.
+ * floor. A margin is had by a larger offset. What links hold is not tested: where they carry something, a large box in the
+ * environment sees that.
  *
  * Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
  * at link poses too. Contacts are at that point (see CSTK_PURE_SET), and have a gradient where it is inside as well. The
@@ -2669,8 +2692,9 @@ cstk_status cstk_cobject_floor(const struct cstk_space *space,
 
 /**
  * Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
- * INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i] upwards
- * to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of the sum of the squares, angles the shorter way round.
+ * INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i]
+ * upwards to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of
+ * the sum of the squares, angles the shorter way round.
  */
 cstk_status cstk_cobject_box(const struct cstk_space *space,
                              const double *low,
@@ -2833,10 +2857,11 @@ cstk_status cstk_witnesses_at(struct cstk_query *query,
                               struct cstk_witness_list *out);
 
 /**
- * cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows per unit
- * of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance first and give
- * its `upper` as epsilon: a large epsilon visits every pair, whatever max_count. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
- * and no row. The arrays stay valid until the next call with this query context.
+ * cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows
+ * per unit of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance
+ * first and give its `upper` as epsilon where that is finite: a large epsilon visits every pair, whatever max_count. Row
+ * i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact and no row. The arrays stay
+ * valid until the next call with this query context.
  */
 cstk_status cstk_gradients(struct cstk_query *query,
                            const struct cstk_cobject *cobject,
@@ -2932,11 +2957,11 @@ cstk_status cstk_pair_witnesses(struct cstk_query *query,
 /**
  * Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
  * translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
- * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a pair of
- * polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid or support
- * function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none of its primitives:
- * nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated`
- * is set. The array stays valid until the next call with this query context.
+ * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
+ * pair of polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
+ * or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
+ * of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
+ * set. The array stays valid until the next call with this query context.
  */
 cstk_status cstk_pair_penetration(struct cstk_query *query,
                                   const struct cstk_body *body_a,
@@ -2954,13 +2979,14 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
 /**
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
  * nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
- * contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the world
- * box, pushed out where the robot is within that distance, set right where it leads, and halved
- * until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
- * gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
- * and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
- * is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants to stop
- * then looks at what was gained. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
+ * contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
+ * world box, pushed out where the robot is within that distance, set right where it leads, and halved until the whole
+ * way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts' gradients must
+ * do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q` and
+ * `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
+ * is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants
+ * to stop then looks at what was gained. The C-object is an induced or pure set or a union of such, without predicates:
+ * else, and where a custom joint moves that does not state its speeds, CSTK_UNSUPPORTED.
  */
 cstk_status cstk_slide(struct cstk_query *query,
                        const struct cstk_cobject *cobject,
@@ -2974,10 +3000,10 @@ cstk_status cstk_slide(struct cstk_query *query,
 
 /**
  * The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
- * `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it is
- * within that already; to first order, and without a look at ranges or the way. `normalize` is that of cstk_slide_options.
- * `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and `out` zero, where less than
- * a hundredth of the step would be left.
+ * `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
+ * is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
+ * cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
+ * `out` zero, where less than a hundredth of the step would be left.
  */
 cstk_status cstk_slide_step(const struct cstk_witness_list *list,
                             const double *step,

@@ -16,10 +16,10 @@ pub const DISTANCE_ERROR: f64 = 32.0 * EPSILON;
 pub const CERTIFIED_GAP: f64 = 16.0 * EPSILON;
 
 /// How well distances of a smooth primitive are known, times its diameter. The iteration goes on until its bounds are
-/// [`CERTIFIED_GAP`] L apart. Of 1.26e6 random pairs of cylinders, cones, ellipsoids and polytopes, with ratios of axes up to
-/// 1e4, 1 in 4000 stopped farther apart than 2e-14 L, none farther than 2.2e-12 L: on ruled surfaces, where the corners of the
-/// last simplex are as near to one another as rounding lets them be. Where the bounds of a pair are farther apart than
-/// this, its answer says so.
+/// [`CERTIFIED_GAP`] L apart. Of 1.26e6 random pairs of cylinders, cones, ellipsoids and polytopes, with ratios of axes
+/// up to 1e4, 1 in 4000 stopped farther apart than 2e-14 L, none farther than 2.2e-12 L: on ruled surfaces, where the
+/// corners of the last simplex are as near to one another as rounding lets them be. Where the bounds of a pair are
+/// farther apart than this, its answer says so.
 pub const SMOOTH_ERROR: f64 = 1e-11;
 
 /// The rounding of a wrapper's bound, times L: one support evaluation along a unit vector.

@@ -62,9 +62,10 @@ impl BodyBuilder {
         self.push(convex_polyhedron(points)?, tag, false)
     }
 
-    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: what is wholly inside meets the
-    /// body. Inside is where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell that faces
-    /// the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
+    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: what is wholly inside meets
+    /// the body. Inside is where the boundary's winding number is not 0. So shells that face the same way may overlap; a
+    /// cavity is a shell that faces the other way than the one around it; and a boundary that faces inwards all over
+    /// bounds the same solid.
     ///
     /// It is [`BodyBuilder::build`] that checks whether the boundary is closed. Edges join where their ends have the same
     /// coordinates, to the last bit; as many faces must run along each one way as the other. Faces that alone share an edge

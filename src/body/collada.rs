@@ -1,7 +1,7 @@
 //! Meshes from COLLADA files (.dae, version 1.4 and 1.5): the polygons of the scene, its nodes' transforms applied.
 //!
-//! Lengths are scaled to metres by the file's unit. `up_axis` is not applied: like the tools of ROS, for which most such files
-//! are made, this takes coordinates as they are written.
+//! Lengths are scaled to metres by the file's unit. `up_axis` is not applied: like the tools of ROS, for which most such
+//! files are made, this takes coordinates as they are written.
 
 use std::collections::HashMap;
 

@@ -17,8 +17,8 @@ const VERSION: u32 = 3;
 const HEADER_BYTES: usize = 32;
 
 impl Body {
-    /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is. Fails for a body with
-    /// a support function of the caller's.
+    /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is. Fails for a body
+    /// with a support function of the caller's.
     pub fn save(&self, path: &Path) -> Result<()> {
         let bytes = self.to_bytes();
         write_whole(path, &bytes.map_err(|error| error.within(path.display()))?)

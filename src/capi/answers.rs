@@ -45,8 +45,8 @@ pub enum cstk_contact_mode {
     CSTK_POINT_FACE = 3,
     CSTK_FACE_POINT = 4,
     CSTK_EDGE_EDGE = 5,
-    /// The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the link's
-    /// origin, of a floor those of the link's lowest point.
+    /// The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the
+    /// link's origin, of a floor those of the link's lowest point.
     CSTK_PURE_SET = 6,
 }
 
@@ -75,8 +75,8 @@ pub struct cstk_contact {
     pub reserved: [u64; 2],
 }
 
-/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE, but for
-/// `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
+/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE,
+/// but for `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness {
@@ -99,16 +99,21 @@ pub struct cstk_witness {
     pub contact_count: u32,
     /// The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient.
     pub overlapping: bool,
-    /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet: they
-    /// stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+    /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet:
+    /// they stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
     pub contained: bool,
-    pub reserved_bytes: [u8; 2],
-    /// The coordinate that decides, where joint limits or a C-space box are near; else CSTK_NONE.
+    /// The set's complement is meant.
+    pub complemented: bool,
+    pub reserved_bytes: [u8; 1],
+    /// Of joint limits and C-space boxes the coordinate that decides: the one farthest beyond its range, or nearest to
+    /// its end (distances combine all); else CSTK_NONE.
     pub coordinate: u32,
-    /// The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of bodies.
+    /// The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of
+    /// bodies.
     pub cobject: u64,
     pub cobject_data: *mut c_void,
-    /// The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there are none.
+    /// The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there
+    /// are none.
     pub r_data: *mut c_void,
     pub s_data: *mut c_void,
     /// The s-object attached to r_link that is the r-side, or 0 for the link's own body.
@@ -125,7 +130,7 @@ unsafe impl Send for cstk_witness {}
 pub enum cstk_distance_kind {
     /// The distance, to rounding.
     CSTK_EXACT = 0,
-    /// Only `lower` and `upper` are known.
+    /// Only `lower` and `upper` are known; `distance` repeats `lower`.
     CSTK_LOWER_BOUND = 1,
     /// Nothing is within max_distance: `lower` is max_distance, less rounding; `distance` and `upper` are infinite.
     CSTK_BEYOND_MAX = 2,
@@ -148,7 +153,7 @@ pub struct cstk_distance_result {
     pub distance: f64,
     /// Never above the truth. Where `distance` is finite, 0 exactly when that is.
     pub lower: f64,
-    /// Never below the truth: infinite where an intersection holds the configuration up to rounding only.
+    /// Never below the truth: infinite where of an intersection, a difference or a complement no more is known.
     pub upper: f64,
     /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
     /// inside a solid, a vertex of the piece.
@@ -303,7 +308,8 @@ impl From<&Witness> for cstk_witness {
             contact_count: witness.contact_count as u32,
             overlapping: witness.overlapping,
             contained: witness.contained,
-            reserved_bytes: [0; 2],
+            complemented: witness.complemented,
+            reserved_bytes: [0; 1],
             coordinate: match witness.s_side {
                 SSide::PureSet(PurePlace::Coordinate(i)) => i as u32,
                 _ => CSTK_NONE,
@@ -333,7 +339,8 @@ impl cstk_witness {
             contact_count: 0,
             overlapping: false,
             contained: false,
-            reserved_bytes: [0; 2],
+            complemented: false,
+            reserved_bytes: [0; 1],
             coordinate: CSTK_NONE,
             cobject: 0,
             cobject_data: std::ptr::null_mut(),

@@ -177,11 +177,11 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
 /// themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
 ///
 /// It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
-/// their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other; faces
-/// without area that were left out count where others need them to join. Faces that alone share an edge are turned
-/// round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is inside
-/// where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell that faces the other way than
-/// the one around it; and a boundary that faces inwards all over bounds the same solid.
+/// their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other;
+/// faces without area that were left out count where others need them to join. Faces that alone share an edge are turned
+/// round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is
+/// inside where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell
+/// that faces the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_set_solid(
     builder: *mut cstk_body_builder,

@@ -36,7 +36,8 @@ pub struct cstk_cobject_options {
     /// Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
     /// than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
     pub margin: f64,
-    /// Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none.
+    /// Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none. Ids
+    /// are not checked: an object may come later. Sets are made in no time; who allows other pairs makes another one.
     pub allowed: *const cstk_allowed_pair,
     pub allowed_count: usize,
 }
@@ -103,12 +104,14 @@ pub unsafe extern "C" fn cstk_cobject_options_default(
 
 /// Makes the set of configurations at which a link meets an s-object.
 ///
-/// `links` holds `link_count` numbers of links of the space that have a body; with `link_count` 0 all such links are
-/// meant (CSTK_EMPTY if there is none), those too that no joint moves, such as a base: their gradients are 0, and they may
-/// always be nearest. Links 0 to i - 1 give the set of the first i links. The robot with itself is not meant; see
-/// cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with `id_count` 0 all its objects are meant, those
-/// added later too. An object that is deleted later contributes nothing; one of another dimension than the
-/// robots is refused by the queries that meet it. `options` may be NULL for the defaults.
+/// `links` holds `link_count` numbers of links of the space; with `link_count` 0 all are meant (CSTK_EMPTY if none has a
+/// body), those too that no joint moves, such as a base: their gradients are 0, and they may always be nearest. What a
+/// link of these holds is tested with it (see CSTK_CHANGE_ATTACH): a frame without a body, such as a tool's, counts for
+/// what it holds, and must be among `links` for that. Links 0 to i - 1 give the set of the first i links. The robot with
+/// itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with
+/// `id_count` 0 all its objects are meant, those added later too. An object that is deleted later contributes nothing;
+/// one of another dimension than the robots is refused by the queries that meet it. `options` may be NULL for the
+/// defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced(
     space: *const cstk_space,

@@ -27,10 +27,10 @@ pub type cstk_joint_jacobian_fn = Option<
 pub type cstk_destroy_fn = Option<unsafe extern "C" fn(user: *mut c_void)>;
 
 /// A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
-/// first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they must
-/// be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or left unwritten in
-/// a Jacobian) are answered with CSTK_NOT_FINITE, a pose that is none (or left unwritten) with CSTK_NOT_A_ROTATION, one that
-/// leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_INVALID_ARGUMENT.
+/// first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they
+/// must be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or
+/// left unwritten in a Jacobian) are answered with CSTK_NOT_FINITE, a pose that is none (or left unwritten) with
+/// CSTK_NOT_A_ROTATION, one that leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_INVALID_ARGUMENT.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_custom_joint {

@@ -40,7 +40,10 @@ pub enum cstk_change_kind {
     CSTK_CHANGE_MOVE = 1,
     /// Deletes object `id`.
     CSTK_CHANGE_DELETE = 2,
-    /// Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew.
+    /// Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew. To take an
+    /// object from where it stands, `pose` is the inverse of the link's pose composed with the object's; to set it down
+    /// there again, CSTK_CHANGE_MOVE to the link's pose composed with that. Attached once more, it gets another pose or
+    /// other touch links.
     CSTK_CHANGE_ATTACH = 3,
 }
 
@@ -59,10 +62,12 @@ pub struct cstk_environment_change {
     pub body: *const cstk_body,
     /// Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
     pub pose: [f64; 12],
-    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets
-    /// that the object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the link. In a set of links against
-    /// s-objects it is tested against the other s-objects as the link itself is (r_object of a witness names it), and as an
-    /// s-object against the links, but for the one that holds it and `touch_count` others, `touch_links` (the fingers, say).
+    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets that the
+    /// object belongs to are refused with CSTK_UNSUPPORTED: where it is is not known there. The object moves with the
+    /// link. In a set of links against s-objects it is tested against the other s-objects as the link itself is (r_object
+    /// of a witness names it), and as an s-object against the links, but for the one that holds it and `touch_count`
+    /// others, `touch_links` (the fingers, say). These may touch it only while it is held: for approach and retreat make
+    /// a second set with `allowed` of cstk_cobject_options.
     pub space: *const cstk_space,
     pub touch_links: *const u32,
     pub link: u32,
@@ -252,7 +257,8 @@ pub unsafe extern "C" fn cstk_environment_state(
     })
 }
 
-/// Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to. CSTK_NOT_FOUND if there is none with this id.
+/// Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to.
+/// CSTK_NOT_FOUND if there is none with this id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_object_pose(
     environment: *const cstk_environment,

@@ -17,7 +17,8 @@ pub enum cstk_joint_kind {
     CSTK_JOINT_PLANAR = 3,
     /// Turns it about its origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
     CSTK_JOINT_SPHERICAL = 4,
-    /// Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's frame.
+    /// Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's
+    /// frame.
     CSTK_JOINT_FREE = 5,
     /// Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Where cos(pitch) = 0 they cannot
     /// turn it about every axis.

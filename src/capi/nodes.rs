@@ -314,9 +314,9 @@ pub unsafe extern "C" fn cstk_body_nodes_mesh(
     })
 }
 
-/// Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in different colours, leaves as their
-/// primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO
-/// if that fails.
+/// Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in
+/// different colours, leaves as their primitives. The name must end in .glb (CSTK_UNSUPPORTED otherwise). The file is
+/// written whole or not at all; CSTK_IO if that fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_show_nodes(
     body: *const cstk_body,

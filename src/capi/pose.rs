@@ -74,8 +74,8 @@ pub unsafe extern "C" fn cstk_pose_compose(
     })
 }
 
-/// The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
-/// may be the same.
+/// The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles
+/// each; both may be the same.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_inverse(pose_12: *const f64, out: *mut f64) -> cstk_status {
     guard(|| {
@@ -180,9 +180,9 @@ impl cstk_angular_frame {
     }
 }
 
-/// The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity. `frame`
-/// is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial columns of (33),
-/// with which only the inertial form combines.
+/// The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity.
+/// `frame` is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial
+/// columns of (33), with which only the inertial form combines.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_rates(
     yaw_pitch_roll: *const f64,

@@ -34,9 +34,9 @@ pub type cstk_predicate_gradient_fn = Option<
 >;
 
 /// A set by functions of the caller. Write it with cstk_predicate_default first. The functions are called by any thread
-/// that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call back
-/// into the query that asks. What they write is checked: numbers that are none, a class that is none, and a distance that
-/// does not fit the class are answered with CSTK_CALLBACK_FAILED.
+/// that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call
+/// back into the query that asks. Slides take no sets with predicates. What they write is checked: numbers that are none,
+/// a class that is none, and a distance that does not fit the class are answered with CSTK_CALLBACK_FAILED.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_predicate {
@@ -48,6 +48,7 @@ pub struct cstk_predicate {
     /// where the class is not CSTK_OUTSIDE, and it has witnesses only where it holds q. Distances are at most 1e50.
     pub distance: cstk_predicate_distance_fn,
     /// May be NULL: then cstk_gradients and cstk_pseudo_normal are refused within epsilon of the set (CSTK_UNSUPPORTED).
+    /// Without a distance function either, the set has no gradients: no witness outside, one without a contact inside.
     pub gradient: cstk_predicate_gradient_fn,
     /// Handed to the functions.
     pub user: *mut c_void,

@@ -19,7 +19,8 @@ use crate::space::Space;
 pub struct cstk_pure_options {
     pub size: u32,
     pub cookie: u32,
-    /// Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space. Default 0.
+    /// Distances above 0 and up to this classify as CSTK_CONTACT; in units of C-space, for floors and the world box in
+    /// lengths. Default 0.
     pub contact_epsilon: f64,
     /// The length that a unit of C-space stands for. Distances of the set are multiplied by it, and so can be compared with
     /// those of induced sets; 0, the default: they are not, and queries of distance of both together are refused.
@@ -120,7 +121,8 @@ pub unsafe extern "C" fn cstk_cobject_world(
 /// Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
 /// (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
 /// `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
-/// floor. What links hold is not meant.
+/// floor. A margin is had by a larger offset. What links hold is not tested: where they carry something, a large box in the
+/// environment sees that.
 ///
 /// Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
 /// at link poses too. Contacts are at that point (see CSTK_PURE_SET), and have a gradient where it is inside as well. The
@@ -148,8 +150,9 @@ pub unsafe extern "C" fn cstk_cobject_floor(
 }
 
 /// Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
-/// INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i] upwards
-/// to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of the sum of the squares, angles the shorter way round.
+/// INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i]
+/// upwards to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of
+/// the sum of the squares, angles the shorter way round.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_box(
     space: *const cstk_space,

@@ -451,10 +451,11 @@ pub unsafe extern "C" fn cstk_witnesses_at(
     )
 }
 
-/// cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows per unit
-/// of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance first and give
-/// its `upper` as epsilon: a large epsilon visits every pair, whatever max_count. Row i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact
-/// and no row. The arrays stay valid until the next call with this query context.
+/// cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows
+/// per unit of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance
+/// first and give its `upper` as epsilon where that is finite: a large epsilon visits every pair, whatever max_count. Row
+/// i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact and no row. The arrays stay
+/// valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_gradients(
     query: *mut cstk_query,

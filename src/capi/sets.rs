@@ -42,11 +42,11 @@ fn combine(
 /// - a complement is taken of the leaves, by De Morgan's laws. From the complement of a pure set (no predicate) the distance
 ///   is exact; from that of an induced set it is 0 where nothing meets, and not known inside: CSTK_LOWER_BOUND, from 0.
 ///
-/// cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every induced
-/// leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the derivatives of
-/// those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0, but the class is
-/// not CSTK_INSIDE. Lengths and units of C-space are not compared: CSTK_UNSUPPORTED for distances where a pure set without a
-/// scale meets an induced one.
+/// cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
+/// induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the
+/// derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
+/// but the class is not CSTK_INSIDE. Lengths and units of C-space are not compared: CSTK_UNSUPPORTED for distances where
+/// a pure set without a scale meets an induced one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_union(
     parts: *const *const cstk_cobject,

@@ -231,8 +231,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_height_field(
     })
 }
 
-/// Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that means
-/// for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+/// Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that
+/// means for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
 ///
 /// The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
 /// not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:

@@ -23,8 +23,8 @@ pub struct cstk_slide_options {
     /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
     /// tenth of max_shell. Independent of the C-object's contact epsilon.
     pub desired_distance: f64,
-    /// Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default, leaves what
-    /// is left of the step. (The report's normalize?)
+    /// Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default,
+    /// leaves what is left of the step. (The report's normalize?)
     pub normalize: u32,
     /// At most so many witnesses are considered, the nearest first. Default 256.
     pub max_witnesses: u32,
@@ -58,10 +58,10 @@ pub enum cstk_slide_outcome {
     CSTK_SLIDE_MOVED = 0,
     /// The configuration is inside the C-object; nothing was moved.
     CSTK_SLIDE_INSIDE = 1,
-    /// No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a range
-    /// of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as the
-    /// floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box gains more
-    /// than a hundredth of its length along the step asked for, to first order.
+    /// No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
+    /// range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
+    /// the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
+    /// gains more than a hundredth of its length along the step asked for, to first order.
     CSTK_SLIDE_BLOCKED = 2,
 }
 
@@ -90,13 +90,14 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
 /// nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
-/// contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the world
-/// box, pushed out where the robot is within that distance, set right where it leads, and halved
-/// until the whole way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts'
-/// gradients must do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q`
-/// and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
-/// is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants to stop
-/// then looks at what was gained. CSTK_UNSUPPORTED where a custom joint moves that does not state its speeds.
+/// contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
+/// world box, pushed out where the robot is within that distance, set right where it leads, and halved until the whole
+/// way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts' gradients must
+/// do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q` and
+/// `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
+/// is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants
+/// to stop then looks at what was gained. The C-object is an induced or pure set or a union of such, without predicates:
+/// else, and where a custom joint moves that does not state its speeds, CSTK_UNSUPPORTED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,
@@ -149,10 +150,10 @@ pub unsafe extern "C" fn cstk_slide(
 }
 
 /// The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
-/// `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it is
-/// within that already; to first order, and without a look at ranges or the way. `normalize` is that of cstk_slide_options.
-/// `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and `out` zero, where less than
-/// a hundredth of the step would be left.
+/// `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
+/// is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
+/// cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
+/// `out` zero, where less than a hundredth of the step would be left.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide_step(
     list: *const cstk_witness_list,

@@ -88,9 +88,10 @@ impl cstk_range {
 /// Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
 ///
 /// `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
-/// cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the links' origins may be; NULL for everywhere.
-/// Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make a planar
-/// world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
+/// cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the
+/// links' origins may be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer
+/// anywhere. Robots of dimension 2 make a planar world, of dimension 3 a spatial one (the report's
+/// make-c-space-planar-world and make-c-space-3d-world).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_create(
     robots: *const *const cstk_robot,

@@ -41,8 +41,8 @@ pub struct cstk_urdf_options {
     pub base: i32,
     /// The link of the builder that carries the robot, or -1 for the world.
     pub parent: i32,
-    /// 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided, 3 to
-    /// 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
+    /// 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided,
+    /// 3 to 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
     pub sides: u32,
     /// Where the robot stands on its parent: a pose of 12 doubles.
     pub at: [f64; 12],
@@ -87,13 +87,15 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before children,
-/// branch by branch, the branches of a link in the order of its joints in the file; the root link's number is written to `root`, which may be NULL. `urdf_options` may be
-/// NULL for the defaults; `progress`, which may be NULL, is told the part of the links that is done, `user` is passed to it.
+/// Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before
+/// children, branch by branch, the branches of a link in the order of its joints in the file; the root link's number is
+/// written to `root`, which may be NULL. `urdf_options` may be NULL for the defaults; `progress`, which may be NULL, is
+/// told the part of the links that is done, `user` is passed to it.
 ///
-/// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
-/// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes are
-/// surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name the file, the line and the element; the builder is then as it was.
+/// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
+/// box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
+/// are surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name
+/// the file, the line and the element; the builder is then as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     builder: *mut cstk_robot_builder,

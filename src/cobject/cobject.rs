@@ -313,7 +313,7 @@ impl CObject {
             Unit::Mixed(pure) => Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
-                    "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths"
+                    "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths; give it one (scale)"
                 ),
             )),
             _ => Ok(()),

@@ -7,8 +7,8 @@ use crate::primitive::monotone_chain;
 
 /// The eight corners of a box that covers the points, up to rounding.
 ///
-/// Starts from the axes of coordinates and from the principal axes of few points that lie farthest out; each is turned about its own
-/// three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
+/// Starts from the axes of coordinates and from the principal axes of few points that lie farthest out; each is turned
+/// about its own three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
 pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
     corners_along(points, &least_volume_axes(few))
 }

@@ -5,7 +5,8 @@ use crate::pose::{Mat3, Vec3};
 use crate::primitive::Convex;
 
 /// A box in two meanings, so that it can be relied on whatever rounding did to its axes, which are orthonormal to within
-/// 2^-12: the points it holds are center + sum c_i axis_i with |c_i| <= half_i, and for them |axis_i . (x - center)| <= half_i.
+/// 2^-12: the points it holds are center + sum c_i axis_i with |c_i| <= half_i, and for them |axis_i . (x - center)| <=
+/// half_i.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedBox {
     pub axes: [[f32; 3]; 3],

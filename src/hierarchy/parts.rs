@@ -20,7 +20,8 @@ pub struct Part {
 }
 
 impl Part {
-    /// The points whose hull is the part, or holds it where it is curved, and how far rounding may have left the part outside that hull.
+    /// The points whose hull is the part, or holds it where it is curved, and how far rounding may have left the part
+    /// outside that hull.
     pub fn vertices<'a>(&'a self, primitives: &'a [Convex]) -> (&'a [Vec3], f64) {
         match &self.slab {
             None => (primitives[self.primitive as usize].bounding_points(), 0.0),

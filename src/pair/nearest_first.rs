@@ -1,4 +1,5 @@
-//! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of all.
+//! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of
+//! all.
 
 use crate::hierarchy::{Children, Unit};
 use crate::lanes::{Instructions, Lanes8};

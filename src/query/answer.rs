@@ -76,9 +76,11 @@ pub struct Witness {
     pub contact_count: usize,
     /// The primitives' interiors overlap, or `contained`: there is no contact, and no gradient.
     pub overlapping: bool,
-    /// A piece of one body lies wholly inside the other, a solid, and the primitives, which do not meet, stand for the two: the
-    /// lowest of the piece, and the lowest of what of the solid's boundary is around it. The distance is 0, whatever that of
-    /// the primitives is.
+    /// It is the complement of a pure set that is near.
+    pub complemented: bool,
+    /// A piece of one body lies wholly inside the other, a solid, and the primitives, which do not meet, stand for the
+    /// two: the lowest of the piece, and the lowest of what of the solid's boundary is around it. The distance is 0,
+    /// whatever that of the primitives is.
     pub contained: bool,
 }
 

@@ -85,8 +85,8 @@ impl QueryContext {
     }
 
     /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
-    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies wholly inside
-    /// a solid meets no primitive of it, and is not listed.
+    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies
+    /// wholly inside a solid meets no primitive of it, and is not listed.
     pub fn pair_penetration(
         &mut self,
         a: Placement,
@@ -147,6 +147,7 @@ impl Witness {
             contact_count: 0,
             overlapping: hit.contained.is_some(),
             contained: hit.contained.is_some(),
+            complemented: false,
         }
     }
 }

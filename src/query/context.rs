@@ -53,7 +53,8 @@ impl QueryContext {
         world
     }
 
-    /// The version of an environment that the last query with this context saw, if it was one of a C-object that refers to it.
+    /// The version of an environment that the last query with this context saw, if it was one of a C-object that refers
+    /// to it.
     pub fn version_seen(&self, environment: &Environment) -> Option<u64> {
         let serial = environment.serial();
         let found = self.seen.iter().find(|(known, _)| *known == serial);

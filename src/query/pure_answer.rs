@@ -52,7 +52,8 @@ impl PureAt<'_> {
         Ok(Distance::from_reach(reach, max_distance, witness, contact))
     }
 
-    /// The witness, its contact and its gradient, if the set may be within `epsilon`; the gradient only where it is asked for.
+    /// The witness, its contact and its gradient, if the set may be within `epsilon`; the gradient only where it is asked
+    /// for.
     pub fn within(&self, epsilon: f64, with_gradient: bool) -> Result<Option<PureWitness>> {
         let reach = self.reach()?;
         let measures = reach.is_exact || reach.lower > 0.0;
@@ -107,6 +108,7 @@ impl PureAt<'_> {
             contact_count: 0,
             overlapping: false,
             contained: false,
+            complemented: self.complement,
         }
     }
 

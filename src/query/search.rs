@@ -16,7 +16,8 @@ pub(super) struct Found<'t, 'a> {
 }
 
 impl QueryContext {
-    /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if one is within `limit`.
+    /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if
+    /// one is within `limit`.
     pub(super) fn nearest<'t, 'a>(
         &mut self,
         targets: &'t [Target<'a>],
@@ -114,7 +115,8 @@ impl QueryContext {
         Ok(())
     }
 
-    /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from target to target.
+    /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from
+    /// target to target.
     pub(super) fn any_within(
         &mut self,
         targets: &[Target],
@@ -147,7 +149,8 @@ impl QueryContext {
         false
     }
 
-    /// All pieces inside other bodies and all primitive pairs within the threshold, nearest first, and whether there are more than `max_count`.
+    /// All pieces inside other bodies and all primitive pairs within the threshold, nearest first, and whether there are
+    /// more than `max_count`.
     pub(super) fn collect(
         &mut self,
         targets: &[Target],

@@ -128,9 +128,9 @@ struct Asked<'a> {
 }
 
 impl QueryContext {
-    /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest step
-    /// that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out to it where it is within, set right where it leads,
-    /// and halved until the whole way is proved free.
+    /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest
+    /// step that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out
+    /// to it where it is within, set right where it leads, and halved until the whole way is proved free.
     pub fn slide(
         &mut self,
         cobject: &CObject,

@@ -123,9 +123,9 @@ impl Space {
         row
     }
 
-    /// How q1 is off q0, run by run: angles the shorter way round, shifts in the robot's frame, and turns in the turned frame.
-    /// As [`Space::difference`], but that shifts and turns of free joints are told apart: the length is a metric, that of the
-    /// product of lines, circles and rotations.
+    /// How q1 is off q0, run by run: angles the shorter way round, shifts in the robot's frame, and turns in the turned
+    /// frame. As [`Space::difference`], but that shifts and turns of free joints are told apart: the length is a metric,
+    /// that of the product of lines, circles and rotations.
     pub fn offset(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut offset = self.difference(q0, q1);
         for block in self.blocks() {

@@ -71,8 +71,8 @@ impl Default for UrdfOptions {
 const MOST_SIDES: usize = 1024;
 
 /// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns the number of its root
-/// link. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that is done. The file is
-/// added whole or not at all; failures name file, line and element.
+/// link. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that
+/// is done. The file is added whole or not at all; failures name file, line and element.
 pub fn add_urdf_file(
     builder: &mut RobotBuilder,
     path: &Path,
@@ -410,8 +410,8 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
         self.builder.add_link(definition)
     }
 
-    /// A planar joint moves in the xy-plane of its frame; where the file's axis is another, a frame of its own carries it, and
-    /// the link hangs on that.
+    /// A planar joint moves in the xy-plane of its frame; where the file's axis is another, a frame of its own carries
+    /// it, and the link hangs on that.
     fn add_tilted_plane(&mut self, definition: LinkDefinition, axis: &Vec3) -> Result<usize> {
         let half_turn = || Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
         let turn = Rotation3::rotation_between(&Vec3::z(), &(axis / axis.amax()))
