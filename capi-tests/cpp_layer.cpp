@@ -576,7 +576,10 @@ static void worlds(const cstk::Space &space, const cstk::Body &body) {
     const cstk_distance_result found = query.distance(all, q);
     REQUIRE(found.witness.r_object == id && found.witness.s_object == wall);
     REQUIRE(found.witness.r_data == &mark && query.version(world) == world.version());
+    REQUIRE(world.object(id).link == hand && world.object(id).data == &mark);
+    REQUIRE((world.objects() == std::vector<std::uint64_t>{id, wall}));
     world.move(id, cstk::translation(0, 0, 50));
+    REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
     REQUIRE(query.distance(all, q).witness.r_object == 0);
     REQUIRE(space.link_name(hand) == "link1" && query.link_pairs(space).empty());
 }

@@ -112,6 +112,33 @@ static void link_names(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void objects(const fixture *f) {
+    uint64_t ids[2] = {7, 7};
+    size_t count = 0;
+    cstk_object_info info;
+    EACH_BAD_HANDLE(f, NOUN_ENVIRONMENT, bad) {
+        CHECK_REFUSED(count, cstk_environment_objects(bad->handle, 0, NULL, &count), bad->status,
+                      "environment");
+        CHECK_REFUSED(info, cstk_environment_object_info(bad->handle, f->box, &info), bad->status,
+                      "environment");
+    }
+    const cstk_environment *e = f->environment;
+    CHECK_REFUSED(count, cstk_environment_objects(e, 1, NULL, &count), CSTK_NULL_ARGUMENT, "ids");
+    CHECK_REFUSED(count, cstk_environment_objects(e, SIZE_MAX, ids, &count), CSTK_WRONG_SIZE,
+                  "ids");
+    CHECK_FAILS(cstk_environment_objects(e, 2, ids, NULL), CSTK_NULL_ARGUMENT, "count");
+    CHECK_FAILS(cstk_environment_object_info(e, f->box, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(info, cstk_environment_object_info(e, f->box + 1000, &info), CSTK_NOT_FOUND,
+                  "id");
+    CHECK_OK(cstk_environment_objects(e, 0, NULL, &count));
+    CHECK(count == 1);
+    CHECK_OK(cstk_environment_objects(e, 2, ids, &count));
+    CHECK(count == 1 && ids[0] == f->box && ids[1] == 7);
+    CHECK_OK(cstk_environment_object_info(e, f->box, &info));
+    CHECK(info.id == f->box && info.link == CSTK_NONE && info.touch_count == 0 && !info.data);
+    fixture_unchanged(f);
+}
+
 static void versions(const fixture *f) {
     uint64_t out;
     cstk_query *fresh = NULL;
@@ -196,6 +223,7 @@ int main(void) {
     floors(&f);
     body_data(&f);
     link_names(&f);
+    objects(&f);
     versions(&f);
     destroy_changes_the_world(&f);
     progress_releases_the_space(&f);

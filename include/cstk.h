@@ -1128,6 +1128,30 @@ typedef struct cstk_environment_change {
 } cstk_environment_change;
 
 /**
+ * An s-object, as it is in one state of its environment.
+ */
+typedef struct cstk_object_info {
+  uint64_t id;
+  /**
+   * In the world, or, where the object is attached to a link, in that link's frame.
+   */
+  double pose[12];
+  /**
+   * The link that it is attached to, numbered through the space it was attached with; CSTK_NONE if it is let go.
+   */
+  uint32_t link;
+  /**
+   * How many other links may touch it meanwhile.
+   */
+  uint32_t touch_count;
+  /**
+   * Its data, or its body's where it has none of its own, or NULL.
+   */
+  void *data;
+  uint64_t reserved[8];
+} cstk_object_info;
+
+/**
  * A pair that may meet: a link, and an s-object.
  */
 typedef struct cstk_allowed_pair {
@@ -2529,8 +2553,24 @@ cstk_status cstk_environment_state(const struct cstk_environment *environment,
                                    uint64_t *version);
 
 /**
- * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to.
- * CSTK_NOT_FOUND if there is none with this id.
+ * Writes the ids of the objects in the order in which they came: at most `max_count` to `ids` (NULL if that is 0), and their
+ * full number to `count`.
+ */
+cstk_status cstk_environment_objects(const struct cstk_environment *environment,
+                                     size_t max_count,
+                                     uint64_t *ids,
+                                     size_t *count);
+
+/**
+ * Writes where an s-object is and what holds it. CSTK_NOT_FOUND if there is none with this id (any more).
+ */
+cstk_status cstk_environment_object_info(const struct cstk_environment *environment,
+                                         uint64_t id,
+                                         struct cstk_object_info *out);
+
+/**
+ * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to (see
+ * cstk_environment_object_info). CSTK_NOT_FOUND if there is none with this id.
  */
 cstk_status cstk_environment_object_pose(const struct cstk_environment *environment,
                                          uint64_t id,

@@ -966,6 +966,22 @@ public:
         return version;
     }
 
+    /// The ids of all objects, in the order in which they came.
+    std::vector<std::uint64_t> objects() const {
+        std::vector<std::uint64_t> ids(object_count());
+        std::size_t count = 0;
+        check(cstk_environment_objects(get(), ids.size(), ids.data(), &count));
+        /* Others may have gone meanwhile. */
+        ids.resize(count < ids.size() ? count : ids.size());
+        return ids;
+    }
+
+    cstk_object_info object(std::uint64_t id) const {
+        cstk_object_info out;
+        check(cstk_environment_object_info(get(), id, &out));
+        return out;
+    }
+
     Pose object_pose(std::uint64_t id) const {
         Pose pose;
         check(cstk_environment_object_pose(get(), id, pose.data()));

@@ -13,7 +13,7 @@ use super::status::cstk_status;
 use super::user_data::Kept;
 use crate::body::Body;
 use crate::environment::{Attachment, Change, Environment};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::pose::Pose;
 use crate::space::Space;
 use crate::user_data::UserData;
@@ -253,29 +253,6 @@ pub unsafe extern "C" fn cstk_environment_state(
         let now = environment.snapshot();
         object_count.write(now.len());
         version.write(now.version);
-        Ok(())
-    })
-}
-
-/// Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to.
-/// CSTK_NOT_FOUND if there is none with this id.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_environment_object_pose(
-    environment: *const cstk_environment,
-    id: u64,
-    pose: *mut f64,
-) -> cstk_status {
-    guard(|| {
-        let environment = &*handle::share::<Environment>(environment, "environment")?;
-        let out = OutputSlice::checked(pose, 12, "pose")?;
-        let now = environment.snapshot();
-        let object = now.find(id).ok_or_else(|| {
-            Error::new(
-                ErrorKind::NotFound,
-                format!("there is no s-object with id {id}"),
-            )
-        })?;
-        out.write(&object.pose.to_row_major());
         Ok(())
     })
 }

@@ -46,6 +46,8 @@ pub mod configuration;
 
 pub mod environment;
 
+pub mod s_object;
+
 pub mod cobject;
 
 pub mod sets;

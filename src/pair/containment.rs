@@ -4,11 +4,15 @@
 
 use std::ops::ControlFlow;
 
+use super::box_bounds::ROUNDING;
 use super::hit::{Hit, HitKey, Inner};
+use super::near_primitives::NearPrimitives;
 use super::pairing::Pairing;
 use super::traversal::{Met, Scratch, Visitor, traverse};
 use super::winding::{RayScratch, winding};
 use crate::body::{Body, Piece, Solid};
+use crate::hierarchy::PackedBox;
+use crate::lanes::{cross3, each3};
 use crate::pose::{Pose, Vec3};
 
 /// A piece that may lie inside a solid.
@@ -96,7 +100,8 @@ impl<'a> Pairing<'a> {
             if outside > ball.radius + self.slack() {
                 continue;
             }
-            for (number, piece) in (0..).zip(&self.body(inner).pieces().list) {
+            for number in self.pieces_near(inner, solid, &into_outer) {
+                let piece = &self.body(inner).pieces().list[number as usize];
                 let Some(around) = around(outer, piece, &into_outer, &mut rays) else {
                     continue;
                 };
@@ -114,6 +119,43 @@ impl<'a> Pairing<'a> {
                 }
             }
         }
+    }
+}
+
+impl Pairing<'_> {
+    /// The pieces of a body the lowest primitive of which may meet the box of a solid, in their order: others are outside.
+    fn pieces_near(&self, inner: Inner, solid: &Solid, into_outer: &Pose) -> Vec<u32> {
+        // So few are looked at one by one.
+        const FEW: usize = 8;
+        let body = self.body(inner);
+        let pieces = body.pieces();
+        let all = 0..pieces.list.len() as u32;
+        let tree = body.packed();
+        let unit = tree.scale();
+        let extent = solid.extent();
+        let into_inner = into_outer.inverse();
+        let center = into_inner.transform_point(&extent.center()) / unit;
+        let half = 0.5 * extent.size() / unit;
+        let size = 1.0 + center.norm() + half.norm();
+        // Beyond this boxes are nothing in single precision.
+        const LARGE: f64 = 1e30;
+        if all.len() <= FEW || size > LARGE {
+            return all.collect();
+        }
+        let (x, y) = (into_inner.rotation.column(0), into_inner.rotation.column(1));
+        let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
+        let one = PackedBox {
+            axes: [x, y, cross3(&x, &y)],
+            center: each3(|k| center[k] as f32),
+            half: each3(|k| (half[k] as f32).next_up()),
+        };
+        let error = 2.0 * ROUNDING * size + self.slack() / unit;
+        let mut near = NearPrimitives::default();
+        let lowest = near.find(tree, one, error).iter().filter_map(|&primitive| {
+            let piece = pieces.of(primitive);
+            (pieces.list[piece as usize].lowest == primitive).then_some(piece)
+        });
+        lowest.collect()
     }
 }
 

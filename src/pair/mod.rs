@@ -3,6 +3,7 @@
 mod box_bounds;
 mod containment;
 mod hit;
+mod near_primitives;
 mod nearest_first;
 mod pairing;
 mod traversal;

@@ -11,10 +11,11 @@
 //! are products known to their last bit, so that it is right to 4 EPSILON of the largest coordinate: for points farther
 //! from the boundary than a pair's error the sign is certain.
 
-use super::box_bounds::{ROUNDING, bounds};
+use super::box_bounds::ROUNDING;
+use super::near_primitives::NearPrimitives;
 use crate::body::{Body, Solid};
-use crate::hierarchy::{PackedBox, PackedTree, Unit, power_of_two};
-use crate::lanes::{Instructions, Work, each3, with_widest};
+use crate::hierarchy::{PackedBox, power_of_two};
+use crate::lanes::each3;
 use crate::pose::Vec3;
 
 /// The lattice has so many steps to the largest coordinate.
@@ -32,8 +33,7 @@ pub struct Winding {
 /// Memory of rays, reused from one to the next.
 #[derive(Default)]
 pub struct RayScratch {
-    open: Vec<Unit>,
-    primitives: Vec<u32>,
+    near: NearPrimitives,
     /// How often each piece that a ray goes through winds around the point.
     counts: Vec<(u32, i32)>,
 }
@@ -47,17 +47,11 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     else {
         return Winding::default();
     };
-    with_widest(Descent {
-        tree: body.packed(),
-        one: ray.in_units(body.packed().scale()),
-        scratch: &mut *scratch,
-    });
-    let RayScratch {
-        primitives, counts, ..
-    } = scratch;
-    // What has several leaves is met more than once.
-    primitives.sort_unstable();
-    primitives.dedup();
+    // All is within the tree's unit, and the boxes hold the primitives as they are; the lattice moves them by far less than
+    // what is left.
+    let ray_box = ray.in_units(body.packed().scale());
+    let RayScratch { near, counts } = scratch;
+    let primitives = near.find(body.packed(), ray_box, 2.0 * ROUNDING);
     counts.clear();
     let mut count = |piece: u32, passes: i32| {
         if passes != 0 {
@@ -67,7 +61,7 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
             }
         }
     };
-    for &primitive in &*primitives {
+    for &primitive in primitives {
         let sign = solid.sign(primitive);
         if sign != 0 {
             let ring = &body.primitives()[primitive as usize].vertices;
@@ -185,45 +179,4 @@ fn side(a: &[i64; 3], b: &[i64; 3]) -> (i32, f64) {
         side => side,
     };
     (side, area as f64)
-}
-
-/// Finds the primitives whose boxes a ray may go through.
-struct Descent<'a> {
-    tree: &'a PackedTree,
-    one: PackedBox,
-    scratch: &'a mut RayScratch,
-}
-
-impl Work for Descent<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<I: Instructions>(self, lanes: I) {
-        // All is within the tree's unit, and the boxes hold the primitives as they are; the lattice moves them by far less
-        // than what is left.
-        const CUTOFF: f32 = 2.0 * ROUNDING as f32;
-        let RayScratch {
-            open, primitives, ..
-        } = self.scratch;
-        primitives.clear();
-        open.clear();
-        open.push(self.tree.root());
-        while let Some(unit) = open.pop() {
-            if unit.is_leaf() {
-                let place = self.tree.place(unit) as usize;
-                primitives.push(self.tree.primitives().entry(place).primitive);
-                continue;
-            }
-            let index = self.tree.index(unit);
-            let eight = self.tree.node(index).boxes(lanes, 1.0);
-            let bounds = bounds(lanes, &eight, &self.one, false);
-            let children = self.tree.children(index);
-            let mut near = lanes.at_most(bounds, CUTOFF) & ((1 << children.count) - 1);
-            while near != 0 {
-                let lane = near.trailing_zeros() as usize & 7;
-                near &= near - 1;
-                open.push(children.units[lane]);
-            }
-        }
-    }
 }

@@ -1,0 +1,64 @@
+//! The primitives of one body that may meet a box.
+
+use super::box_bounds::bounds;
+use crate::hierarchy::{PackedBox, PackedTree, Unit};
+use crate::lanes::{Instructions, Work, with_widest};
+
+/// Memory of descents, reused from one to the next.
+#[derive(Default)]
+pub struct NearPrimitives {
+    open: Vec<Unit>,
+    found: Vec<u32>,
+}
+
+impl NearPrimitives {
+    /// Those whose boxes are within `error` of a box, in their order, each once; all in units of the tree.
+    pub fn find(&mut self, tree: &PackedTree, one: PackedBox, error: f64) -> &[u32] {
+        self.found.clear();
+        with_widest(Descent {
+            tree,
+            one,
+            cutoff: (error as f32).next_up(),
+            near: &mut *self,
+        });
+        // What has several leaves is met more than once.
+        self.found.sort_unstable();
+        self.found.dedup();
+        &self.found
+    }
+}
+
+struct Descent<'a> {
+    tree: &'a PackedTree,
+    one: PackedBox,
+    cutoff: f32,
+    near: &'a mut NearPrimitives,
+}
+
+impl Work for Descent<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) {
+        let NearPrimitives { open, found } = self.near;
+        open.clear();
+        open.push(self.tree.root());
+        while let Some(unit) = open.pop() {
+            if unit.is_leaf() {
+                let place = self.tree.place(unit) as usize;
+                found.push(self.tree.primitives().entry(place).primitive);
+                continue;
+            }
+            let index = self.tree.index(unit);
+            let eight = self.tree.node(index).boxes(lanes, 1.0);
+            let bounds = bounds(lanes, &eight, &self.one, false);
+            let children = self.tree.children(index);
+            let mut near = lanes.at_most(bounds, self.cutoff) & ((1 << children.count) - 1);
+            while near != 0 {
+                let lane = near.trailing_zeros() as usize & 7;
+                near &= near - 1;
+                open.push(children.units[lane]);
+            }
+        }
+    }
+}
