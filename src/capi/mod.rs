@@ -60,6 +60,8 @@ pub mod answers;
 
 pub mod query;
 
+pub mod point_queries;
+
 pub mod explain;
 
 pub mod link_pairs;

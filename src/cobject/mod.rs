@@ -8,11 +8,17 @@ mod leaf;
 mod measure;
 mod predicate;
 mod pure;
+mod reach;
+mod spans;
+mod stand;
+mod world_place;
 
 pub use class::Class;
 pub use cobject::{CObject, Set};
 pub use induced::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 pub use leaf::Leaf;
-pub use measure::{Measure, Reach, Stand, WorldPlace};
 pub use predicate::Predicate;
 pub use pure::{PureOptions, PureSet, PureShape};
+pub use reach::{Measure, Reach};
+pub use stand::Stand;
+pub use world_place::WorldPlace;

@@ -74,7 +74,8 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        let mut bodies: Vec<(Named, Bounds)> = Vec::with_capacity(self.bodies.size_hint().0);
+        let most = self.bodies.size_hint().1.unwrap_or(TOGETHER);
+        let mut bodies: Vec<(Named, Bounds)> = Vec::with_capacity(most.min(TOGETHER));
         loop {
             let next = self.bodies.by_ref().take(TOGETHER);
             bodies.extend(next.map(|named| (named, Bounds::of(named.1, named.2))));

@@ -208,7 +208,8 @@ impl QueryContext {
             nearest: Some(f64::INFINITY),
             ..Wanted::within(listed.epsilon)
         };
-        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        scene.check(group)?;
+        let candidates = scene.candidates(group, wanted, &mut self.near);
         let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
         let list = self.list(group, scene, &candidates, listed)?;
         let class = if distance.lower == 0.0 {

@@ -119,14 +119,13 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    /// The body pairs that a search may need, each once, ranked by ids and sorted by bound.
+    /// The body pairs of a group that was checked that a search may need, each once, ranked by ids and sorted by bound.
     pub fn candidates(
         &self,
         group: &Group,
         wanted: Wanted,
         scratch: &mut NearScratch,
-    ) -> Result<Vec<Target<'_>>> {
-        self.check(group)?;
+    ) -> Vec<Target<'_>> {
         let mut candidates = Candidates::new(wanted);
         for (number, term) in (0..).zip(group) {
             match &term.pairs {
@@ -155,7 +154,7 @@ impl<'a> Scene<'a> {
                 }
             }
         }
-        Ok(candidates.finish())
+        candidates.finish()
     }
 
     fn offer_links<'s>(

@@ -93,7 +93,8 @@ impl QueryContext {
         listed: Listed,
     ) -> Result<WitnessList> {
         let wanted = Wanted::within(listed.epsilon);
-        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        scene.check(group)?;
+        let candidates = scene.candidates(group, wanted, &mut self.near);
         self.list(group, scene, &candidates, listed)
     }
 

@@ -124,7 +124,7 @@ impl QueryContext {
             in_contact: true,
             ..Wanted::within(0.0)
         };
-        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        let candidates = scene.candidates(group, wanted, &mut self.near);
         Ok(if self.any_within(&candidates, |_| 0.0) {
             Class::Inside
         } else if self.any_in_contact(&candidates, 0.0) {
@@ -218,7 +218,7 @@ impl QueryContext {
         if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
-        let candidates = scene.candidates(group, Wanted::within(threshold), &mut self.near)?;
+        let candidates = scene.candidates(group, Wanted::within(threshold), &mut self.near);
         Ok(self.any_within(&candidates, |_| threshold))
     }
 
@@ -300,7 +300,7 @@ impl QueryContext {
             nearest: Some(nearest),
             ..Wanted::within(0.0)
         };
-        let candidates = scene.candidates(group, wanted, &mut self.near)?;
+        let candidates = scene.candidates(group, wanted, &mut self.near);
         self.distance_among(group, scene, &candidates, max_distance)
     }
 

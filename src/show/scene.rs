@@ -31,8 +31,8 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     // One state of the world for the whole picture.
     let world = &World::of(cobject);
     // Limits without a scale have no place in the world: what is near is shown without them.
-    let in_lengths = cobject.require_one_unit().is_err();
-    let part = in_lengths.then(|| cobject.induced_part());
+    let is_mixed = cobject.require_one_unit().is_err();
+    let part = is_mixed.then(|| cobject.induced_part());
     let measured = part.as_ref().unwrap_or(cobject);
     let context = &mut QueryContext::new();
     let class = context.classify_in(world, cobject, q)?;

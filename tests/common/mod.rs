@@ -13,6 +13,7 @@ pub mod files;
 pub mod models;
 pub mod oracle;
 pub mod placed;
+pub mod pure;
 pub mod random;
 pub mod robots;
 pub mod shapes;

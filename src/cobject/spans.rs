@@ -1,0 +1,82 @@
+//! Intervals of coordinates: how far a coordinate is from the ends of its own, and all of them together.
+
+use std::f64::consts::TAU;
+
+use crate::robot::Coordinate;
+use crate::space::shorter_way;
+use crate::tolerance::EPSILON;
+
+/// How far q is from the nearest end of one coordinate's interval, from without (positive) or within; and the derivative.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub beyond: f64,
+    pub slope: f64,
+    pub error: f64,
+}
+
+pub(super) fn span(coordinate: Coordinate, q: f64, low: f64, high: f64) -> Option<Span> {
+    let relative = |beyond: f64| 4.0 * EPSILON * beyond.abs();
+    match coordinate {
+        Coordinate::Quaternion => None,
+        Coordinate::Interval { .. } => {
+            if low == f64::NEG_INFINITY && high == f64::INFINITY {
+                return None;
+            }
+            let (above, below) = (q - high, low - q);
+            let (beyond, slope) = if above >= below {
+                (above, 1.0)
+            } else {
+                (below, -1.0)
+            };
+            Some(Span {
+                beyond,
+                slope,
+                error: relative(beyond),
+            })
+        }
+        Coordinate::Circle => {
+            let half = 0.5 * (high - low);
+            if !half.is_finite() || 2.0 * half >= TAU {
+                return None;
+            }
+            let from_middle = shorter_way(q - (low + half));
+            let size = q.abs().max(low.abs()).max(high.abs()).max(TAU);
+            Some(Span {
+                beyond: from_middle.abs() - half,
+                slope: if from_middle < 0.0 { -1.0 } else { 1.0 },
+                error: 8.0 * EPSILON * size,
+            })
+        }
+    }
+}
+
+/// The measure of a set of intervals, and its derivative by the coordinates: outside the length of what is beyond, inside the
+/// least depth.
+pub(super) fn of_spans(spans: &[Option<Span>]) -> (f64, f64, Vec<f64>) {
+    let mut by_coordinate = vec![0.0; spans.len()];
+    let known = || {
+        spans
+            .iter()
+            .enumerate()
+            .filter_map(|(i, s)| Some((i, (*s)?)))
+    };
+    let error = known().map(|(_, span)| span.error).sum();
+    let largest = known()
+        .map(|(_, s)| s.beyond)
+        .fold(f64::NEG_INFINITY, f64::max);
+    if largest <= 0.0 {
+        let first = known().find(|(_, span)| span.beyond == largest);
+        if let Some((i, span)) = first {
+            by_coordinate[i] = span.slope;
+        }
+        return (largest, error, by_coordinate);
+    }
+    let outside = || known().filter(|(_, span)| span.beyond > 0.0);
+    // Scaled, so that no square overflows.
+    let sum: f64 = outside().map(|(_, s)| (s.beyond / largest).powi(2)).sum();
+    let length = largest * sum.sqrt();
+    for (i, span) in outside() {
+        by_coordinate[i] = span.slope * (span.beyond / length);
+    }
+    (length, error, by_coordinate)
+}
