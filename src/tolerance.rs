@@ -15,6 +15,11 @@ pub const DISTANCE_ERROR: f64 = 32.0 * EPSILON;
 /// distance of its two points; otherwise all features are searched.
 pub const CERTIFIED_GAP: f64 = 16.0 * EPSILON;
 
+/// The rounding of the gap that two support points leave along a unit direction, times L. A point is turned and moved into
+/// the pair's frame (within 3 EPSILON L), and so is the direction (2 EPSILON); the product of the difference with the
+/// direction adds 4 EPSILON L: two points and the product are within 14 EPSILON L. A smaller gap proves nothing.
+pub const SUPPORT_ERROR: f64 = 16.0 * EPSILON;
+
 /// How well distances of a smooth primitive are known, times its diameter. The iteration goes on until its bounds are
 /// [`CERTIFIED_GAP`] L apart. Of 1.26e6 random pairs of cylinders, cones, ellipsoids and polytopes, with ratios of axes
 /// up to 1e4, 1 in 4000 stopped farther apart than 2e-14 L, none farther than 2.2e-12 L: on ruled surfaces, where the

@@ -3,99 +3,13 @@
 
 mod common;
 
-use cstk::body::{Body, BodyBuilder};
+use cstk::body::Body;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 
 use common::all_cases;
+use common::closed_sets::Set::{self, Ball, Cone, Cylinder, Ellipsoid, Points};
 use common::random::Random;
-
-/// A set at a pose, as the test knows it.
-#[derive(Clone, Debug)]
-enum Set {
-    Cylinder(f64, f64),
-    Cone(f64, f64),
-    Ellipsoid(Vec3),
-    Ball(f64),
-    Points(Vec<Vec3>),
-}
-
-use Set::{Ball, Cone, Cylinder, Ellipsoid, Points};
-
-impl Set {
-    fn body(&self) -> Body {
-        let mut builder = BodyBuilder::new(3).unwrap();
-        let here = Pose::identity();
-        match self {
-            Cylinder(radius, half) => builder.add_cylinder(&here, *radius, *half, 0),
-            Cone(radius, height) => builder.add_cone(&here, *radius, *height, 0),
-            Ellipsoid(axes) => builder.add_ellipsoid(&here, axes, 0),
-            Ball(radius) => builder.add_sphere(&Vec3::zeros(), *radius, 0),
-            Points(points) => builder.add_polyhedron(points, 0),
-        }
-        .unwrap();
-        common::models::built(&builder, &Default::default())
-    }
-
-    /// The largest product of a direction with a point of the set.
-    fn reach(&self, d: &Vec3) -> f64 {
-        let across = d.x.hypot(d.y);
-        match self {
-            Cylinder(radius, half) => radius * across + half * d.z.abs(),
-            Cone(radius, height) => (0.5 * height * d.z).max(radius * across - 0.5 * height * d.z),
-            Ellipsoid(axes) => axes.component_mul(d).norm(),
-            Ball(radius) => radius * d.norm(),
-            Points(points) => points.iter().map(|p| p.dot(d)).fold(f64::MIN, f64::max),
-        }
-    }
-
-    /// The point farthest along a direction.
-    fn farthest(&self, d: &Vec3) -> Vec3 {
-        let across = d.x.hypot(d.y);
-        let rim = |radius: f64, z: f64| match across {
-            0.0 => Vec3::new(0.0, 0.0, z),
-            _ => Vec3::new(d.x * radius / across, d.y * radius / across, z),
-        };
-        match self {
-            Cylinder(radius, half) if d.z == 0.0 => rim(*radius, 0.0 * half),
-            Cylinder(radius, half) => rim(*radius, half.copysign(d.z)),
-            Cone(radius, height) if d.z * height > radius * across => Vec3::z() * (0.5 * height),
-            Cone(radius, height) => rim(*radius, -0.5 * height),
-            Ellipsoid(axes) => {
-                let scaled = axes.component_mul(d);
-                axes.component_mul(&scaled) / scaled.norm()
-            }
-            Ball(radius) => d * (radius / d.norm()),
-            Points(points) => {
-                let along = |p: &&Vec3, q: &&Vec3| p.dot(d).total_cmp(&q.dot(d));
-                *points.iter().max_by(along).unwrap()
-            }
-        }
-    }
-
-    /// How far a point is outside the set, about; at most 0 inside. Of hulls no more is known than by some directions.
-    fn excess(&self, p: &Vec3) -> f64 {
-        let across = p.x.hypot(p.y);
-        match self {
-            Cylinder(radius, half) => (across - radius).max(p.z.abs() - half),
-            Cone(radius, height) => {
-                let slope = height.hypot(*radius);
-                let beyond = (height * across + radius * (p.z - 0.5 * height)) / slope;
-                beyond.max(-0.5 * height - p.z)
-            }
-            Ellipsoid(axes) => (p.component_div(axes).norm() - 1.0) * axes.min(),
-            Ball(radius) => p.norm() - radius,
-            Points(points) => common::oracle::hull_distance(points, &[*p]).upper,
-        }
-    }
-
-    fn size(&self) -> f64 {
-        [Vec3::x(), Vec3::y(), Vec3::z()]
-            .iter()
-            .map(|axis| self.reach(axis).max(self.reach(&-axis)))
-            .fold(0.0, f64::max)
-    }
-}
 
 /// Asks both ways and proves the answer. `None` for sets that meet.
 fn proved(sets: [&Set; 2], bodies: [&Body; 2], pose: &Pose, allowed: f64) -> Option<f64> {

@@ -91,9 +91,19 @@ pub fn smooth_closest(a: &Placed, b: &Placed, pair: &Precision) -> (Closest, Vec
         points: found.points,
         features: [(a, 0), (b, 1)]
             .map(|(placed, side)| holding_feature(placed, &found.points[side], HOLDS * pair.size)),
-        doubt: (found.upper - found.lower - pair.error).max(0.0),
+        doubt: doubt(&found, pair),
     };
     (closest, found.direction)
+}
+
+/// How much more than the pair's error the upper bound may be above the distance: all of it where no direction proves that
+/// the sets are apart, so that everything reads a lower bound of 0.
+fn doubt(found: &Refined, pair: &Precision) -> f64 {
+    if found.lower == 0.0 {
+        return found.upper;
+    }
+    let proved = found.lower - tolerance::SUPPORT_ERROR * pair.size;
+    (found.upper - proved - pair.error).max(0.0)
 }
 
 /// The distance of the cores where A's has moved by `shift`.
@@ -104,8 +114,7 @@ pub fn refined_cores(
     shift: Vec3,
     pair: &Precision,
 ) -> Refined {
-    let accepted = tolerance::CERTIFIED_GAP * pair.size;
-    refined(&Core::shifted(a, shift), &Core::of(b), start, accepted)
+    refined(&Core::shifted(a, shift), &Core::of(b), start, pair.size)
 }
 
 /// A point is held by the vertex or edge that is nearer than this, in L: along a surface closest points are known to about

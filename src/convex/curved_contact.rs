@@ -47,7 +47,8 @@ const APART: f64 = 1e-6;
 /// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
 fn smooth_contact(r: &Placed, s: &Placed, precision: &Precision) -> Option<Contact> {
     let (closest, direction) = smooth_closest(r, s, precision);
-    let (normal, gap, points) = if closest.distance > APART * precision.size {
+    let is_apart = closest.distance > APART * precision.size && direction != Vec3::zeros();
+    let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)
     } else {
         touch(r, s, &closest, direction, precision)?

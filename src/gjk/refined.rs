@@ -1,4 +1,7 @@
 //! The same iteration carried on until its bounds meet: the distance of sets whose surfaces are no polygons.
+//!
+//! "Apart" needs a proof: a direction whose support points, evaluated on both sides, leave a gap above rounding. Without one
+//! the lower bound is 0, whatever the points that the iteration reached.
 
 use super::Support;
 use super::simplex::{Corner, Nearest, Simplex};
@@ -8,11 +11,11 @@ use crate::tolerance;
 /// What was found out about the distance of two sets A and B, whatever their surfaces.
 #[derive(Clone, Copy, Debug)]
 pub struct Refined {
-    /// The distance is at least this, up to the rounding of one support evaluation.
+    /// The distance is at least this, up to the rounding of one support evaluation. 0 unless it is above that rounding.
     pub lower: f64,
     /// The unit direction from B to A that proves `lower`; zero if there is none.
     pub direction: Vec3,
-    /// The distance is at most this: that of `points`. Infinite if nothing was found, 0 for sets that overlap.
+    /// The distance is at most this: that of `points`. 0 for sets that overlap.
     pub upper: f64,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
@@ -28,9 +31,17 @@ const MOST_IDLE: u32 = 50;
 /// A search begins anew so often where it got stuck.
 const MOST_RESTARTS: u32 = 8;
 
-/// Bounds the distance of A and B until the bounds are `accepted` apart, or no step brings them nearer. `start` is a guess
-/// of the direction from B to A.
-pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64) -> Refined {
+/// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
+/// them nearer. No coordinate of A and B is larger than `size`. `start` is a guess of the direction from B to A.
+pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, size: f64) -> Refined {
+    let mut found = iterate(a, b, start, tolerance::CERTIFIED_GAP * size);
+    if found.lower <= tolerance::SUPPORT_ERROR * size {
+        (found.lower, found.direction) = (0.0, Vec3::zeros());
+    }
+    found
+}
+
+fn iterate<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64) -> Refined {
     let mut found = Refined {
         lower: 0.0,
         direction: Vec3::zeros(),

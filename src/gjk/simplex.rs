@@ -210,19 +210,62 @@ impl Simplex {
                 best = Some(found);
             }
         }
-        best.ok_or_else(|| {
-            let total: f64 = weights.iter().sum();
-            let all = || self.corners.iter().zip(weights.map(|w| w / total));
-            let at = Corner {
-                difference: all()
-                    .map(|(corner, weight)| corner.difference * weight)
-                    .sum(),
-                on_a: all().map(|(corner, weight)| corner.on_a * weight).sum(),
-            };
-            Nearest::Inside { margin, at }
+        match best {
+            Some(outside) => Ok(outside),
+            None => Err(self.inside(margin, weights)),
+        }
+    }
+
+    /// The standing of an origin that is on the inner side of all four faces, given about what weights the corners combine
+    /// to it with.
+    ///
+    /// A weight is a quotient of volumes: where the corners are far from one another for their height, its rounding moves the
+    /// point by more than a distance may be off. Newton's steps with the same volumes take that off.
+    fn inside(&self, margin: f64, weights: [f64; 4]) -> Nearest {
+        let normals = self.inner_normals();
+        let mut weights = weights.map(|w| w / weights.iter().sum::<f64>());
+        let mut at = self.combination(&weights);
+        for _ in 0..MAX_WEIGHT_STEPS {
+            let mut next = weights;
+            for (weight, normal) in next.iter_mut().zip(&normals) {
+                *weight -= normal.dot(&at.difference);
+            }
+            let total: f64 = next.iter().sum();
+            let next = next.map(|w| w / total);
+            if next.iter().any(|w| w.is_nan() || *w < 0.0) {
+                break;
+            }
+            let better = self.combination(&next);
+            if better.difference.norm_squared() >= at.difference.norm_squared() {
+                break;
+            }
+            (weights, at) = (next, better);
+        }
+        Nearest::Inside { margin, at }
+    }
+
+    /// The gradients of the four corners' weights.
+    fn inner_normals(&self) -> [Vec3; 4] {
+        [(1, 2, 3, 0), (0, 3, 2, 1), (0, 1, 3, 2), (0, 2, 1, 3)].map(|(i, j, k, opposite)| {
+            let a = self.at(i);
+            let normal = (self.at(j) - a).cross(&(self.at(k) - a));
+            normal / normal.dot(&(self.at(opposite) - a))
         })
     }
+
+    fn combination(&self, weights: &[f64; 4]) -> Corner {
+        let all = || self.corners.iter().zip(weights);
+        Corner {
+            difference: all()
+                .map(|(corner, weight)| corner.difference * *weight)
+                .sum(),
+            on_a: all().map(|(corner, weight)| corner.on_a * *weight).sum(),
+        }
+    }
 }
+
+/// Each step takes off all but the rounding of a quotient of volumes, so that one suffices but for needles.
+const MAX_WEIGHT_STEPS: usize = 4;
 
 /// The one to three corners whose hull holds the closest point.
 struct Kept {

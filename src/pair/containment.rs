@@ -199,7 +199,7 @@ impl Visitor for Apart<'_> {
     }
 
     fn visit(&mut self, met: &Met) -> ControlFlow<()> {
-        if met.apart == 0.0 {
+        if met.apart <= met.error {
             let pairing = self.pairing;
             self.candidates.retain(|candidate| {
                 let inner = candidate.inner;

@@ -162,7 +162,7 @@ impl WitnessList {
         self.witnesses.push(Witness {
             first_contact: self.contacts.len(),
             contact_count: contacts.len(),
-            overlapping: contacts.is_empty() && hit.apart == 0.0,
+            overlapping: contacts.is_empty() && hit.distance == 0.0,
             ..Witness::of(target, hit, leaf)
         });
         self.contacts.extend(contacts);

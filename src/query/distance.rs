@@ -42,7 +42,7 @@ impl Distance {
         };
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
-            overlapping: contact.is_none() && hit.apart == 0.0,
+            overlapping: contact.is_none() && hit.distance == 0.0,
             ..Witness::of(target, hit, leaf(target.term))
         };
         Self {

@@ -5,6 +5,7 @@
 
 pub mod changing;
 pub mod checked;
+pub mod closed_sets;
 pub mod containment;
 pub mod differences;
 pub mod expansion;
