@@ -240,7 +240,7 @@ fn campaign(pairs: u64, seed: u64) -> Count {
             let case = case(&mut random, &sets);
             check(&case, &bodies, &mut random, &mut count);
         }
-        if (i + 1) * POSES % 500_000 == 0 {
+        if ((i + 1) * POSES).is_multiple_of(500_000) {
             println!(
                 "seed {seed}, {} of {pairs} pairs: {count:?}",
                 (i + 1) * POSES
