@@ -39,7 +39,8 @@ static void add_faces(cstk_body_builder *builder, const double *xyz, size_t vert
     for (size_t i = 0; i < faces; ++i) {
         sizes[i] = 4;
     }
-    CHECK_OK(cstk_body_builder_add_mesh(builder, xyz, vertices, sizes, faces, indices, 4 * faces));
+    CHECK_OK(cstk_body_builder_add_mesh(builder, xyz, vertices, sizes, faces, indices, 4 * faces,
+                                        NULL, NULL));
 }
 
 cstk_body_builder *torus_builder(int around, int across) {

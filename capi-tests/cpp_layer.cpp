@@ -49,7 +49,19 @@ static void bodies() {
     cstk::Body body = builder.build();
     REQUIRE(body.statistics().primitive_count == 4);
     REQUIRE(body.feature_vertices(0, CSTK_FACE, 0).size() == 12);
+    const cstk_primitive solid = body.primitive(0);
+    REQUIRE(solid.kind == CSTK_PRIMITIVE_POLYHEDRON && solid.vertex_count == 8 && solid.tag == 7);
+    REQUIRE(status_of([&] { body.primitive(4); }) == CSTK_NOT_FOUND);
     REQUIRE(status_of([&] { builder.add_mesh_file("/nowhere.obj"); }) == CSTK_IO);
+    cstk::BodyBuilder placed;
+    const cstk::BodyBuilder::Vector scale = {2, 3, -4};
+    placed.add_triangles(triangle, std::vector<std::uint32_t>{0, 1, 2}, cstk::translation(5, 6, 7),
+                         scale);
+    placed.add_mesh(triangle, sizes, std::vector<std::uint32_t>{0, 1, 2}, cstk::identity(), scale);
+    const cstk_body_statistics extent = placed.build().statistics();
+    REQUIRE(extent.low[2] == -8 && extent.high[0] == 7 && extent.high[1] == 9);
+    REQUIRE(status_of([&] { placed.add_mesh_file("/nowhere.obj", cstk::identity(), scale); }) ==
+            CSTK_IO);
 
     builder.set_solid();
     REQUIRE(status_of([&] { builder.build(); }) == CSTK_NOT_CLOSED);

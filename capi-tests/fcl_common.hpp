@@ -166,7 +166,7 @@ struct Body {
         }
         must(cstk_body_builder_add_mesh(raw, mesh.vertices[0].data(), mesh.vertices.size(),
                                         sizes.data(), sizes.size(), indices.data(),
-                                        indices.size()));
+                                        indices.size(), nullptr, nullptr));
         cstk_body *made = nullptr;
         must(cstk_body_build(raw, nullptr, nullptr, nullptr, &made));
         body.reset(made);

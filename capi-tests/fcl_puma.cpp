@@ -304,7 +304,7 @@ void check_reader(Run &run, const Body &link, const std::string &file) {
     cstk_body_builder *raw = nullptr;
     must(cstk_body_builder_create(3, &raw));
     const Handle<cstk_body_builder> builder(raw);
-    must(cstk_body_builder_add_mesh_file(raw, file.c_str()));
+    must(cstk_body_builder_add_mesh_file(raw, file.c_str(), nullptr, nullptr));
     cstk_body *made = nullptr;
     must(cstk_body_build(raw, nullptr, nullptr, nullptr, &made));
     const Handle<cstk_body> body(made);

@@ -28,7 +28,7 @@ static cstk_body_statistics load(const char *name) {
     cstk_body *body = NULL;
     cstk_body_statistics statistics;
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of(name)));
+    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of(name), NULL, NULL));
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
     CHECK_OK(cstk_body_get_statistics(body, &statistics));
     CHECK_OK(cstk_body_release(body));
@@ -51,8 +51,9 @@ static void check_refused(const char *name, cstk_status status, const char *culp
     cstk_body *body;
     const int before = check_failures;
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name)), status, culprit);
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name)), status, name);
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name), NULL, NULL), status,
+                culprit);
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name), NULL, NULL), status, name);
     CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(builder));
     if (check_failures > before) {
@@ -108,7 +109,7 @@ static void obj_faces(void) {
     cstk_body *body;
     write_text("lines.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("lines.obj")));
+    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("lines.obj"), NULL, NULL));
     CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "area");
     CHECK_OK(cstk_body_builder_release(builder));
 }
@@ -231,7 +232,7 @@ static void binary(void) {
     write_file("binary_sliver.stl", &stl, sizeof stl);
     cstk_body_builder *builder = NULL;
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("binary_sliver.stl")));
+    CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("binary_sliver.stl"), NULL, NULL));
     CHECK_OK(cstk_body_builder_release(builder));
     refuse_text("garbage.stl", "\x01\x02\xff\xfe garbage", CSTK_PARSE, "");
     refuse_text("empty.stl", "", CSTK_PARSE, "");

@@ -124,8 +124,8 @@ static void planar_builder(const fixture *f) {
     CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_NOT_PLANAR, "vertex 2");
     CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, raised, 4, 0), CSTK_NOT_PLANAR,
                 "vertex 2");
-    CHECK_FAILS(cstk_body_builder_add_mesh(builder, raised, 4, &size, 1, face, 4), CSTK_NOT_PLANAR,
-                "vertex 2");
+    CHECK_FAILS(cstk_body_builder_add_mesh(builder, raised, 4, &size, 1, face, 4, NULL, NULL),
+                CSTK_NOT_PLANAR, "vertex 2");
     raised[8] = NAN;
     CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_NOT_FINITE, "vertex 2");
     CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
@@ -141,13 +141,14 @@ static void add_mesh_arguments(const fixture *f) {
     const uint32_t too_short[2] = {3, 2};
     const uint32_t huge[2] = {3, UINT32_MAX};
     EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
-        CHECK_FAILS(cstk_body_builder_add_mesh(bad->handle, square, 4, sizes, 2, indices, 6),
+        CHECK_FAILS(cstk_body_builder_add_mesh(bad->handle, square, 4, sizes, 2, indices, 6, NULL,
+                                               NULL),
                     bad->status, "builder");
     }
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 4, sizes, 2, indices, 6), CSTK_NULL_ARGUMENT,
-                "vertices");
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, sizes, 2, NULL, 6), CSTK_NULL_ARGUMENT,
-                "indices");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 4, sizes, 2, indices, 6, NULL, NULL),
+                CSTK_NULL_ARGUMENT, "vertices");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, sizes, 2, NULL, 6, NULL, NULL),
+                CSTK_NULL_ARGUMENT, "indices");
     const struct {
         size_t vertices;
         const uint32_t *sizes;
@@ -164,7 +165,8 @@ static void add_mesh_arguments(const fixture *f) {
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         CHECK_FAILS(cstk_body_builder_add_mesh(b, square, wrong[i].vertices, wrong[i].sizes,
-                                               wrong[i].faces, indices, wrong[i].indices),
+                                               wrong[i].faces, indices, wrong[i].indices, NULL,
+                                               NULL),
                     CSTK_WRONG_SIZE, wrong[i].culprit);
     }
     fixture_unchanged(f);
@@ -177,7 +179,7 @@ static void add_mesh_huge_counts(const fixture *f) {
     const size_t faces[] = {SIZE_MAX, SIZE_MAX / 3, SIZE_MAX / 8};
     for (int i = 0; i < 3; ++i) {
         CHECK_FAILS(cstk_body_builder_add_mesh(f->body_builder, square, 4, NULL, faces[i], indices,
-                                               SIZE_MAX),
+                                               SIZE_MAX, NULL, NULL),
                     CSTK_WRONG_SIZE, "ind");
     }
     fixture_unchanged(f);
@@ -188,26 +190,27 @@ static void add_mesh_geometry(const fixture *f) {
     const uint32_t beyond[6] = {0, 1, 2, 0, 2, 4};
     const uint32_t largest[3] = {0, 1, UINT32_MAX};
     const uint32_t good[3] = {0, 1, 2};
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 2, beyond, 6), CSTK_NOT_FOUND,
-                "face 1");
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 1, largest, 3), CSTK_NOT_FOUND,
-                "face 0");
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 0, NULL, 1, good, 3), CSTK_NOT_FOUND, "face 0");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 2, beyond, 6, NULL, NULL),
+                CSTK_NOT_FOUND, "face 1");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 1, largest, 3, NULL, NULL),
+                CSTK_NOT_FOUND, "face 0");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 0, NULL, 1, good, 3, NULL, NULL),
+                CSTK_NOT_FOUND, "face 0");
     for (int entry = 0; entry < 9; ++entry) {
         EACH_NOT_FINITE(i) {
             double xyz[12];
             memcpy(xyz, square, sizeof xyz);
             xyz[entry] = not_finite[i];
-            CHECK_FAILS(cstk_body_builder_add_mesh(b, xyz, 4, NULL, 1, good, 3), CSTK_NOT_FINITE,
-                        "face 0");
+            CHECK_FAILS(cstk_body_builder_add_mesh(b, xyz, 4, NULL, 1, good, 3, NULL, NULL),
+                        CSTK_NOT_FINITE, "face 0");
         }
     }
     /* The second face crosses itself: the first is not kept either. */
     const double outline[12] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 3, 0};
     const uint32_t crossing[7] = {0, 1, 2, 0, 2, 1, 3};
     const uint32_t sizes[2] = {3, 4};
-    CHECK_FAILS(cstk_body_builder_add_mesh(b, outline, 4, sizes, 2, crossing, 7), CSTK_NOT_CONVEX,
-                "face 1");
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, outline, 4, sizes, 2, crossing, 7, NULL, NULL),
+                CSTK_NOT_CONVEX, "face 1");
     fixture_unchanged(f);
 }
 
@@ -218,23 +221,73 @@ static void bow_tie(void) {
     cstk_body_builder *builder = NULL;
     cstk_body *body;
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_FAILS(cstk_body_builder_add_mesh(builder, square, 4, &size, 1, face, 4), CSTK_NOT_CONVEX,
-                "face 0");
+    CHECK_FAILS(cstk_body_builder_add_mesh(builder, square, 4, &size, 1, face, 4, NULL, NULL),
+                CSTK_NOT_CONVEX, "face 0");
     CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(builder));
 }
 
 static void add_mesh_file(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
-        CHECK_FAILS(cstk_body_builder_add_mesh_file(bad->handle, "missing.obj"), bad->status,
-                    "builder");
+        CHECK_FAILS(cstk_body_builder_add_mesh_file(bad->handle, "missing.obj", NULL, NULL),
+                    bad->status, "builder");
     }
     cstk_body_builder *b = f->body_builder;
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, NULL), CSTK_NULL_ARGUMENT, "file");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, ""), CSTK_UNSUPPORTED, "obj");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.ply"), CSTK_UNSUPPORTED, "missing.ply");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj"), CSTK_IO, "missing.obj");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing \xff.stl"), CSTK_IO, "missing");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, NULL, NULL, NULL), CSTK_NULL_ARGUMENT, "file");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "", NULL, NULL), CSTK_UNSUPPORTED, "obj");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.ply", NULL, NULL), CSTK_UNSUPPORTED,
+                "missing.ply");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj", NULL, NULL), CSTK_IO,
+                "missing.obj");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing \xff.stl", NULL, NULL), CSTK_IO,
+                "missing");
+    fixture_unchanged(f);
+}
+
+/* Poses and scales of meshes, from arrays and from files. */
+static void place_mesh(const fixture *f) {
+    cstk_body_builder *b = f->body_builder;
+    const uint32_t face[3] = {0, 1, 2};
+    EACH_BAD_POSE(bad) {
+        CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 1, face, 3, bad->pose, NULL),
+                    bad->status, "pose");
+        CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj", bad->pose, NULL),
+                    bad->status, "pose");
+    }
+    const struct {
+        double factor;
+        cstk_status status;
+    } wrong[] = {
+        {0, CSTK_INVALID_ARGUMENT},     {-0.0, CSTK_INVALID_ARGUMENT},
+        {1e-60, CSTK_INVALID_ARGUMENT}, {-1e-300, CSTK_INVALID_ARGUMENT},
+        {1e60, CSTK_INVALID_ARGUMENT},  {-1e300, CSTK_INVALID_ARGUMENT},
+        {NAN, CSTK_NOT_FINITE},         {INFINITY, CSTK_NOT_FINITE},
+        {-INFINITY, CSTK_NOT_FINITE},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            char culprit[] = "scale entry 0";
+            double scale[3] = {1, 1, 1};
+            scale[axis] = wrong[i].factor;
+            culprit[12] = (char)('0' + axis);
+            CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 1, face, 3, NULL, scale),
+                        wrong[i].status, culprit);
+        }
+    }
+    /* Each number is allowed, but not what comes of them. */
+    const double far[9] = {1e30, 0, 0, 0, 1e30, 0, 0, 0, 1e30};
+    const double large[3] = {1e30, 1e30, 1e30};
+    CHECK_FAILS(cstk_body_builder_add_mesh(b, far, 3, NULL, 1, face, 3, NULL, large),
+                CSTK_INVALID_ARGUMENT, "face 0");
+    /* Turned out of the plane. */
+    const double tilted[12] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0};
+    cstk_body_builder *planar = NULL;
+    cstk_body *body;
+    CHECK_OK(cstk_body_builder_create(2, &planar));
+    CHECK_FAILS(cstk_body_builder_add_mesh(planar, square, 4, NULL, 1, face, 3, tilted, NULL),
+                CSTK_NOT_PLANAR, "vertex 2");
+    CHECK_REFUSED(body, cstk_body_build(planar, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
+    CHECK_OK(cstk_body_builder_release(planar));
     fixture_unchanged(f);
 }
 
@@ -283,18 +336,18 @@ static void set_solid(const fixture *f) {
     cstk_body *out;
     cstk_body *body = NULL;
     CHECK_OK(cstk_body_builder_create(3, &builder));
-    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 3, faces, 9));
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 3, faces, 9, NULL, NULL));
     CHECK_OK(cstk_body_builder_set_solid(builder, true));
     CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
                   "3 edges are open: the edge from (0, 1, 0) to (1, 0, 0) of primitive 0 (tag 0)");
-    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces + 9, 3));
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces + 9, 3, NULL, NULL));
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
     cstk_body_statistics s;
     CHECK_OK(cstk_body_get_statistics(body, &s));
     CHECK(s.solid && s.piece_count == 1 && s.primitive_count == 4);
     CHECK_OK(cstk_body_release(body));
     /* As a surface it may be anything. */
-    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces, 3));
+    CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces, 3, NULL, NULL));
     CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
                   "primitive 4 (tag 0)");
     CHECK_OK(cstk_body_builder_set_solid(builder, false));
@@ -320,7 +373,7 @@ static void solid_around(const fixture *f) {
             corners[i] = (i / 3) >> (i % 3) & 1 ? halves[k] : -halves[k];
         }
         CHECK_OK(cstk_body_builder_create(3, &builder));
-        CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 8, sizes, 6, faces, 24));
+        CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 8, sizes, 6, faces, 24, NULL, NULL));
         CHECK_OK(cstk_body_builder_set_solid(builder, k == 1));
         CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &cubes[k]));
         CHECK_OK(cstk_body_builder_release(builder));
@@ -405,6 +458,18 @@ static void feature_vertices(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void get_primitive(const fixture *f) {
+    cstk_primitive out;
+    EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
+        CHECK_REFUSED(out, cstk_body_get_primitive(bad->handle, 0, &out), bad->status, "body");
+    }
+    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, 1, &out), CSTK_NOT_FOUND, "primitive 1");
+    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, UINT32_MAX, &out), CSTK_NOT_FOUND,
+                  "primitive 4294967295");
+    CHECK_FAILS(cstk_body_get_primitive(f->body, 0, NULL), CSTK_NULL_ARGUMENT, "out");
+    fixture_unchanged(f);
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -417,11 +482,13 @@ int main(void) {
     add_mesh_geometry(&f);
     bow_tie();
     add_mesh_file(&f);
+    place_mesh(&f);
     build(&f);
     set_solid(&f);
     solid_around(&f);
     get_statistics(&f);
     feature_vertices(&f);
+    get_primitive(&f);
     add_mesh_huge_counts(&f);
     fixture_release(&f);
     return check_result();

@@ -227,9 +227,10 @@ static int32_t call_back(double fraction, void *user) {
     (void)fraction;
     CHECK_FAILS(cstk_body_builder_add_polygon(builder, triangle, 3, 0), CSTK_BUSY, "builder");
     CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, triangle, 3, 0), CSTK_BUSY, "builder");
-    CHECK_FAILS(cstk_body_builder_add_mesh(builder, triangle, 3, NULL, 1, indices, 3), CSTK_BUSY,
+    CHECK_FAILS(cstk_body_builder_add_mesh(builder, triangle, 3, NULL, 1, indices, 3, NULL, NULL),
+                CSTK_BUSY, "builder");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, "missing.obj", NULL, NULL), CSTK_BUSY,
                 "builder");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, "missing.obj"), CSTK_BUSY, "builder");
     CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_BUSY, "builder");
     CHECK_OK(cstk_body_builder_retain(builder));
     CHECK_OK(cstk_body_builder_release(builder));

@@ -20,7 +20,7 @@ static cstk_body *load_body(const char *folder, const char *file) {
     cstk_body_builder *builder = NULL;
     cstk_body *body = NULL;
     check(cstk_body_builder_create(3, &builder));
-    check(cstk_body_builder_add_mesh_file(builder, path));
+    check(cstk_body_builder_add_mesh_file(builder, path, NULL, NULL));
     check(cstk_body_build(builder, NULL, NULL, NULL, &body));
     check(cstk_body_builder_release(builder));
     return body;

@@ -383,6 +383,13 @@ public:
         return out;
     }
 
+    /// What a primitive is, and how many features it has.
+    cstk_primitive primitive(std::uint32_t index) const {
+        cstk_primitive out;
+        check(cstk_body_get_primitive(get(), index, &out));
+        return out;
+    }
+
     /// The vertices of a feature, three doubles each.
     std::vector<double> feature_vertices(std::uint32_t primitive, cstk_feature_kind kind,
                                          std::uint32_t feature) const {
@@ -412,25 +419,33 @@ public:
         return *this;
     }
 
-    /// Triangles: three indices each.
-    BodyBuilder &add_triangles(Span<double> vertices, Span<std::uint32_t> indices) {
+    /// A point, a direction, or a factor for each axis.
+    using Vector = std::array<double, 3>;
+
+    /// Triangles: three indices each; scaled, then moved.
+    BodyBuilder &add_triangles(Span<double> vertices, Span<std::uint32_t> indices,
+                               const Pose &pose = identity(), const Vector &scale = {1, 1, 1}) {
         check(cstk_body_builder_add_mesh(get(), vertices.data(), points(vertices), nullptr,
-                                         indices.size() / 3, indices.data(), indices.size()));
+                                         indices.size() / 3, indices.data(), indices.size(),
+                                         pose.data(), scale.data()));
         return *this;
     }
 
     BodyBuilder &add_mesh(Span<double> vertices, Span<std::uint32_t> face_sizes,
-                          Span<std::uint32_t> indices) {
+                          Span<std::uint32_t> indices, const Pose &pose = identity(),
+                          const Vector &scale = {1, 1, 1}) {
         /* NULL would stand for triangles. */
         static const std::uint32_t none = 0;
         const std::uint32_t *sizes = face_sizes.data() != nullptr ? face_sizes.data() : &none;
         check(cstk_body_builder_add_mesh(get(), vertices.data(), points(vertices), sizes,
-                                         face_sizes.size(), indices.data(), indices.size()));
+                                         face_sizes.size(), indices.data(), indices.size(),
+                                         pose.data(), scale.data()));
         return *this;
     }
 
-    BodyBuilder &add_mesh_file(const std::string &file) {
-        check(cstk_body_builder_add_mesh_file(get(), file.c_str()));
+    BodyBuilder &add_mesh_file(const std::string &file, const Pose &pose = identity(),
+                               const Vector &scale = {1, 1, 1}) {
+        check(cstk_body_builder_add_mesh_file(get(), file.c_str(), pose.data(), scale.data()));
         return *this;
     }
 
@@ -439,9 +454,6 @@ public:
         check(cstk_body_builder_set_solid(get(), solid));
         return *this;
     }
-
-    /// A point or direction.
-    using Vector = std::array<double, 3>;
 
     BodyBuilder &add_sphere(const Vector &center, double radius, std::uint64_t tag = 0) {
         check(cstk_body_builder_add_sphere(get(), center.data(), radius, tag));
@@ -1284,7 +1296,6 @@ public:
         return out;
     }
 
-    /// The class, and which leaves and pairs made it.
     /// The version of an environment that the last query saw.
     std::uint64_t version(const Environment &environment) const {
         std::uint64_t out = 0;
@@ -1305,6 +1316,7 @@ public:
         return pairs;
     }
 
+    /// The class, and which leaves and pairs made it.
     cstk_explanation explain(const CObject &cobject, Span<double> q,
                              std::size_t max_count = 4096) const {
         cstk_explanation out;

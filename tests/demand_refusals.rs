@@ -128,7 +128,12 @@ fn a44_bad_polyhedra_and_meshes_are_refused_by_name() {
     refused(nothing, ErrorKind::Empty, &["no primitive"]);
     refused(BodyBuilder::new(4), ErrorKind::InvalidArgument, &["4"]);
     let path = std::path::Path::new("/nonexistent/part.obj");
-    refused(builder.add_mesh_file(path), ErrorKind::Io, &["part.obj"]);
+    let (pose, scale) = (Pose::identity(), Vec3::repeat(1.0));
+    refused(
+        builder.add_mesh_file(path, &pose, &scale),
+        ErrorKind::Io,
+        &["part.obj"],
+    );
 }
 
 #[test]

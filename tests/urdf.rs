@@ -492,3 +492,40 @@ fn faults_are_named_with_line_and_element() {
     assert!(error.message.contains("line 2"), "{error}");
     use cstk::error::ErrorKind::Io;
 }
+
+/// Whichever of the joints stands first in the file, each follows the end of the chain by all that is in between.
+#[test]
+fn a_long_chain_of_mimics_is_followed_to_its_end() {
+    const COUNT: usize = 3000;
+    let joint = |k: usize| {
+        let mimic = match k {
+            1 => String::new(),
+            _ => format!(
+                "<mimic joint=\"j{}\" multiplier=\"-1\" offset=\"{k}\"/>",
+                k - 1
+            ),
+        };
+        format!(
+            "<joint name=\"j{k}\" type=\"continuous\"><parent link=\"l{}\"/><child link=\"l{k}\"/>{mimic}</joint>\n",
+            k - 1
+        )
+    };
+    let links: String = (0..=COUNT)
+        .map(|k| format!("<link name=\"l{k}\"/>\n"))
+        .collect();
+    let forwards: String = (1..=COUNT).map(joint).collect();
+    let backwards: String = (1..=COUNT).rev().map(joint).collect();
+    for (name, joints) in [("mimics", forwards), ("mimics_back", backwards)] {
+        let robot = robot(name, &format!("{links}{joints}")).unwrap();
+        assert_eq!(robot.nq(), 1);
+        let (mut multiplier, mut offset) = (1.0, 0.0);
+        for k in 1..=COUNT {
+            if k > 1 {
+                (multiplier, offset) = (-multiplier, k as f64 - offset);
+            }
+            let link = robot.find_joint(&format!("j{k}")).unwrap();
+            let joint = &robot.links()[link].joint;
+            assert_eq!((joint.multiplier, joint.offset), (multiplier, offset));
+        }
+    }
+}

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use super::mesh_file::read_mesh_file;
 use super::solid::{Scrap, Solid};
-use super::{Body, BodyStatistics};
+use super::{Body, BodyStatistics, Mesh};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{HierarchyOptions, PackedTree, build_hierarchy};
-use crate::pose::{Vec3, check_dimension};
+use crate::pose::{Pose, Vec3, check_dimension};
 use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
 
 /// Primitives on their way to a body. A failed call adds nothing.
@@ -24,14 +24,6 @@ pub struct BodyBuilder {
     is_solid: bool,
     faces_split: u64,
     faces_dropped: u64,
-}
-
-/// A mesh: vertices, and faces as runs of vertex indices.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
-    pub vertices: Vec<Vec3>,
-    pub face_sizes: Vec<u32>,
-    pub indices: Vec<u32>,
 }
 
 impl BodyBuilder {
@@ -151,10 +143,11 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Adds the mesh in an OBJ, STL or COLLADA file.
-    pub fn add_mesh_file(&mut self, path: &Path) -> Result<()> {
+    /// Adds the mesh in an OBJ, STL or COLLADA file, scaled and moved as by [`Mesh::placed`].
+    pub fn add_mesh_file(&mut self, path: &Path, pose: &Pose, scale: &Vec3) -> Result<()> {
         let named = |error: Error| error.within(path.display());
         let mesh = read_mesh_file(path).map_err(named)?;
+        let mesh = mesh.placed(pose, scale).map_err(named)?;
         self.add_mesh(&mesh).map_err(named)
     }
 
@@ -250,8 +243,7 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// All of them or none.
-    /// Adds all of one kind: polygons that may bound a solid, or others.
+    /// Adds all of one kind, or none: polygons that may bound a solid, or others.
     pub(super) fn push_all(&mut self, added: Vec<(Convex, u64)>, are_faces: bool) -> Result<()> {
         self.require_room(added.len())?;
         for (primitive, tag) in added {

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use nalgebra::{Matrix4, Rotation3, Unit};
 use roxmltree::Node;
 
-use super::builder::Mesh;
+use super::Mesh;
 use crate::error::{ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 use crate::xml::{child, children, fault, list, numbers, parse, required, required_child, text_of};

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::builder::Mesh;
+use super::Mesh;
 use super::collada::parse_collada;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;

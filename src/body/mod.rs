@@ -9,6 +9,7 @@ mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
+mod mesh;
 mod mesh_file;
 mod pieces;
 mod shapes;
@@ -17,8 +18,9 @@ mod surface_edges;
 mod vertex_numbers;
 
 pub use body::{Body, BodyStatistics};
-pub use builder::{BodyBuilder, Mesh};
+pub use builder::BodyBuilder;
 pub use farthest::Farthest;
+pub use mesh::Mesh;
 pub use mesh_file::read_mesh_file;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;

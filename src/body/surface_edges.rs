@@ -98,13 +98,19 @@ impl SurfaceEdges {
                 }
             }
         }
+        // How many uses of each family are passed: faces that are kept stay so.
+        let mut passed = vec![0; families.len()];
         let mut open: Vec<u32> = (0..families.len() as u32)
             .filter(|&i| is_open[i as usize])
             .collect();
         while let Some(i) = open.pop() {
-            let fills = |used: &&Use| !is_kept[used.face as usize] && used.net % 2 != 0;
-            let filling = families[i as usize].iter().find(fills);
-            let Some(filling) = filling.filter(|_| is_open[i as usize]) else {
+            if !is_open[i as usize] {
+                continue;
+            }
+            let fills = |used: &Use| !is_kept[used.face as usize] && used.net % 2 != 0;
+            let left = &families[i as usize][passed[i as usize]..];
+            passed[i as usize] += left.iter().position(fills).unwrap_or(left.len());
+            let Some(filling) = families[i as usize].get(passed[i as usize]) else {
                 continue;
             };
             is_kept[filling.face as usize] = true;

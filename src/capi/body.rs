@@ -7,6 +7,7 @@ use super::boundary::guard;
 use super::custom_joint::cstk_destroy_fn;
 use super::handle::{self, Noun};
 use super::input::{Output, OutputSlice, path};
+use super::primitive::primitive_of;
 use super::status::cstk_status;
 use super::user_data::{Kept, address};
 use crate::body::Body;
@@ -182,15 +183,7 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
         let count = Output::checked(count, "count")?;
         let kind = cstk_feature_kind::decode(kind)
             .ok_or_else(|| Error::invalid(format!("kind {kind} is no cstk_feature_kind")))?;
-        let shape = body.primitives().get(primitive as usize).ok_or_else(|| {
-            Error::new(
-                ErrorKind::NotFound,
-                format!(
-                    "primitive {primitive} does not exist; the body has {}",
-                    body.primitives().len()
-                ),
-            )
-        })?;
+        let shape = primitive_of(body, primitive)?;
         let indices = shape
             .feature_vertices(Feature {
                 kind,

@@ -8,10 +8,11 @@ use super::boundary::{Failure, guard};
 use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::hierarchy::cstk_hierarchy_options;
-use super::input::{Output, options_or_default, path, points, slice};
+use super::input::{Output, array, options_or_default, path, points, pose, slice};
 use super::status::cstk_status;
 use crate::body::{BodyBuilder, Mesh};
 use crate::error::{Error, ErrorKind};
+use crate::pose::{Pose, Vec3};
 
 /// Collects the primitives of a body.
 pub struct cstk_body_builder {
@@ -116,6 +117,10 @@ pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
 /// `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
 /// NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
 ///
+/// The mesh is scaled along its own x, y and z by the three factors of `scale`, NULL for 1, then moved by `pose`, NULL for the
+/// identity. Factors below 0 mirror; faces of what is mirrored are turned round, so that they face outwards as before.
+/// CSTK_INVALID_ARGUMENT for a factor nearer to 0 than 1e-50 or larger than 1e50.
+///
 /// Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
 /// cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
 /// match, CSTK_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
@@ -128,6 +133,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
     face_count: usize,
     indices: *const u32,
     index_count: usize,
+    pose: *const f64,
+    scale: *const f64,
 ) -> cstk_status {
     guard(|| {
         with_builder(builder, |builder| {
@@ -150,24 +157,51 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
                 face_sizes,
                 indices: indices.to_vec(),
             };
-            Ok(builder.add_mesh(&mesh)?)
+            // SAFETY: the header states the lengths.
+            let (pose, scale) = unsafe { (pose_or_identity(pose)?, scale_or_one(scale)?) };
+            Ok(builder.add_mesh(&mesh.placed(&pose, &scale)?)?)
         })
     })
 }
 
-/// Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj, .stl (ASCII or binary) or .dae
+unsafe fn pose_or_identity(values: *const f64) -> Result<Pose, Failure> {
+    if values.is_null() {
+        return Ok(Pose::identity());
+    }
+    // SAFETY: as the caller states.
+    unsafe { pose(values, "pose") }
+}
+
+/// Three factors.
+unsafe fn scale_or_one(values: *const f64) -> Result<Vec3, Failure> {
+    if values.is_null() {
+        return Ok(Vec3::repeat(1.0));
+    }
+    // SAFETY: as the caller states.
+    Ok(Vec3::from(*unsafe { array::<3>(values, "scale")? }))
+}
+
+/// Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name ends in .obj, .stl (ASCII or binary) or .dae
 /// (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
 /// CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
     builder: *mut cstk_body_builder,
     file: *const c_char,
+    pose: *const f64,
+    scale: *const f64,
 ) -> cstk_status {
     guard(|| {
         with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states that it is terminated.
-            let file = unsafe { path(file, "file")? };
-            Ok(builder.add_mesh_file(file)?)
+            // SAFETY: checked for NULL; the caller states that it is terminated, and the header the lengths.
+            let (file, pose, scale) = unsafe {
+                (
+                    path(file, "file")?,
+                    pose_or_identity(pose)?,
+                    scale_or_one(scale)?,
+                )
+            };
+            Ok(builder.add_mesh_file(file, &pose, &scale)?)
         })
     })
 }

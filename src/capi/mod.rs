@@ -26,6 +26,8 @@ pub mod body_builder;
 
 pub mod body;
 
+pub mod primitive;
+
 pub mod shapes;
 
 pub mod nodes;

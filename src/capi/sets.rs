@@ -35,7 +35,8 @@ fn combine(
 /// Makes the union of `count` C-objects of one space: its class is the largest of theirs. It keeps its parts. A
 /// body pair that several induced parts hold in one state counts once, with the largest margin.
 ///
-/// Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). Of a union of induced sets every
+/// Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). A union may be grown one part at a
+/// time: a call takes time in proportion to `count`, the first query of the whole in proportion to all parts. Of a union of induced sets every
 /// query is exact; of other compounds cstk_distance says what it knows:
 /// - a union is as near as its nearest part;
 /// - an intersection is no nearer than its farthest part: CSTK_LOWER_BOUND, but for 0 where all parts are 0;

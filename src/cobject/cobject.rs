@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use super::joined::{Compound, Joined};
 use super::leaf::next_serial;
 use super::{
     AllowedPair, BodyPairs, Induced, InducedOptions, Leaf, PureOptions, PureSet, PureShape,
@@ -46,14 +47,41 @@ enum Unit {
 pub struct CObject {
     serial: u64,
     space: Arc<Space>,
-    set: Set,
+    content: Content,
     data: Option<UserData>,
     depth: u32,
+}
+
+/// What a C-object is: as it was made, or joined and flattened when first asked about.
+#[derive(Clone, Debug)]
+pub(super) enum Content {
+    Flat(Flat),
+    Joined(Arc<Joined>),
+}
+
+/// A set, and what follows from its parts.
+#[derive(Clone, Debug)]
+pub(super) struct Flat {
+    pub set: Set,
     unit: Unit,
     /// A pure set that asks for coordinates: its number, and what it is.
     needs_coordinates: Option<(u64, &'static str)>,
     /// Each once, in order of serials.
     environments: Vec<Arc<Environment>>,
+}
+
+impl Flat {
+    pub fn of(set: Set) -> Self {
+        let mut environments: Vec<Arc<Environment>> = set.environments();
+        environments.sort_by_key(|environment| environment.serial());
+        environments.dedup_by_key(|environment| environment.serial());
+        Self {
+            unit: set.unit(),
+            needs_coordinates: set.needs_coordinates(),
+            set,
+            environments,
+        }
+    }
 }
 
 impl CObject {
@@ -116,49 +144,30 @@ impl CObject {
     /// The union of C-objects over one space.
     pub fn union(parts: &[Arc<CObject>]) -> Result<Self> {
         let space = common_space(parts, "a union")?;
-        let (mut induced, mut others) = (Vec::new(), Vec::new());
-        let mut seen = HashSet::new();
-        for part in parts {
-            match &part.set {
-                Set::Union {
-                    induced: more,
-                    others: rest,
-                } => {
-                    let is_new = |i: &&Arc<Induced>| seen.insert(i.leaf.serial);
-                    induced.extend(more.iter().filter(is_new).cloned());
-                    let is_new = |o: &&Arc<CObject>| seen.insert(o.serial);
-                    others.extend(rest.iter().filter(is_new).cloned());
-                }
-                _ => others.extend(seen.insert(part.serial).then(|| part.clone())),
-            }
-        }
-        Self::compound(space, Set::Union { induced, others })
+        Self::joined(space, Joined::new(Compound::Union, parts))
     }
 
     /// The intersection of C-objects over one space.
     pub fn intersection(parts: &[Arc<CObject>]) -> Result<Self> {
         let space = common_space(parts, "an intersection")?;
-        let mut seen = HashSet::new();
-        let mut all = Vec::new();
-        for part in parts {
-            match &part.set {
-                Set::Intersection(inner) => {
-                    let is_new = |o: &&Arc<CObject>| seen.insert(o.serial);
-                    all.extend(inner.iter().filter(is_new).cloned());
-                }
-                _ => all.extend(seen.insert(part.serial).then(|| part.clone())),
-            }
-        }
-        Self::compound(space, Set::Intersection(all))
+        Self::joined(space, Joined::new(Compound::Intersection, parts))
     }
 
     /// All configurations that are not in a C-object.
     pub fn complement(part: &Arc<CObject>) -> Result<Self> {
-        if let Set::Complement(inner) = &part.set {
-            let (set, data) = (inner.set.clone(), inner.data.clone());
-            return Ok(Self::with_set(inner.serial, inner.space.clone(), set, data));
+        if let Content::Flat(flat) = &part.content
+            && let Set::Complement(inner) = &flat.set
+        {
+            return Ok(Self {
+                serial: inner.serial,
+                space: inner.space.clone(),
+                content: inner.content.clone(),
+                data: inner.data.clone(),
+                depth: inner.depth,
+            });
         }
-        Self::compound(part.space.clone(), Set::Complement(part.clone()))
+        let set = Set::Complement(part.clone());
+        Self::with_set(next_serial(), part.space.clone(), set, None).limited()
     }
 
     /// The configurations of one C-object that are not in another.
@@ -166,30 +175,35 @@ impl CObject {
         Self::intersection(&[of.clone(), Arc::new(Self::complement(without)?)])
     }
 
-    fn compound(space: Arc<Space>, set: Set) -> Result<Self> {
-        let made = Self::with_set(next_serial(), space, set, None);
-        if made.depth > MOST_DEPTH {
+    fn joined(space: Arc<Space>, joined: Joined) -> Result<Self> {
+        let made = Self {
+            serial: next_serial(),
+            space,
+            depth: 1 + joined.depth(),
+            content: Content::Joined(Arc::new(joined)),
+            data: None,
+        };
+        made.limited()
+    }
+
+    /// Refuses a set that is nested too deep.
+    fn limited(self) -> Result<Self> {
+        if self.depth > MOST_DEPTH {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 format!("the C-objects are nested deeper than {MOST_DEPTH}"),
             ));
         }
-        Ok(made)
+        Ok(self)
     }
 
     fn with_set(serial: u64, space: Arc<Space>, set: Set, data: Option<UserData>) -> Self {
-        let mut environments: Vec<Arc<Environment>> = set.environments();
-        environments.sort_by_key(|environment| environment.serial());
-        environments.dedup_by_key(|environment| environment.serial());
         Self {
             serial,
             space,
             depth: 1 + set.parts().iter().map(|part| part.depth).max().unwrap_or(0),
-            unit: set.unit(),
-            needs_coordinates: set.needs_coordinates(),
-            set,
+            content: Content::Flat(Flat::of(set)),
             data,
-            environments,
         }
     }
 
@@ -200,38 +214,51 @@ impl CObject {
             serial,
             data: data.value,
         };
-        let set = match &self.set {
-            Set::Union { induced, others } if self.is_leaf() => Set::Union {
-                induced: induced
-                    .iter()
-                    .map(|i| {
-                        Arc::new(Induced {
-                            leaf,
-                            data: Some(data.clone()),
-                            ..Induced::clone(i)
-                        })
+        let set = match self.leaf_set() {
+            Some(Set::Union { induced, others }) => {
+                let with_data = |i: &Arc<Induced>| {
+                    Arc::new(Induced {
+                        leaf,
+                        data: Some(data.clone()),
+                        ..Induced::clone(i)
                     })
-                    .collect(),
-                others: others.clone(),
-            },
-            Set::Pure(pure) => Set::Pure(PureSet {
+                };
+                Set::Union {
+                    induced: induced.iter().map(with_data).collect(),
+                    others: others.clone(),
+                }
+            }
+            Some(Set::Pure(pure)) => Set::Pure(PureSet {
                 leaf,
                 data: Some(data.clone()),
                 ..pure.clone()
             }),
-            compound => compound.clone(),
+            _ => {
+                return Self {
+                    serial,
+                    space: self.space.clone(),
+                    content: self.content.clone(),
+                    data: Some(data),
+                    depth: self.depth,
+                };
+            }
         };
         Self::with_set(serial, self.space.clone(), set, Some(data))
     }
 
-    fn is_leaf(&self) -> bool {
-        match &self.set {
+    /// The set of a leaf; `None` for compounds.
+    fn leaf_set(&self) -> Option<&Set> {
+        let Content::Flat(Flat { set, .. }) = &self.content else {
+            return None;
+        };
+        let is_leaf = match set {
             Set::Pure(_) => true,
             Set::Union { induced, others } => {
                 others.is_empty() && induced.len() == 1 && induced[0].leaf.serial == self.serial
             }
             _ => false,
-        }
+        };
+        is_leaf.then_some(set)
     }
 
     /// The union of what is induced, without anything else.
@@ -246,7 +273,7 @@ impl CObject {
     /// Of a union the same without pairs of bodies that do not move, or links over a floor; `None` if nothing is left. Other
     /// pure sets stay. Links that rest meet what moving ones hold.
     pub fn moving(&self, moves: impl Fn(usize) -> bool) -> Option<Self> {
-        let Set::Union { induced, others } = &self.set else {
+        let Set::Union { induced, others } = self.set() else {
             return None;
         };
         let moving = induced.iter().filter_map(|term| {
@@ -256,7 +283,7 @@ impl CObject {
             }))
         });
         let induced: Vec<Arc<Induced>> = moving.collect();
-        let others = others.iter().filter_map(|other| match &other.set {
+        let others = others.iter().filter_map(|other| match other.set() {
             Set::Pure(pure) => {
                 let set = Set::Pure(pure.moving(&moves)?);
                 let space = other.space.clone();
@@ -282,7 +309,23 @@ impl CObject {
     }
 
     pub fn set(&self) -> &Set {
-        &self.set
+        &self.flat().set
+    }
+
+    fn flat(&self) -> &Flat {
+        match &self.content {
+            Content::Flat(flat) => flat,
+            Content::Joined(joined) => joined.flat(),
+        }
+    }
+
+    pub(super) fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// How deep the sets are nested, this one counted.
+    pub(super) fn depth(&self) -> u32 {
+        self.depth
     }
 
     pub fn data(&self) -> Option<&UserData> {
@@ -291,12 +334,12 @@ impl CObject {
 
     /// The environments it refers to, each once, in order of serials.
     pub fn environments(&self) -> &[Arc<Environment>] {
-        &self.environments
+        &self.flat().environments
     }
 
     /// Refuses to answer at link poses where a pure set asks for coordinates.
     pub fn require_no_coordinates(&self) -> Result<()> {
-        match self.needs_coordinates {
+        match self.flat().needs_coordinates {
             Some((pure, name)) => Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
@@ -309,7 +352,7 @@ impl CObject {
 
     /// Refuses to measure lengths together with units of C-space.
     pub fn require_one_unit(&self) -> Result<()> {
-        match self.unit {
+        match self.flat().unit {
             Unit::Mixed(pure) => Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
@@ -327,11 +370,11 @@ impl CObject {
         let mut open = vec![self];
         let mut visited = HashSet::new();
         while let Some(next) = open.pop() {
-            if let Set::Union { induced, .. } = &next.set {
+            if let Set::Union { induced, .. } = next.set() {
                 let is_new = |i: &&Arc<Induced>| seen.insert(i.leaf.serial);
                 found.extend(induced.iter().filter(is_new).cloned());
             }
-            let parts = next.set.parts().iter().rev();
+            let parts = next.set().parts().iter().rev();
             open.extend(
                 parts
                     .filter(|part| visited.insert(part.serial))
@@ -359,7 +402,7 @@ impl Set {
             _ => &[],
         };
         let own = own.iter().filter_map(|term| term.pairs.environment());
-        let below = self.parts().iter().flat_map(|part| &part.environments);
+        let below = self.parts().iter().flat_map(|part| part.environments());
         own.chain(below).cloned().collect()
     }
 
@@ -369,7 +412,10 @@ impl Set {
                 let names = (pure.leaf.serial, pure.shape.name());
                 (!pure.shape.is_in_world()).then_some(names)
             }
-            _ => self.parts().iter().find_map(|part| part.needs_coordinates),
+            _ => {
+                let mut parts = self.parts().iter();
+                parts.find_map(|part| part.flat().needs_coordinates)
+            }
         }
     }
 
@@ -385,7 +431,7 @@ impl Set {
             },
             _ => Unit::None,
         };
-        let parts = self.parts().iter().map(|part| part.unit);
+        let parts = self.parts().iter().map(|part| part.flat().unit);
         parts.fold(own, |unit, next| match (unit, next) {
             (Unit::None, other) | (other, Unit::None) => other,
             (Unit::Mixed(pure), _) | (_, Unit::Mixed(pure)) => Unit::Mixed(pure),

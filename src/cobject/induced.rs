@@ -23,7 +23,7 @@ pub struct InducedOptions {
 pub enum SObjects {
     /// All objects of an environment, those added later too.
     All(Arc<Environment>),
-    /// Some objects, by id. One that is deleted contributes the empty set.
+    /// Some objects, by id; ascending within a set. One that is deleted contributes the empty set.
     Some(Arc<Environment>, Vec<u64>),
 }
 
@@ -73,7 +73,7 @@ impl SObjects {
     pub fn contains(&self, id: u64) -> bool {
         match self {
             Self::All(_) => true,
-            Self::Some(_, ids) => ids.contains(&id),
+            Self::Some(_, ids) => ids.binary_search(&id).is_ok(),
         }
     }
 }
@@ -83,7 +83,7 @@ impl BodyPairs {
     pub(super) fn with_objects(
         space: &Space,
         links: &[usize],
-        objects: SObjects,
+        mut objects: SObjects,
         allowed: &[AllowedPair],
     ) -> Result<Self> {
         let links = if links.is_empty() {
@@ -104,6 +104,10 @@ impl BodyPairs {
         };
         for (i, pair) in allowed.iter().enumerate() {
             require_link(space, pair.link).map_err(|e| e.within(format_args!("allowed[{i}]")))?;
+        }
+        if let SObjects::Some(_, ids) = &mut objects {
+            ids.sort_unstable();
+            ids.dedup();
         }
         let mut allowed = allowed.to_vec();
         allowed.sort_unstable();

@@ -4,6 +4,7 @@ mod class;
 #[allow(clippy::module_inception)]
 mod cobject;
 mod induced;
+mod joined;
 mod leaf;
 mod measure;
 mod predicate;

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::planar_hull::plane_axes;
-use crate::gjk::{PointCloud, gjk};
+use super::point_tree::PointTree;
+use crate::gjk::{PointCloud, Support, gjk};
 use crate::parry_adapter::propose_hull;
 use crate::pose::{Mat3, Vec3, rotation_about};
 
@@ -52,25 +53,37 @@ pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Opti
     best
 }
 
-/// The largest distance of a point from the hull of the corners, and the points farther out than `accepted`.
+/// The largest distance of a point from the hull of the corners, and the points farther out than `accepted`. Each point takes
+/// the logarithm of the number of corners.
 pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec<u32>) {
     let hull: Vec<Vec3> = corners.iter().map(|&i| points[i as usize]).collect();
     let mut is_corner = vec![false; points.len()];
     for &i in corners {
         is_corner[i as usize] = true;
     }
+    // So few corners are faster asked one by one.
+    const FEW: usize = 32;
+    if hull.len() <= FEW {
+        excess_beside(points, &is_corner, &PointCloud(&hull), accepted)
+    } else {
+        excess_beside(points, &is_corner, &PointTree::new(&hull), accepted)
+    }
+}
+
+/// The same for the points that are no corners, of a hull given by its supports.
+fn excess_beside(
+    points: &[Vec3],
+    is_corner: &[bool],
+    hull: &impl Support,
+    accepted: f64,
+) -> (f64, Vec<u32>) {
     let mut excess = 0.0f64;
     let mut lost = Vec::new();
     for (i, point) in points.iter().enumerate() {
         if is_corner[i] {
             continue;
         }
-        let outside = gjk(
-            &PointCloud(&hull),
-            &PointCloud(&[*point]),
-            Vec3::zeros(),
-            f64::INFINITY,
-        );
+        let outside = gjk(hull, &PointCloud(&[*point]), Vec3::zeros(), f64::INFINITY);
         excess = excess.max(outside.upper);
         if outside.upper > accepted {
             lost.push(i as u32);

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::hull::checked_hull;
 use super::planar_hull::planar_ring;
+use super::point_tree::PointTree;
 use super::polygon::{extent_of, upright};
 use super::{Convex, Face};
 use crate::error::{Error, ErrorKind, Result};
@@ -190,13 +191,11 @@ fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
 
 /// A surface is the boundary of its hull when all vertices lie below all faces and the faces' area vectors cancel.
 fn check_closed_and_convex(vertices: &[Vec3], faces: &[Face], diameter: f64) -> Result<()> {
+    let tree = PointTree::new(vertices);
     let mut sum = Vec3::zeros();
     for (f, face) in faces.iter().enumerate() {
         let origin = vertices[face.vertices[0] as usize];
-        let above = vertices
-            .iter()
-            .map(|v| face.normal.dot(&(v - origin)))
-            .fold(f64::MIN, f64::max);
+        let (above, _) = tree.farthest(&face.normal, &origin);
         if above > 10.0 * tolerance::HULL_EXCESS * diameter {
             return Err(Error::new(
                 ErrorKind::NotConverged,

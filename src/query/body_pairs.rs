@@ -226,8 +226,7 @@ impl<'a> Scene<'a> {
         // What is attached to a link goes on with numbers after those of all links.
         let first_held = self.space().link_count();
         let environment = objects.environment().serial();
-        let held = self.held().iter().enumerate();
-        let held = held.filter(move |(_, held)| held.environment == environment);
+        let held = self.held_of(environment);
         let of_held = held
             .clone()
             .filter(|(_, held)| links.contains(&held.attachment.link))
@@ -376,10 +375,8 @@ impl<'a> Scene<'a> {
                     };
                     term.admits(r, object).then_some(())?;
                     let held = |id: u64| {
-                        let mut all = self.held().iter();
-                        let is =
-                            |h: &&Held| h.object.id == id && h.environment == environment.serial();
-                        all.find(is)
+                        let mut all = self.held_of(environment.serial());
+                        all.find_map(|(_, held)| (held.object.id == id).then_some(held))
                     };
                     let on_r = match r.attached {
                         0 => self.link(r.link)?,

@@ -33,7 +33,7 @@ pub struct QueryContext {
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
-    /// The versions of environments, by their serial numbers, that the last query saw.
+    /// The versions of environments that the last query saw, in order of their serial numbers.
     seen: Vec<(u64, u64)>,
 }
 
@@ -57,8 +57,8 @@ impl QueryContext {
     /// to it.
     pub fn version_seen(&self, environment: &Environment) -> Option<u64> {
         let serial = environment.serial();
-        let found = self.seen.iter().find(|(known, _)| *known == serial);
-        found.map(|(_, version)| *version)
+        let found = self.seen.binary_search_by_key(&serial, |(known, _)| *known);
+        found.ok().map(|i| self.seen[i].1)
     }
 
     /// Work done since the context was made or last reset.

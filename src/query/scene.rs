@@ -25,6 +25,7 @@ pub struct Scene<'a> {
     q: Option<&'a [f64]>,
     pub poses: Cow<'a, [Pose]>,
     world: &'a World,
+    /// By their environments' serial numbers, in their order.
     held: Vec<Held<'a>>,
 }
 
@@ -118,6 +119,13 @@ impl<'a> Scene<'a> {
     /// The s-objects attached to links.
     pub fn held(&self) -> &[Held<'a>] {
         &self.held
+    }
+
+    /// The s-objects of one environment that are attached to links, with their places among all.
+    pub fn held_of(&self, environment: u64) -> impl Iterator<Item = (usize, &Held<'a>)> + Clone {
+        let first = self.held.partition_point(|h| h.environment < environment);
+        let own = self.held[first..].iter();
+        (first..).zip(own.take_while(move |held| held.environment == environment))
     }
 
     pub fn space(&self) -> &Space {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::custom_joint::{Checked, MOST_COORDINATES};
-use super::robot::Coordinates;
+use super::robot::{Coordinates, Links};
 use super::{Block, BlockKind, Coordinate, Joint, JointKind, Link, Robot};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
@@ -56,7 +56,7 @@ impl Default for LinkDefinition {
 #[derive(Clone, Debug)]
 pub struct RobotBuilder {
     dimension: u32,
-    links: Vec<Link>,
+    links: Links,
     coordinates: Coordinates,
 }
 
@@ -66,7 +66,7 @@ impl RobotBuilder {
         check_dimension(dimension)?;
         Ok(Self {
             dimension,
-            links: Vec::new(),
+            links: Links::default(),
             coordinates: Coordinates::default(),
         })
     }
@@ -77,12 +77,12 @@ impl RobotBuilder {
 
     /// The links added so far.
     pub fn links(&self) -> &[Link] {
-        &self.links
+        &self.links.list
     }
 
     /// Adds a link and returns its number.
     pub fn add_link(&mut self, definition: LinkDefinition) -> Result<usize> {
-        let index = self.links.len();
+        let index = self.links.list.len();
         let name = if definition.name.is_empty() {
             format!("link{index}")
         } else {
@@ -106,24 +106,23 @@ impl RobotBuilder {
 
     fn check(&self, definition: &LinkDefinition, name: &str) -> Result<()> {
         let joint_name = &definition.joint_name;
-        if self.links.iter().any(|link| link.name == name) {
+        if self.links.names.find(name).is_some() {
             return Err(Error::invalid("another link has this name"));
         }
-        let is_taken = |link: &&Link| !joint_name.is_empty() && link.joint_name == *joint_name;
-        if let Some(other) = self.links.iter().find(is_taken) {
+        if let Some(other) = self.links.joint_names.find(joint_name) {
             return Err(Error::invalid(format!(
                 "the joint of link \"{}\" is named \"{joint_name}\" too",
-                other.name
+                self.links.list[other].name
             )));
         }
         if let Some(parent) = definition.parent
-            && parent >= self.links.len()
+            && parent >= self.links.list.len()
         {
             return Err(Error::new(
                 ErrorKind::NotFound,
                 format!(
                     "parent {parent} does not exist yet; there are {} links",
-                    self.links.len()
+                    self.links.list.len()
                 ),
             ));
         }
@@ -215,12 +214,11 @@ impl RobotBuilder {
         if first == end {
             return Ok((end, self.coordinates.nv()));
         }
-        let shared = self
-            .coordinates
-            .blocks
-            .iter()
-            .find(|block| block.coordinate == first && block.kind == BlockKind::Line);
-        match shared {
+        // In order of coordinates.
+        let blocks = &self.coordinates.blocks;
+        let found = blocks.binary_search_by_key(&first, |block| block.coordinate);
+        let shared = found.ok().map(|i| &blocks[i]);
+        match shared.filter(|block| block.kind == BlockKind::Line) {
             Some(block) if joint.kind.has_axis() => Ok((first, block.velocity)),
             _ => Err(Error::invalid(format!(
                 "coordinate {first} is taken: only revolute and prismatic joints follow another's, and never part of a quaternion"
@@ -289,7 +287,7 @@ impl RobotBuilder {
 
     /// Builds the robot from what was added so far; the builder stays as it is.
     pub fn build(&self) -> Result<Robot> {
-        if self.links.is_empty() {
+        if self.links.list.is_empty() {
             return Err(Error::new(ErrorKind::Empty, "the robot has no link"));
         }
         Ok(Robot::assemble(

@@ -7,6 +7,7 @@ mod forward;
 mod jacobian;
 mod joint;
 mod motion_bound;
+mod names;
 #[allow(clippy::module_inception)]
 mod robot;
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::names::Names;
 use super::{Block, BlockKind, Coordinate, Joint};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -41,17 +42,35 @@ impl Coordinates {
     }
 }
 
+/// The links, and what finds them by name.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Links {
+    pub list: Vec<Link>,
+    pub names: Names,
+    /// Each leads to the link that the joint moves.
+    pub joint_names: Names,
+}
+
+impl Links {
+    pub fn push(&mut self, link: Link) {
+        let index = self.list.len();
+        self.names.add(&link.name, index);
+        self.joint_names.add(&link.joint_name, index);
+        self.list.push(link);
+    }
+}
+
 /// A robot. Links are numbered as they were added.
 #[derive(Debug)]
 pub struct Robot {
     serial: u64,
     dimension: u32,
-    links: Vec<Link>,
+    links: Links,
     coordinates: Coordinates,
 }
 
 impl Robot {
-    pub(super) fn assemble(dimension: u32, links: Vec<Link>, coordinates: Coordinates) -> Self {
+    pub(super) fn assemble(dimension: u32, links: Links, coordinates: Coordinates) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
         Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
@@ -97,17 +116,16 @@ impl Robot {
     }
 
     pub fn links(&self) -> &[Link] {
-        &self.links
+        &self.links.list
     }
 
     pub fn find_link(&self, name: &str) -> Option<usize> {
-        self.links.iter().position(|link| link.name == name)
+        self.links.names.find(name)
     }
 
     /// The link that a joint of this name moves; joints without a name are not found.
     pub fn find_joint(&self, name: &str) -> Option<usize> {
-        let is_it = |link: &Link| !name.is_empty() && link.joint_name == name;
-        self.links.iter().position(is_it)
+        self.links.joint_names.find(name)
     }
 
     /// Refuses what would take a link of a planar robot out of its plane; only maps of the caller can.

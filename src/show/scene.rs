@@ -1,6 +1,6 @@
 //! The scene of a C-object at a configuration.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -103,7 +103,7 @@ impl<'a> Drawing<'a> {
                 );
             }
         }
-        let mut drawn = Vec::new();
+        let mut drawn = HashSet::new();
         for term in self.cobject.induced_leaves() {
             let BodyPairs::Objects { objects, .. } = &term.pairs else {
                 continue;
@@ -112,8 +112,7 @@ impl<'a> Drawing<'a> {
                 continue;
             };
             for object in snapshot.objects() {
-                if objects.contains(object.id) && !drawn.contains(&object.id) {
-                    drawn.push(object.id);
+                if objects.contains(object.id) && drawn.insert(object.id) {
                     let name = format!("s-object {}", object.id);
                     let extras = json!({ "id": object.id });
                     let pose = match &object.attachment {

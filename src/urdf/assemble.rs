@@ -267,31 +267,37 @@ fn followed<'m, 'a, 'i>(
         .iter()
         .map(|joint| (joint.name, joint))
         .collect();
-    let mut found = HashMap::new();
+    let mut found: HashMap<&str, Followed> = HashMap::new();
     for joint in &model.joints {
         let wrong = |kind, message: String| {
             fault(joint.node, kind, message).within(format_args!("joint \"{}\"", joint.name))
         };
-        let (mut last, mut multiplier, mut offset) = (joint, 1.0, 0.0);
-        let mut steps = 0;
+        // The chain up to its end, or to a joint whose own is known.
+        let mut chain = Vec::new();
+        let mut last = joint;
         while let Some(mimic) = &last.mimic {
-            offset += multiplier * mimic.offset;
-            multiplier *= mimic.multiplier;
+            if found.contains_key(last.name) {
+                break;
+            }
+            chain.push((last.name, mimic));
             last = joints.get(mimic.joint).copied().ok_or_else(|| {
                 wrong(
                     ErrorKind::NotFound,
                     format!("there is no joint \"{}\" to mimic", mimic.joint),
                 )
             })?;
-            steps += 1;
-            if steps > model.joints.len() {
+            if chain.len() > model.joints.len() {
                 let message = "the joints it mimics form a circle".to_string();
                 return Err(wrong(ErrorKind::InvalidArgument, message));
             }
         }
-        if steps == 0 {
+        if chain.is_empty() {
             continue;
         }
+        let (last, mut multiplier, mut offset) = match found.get(last.name) {
+            Some(known) => (known.joint, known.multiplier, known.offset),
+            None => (last, 1.0, 0.0),
+        };
         if !matches!(
             last.kind,
             JointType::Revolute | JointType::Continuous | JointType::Prismatic
@@ -299,14 +305,18 @@ fn followed<'m, 'a, 'i>(
             let message = format!("joint \"{}\" has no single coordinate to mimic", last.name);
             return Err(wrong(ErrorKind::Unsupported, message));
         }
-        found.insert(
-            joint.name,
-            Followed {
-                joint: last,
-                multiplier,
-                offset,
-            },
-        );
+        for (name, mimic) in chain.into_iter().rev() {
+            offset = mimic.multiplier * offset + mimic.offset;
+            multiplier *= mimic.multiplier;
+            found.insert(
+                name,
+                Followed {
+                    joint: last,
+                    multiplier,
+                    offset,
+                },
+            );
+        }
     }
     Ok(found)
 }

@@ -1,0 +1,57 @@
+//! Meshes as callers give them and files hold them.
+
+use crate::error::{Error, Result, require_coordinates};
+use crate::pose::{Pose, Vec3};
+use crate::tolerance::SMALLEST_DIAMETER;
+
+/// A mesh: vertices, and faces as runs of vertex indices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub vertices: Vec<Vec3>,
+    pub face_sizes: Vec<u32>,
+    pub indices: Vec<u32>,
+}
+
+impl Mesh {
+    /// The mesh scaled along its own axes, then moved. One that is mirrored runs round its faces the other way, so that they
+    /// face outwards as before. Without scale or motion it stays the same to the last bit.
+    pub fn placed(mut self, pose: &Pose, scale: &Vec3) -> Result<Self> {
+        check_scale(scale)?;
+        if *pose == Pose::identity() && *scale == Vec3::repeat(1.0) {
+            return Ok(self);
+        }
+        for vertex in &mut self.vertices {
+            *vertex = pose.transform_point(&vertex.component_mul(scale));
+        }
+        if scale.iter().filter(|factor| **factor < 0.0).count() % 2 == 1 {
+            self.reverse_faces();
+        }
+        Ok(self)
+    }
+
+    /// Sizes that do not match the indices are left to who adds the mesh.
+    fn reverse_faces(&mut self) {
+        let mut rest = &mut self.indices[..];
+        for &size in &self.face_sizes {
+            let Some((face, after)) = rest.split_at_mut_checked(size as usize) else {
+                return;
+            };
+            face.reverse();
+            rest = after;
+        }
+    }
+}
+
+fn check_scale(scale: &Vec3) -> Result<()> {
+    require_coordinates(scale.as_slice(), "scale entry")?;
+    match scale
+        .iter()
+        .position(|factor| factor.abs() < SMALLEST_DIAMETER)
+    {
+        None => Ok(()),
+        Some(i) => Err(Error::invalid(format!(
+            "scale entry {i} is {}, but must be at least {SMALLEST_DIAMETER:e} or at most -{SMALLEST_DIAMETER:e}",
+            scale[i]
+        ))),
+    }
+}

@@ -1,0 +1,52 @@
+//! What kind of set a primitive is.
+
+use super::{Convex, SmoothKind};
+
+/// The kinds of primitives: cores of each dimension, those with a radius, and smooth ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PrimitiveKind {
+    Point,
+    Segment,
+    Polygon,
+    Polyhedron,
+    Sphere,
+    Capsule,
+    RoundedPolygon,
+    RoundedPolyhedron,
+    Cylinder,
+    Cone,
+    Ellipsoid,
+    SupportFunction,
+}
+
+impl Convex {
+    pub fn kind(&self) -> PrimitiveKind {
+        let is_round = self.radius() > 0.0;
+        match self.smooth().map(|smooth| &smooth.kind) {
+            Some(SmoothKind::Cylinder { .. }) => PrimitiveKind::Cylinder,
+            Some(SmoothKind::Cone { .. }) => PrimitiveKind::Cone,
+            Some(SmoothKind::Ellipsoid { .. }) => PrimitiveKind::Ellipsoid,
+            Some(SmoothKind::Function(_)) => PrimitiveKind::SupportFunction,
+            None => match (self.vertices.len(), self.faces.len()) {
+                (1, _) if is_round => PrimitiveKind::Sphere,
+                (1, _) => PrimitiveKind::Point,
+                (2, _) if is_round => PrimitiveKind::Capsule,
+                (2, _) => PrimitiveKind::Segment,
+                (_, 1) if is_round => PrimitiveKind::RoundedPolygon,
+                (_, 1) => PrimitiveKind::Polygon,
+                _ if is_round => PrimitiveKind::RoundedPolyhedron,
+                _ => PrimitiveKind::Polyhedron,
+            },
+        }
+    }
+
+    /// How many vertices, edges and faces it has: of what has a radius those of its core, of a smooth set none.
+    pub fn feature_counts(&self) -> [usize; 3] {
+        match self.smooth() {
+            Some(_) => [0; 3],
+            // Of a point, the edge from the vertex to itself does not count.
+            None if self.vertices.len() == 1 => [1, 0, 0],
+            None => [self.vertices.len(), self.edges.len(), self.faces.len()],
+        }
+    }
+}
