@@ -561,6 +561,10 @@ static void explanations(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(query.explain(all, {1.5, 0}, 0).list.truncated);
     REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_WRONG_SIZE);
     REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_UNSUPPORTED);
+    REQUIRE(obstacle.with_shell(0.1).data() == &destroyed);
+    REQUIRE(obstacle.with_shell(0.1).number() != obstacle.number());
+    REQUIRE(status_of([&] { all.with_shell(0.1); }) == CSTK_UNSUPPORTED);
+    REQUIRE(status_of([] { cstk::CObject().with_shell(0.1); }) == CSTK_NULL_ARGUMENT);
     REQUIRE(status_of([] { cstk::CObject().with_data(nullptr); }) == CSTK_NULL_ARGUMENT);
     REQUIRE(status_of([] { cstk::CObject().data(); }) == CSTK_NULL_ARGUMENT);
     REQUIRE(status_of([] { cstk::CObject().number(); }) == CSTK_NULL_ARGUMENT);

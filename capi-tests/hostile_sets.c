@@ -331,6 +331,38 @@ static void data(const scene *s) {
     fixture_unchanged(&s->f);
 }
 
+static void shells(const scene *s) {
+    const double bad_shells[] = {0.0, -0.0, -1.0, 1e-60, 1e60, INFINITY, -INFINITY, NAN};
+    cstk_cobject *out = NULL;
+    cstk_cobject *shelled = NULL;
+    cstk_cobject *parts = NULL;
+    void *data = NULL;
+    int mark = 0;
+    EACH_BAD_HANDLE(&s->f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(out, cstk_cobject_with_shell(bad->handle, 0.1, &out), bad->status, "cobject");
+    }
+    for (size_t i = 0; i < sizeof bad_shells / sizeof bad_shells[0]; ++i) {
+        const cstk_status status = isfinite(bad_shells[i]) ? CSTK_INVALID_ARGUMENT : CSTK_NOT_FINITE;
+        CHECK_REFUSED(out, cstk_cobject_with_shell(s->f.cobject, bad_shells[i], &out), status, "shell");
+    }
+    CHECK_FAILS(cstk_cobject_with_shell(s->f.cobject, 0.1, NULL), CSTK_NULL_ARGUMENT, "out");
+    /* What is combined has no shell of its own. */
+    const cstk_cobject *one[1] = {s->f.cobject};
+    CHECK_OK(cstk_cobject_union(one, 1, &parts));
+    CHECK_REFUSED(out, cstk_cobject_with_shell(parts, 0.1, &out), CSTK_UNSUPPORTED, "shell");
+    CHECK_OK(cstk_cobject_release(parts));
+    /* The data stay; a second shell takes the place of the first. */
+    CHECK_OK(cstk_cobject_with_data(s->f.cobject, &mark, NULL, &parts));
+    CHECK_OK(cstk_cobject_with_shell(parts, 0.1, &shelled));
+    CHECK_OK(cstk_cobject_with_shell(shelled, 0.2, &out));
+    CHECK_OK(cstk_cobject_get_data(out, &data, NULL));
+    CHECK(data == &mark);
+    CHECK_OK(cstk_cobject_release(out));
+    CHECK_OK(cstk_cobject_release(shelled));
+    CHECK_OK(cstk_cobject_release(parts));
+    fixture_unchanged(&s->f);
+}
+
 int main(void) {
     static scene s;
     scene_create(&s);
@@ -341,6 +373,7 @@ int main(void) {
     small_scales(&s);
     combinations(&s);
     data(&s);
+    shells(&s);
     scene_release(&s);
     return check_result();
 }

@@ -424,7 +424,9 @@ enum cstk_slide_outcome
    * No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
    * range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
    * the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
-   * gains more than a hundredth of its length along the step asked for, to first order.
+   * gains more than 1 % of its length along the step asked for, to first order. With a contact_count of 0 the step is
+   * 0, ranges or the world box are in the way, or the shell is so short that even the step of the floor's length
+   * leads beyond it.
    */
   CSTK_SLIDE_BLOCKED = 2,
 };
@@ -1651,12 +1653,14 @@ typedef struct cstk_slide_options {
   uint32_t cookie;
   /**
    * The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
-   * two or three times as far as a step moves the robot does well.
+   * two or three times as far as a step moves the robot does well. Parts of the C-object may have shells of their own:
+   * see cstk_cobject_with_shell.
    */
   double max_shell;
   /**
    * The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-   * tenth of max_shell. Independent of the C-object's contact epsilon.
+   * tenth of max_shell. Independent of the C-object's contact epsilon. A part with a shell of its own keeps the same
+   * part of that.
    */
   double desired_distance;
   /**
@@ -1665,11 +1669,11 @@ typedef struct cstk_slide_options {
    */
   uint32_t normalize;
   /**
-   * At most so many witnesses are considered, the nearest first. Default 256.
+   * At most this many witnesses are considered, the nearest first. Default 256.
    */
   uint32_t max_witnesses;
   /**
-   * A step that does not do is halved until it is shorter than this part of the step asked for. Default 1/1024.
+   * A step is halved until it is accepted, or is shorter than this part of the step asked for. Default 1/1024.
    */
   double floor;
 } cstk_slide_options;
@@ -1680,7 +1684,7 @@ typedef struct cstk_slide_options {
 typedef struct cstk_slide_result {
   cstk_slide_outcome outcome;
   /**
-   * How many contacts constrained the step.
+   * How many contacts within the shells there were at q.
    */
   uint32_t contact_count;
   /**
@@ -2676,6 +2680,19 @@ cstk_status cstk_cobject_with_data(const struct cstk_cobject *cobject,
                                    struct cstk_cobject **out);
 
 /**
+ * Makes the same induced or pure set with a shell of its own for cstk_slide: its contacts constrain a step up to that distance,
+ * instead of `max_shell` of the slide's options, and it is kept at the same part of it: with a desired distance of a tenth of
+ * max_shell, at a tenth of `shell`. Links of a robot are mostly near each other: a self-collision set with a shell of one or
+ * two steps' motion, in a union with obstacles that are looked for from afar, makes steps several times faster. `shell` is a
+ * length, for a pure set in the unit of its distances, larger than 0. Other queries do not look at it. The set keeps its data
+ * and takes a number of its own (cstk_cobject_get_data). A union, an intersection or a complement is refused:
+ * CSTK_UNSUPPORTED; its parts take shells before they are combined.
+ */
+cstk_status cstk_cobject_with_shell(const struct cstk_cobject *cobject,
+                                    double shell,
+                                    struct cstk_cobject **out);
+
+/**
  * Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
  * either may be NULL. No two sets of a process have one number; the
  * complement of a complement is the set itself, and so has its number.
@@ -3020,13 +3037,21 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
  * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
  * nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
  * contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
- * world box, pushed out where the robot is within that distance, set right where it leads, and halved until the whole
- * way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts' gradients must
- * do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q` and
- * `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
- * is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants
- * to stop then looks at what was gained. The C-object is an induced or pure set or a union of such, without predicates:
- * else, and where a custom joint moves that does not state its speeds, CSTK_UNSUPPORTED.
+ * world box, pushed out where the robot is within that distance, corrected where it leads, and halved until the whole
+ * way is proved free. Along a contact only part of the step is left; see `normalize`.
+ *
+ * The proof takes each pair of bodies, and each link with a floor or the world box, for itself: by its own distance, and by
+ * how far the joints between the two can move them relative to each other. Pairs that no joint of the step moves relative
+ * to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
+ * first 1e-4 of max_shell (or of the smallest link's radius), and must be apart from there on, unless the whole way is
+ * shorter than that. Of two bodies with more than 64 primitive pairs those constrain a step that are no more than a tenth
+ * of the shell farther apart than the nearest.
+ *
+ * `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of
+ * time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
+ * than 1 % a step; who wants to stop then looks at what was gained. The C-object is an induced or pure set or a union of
+ * such, without predicates: else, and where a custom joint that changes some distance does not state its speeds,
+ * CSTK_UNSUPPORTED.
  */
 cstk_status cstk_slide(struct cstk_query *query,
                        const struct cstk_cobject *cobject,
@@ -3043,7 +3068,7 @@ cstk_status cstk_slide(struct cstk_query *query,
  * `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
  * is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
  * cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
- * `out` zero, where less than a hundredth of the step would be left.
+ * `out` zero, where less than 1 % of the step would be left.
  */
 cstk_status cstk_slide_step(const struct cstk_witness_list *list,
                             const double *step,

@@ -1155,6 +1155,13 @@ public:
         return CObject(out);
     }
 
+    /// The same induced or pure set with a shell of its own for slides.
+    CObject with_shell(double shell) const {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_with_shell(get(), shell, &out));
+        return CObject(out);
+    }
+
     void *data() const {
         void *data = nullptr;
         check(cstk_cobject_get_data(get(), &data, nullptr));

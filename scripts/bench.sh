@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] | accuracy. kernel
-# and objects also take [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for the
-# rows whose scene and name do); accuracy [PAIRS [SEED]].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] | slides | accuracy.
+# kernel and objects also take [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for
+# the rows whose scene and name do); slides [--quick] [--seed N]; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--seed N] [--only TEXT] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -17,6 +17,13 @@ if [ "$name" = accuracy ]; then
   cmake -S capi-tests -B build/capi-tests -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
   cmake --build build/capi-tests --target accuracy >/dev/null
   exec build/capi-tests/accuracy "${1:-1000000}" "${2:-1}"
+fi
+if [ "$name" = slides ]; then
+  robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: the robots of example-robot-data could not be fetched" >&2; exit 77; }
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  cmake -S benches/slides -B build/slides -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  cmake --build build/slides -j2 >/dev/null
+  exec build/slides/slides "$robots" "$@"
 fi
 arguments=()
 while [ $# -gt 0 ]; do

@@ -18,17 +18,19 @@ pub struct cstk_slide_options {
     pub size: u32,
     pub cookie: u32,
     /// The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
-    /// two or three times as far as a step moves the robot does well.
+    /// two or three times as far as a step moves the robot does well. Parts of the C-object may have shells of their own:
+    /// see cstk_cobject_with_shell.
     pub max_shell: f64,
     /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-    /// tenth of max_shell. Independent of the C-object's contact epsilon.
+    /// tenth of max_shell. Independent of the C-object's contact epsilon. A part with a shell of its own keeps the same
+    /// part of that.
     pub desired_distance: f64,
     /// Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default,
     /// leaves what is left of the step. (The report's normalize?)
     pub normalize: u32,
-    /// At most so many witnesses are considered, the nearest first. Default 256.
+    /// At most this many witnesses are considered, the nearest first. Default 256.
     pub max_witnesses: u32,
-    /// A step that does not do is halved until it is shorter than this part of the step asked for. Default 1/1024.
+    /// A step is halved until it is accepted, or is shorter than this part of the step asked for. Default 1/1024.
     pub floor: f64,
 }
 
@@ -61,7 +63,9 @@ pub enum cstk_slide_outcome {
     /// No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
     /// range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
     /// the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
-    /// gains more than a hundredth of its length along the step asked for, to first order.
+    /// gains more than 1 % of its length along the step asked for, to first order. With a contact_count of 0 the step is
+    /// 0, ranges or the world box are in the way, or the shell is so short that even the step of the floor's length
+    /// leads beyond it.
     CSTK_SLIDE_BLOCKED = 2,
 }
 
@@ -70,7 +74,7 @@ pub enum cstk_slide_outcome {
 #[derive(Clone, Copy)]
 pub struct cstk_slide_result {
     pub outcome: cstk_slide_outcome,
-    /// How many contacts constrained the step.
+    /// How many contacts within the shells there were at q.
     pub contact_count: u32,
     /// The distance at the configuration given, and at the one reached.
     pub distance_before: f64,
@@ -91,13 +95,21 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
 /// nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
 /// contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
-/// world box, pushed out where the robot is within that distance, set right where it leads, and halved until the whole
-/// way is proved free (from a touching start, all but the first 1e-4 of max_shell, where the contacts' gradients must
-/// do). Along a contact only part of the step is left; see `normalize`. `slide_options` must not be NULL. `q` and
-/// `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of time, has `nv`. Unless the outcome
-/// is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more than a hundredth a step; who wants
-/// to stop then looks at what was gained. The C-object is an induced or pure set or a union of such, without predicates:
-/// else, and where a custom joint moves that does not state its speeds, CSTK_UNSUPPORTED.
+/// world box, pushed out where the robot is within that distance, corrected where it leads, and halved until the whole
+/// way is proved free. Along a contact only part of the step is left; see `normalize`.
+///
+/// The proof takes each pair of bodies, and each link with a floor or the world box, for itself: by its own distance, and by
+/// how far the joints between the two can move them relative to each other, or a link along the normal of a plane between
+/// it and an obstacle. Pairs that no joint of the step moves relative to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
+/// first 1e-4 of max_shell (or of the smallest link's radius), and must be apart from there on, unless the whole way is
+/// shorter than that. Of two bodies with more than 64 primitive pairs only the nearest constrain a step: at most 8, no more
+/// than 1 % of the shell farther apart than the first.
+///
+/// `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of
+/// time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
+/// than 1 % a step; who wants to stop then looks at what was gained. The C-object is an induced or pure set or a union of
+/// such, without predicates: else, and where a custom joint that changes some distance does not state its speeds,
+/// CSTK_UNSUPPORTED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,
@@ -153,7 +165,7 @@ pub unsafe extern "C" fn cstk_slide(
 /// `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
 /// is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
 /// cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
-/// `out` zero, where less than a hundredth of the step would be left.
+/// `out` zero, where less than 1 % of the step would be left.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide_step(
     list: *const cstk_witness_list,

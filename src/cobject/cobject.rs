@@ -10,9 +10,10 @@ use super::{
     SObjects,
 };
 use crate::environment::Environment;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::space::Space;
-use crate::user_data::UserData;
+use crate::tolerance;
+use crate::user_data::{UserData, value_of};
 
 /// Sets nested deeper than this are refused; unions in unions, and intersections in intersections, count as one.
 pub const MOST_DEPTH: u32 = 256;
@@ -116,6 +117,7 @@ impl CObject {
                 data: None,
                 pairs,
                 options,
+                shell: None,
             })],
             others: Vec::new(),
         })
@@ -131,6 +133,7 @@ impl CObject {
                 data: None,
                 shape,
                 options,
+                shell: None,
             })
         }))
     }
@@ -209,17 +212,41 @@ impl CObject {
 
     /// The same set, carrying data of the caller's: answers hand those of leaves back.
     pub fn with_data(&self, data: UserData) -> Self {
+        self.renamed(Some(data), self.shell())
+    }
+
+    /// The same leaf with a shell of its own: slides look that far for its contacts, whatever their options say of others.
+    pub fn with_shell(&self, shell: f64) -> Result<Self> {
+        require_coordinates(&[shell], "shell")?;
+        if shell < tolerance::SMALLEST_DIAMETER {
+            let least = tolerance::SMALLEST_DIAMETER;
+            return Err(Error::invalid(format!(
+                "shell is {shell}; it must be {least:e} at least"
+            )));
+        }
+        if self.leaf_set().is_none() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                "only an induced or a pure set takes a shell: give one to each part before they are combined",
+            ));
+        }
+        Ok(self.renamed(self.data.clone(), Some(shell)))
+    }
+
+    /// The same set under another number; a leaf takes the data and the shell.
+    fn renamed(&self, data: Option<UserData>, shell: Option<f64>) -> Self {
         let serial = next_serial();
         let leaf = Leaf {
             serial,
-            data: data.value,
+            data: value_of(&data),
         };
         let set = match self.leaf_set() {
             Some(Set::Union { induced, others }) => {
                 let with_data = |i: &Arc<Induced>| {
                     Arc::new(Induced {
                         leaf,
-                        data: Some(data.clone()),
+                        data: data.clone(),
+                        shell,
                         ..Induced::clone(i)
                     })
                 };
@@ -230,7 +257,8 @@ impl CObject {
             }
             Some(Set::Pure(pure)) => Set::Pure(PureSet {
                 leaf,
-                data: Some(data.clone()),
+                data: data.clone(),
+                shell,
                 ..pure.clone()
             }),
             _ => {
@@ -238,12 +266,21 @@ impl CObject {
                     serial,
                     space: self.space.clone(),
                     content: self.content.clone(),
-                    data: Some(data),
+                    data,
                     depth: self.depth,
                 };
             }
         };
-        Self::with_set(serial, self.space.clone(), set, Some(data))
+        Self::with_set(serial, self.space.clone(), set, data)
+    }
+
+    /// The shell of a leaf that has one.
+    fn shell(&self) -> Option<f64> {
+        match self.leaf_set()? {
+            Set::Pure(pure) => pure.shell,
+            Set::Union { induced, .. } => induced.first()?.shell,
+            _ => None,
+        }
     }
 
     /// The set of a leaf; `None` for compounds.
@@ -268,35 +305,6 @@ impl CObject {
             others: Vec::new(),
         };
         Self::with_set(self.serial, self.space.clone(), set, None)
-    }
-
-    /// Of a union the same without pairs of bodies that do not move, or links over a floor; `None` if nothing is left. Other
-    /// pure sets stay. Links that rest meet what moving ones hold.
-    pub fn moving(&self, moves: impl Fn(usize) -> bool) -> Option<Self> {
-        let Set::Union { induced, others } = self.set() else {
-            return None;
-        };
-        let moving = induced.iter().filter_map(|term| {
-            Some(Arc::new(Induced {
-                pairs: term.pairs.moving(&moves)?,
-                ..Induced::clone(term)
-            }))
-        });
-        let induced: Vec<Arc<Induced>> = moving.collect();
-        let others = others.iter().filter_map(|other| match other.set() {
-            Set::Pure(pure) => {
-                let set = Set::Pure(pure.moving(&moves)?);
-                let space = other.space.clone();
-                Some(Arc::new(Self::with_set(other.serial, space, set, None)))
-            }
-            _ => Some(other.clone()),
-        });
-        let others: Vec<Arc<Self>> = others.collect();
-        let is_left = !(induced.is_empty() && others.is_empty());
-        is_left.then(|| {
-            let set = Set::Union { induced, others };
-            Self::with_set(self.serial, self.space.clone(), set, None)
-        })
     }
 
     /// A number no other C-object of this process has.

@@ -45,8 +45,6 @@ pub enum BodyPairs {
     /// without a body stands for what it holds.
     Objects {
         links: Vec<usize>,
-        /// Links that meet only what `links` hold.
-        resting: Vec<usize>,
         objects: SObjects,
         allowed: Vec<AllowedPair>,
     },
@@ -62,6 +60,8 @@ pub struct Induced {
     pub data: Option<UserData>,
     pub pairs: BodyPairs,
     pub options: InducedOptions,
+    /// How far slides look for its contacts, if not as far as for those of others.
+    pub shell: Option<f64>,
 }
 
 impl SObjects {
@@ -114,7 +114,6 @@ impl BodyPairs {
         allowed.dedup();
         Ok(Self::Objects {
             links,
-            resting: Vec::new(),
             objects,
             allowed,
         })
@@ -138,32 +137,6 @@ impl BodyPairs {
         let is_new = |&&[r, s]: &&[usize; 2]| seen.insert([r.min(s), r.max(s)]);
         let pairs = pairs.iter().filter(is_new).copied().collect();
         Ok(Self::Links { pairs })
-    }
-
-    /// Those that some link takes part in that moves; `None` if there are none.
-    pub fn moving(&self, moves: &impl Fn(usize) -> bool) -> Option<Self> {
-        match self {
-            Self::Links { pairs } => {
-                let moving = pairs.iter().filter(|pair| pair.iter().any(|&l| moves(l)));
-                let pairs: Vec<[usize; 2]> = moving.copied().collect();
-                (!pairs.is_empty()).then_some(Self::Links { pairs })
-            }
-            Self::Objects {
-                links,
-                objects,
-                allowed,
-                ..
-            } => {
-                let (links, resting): (Vec<usize>, Vec<usize>) =
-                    links.iter().partition(|&&link| moves(link));
-                (!links.is_empty()).then(|| Self::Objects {
-                    links,
-                    resting,
-                    objects: objects.clone(),
-                    allowed: allowed.clone(),
-                })
-            }
-        }
     }
 
     pub fn environment(&self) -> Option<&Arc<Environment>> {

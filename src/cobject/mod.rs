@@ -9,6 +9,7 @@ mod leaf;
 mod measure;
 mod predicate;
 mod pure;
+mod pure_motion;
 mod reach;
 mod spans;
 mod stand;

@@ -52,6 +52,8 @@ pub struct PureSet {
     pub data: Option<UserData>,
     pub shape: PureShape,
     pub options: PureOptions,
+    /// How far slides look for its contacts, if not as far as for those of others; in the unit of its distances.
+    pub shell: Option<f64>,
 }
 
 impl fmt::Debug for PureShape {
@@ -143,20 +145,6 @@ impl PureShape {
                 Ok(())
             }
         }
-    }
-}
-
-impl PureSet {
-    /// Of a floor, or the world box, that for the links that move; `None` if there are none.
-    pub(super) fn moving(&self, moves: &impl Fn(usize) -> bool) -> Option<Self> {
-        let mut kept = self.clone();
-        if let PureShape::Floor { links, .. } | PureShape::BeyondWorld { links } = &mut kept.shape {
-            links.retain(|&link| moves(link));
-            if links.is_empty() {
-                return None;
-            }
-        }
-        Some(kept)
     }
 }
 

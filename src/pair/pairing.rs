@@ -90,6 +90,15 @@ impl<'a> Pairing<'a> {
         wrapper_a.sphere_bound(&wrapper_b, &self.relative) - self.slack()
     }
 
+    /// How far A is beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
+    pub fn gap_along(&self, direction: &Vec3) -> f64 {
+        let in_a = self.frame.rotation.tr_mul(direction);
+        let nearest_a = self.a.farthest(&-in_a).point;
+        let farthest_b = self.b.farthest(&self.relative.rotation.tr_mul(&in_a)).point;
+        let gap = in_a.dot(&nearest_a) - in_a.dot(&self.relative.transform_point(&farthest_b));
+        gap - self.precision.error
+    }
+
     /// The distance of the primitives at two places, unless it is above `cutoff`: a pure function of the primitives and
     /// the relative pose. 0 where they touch to within the pair's error.
     #[inline(always)]

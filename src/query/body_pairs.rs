@@ -1,7 +1,5 @@
 //! The body pairs that induced sets hold in a scene.
 
-use std::sync::Arc;
-
 use super::answer::SSide;
 use super::candidates::{Candidates, Wanted};
 use super::context::CacheKey;
@@ -23,8 +21,6 @@ struct RSide {
 /// An induced set of links against s-objects, its number in the group, and the state it sees.
 struct ObjectsTerm<'t, 's> {
     links: &'t [usize],
-    /// Those that meet only what `links` hold.
-    resting: &'t [usize],
     objects: &'t SObjects,
     allowed: &'t [AllowedPair],
     options: &'t InducedOptions,
@@ -134,7 +130,6 @@ impl<'a> Scene<'a> {
                 }
                 BodyPairs::Objects {
                     links,
-                    resting,
                     objects,
                     allowed,
                 } => {
@@ -143,7 +138,6 @@ impl<'a> Scene<'a> {
                     };
                     let term = ObjectsTerm {
                         links,
-                        resting,
                         objects,
                         allowed,
                         options: &term.options,
@@ -297,9 +291,7 @@ impl<'a> Scene<'a> {
         }
         for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
             let other = Bounds::of(&held.object.body, &held.pose);
-            let is_moved = links.contains(&held.attachment.link);
-            let resting = term.resting.iter().filter(|_| is_moved);
-            for named in bodies.clone().chain(resting.filter_map(with_body)) {
+            for named in bodies.clone() {
                 let bounds = Bounds::of(named.1, named.2);
                 offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
             }
@@ -332,71 +324,73 @@ impl<'a> Scene<'a> {
         group: &'s Group,
         key: &CacheKey,
     ) -> impl Iterator<Item = (Pairing<'s>, InducedOptions)> {
-        let named = match *key {
+        let key = *key;
+        group.iter().filter_map(move |term| {
+            let [(a, pose_a), (b, pose_b)] = self.sides_of(term, &key)?;
+            let fits = a.dimension() == b.dimension();
+            fits.then(|| (Pairing::new(a, pose_a, b, pose_b), term.options))
+        })
+    }
+
+    /// The two bodies that a key names, at their poses, if an induced set holds the pair.
+    pub fn sides_of(&self, term: &Induced, key: &CacheKey) -> Option<[Placement<'_>; 2]> {
+        let (r, s_side) = match *key {
             CacheKey::Candidate {
                 space,
                 r_link: link,
                 r_object: attached,
                 s_side,
                 ..
-            } if space == self.space().serial() => Some((RSide { link, attached }, s_side)),
+            } if space == self.space().serial() => (RSide { link, attached }, s_side),
+            _ => return None,
+        };
+        match (&term.pairs, s_side) {
+            (BodyPairs::Links { pairs }, SSide::Link(s)) => {
+                let is_held = r.attached == 0 && pairs.contains(&[r.link, s]);
+                is_held.then_some(())?;
+                Some([self.link(r.link)?, self.link(s)?])
+            }
+            (
+                BodyPairs::Objects {
+                    links,
+                    objects,
+                    allowed,
+                },
+                SSide::Object(id),
+            ) => {
+                let is_chosen = links.contains(&r.link) && objects.contains(id);
+                is_chosen.then_some(())?;
+                let environment = objects.environment();
+                let snapshot = self.world().snapshot(environment)?;
+                let object = snapshot.find(id)?;
+                let term = ObjectsTerm {
+                    links,
+                    objects,
+                    allowed,
+                    options: &term.options,
+                    number: 0,
+                    snapshot,
+                };
+                term.admits(r, object).then_some(())?;
+                let held = |id: u64| {
+                    let mut all = self.held_of(environment.serial());
+                    all.find_map(|(_, held)| (held.object.id == id).then_some(held))
+                };
+                let on_r = match r.attached {
+                    0 => self.link(r.link)?,
+                    id => {
+                        let held = held(id).filter(|held| held.attachment.link == r.link)?;
+                        (&*held.object.body, &held.pose)
+                    }
+                };
+                let pose = match object.attachment {
+                    None => &object.pose,
+                    Some(_) => &held(id)?.pose,
+                };
+                Some([on_r, (&*object.body, pose)])
+            }
             _ => None,
-        };
-        let pairing = move |term: &'s Arc<Induced>| -> Option<(Pairing<'s>, InducedOptions)> {
-            let (r, s_side) = named?;
-            let [(a, pose_a), (b, pose_b)] = match (&term.pairs, s_side) {
-                (BodyPairs::Links { pairs }, SSide::Link(s)) => {
-                    let is_held = r.attached == 0 && pairs.contains(&[r.link, s]);
-                    is_held.then_some(())?;
-                    [self.link(r.link)?, self.link(s)?]
-                }
-                (
-                    BodyPairs::Objects {
-                        links,
-                        objects,
-                        allowed,
-                        ..
-                    },
-                    SSide::Object(id),
-                ) => {
-                    let is_chosen = links.contains(&r.link) && objects.contains(id);
-                    is_chosen.then_some(())?;
-                    let environment = objects.environment();
-                    let snapshot = self.world().snapshot(environment)?;
-                    let object = snapshot.find(id)?;
-                    let term = ObjectsTerm {
-                        links,
-                        resting: &[],
-                        objects,
-                        allowed,
-                        options: &term.options,
-                        number: 0,
-                        snapshot,
-                    };
-                    term.admits(r, object).then_some(())?;
-                    let held = |id: u64| {
-                        let mut all = self.held_of(environment.serial());
-                        all.find_map(|(_, held)| (held.object.id == id).then_some(held))
-                    };
-                    let on_r = match r.attached {
-                        0 => self.link(r.link)?,
-                        id => {
-                            let held = held(id).filter(|held| held.attachment.link == r.link)?;
-                            (&*held.object.body, &held.pose)
-                        }
-                    };
-                    let pose = match object.attachment {
-                        None => &object.pose,
-                        Some(_) => &held(id)?.pose,
-                    };
-                    [on_r, (&*object.body, pose)]
-                }
-                _ => return None,
-            };
-            let fits = a.dimension() == b.dimension();
-            fits.then(|| (Pairing::new(a, pose_a, b, pose_b), term.options))
-        };
-        group.iter().filter_map(pairing)
+        }
     }
 }
 

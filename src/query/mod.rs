@@ -18,6 +18,7 @@ mod segment;
 mod set_witnesses;
 mod sets;
 mod slide;
+mod slide_contacts;
 mod slide_step;
 mod step_limits;
 mod target;

@@ -1,118 +1,440 @@
-//! A proof that a way of constant velocity through C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4).
+//! A proof that a way of constant velocity through C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4):
+//! each body pair, and each pure set, with a distance and a motion bound of its own; of what a plane separates also along the
+//! plane's normal, so that a base may slide over a floor however near.
 
+use std::sync::Arc;
+
+use super::answer::WitnessList;
+use super::candidates::Wanted;
 use super::context::QueryContext;
 use super::half_spaces::dot;
-use super::scene::Configuration;
+use super::pure_answer::PureAt;
+use super::scene::{Configuration, Group, Scene};
+use super::set_witnesses::{Listed, pure_witnesses};
+use super::slide_step::Approach;
+use super::target::{Placement, Target};
 use super::world::World;
-use crate::cobject::{BodyPairs, CObject, PureShape, Set};
+use crate::cobject::{BodyPairs, CObject, Induced, PureSet, PureShape, Set};
 use crate::environment::{Environment, SObject};
 use crate::error::Result;
+use crate::pose::Vec3;
 
-/// So many distances may be computed for one proof; a way that needs more counts as not free.
-const MOST_DISTANCES: usize = 400;
+/// At most this many distances are computed for one pair; a way that needs more counts as not free.
+const MAX_DISTANCES: usize = 400;
 
-/// The part of the distance that a step uses up: the rest covers the rounding of kinematics and motion bounds.
+/// The part of a distance that a step of the proof uses up: the rest covers the rounding of kinematics and motion bounds.
 const STEP_FRACTION: f64 = 0.99;
 
+/// The way from q with velocity v for a unit of time, in one state of the world. Both ends are in the coordinates' ranges.
+#[derive(Clone, Copy)]
+pub(super) struct Way<'a> {
+    pub world: &'a World,
+    pub cobject: &'a CObject,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+}
+
+/// How far a pair that touches at the start may move before a distance must prove it free: from a touch no proof can begin.
+/// The contacts must say that the pair does not come nearer, to first order.
+#[derive(Clone, Copy)]
+pub(super) struct Trust {
+    pub distance: f64,
+    /// A pair with more witnesses than this within the distance is not trusted.
+    pub max_count: usize,
+}
+
+impl Trust {
+    /// How much nearer than a touch a contact may come.
+    fn allowed(&self) -> f64 {
+        1e-3 * self.distance
+    }
+}
+
+/// What the robot must keep clear of on a way: a body pair, or a pure set.
+trait Obstacle {
+    /// A safe lower bound of the distance at a scene; a distance above `limit` may give the limit.
+    fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64>;
+
+    /// The witnesses within a distance, with gradients.
+    fn witnesses(
+        &self,
+        context: &mut QueryContext,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<WitnessList>;
+
+    /// A plane fixed to the world between the robot and the obstacle, if one is known.
+    fn separation(
+        &self,
+        context: &mut QueryContext,
+        way: &Way,
+        scene: &Scene,
+    ) -> Option<Separation>;
+}
+
+/// A plane between a moving link and something at rest.
+struct Separation {
+    /// How far the two are apart along the plane's normal.
+    gap: f64,
+    /// How far the link moves along the normal, on the whole way, at most.
+    rate: f64,
+}
+
+impl Separation {
+    /// Whether it separates the two on the whole way.
+    fn lasts(&self) -> bool {
+        self.gap > 0.0 && STEP_FRACTION * self.gap >= self.rate
+    }
+}
+
+/// A body pair of an induced set.
+struct PairOnWay<'a> {
+    term: &'a Group,
+    target: Target<'a>,
+}
+
 impl QueryContext {
-    /// Whether the robot keeps clear of the C-object on the way from q with velocity v for a unit of time, from parameter
-    /// `start` on. `false` may also mean that it comes too near for a proof of reasonable length.
-    pub(super) fn way_is_free(
-        &mut self,
-        world: &World,
-        cobject: &CObject,
-        q: &[f64],
-        v: &[f64],
-        start: f64,
-    ) -> Result<bool> {
-        let motion = motion_bound(world, cobject, q, v);
-        if motion.is_infinite() {
-            return Ok(false);
+    /// Whether the robot keeps clear of the C-object all the way. `false` may also mean that it comes too near for a proof of
+    /// reasonable length.
+    pub(super) fn way_is_free(&mut self, way: &Way, trust: &Trust) -> Result<bool> {
+        let scene = &way.scene(way.q)?;
+        if let Set::Union { induced, .. } = way.cobject.set() {
+            // Each for itself: pairs that several hold need not be named by all of them.
+            for term in induced {
+                if !self.pairs_stay_clear(way, scene, term, trust)? {
+                    return Ok(false);
+                }
+            }
         }
-        // What rests may be as near as it likes.
-        let space = cobject.space();
-        let moves = |link: usize| space.reach_motion_bound(link, 1.0, q, v) > 0.0;
-        let Some(cobject) = &cobject.moving(moves) else {
+        for set in pure_sets(way.cobject) {
+            for part in set.parts_on_way(way.cobject.space()) {
+                let rate = part.motion_bound(way.cobject.space(), way.q, way.v);
+                if !self.stays_clear(way, scene, &part, rate, trust)? {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    fn pairs_stay_clear(
+        &mut self,
+        way: &Way,
+        scene: &Scene,
+        term: &Arc<Induced>,
+        trust: &Trust,
+    ) -> Result<bool> {
+        let term = std::slice::from_ref(term);
+        let Some(fastest) = way.fastest_pair(&term[0]) else {
             return Ok(true);
         };
-        let mut t = start;
-        for _ in 0..MOST_DISTANCES {
-            let way: Vec<f64> = v.iter().map(|x| x * t).collect();
-            let at = cobject.space().step(q, &way);
-            let at = Configuration::Coordinates(&at);
-            let here = self.distance_in(world, cobject, at, f64::INFINITY)?;
-            if here.lower <= 0.0 {
+        scene.check(term)?;
+        let wanted = Wanted::within(fastest / STEP_FRACTION);
+        let candidates = scene.candidates(term, wanted, &mut self.near);
+        for &target in &candidates {
+            let rate = way.rate(scene, &target);
+            if STEP_FRACTION * target.bound >= rate {
+                continue;
+            }
+            // Alone in its searches, whose hits name it by its rank.
+            let target = Target { rank: 0, ..target };
+            let pair = PairOnWay { term, target };
+            if !self.stays_clear(way, scene, &pair, rate, trust)? {
                 return Ok(false);
             }
-            if t == 1.0 {
-                return Ok(true);
+        }
+        Ok(true)
+    }
+
+    /// Whether one obstacle's distance, which falls by no more than `rate` on the way from a scene, stays above 0.
+    fn stays_clear(
+        &mut self,
+        way: &Way,
+        start: &Scene,
+        obstacle: &impl Obstacle,
+        rate: f64,
+        trust: &Trust,
+    ) -> Result<bool> {
+        // What rests may be as near as it likes.
+        if rate == 0.0 {
+            return Ok(true);
+        }
+        if rate.is_infinite() {
+            return Ok(false);
+        }
+        let lower = obstacle.lower(self, start, rate / STEP_FRACTION)?;
+        if lower > 0.0 && STEP_FRACTION * lower >= rate {
+            return Ok(true);
+        }
+        let plane = obstacle.separation(self, way, start);
+        if plane.as_ref().is_some_and(Separation::lasts) {
+            return Ok(true);
+        }
+        if lower > 0.0 {
+            return self.advances(way, obstacle, rate, STEP_FRACTION * lower / rate);
+        }
+        // What stays behind a plane comes nearer along its normal only.
+        let plane = plane.filter(|plane| plane.gap >= -trust.allowed());
+        let nearer = plane.map_or(rate, |plane| plane.rate.min(rate));
+        let share = if nearer > trust.distance {
+            trust.distance / nearer
+        } else {
+            1.0
+        };
+        if !self.keeps_off(way, obstacle, start, share, trust)? {
+            return Ok(false);
+        }
+        Ok(share == 1.0 || self.advances(way, obstacle, rate, share)?)
+    }
+
+    /// Whether an obstacle's distance stays above 0 from parameter `start` on: conservative advancement.
+    fn advances(
+        &mut self,
+        way: &Way,
+        obstacle: &impl Obstacle,
+        rate: f64,
+        start: f64,
+    ) -> Result<bool> {
+        let mut t = start;
+        for _ in 0..MAX_DISTANCES {
+            let at = way.at(t);
+            let scene = &way.scene(&at)?;
+            let rest = rate * (1.0 - t) / STEP_FRACTION;
+            // A limit of 0 would make any bound 0.
+            let lower = obstacle.lower(self, scene, rest.max(f64::MIN_POSITIVE))?;
+            if lower <= 0.0 || lower >= rest {
+                return Ok(lower > 0.0);
             }
-            // Up to the next parameter no distance can have fallen to 0.
-            t = (t + STEP_FRACTION * here.lower / motion).min(1.0);
+            // Up to the next parameter the distance cannot have fallen to 0.
+            t = (t + STEP_FRACTION * lower / rate).min(1.0);
         }
         Ok(false)
     }
+
+    /// Whether the contacts at a touching start say that no witness comes nearer up to parameter `share`.
+    fn keeps_off(
+        &mut self,
+        way: &Way,
+        obstacle: &impl Obstacle,
+        scene: &Scene,
+        share: f64,
+        trust: &Trust,
+    ) -> Result<bool> {
+        let listed = Listed {
+            // What is farther cannot come to touch.
+            epsilon: trust.distance / STEP_FRACTION,
+            max_count: trust.max_count,
+            with_gradients: true,
+        };
+        let list = obstacle.witnesses(self, scene, listed)?;
+        let keeps_off =
+            |a: &Approach| a.clearance + share * dot(a.gradient, way.v) >= -trust.allowed();
+        let is_known = !list.truncated && list.witnesses.iter().all(|w| !w.overlapping);
+        Ok(is_known && list.approaches().iter().all(keeps_off))
+    }
 }
 
-/// No distance of the C-object changes by more than this on the way. Infinite where a joint does not state its speeds, and
-/// where a set is no union of induced sets and of pure ones.
-pub(super) fn motion_bound(world: &World, cobject: &CObject, q: &[f64], v: &[f64]) -> f64 {
-    let Set::Union { induced, others } = cobject.set() else {
-        return pure_motion_bound(cobject, q, v);
+impl Obstacle for PairOnWay<'_> {
+    fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
+        let target = self.at(scene);
+        let found = target.map(|target| context.nearest(&[target], limit).lower);
+        Ok(found.unwrap_or(0.0).min(limit))
+    }
+
+    fn witnesses(
+        &self,
+        context: &mut QueryContext,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        let target = self.at(scene);
+        context.list(self.term, scene, target.as_slice(), listed)
+    }
+
+    fn separation(
+        &self,
+        context: &mut QueryContext,
+        way: &Way,
+        scene: &Scene,
+    ) -> Option<Separation> {
+        let target = self.at(scene)?;
+        let (link, None) = target.links() else {
+            return None;
+        };
+        let targets = &[target];
+        let (hit, _) = context.nearest(targets, f64::INFINITY).hit?;
+        if hit.contained.is_some() {
+            return None;
+        }
+        let pairing = target.pairing();
+        let contacts = pairing.world_contacts(hit.key.primitives, &pairing.closest(&hit));
+        let normal = contacts.first()?.normal;
+        Some(Separation {
+            gap: pairing.gap_along(&normal) - target.options.margin,
+            rate: way.directed_rate(scene, link, target.sides[0], &normal)?,
+        })
+    }
+}
+
+impl PairOnWay<'_> {
+    /// The pair where the robot is now.
+    fn at<'s>(&'s self, scene: &'s Scene) -> Option<Target<'s>> {
+        let sides = scene.sides_of(&self.term[0], &self.target.key)?;
+        Some(Target {
+            sides,
+            bound: f64::NEG_INFINITY,
+            ..self.target
+        })
+    }
+}
+
+impl Obstacle for PureSet {
+    fn lower(&self, _: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
+        let at = PureAt {
+            set: self,
+            complement: false,
+            scene,
+        };
+        Ok(at.reach()?.lower.min(limit))
+    }
+
+    fn witnesses(
+        &self,
+        _: &mut QueryContext,
+        scene: &Scene,
+        listed: Listed,
+    ) -> Result<WitnessList> {
+        pure_witnesses(&[(self, false)], scene, listed)
+    }
+
+    /// A floor is such a plane.
+    fn separation(&self, _: &mut QueryContext, way: &Way, scene: &Scene) -> Option<Separation> {
+        let PureShape::Floor { links, normal, .. } = &self.shape else {
+            return None;
+        };
+        let &[link] = &links[..] else {
+            return None;
+        };
+        let measure = self.measure(&scene.stand()).ok()??;
+        Some(Separation {
+            gap: measure.signed - measure.error,
+            rate: way.directed_rate(scene, link, scene.link(link)?, normal)?,
+        })
+    }
+}
+
+impl<'a> Way<'a> {
+    fn at(&self, t: f64) -> Vec<f64> {
+        let way: Vec<f64> = self.v.iter().map(|x| x * t).collect();
+        self.cobject.space().step(self.q, &way)
+    }
+
+    fn scene<'s>(&'s self, q: &'s [f64]) -> Result<Scene<'s>> {
+        Scene::new(
+            self.cobject.space(),
+            self.world,
+            Configuration::Coordinates(q),
+        )
+    }
+
+    /// Whether every joint that the way moves, and that changes some distance, states its speeds.
+    pub fn states_speeds(&self) -> bool {
+        let space = self.cobject.space();
+        let of_pairs = match self.cobject.set() {
+            Set::Union { induced, .. } => &induced[..],
+            _ => &[],
+        };
+        let of_pairs = of_pairs.iter().filter_map(|term| self.fastest_pair(term));
+        let of_sets = pure_sets(self.cobject).map(|set| set.motion_bound(space, self.q, self.v));
+        of_pairs.chain(of_sets).all(f64::is_finite)
+    }
+
+    /// No distance of a pair of the set changes by more than this; `None` where none changes.
+    fn fastest_pair(&self, term: &Induced) -> Option<f64> {
+        let &Self { world, q, v, .. } = self;
+        let space = self.cobject.space();
+        let fastest = match &term.pairs {
+            BodyPairs::Objects { links, objects, .. } => {
+                let held = extents_of_held(world, objects.environment());
+                let of_link = |link: usize| {
+                    let held = held.iter().filter(|(holder, _)| *holder == link);
+                    let held =
+                        held.map(|(_, extent)| space.reach_motion_bound(link, *extent, q, v));
+                    held.fold(space.motion_bound(link, q, v), f64::max)
+                };
+                let of_links = links.iter().map(|&link| of_link(link));
+                // What is attached is an s-object to the other links, and moves.
+                let of_carriers = held.iter().map(|(holder, _)| of_link(*holder));
+                of_links.fold(0.0, f64::max) + of_carriers.fold(0.0, f64::max)
+            }
+            BodyPairs::Links { pairs } => {
+                let extent = |link: usize| {
+                    let body = space.link(link).and_then(|link| link.body.as_deref());
+                    body.map_or(0.0, |body| body.reach())
+                };
+                let of_pair = |&[r, s]: &[usize; 2]| {
+                    space.relative_motion_bound([(r, extent(r)), (s, extent(s))], q, v)
+                };
+                pairs.iter().map(of_pair).fold(0.0, f64::max)
+            }
+        };
+        (fastest > 0.0).then_some(fastest)
+    }
+
+    /// What a link carries moves no farther than this along a direction of the world on the way from a scene.
+    fn directed_rate(
+        &self,
+        scene: &Scene,
+        link: usize,
+        carried: Placement,
+        direction: &Vec3,
+    ) -> Option<f64> {
+        let extent = extent(scene, link, carried);
+        let space = self.cobject.space();
+        Some(space.directed_motion_bound(link, extent, direction, scene.posture()?, self.v))
+    }
+
+    /// The distance of a pair changes by no more than this: by the motion of its bodies relative to each other.
+    fn rate(&self, scene: &Scene, target: &Target) -> f64 {
+        let &Self { q, v, .. } = self;
+        let space = self.cobject.space();
+        let (r_link, s_link) = target.links();
+        let r = (r_link, extent(scene, r_link, target.sides[0]));
+        match s_link {
+            Some(s) => {
+                let s = (s, extent(scene, s, target.sides[1]));
+                space.relative_motion_bound([r, s], q, v)
+            }
+            None => space.reach_motion_bound(r.0, r.1, q, v),
+        }
+    }
+}
+
+/// How far a link's body, or what the link holds, is from the link's origin, at most.
+fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
+    (pose.translation - scene.poses[link].translation).norm() + body.reach()
+}
+
+/// The pure sets of a union, or the set itself if it is one.
+fn pure_sets(cobject: &CObject) -> impl Iterator<Item = &PureSet> {
+    let own = match cobject.set() {
+        Set::Pure(set) => Some(set),
+        _ => None,
     };
-    let space = cobject.space();
-    let of_pairs = induced.iter().map(|term| match &term.pairs {
-        BodyPairs::Objects { links, objects, .. } => {
-            let held = reaches_of_held(world, objects.environment());
-            let of_link = |link: usize| {
-                let held = held.iter().filter(|(holder, _)| *holder == link);
-                let held = held.map(|(_, reach)| space.reach_motion_bound(link, *reach, q, v));
-                held.fold(space.motion_bound(link, q, v), f64::max)
-            };
-            let of_links = links.iter().map(|&link| of_link(link));
-            // What is attached is an s-object to the other links, and moves.
-            let of_carriers = held.iter().map(|(holder, _)| of_link(*holder));
-            of_links.fold(0.0, f64::max) + of_carriers.fold(0.0, f64::max)
-        }
-        BodyPairs::Links { pairs } => {
-            let of_link = |link: usize| space.motion_bound(link, q, v);
-            let of_pair = |pair: &[usize; 2]| of_link(pair[0]) + of_link(pair[1]);
-            pairs.iter().map(of_pair).fold(0.0, f64::max)
-        }
-    });
-    let of_others = others.iter().map(|other| pure_motion_bound(other, q, v));
-    of_pairs.chain(of_others).fold(0.0, f64::max)
+    let parts = cobject.set().parts().iter();
+    own.into_iter()
+        .chain(parts.filter_map(|part| match part.set() {
+            Set::Pure(set) => Some(set),
+            _ => None,
+        }))
 }
 
 /// The links that hold s-objects of an environment, and how far these reach from the links' origins.
-fn reaches_of_held(world: &World, environment: &Environment) -> Vec<(usize, f64)> {
+fn extents_of_held(world: &World, environment: &Environment) -> Vec<(usize, f64)> {
     let attached = world.snapshot(environment).map(|now| now.attached());
-    let reach = |object: &SObject| {
+    let extent = |object: &SObject| {
         let link = object.attachment.as_ref()?.link;
         Some((link, object.pose.translation.norm() + object.body.reach()))
     };
-    attached.into_iter().flatten().filter_map(reach).collect()
-}
-
-/// A distance in C-space changes by no more than the way is long.
-fn pure_motion_bound(cobject: &CObject, q: &[f64], v: &[f64]) -> f64 {
-    let Set::Pure(pure) = cobject.set() else {
-        return f64::INFINITY;
-    };
-    match pure.shape {
-        PureShape::Predicate(_) => f64::INFINITY,
-        PureShape::Floor { ref links, .. } => {
-            let space = cobject.space();
-            let links = links.iter().map(|&link| space.motion_bound(link, q, v));
-            links.fold(0.0, f64::max)
-        }
-        PureShape::BeyondWorld { ref links } => {
-            let space = cobject.space();
-            links
-                .iter()
-                .map(|&link| space.reach_motion_bound(link, 0.0, q, v))
-                .fold(0.0, f64::max)
-        }
-        _ => pure.options.scale.unwrap_or(1.0) * dot(v, v).sqrt(),
-    }
+    attached.into_iter().flatten().filter_map(extent).collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::answer::{ContactRecord, SSide, Witness, WitnessList};
+use super::answer::{ContactRecord, Witness, WitnessList};
 use super::candidates::Wanted;
 use super::context::QueryContext;
 use super::pure_answer::{PureAt, PureWitness};
@@ -171,7 +171,7 @@ impl WitnessList {
     }
 
     /// Several lists as one: the nearest first, of equal ones those of earlier lists.
-    fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: Listed) -> Self {
+    pub(super) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: Listed) -> Self {
         let mut merged = Self::empty(scene, listed);
         let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
         merged.truncated = count > listed.max_count || lists.iter().any(|list| list.truncated);
@@ -213,13 +213,9 @@ fn push_gradient(
     rows.resize(first + space.nv(), 0.0);
     let row = &mut rows[first..];
     let [on_r, on_s] = &contact.points;
-    let (r_link, _, s_side) = target.parties();
+    let (r_link, s_link) = target.links();
     space.add_gradient(posture, r_link, on_r, &contact.normal, row)?;
-    let moved_with = match s_side {
-        SSide::Link(s) => Some(s),
-        _ => target.s_carrier,
-    };
-    if let Some(s) = moved_with {
+    if let Some(s) = s_link {
         space.add_gradient(posture, s, on_s, &-contact.normal, row)?;
     }
     Ok(())

@@ -1,14 +1,16 @@
 //! The step that slides along contacts instead of running into them (Appendix A: `slide`).
 
-use super::at_configuration::{PseudoNormal, Shell, check_threshold};
+use super::answer::{ContactRecord, WitnessList};
+use super::at_configuration::check_threshold;
 use super::context::QueryContext;
 use super::half_spaces::dot;
-use super::segment::motion_bound;
+use super::scene::Configuration;
+use super::segment::{Trust, Way};
 use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
 use super::step_limits::step_limits;
 use super::world::World;
 use crate::cobject::{CObject, PureShape, Set};
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
 
 /// How to slide.
 #[derive(Clone, Copy, Debug)]
@@ -19,9 +21,9 @@ pub struct SlideOptions {
     pub desired_distance: f64,
     /// Lengthens the step along the contact to that of the step asked for, at most fourfold: the report's `normalize?`.
     pub normalize: bool,
-    /// A step that does not do is halved until it is shorter than this part of the step asked for.
+    /// A step is halved until it is accepted, or is shorter than this part of the step asked for.
     pub floor: f64,
-    /// At most so many witnesses are considered, the nearest first.
+    /// At most this many witnesses are considered, the nearest first.
     pub max_witnesses: usize,
 }
 
@@ -37,17 +39,9 @@ impl SlideOptions {
         }
     }
 
-    fn shell(&self) -> Shell {
-        Shell {
-            max_shell: self.max_shell,
-            max_count: self.max_witnesses,
-            normalize: false,
-        }
-    }
-
     fn check(&self) -> Result<()> {
         check_threshold(self.max_shell, "max_shell")?;
-        require_finite(&[self.max_shell], "max_shell")?;
+        require_coordinates(&[self.max_shell], "max_shell")?;
         check_threshold(self.desired_distance, "desired_distance")?;
         if self.max_shell == 0.0 {
             return Err(Error::invalid(
@@ -84,7 +78,7 @@ pub enum SlideOutcome {
     Inside,
     /// No step leads on: the contacts, the coordinates' ranges or the world box are in the way. Of all steps as long as the
     /// floor none that keeps clear, keeps the distance (or the desired distance, if that is less), the ranges and the box
-    /// gains more than a hundredth of its length along the step asked for, to first order.
+    /// gains more than 1 % of its length along the step asked for, to first order.
     Blocked,
 }
 
@@ -106,12 +100,12 @@ const DEAD_BAND: f64 = 1e-2;
 /// A step may fall short of the distance it is to keep by this part of the desired one: what corrections leave.
 const FALL_SHORT: f64 = 1e-4;
 
-/// So often is a step set right where it leads: contacts turn on the way.
-const MOST_CORRECTIONS: usize = 3;
+/// A step is corrected at most this many times where it leads: contacts turn on the way.
+const MAX_CORRECTIONS: usize = 3;
 
 /// The contacts that a step of this length can bring nearer than it may fall short.
-fn approaches(found: &PseudoNormal, length: f64, desired: f64) -> Vec<Approach<'_>> {
-    let mut all = found.list.approaches();
+fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>> {
+    let mut all = list.approaches();
     all.retain(|a| norm(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
     all
 }
@@ -121,7 +115,7 @@ struct Asked<'a> {
     world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
-    here: &'a PseudoNormal,
+    here: &'a WitnessList,
     options: &'a SlideOptions,
     /// The length of the step asked for.
     length: f64,
@@ -130,7 +124,7 @@ struct Asked<'a> {
 impl QueryContext {
     /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest
     /// step that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out
-    /// to it where it is within, set right where it leads, and halved until the whole way is proved free.
+    /// to it where it is within, corrected where it leads, and halved until the whole way is proved free.
     pub fn slide(
         &mut self,
         cobject: &CObject,
@@ -145,13 +139,14 @@ impl QueryContext {
         // One state of the world for all that is asked: else the proof would join distances of several.
         let world = &self.look(cobject);
         require_union(cobject)?;
-        let here = self.pseudo_normal_in(world, cobject, q, &options.shell())?;
+        let distance = self.distance_at(world, cobject, q)?;
+        let here = self.slide_contacts(world, cobject, q, options)?;
         let ended = |outcome| SlideStep {
             outcome,
             configuration: q.to_vec(),
-            distance_before: here.distance.distance,
-            distance_after: here.distance.distance,
-            contacts: here.list.contacts.len(),
+            distance_before: distance,
+            distance_after: distance,
+            contacts: here.contacts.len(),
         };
         // A touch is no reason to stay; an overlap is, of primitives or of what the margin adds to them.
         if overlaps(&here, options) {
@@ -161,7 +156,13 @@ impl QueryContext {
         if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
-        if motion_bound(world, cobject, q, step).is_infinite() {
+        let way = Way {
+            world,
+            cobject,
+            q,
+            v: step,
+        };
+        if !way.states_speeds() {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
@@ -183,10 +184,10 @@ impl QueryContext {
             let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
             for push in wishes {
                 let found = self.try_step(&asked, &wish, push)?;
-                if let Some((reached, distance)) = found {
+                if let Some(reached) = found {
                     return Ok(SlideStep {
+                        distance_after: self.distance_at(world, cobject, &reached)?,
                         configuration: reached,
-                        distance_after: distance,
                         ..ended(SlideOutcome::Moved)
                     });
                 }
@@ -196,14 +197,19 @@ impl QueryContext {
         Ok(ended(SlideOutcome::Blocked))
     }
 
-    /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way; with the
-    /// distance there.
+    fn distance_at(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<f64> {
+        let at = Configuration::Coordinates(q);
+        let found = self.distance_in(world, cobject, at, f64::INFINITY)?;
+        Ok(found.distance)
+    }
+
+    /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way.
     fn try_step(
         &mut self,
         asked: &Asked,
         wish: &[f64],
         push: Option<&Push>,
-    ) -> Result<Option<(Vec<f64>, f64)>> {
+    ) -> Result<Option<Vec<f64>>> {
         let &Asked {
             world,
             cobject,
@@ -229,18 +235,18 @@ impl QueryContext {
         };
         let mut reached = space.clamp(&space.step(q, &first));
         let mut corrections = 0;
-        let (distance, nearest) = loop {
+        let nearest = loop {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
-            let there = self.pseudo_normal_in(world, cobject, &reached, &options.shell())?;
+            let there = self.slide_contacts(world, cobject, &reached, options)?;
             if overlaps(&there, options) {
                 return Ok(None);
             }
             let contacts = approaches(&there, asked.length, desired);
             let nearest = nearest_movable(&contacts);
-            if corrections == MOST_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
-                break (there.distance.distance, nearest);
+            if corrections == MAX_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
+                break nearest;
             }
             corrections += 1;
             let limits = step_limits(space, &reached, length)?;
@@ -258,40 +264,21 @@ impl QueryContext {
         // A push alone must win more than steps that gain may lose, or the two would take turns.
         let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
         let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
-        if !goes_on || !self.may_move(asked, &way)? {
+        if !goes_on {
             return Ok(None);
         }
-        Ok(Some((reached, distance)))
-    }
-
-    /// Whether the way is free. From a touching start no proof can begin: the first [`ON_TRUST`] of the shell is taken on
-    /// the word of the contacts, which the step leaves or keeps to first order; the rest is proved.
-    fn may_move(&mut self, asked: &Asked, way: &[f64]) -> Result<bool> {
-        let &Asked {
+        let way = Way {
             world,
             cobject,
             q,
-            here,
-            options,
-            ..
-        } = asked;
-        let max_shell = options.max_shell;
-        let motion = motion_bound(world, cobject, q, way);
-        let mut start = 0.0;
-        if here.distance.lower <= 0.0 && motion > 0.0 {
-            // Contacts that are not listed have no word to be taken.
-            if here.list.truncated {
-                return Ok(false);
-            }
-            let trusted = ON_TRUST * max_shell.min(smallest_radius(cobject));
-            start = (trusted / motion).min(1.0);
-            let keeps_off =
-                |a: &Approach| a.clearance + start * dot(a.gradient, way) >= -1e-3 * trusted;
-            if !here.list.approaches().iter().all(keeps_off) {
-                return Ok(false);
-            }
-        }
-        self.way_is_free(world, cobject, q, way, start)
+            v: &way,
+        };
+        let trust = Trust {
+            distance: ON_TRUST * options.max_shell.min(smallest_radius(cobject)),
+            max_count: options.max_witnesses,
+        };
+        let is_free = self.way_is_free(&way, &trust)?;
+        Ok(is_free.then_some(reached))
     }
 }
 
@@ -326,14 +313,11 @@ fn smallest_radius(cobject: &CObject) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-fn overlaps(found: &PseudoNormal, options: &SlideOptions) -> bool {
+fn overlaps(list: &WitnessList, options: &SlideOptions) -> bool {
     let too_deep = -1e-9 * options.max_shell;
-    let list = &found.list;
+    let is_too_deep = |contact: &ContactRecord| contact.clearance < too_deep;
     list.witnesses.iter().any(|witness| witness.overlapping)
-        || list
-            .contacts
-            .iter()
-            .any(|contact| contact.clearance < too_deep)
+        || list.contacts.iter().any(is_too_deep)
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -29,7 +29,7 @@ impl WitnessList {
 pub const LEAST_GAIN: f64 = 1e-2;
 
 /// The lengthened step is at most so many times the part of the step that contacts leave.
-const MOST_STRETCH: f64 = 4.0;
+const MAX_STRETCH: f64 = 4.0;
 
 /// The step nearest to `step` that brings no contact nearer than `desired`, nor nearer at all where it is within that
 /// already, and keeps to the `limits`. With `normalize` it is lengthened to the step's length, fourfold at most. `None`
@@ -52,7 +52,7 @@ pub fn slide_step(
         return None;
     }
     if normalize && left < asked {
-        let stretch = (asked / left).min(MOST_STRETCH);
+        let stretch = (asked / left).min(MAX_STRETCH);
         let wish: Vec<f64> = step.iter().map(|x| x * stretch).collect();
         if let Some(longer) = nearest_in_half_spaces(&wish, &half_spaces)
             && dot(&longer, &longer).sqrt() <= 1.5 * asked

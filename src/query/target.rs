@@ -43,6 +43,15 @@ impl<'a> Target<'a> {
         }
     }
 
+    /// The link that moves the r-side, and the one that moves the s-side, if one does.
+    pub fn links(&self) -> (usize, Option<usize>) {
+        let (r_link, _, s_side) = self.parties();
+        match s_side {
+            SSide::Link(s) => (r_link, Some(s)),
+            _ => (r_link, self.s_carrier),
+        }
+    }
+
     /// The two in one frame: made when it is needed, as most targets turn out to be too far.
     pub fn pairing(&self) -> Pairing<'a> {
         let [a, b] = self.sides;

@@ -1,6 +1,18 @@
-//! How far a link can move between two configurations: the constants of Quinlan's bubbles (1994).
+//! How far a link can move between two configurations: the constants of Quinlan's bubbles (1994), and the same along one
+//! direction.
 
-use super::{JointKind, Robot};
+use super::{JointKind, Link, Posture, Robot};
+use crate::pose::Vec3;
+
+/// What one joint contributes to the motion of something that it carries.
+struct JointMotion {
+    link: usize,
+    /// How far the joint shifts its link's origin, and how far it turns the link.
+    shift: f64,
+    turn: f64,
+    /// No point of what is carried is farther from the link's origin on the way.
+    extent: f64,
+}
 
 impl Robot {
     /// No point of the link's body moves farther than this, in the world, while the robot goes from q with constant velocity
@@ -14,12 +26,121 @@ impl Robot {
 
     /// The same for whatever is fixed to the link, no farther than `reach` from its origin.
     pub fn reach_motion_bound(&self, link: usize, reach: f64, q: &[f64], v: &[f64]) -> f64 {
-        let links = self.links();
-        // The reach is the largest distance from the current joint's origin to a point of the body.
-        let mut reach = reach;
+        self.motion_bound_in(None, link, reach, q, v)
+    }
+
+    /// The same in the frame of one of the links that carry it, or of the world: only the joints in between count.
+    pub fn motion_bound_in(
+        &self,
+        frame: Option<usize>,
+        link: usize,
+        reach: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> f64 {
         let mut bound = 0.0;
+        self.visit_motions(frame, link, reach, q, v, |joint| {
+            bound += joint.shift + times(joint.turn, joint.extent);
+        });
+        bound
+    }
+
+    /// The same along a unit direction of the world, of a robot whose links are at the posture's poses at the start. It is 0
+    /// along the normal of a floor for a base that shifts and turns over it.
+    pub fn directed_motion_bound(
+        &self,
+        link: usize,
+        reach: f64,
+        direction: &Vec3,
+        posture: Posture,
+        v: &[f64],
+    ) -> f64 {
+        let mut joints: Vec<JointMotion> = Vec::new();
+        self.visit_motions(None, link, reach, posture.q, v, |joint| joints.push(joint));
+        let mut bound = 0.0;
+        // How far the direction, as a joint's frame sees it, goes from what it is at the start.
+        let mut drift = 0.0;
+        for joint in joints.iter().rev() {
+            let [shift, turn] = self.directed_velocity(joint, direction, posture, v);
+            let turned = times(joint.turn, (turn + drift).min(1.0));
+            drift += turned;
+            let shift = (shift + times(joint.shift, drift)).min(joint.shift);
+            bound += shift + times(turned, joint.extent);
+        }
+        bound
+    }
+
+    /// How fast a joint shifts its link along a direction at the start, and the sine of the angle between the direction and
+    /// the axis that it turns the link about; at most the joint's shift, and 1, where that is not known.
+    fn directed_velocity(
+        &self,
+        joint: &JointMotion,
+        direction: &Vec3,
+        posture: Posture,
+        v: &[f64],
+    ) -> [f64; 2] {
+        let link = &self.links()[joint.link];
+        let Some([shift, turn]) = self.start_velocity(link, joint.link, posture, v) else {
+            return [joint.shift, 1.0];
+        };
+        let sine = turn.try_normalize(0.0);
+        let sine = sine.map_or(0.0, |axis| axis.cross(direction).norm());
+        let is_known = !matches!(link.joint.kind, JointKind::FreeEuler);
+        [
+            shift.dot(direction).abs(),
+            if is_known { sine } else { 1.0 },
+        ]
+    }
+
+    /// The velocity of a link's origin, and its angular velocity, that its own joint causes at the start of a way, in the
+    /// world; unknown of custom joints.
+    fn start_velocity(
+        &self,
+        link: &Link,
+        index: usize,
+        posture: Posture,
+        v: &[f64],
+    ) -> Option<[Vec3; 2]> {
+        let joint = &link.joint;
+        let own = &v[joint.velocity..joint.velocity + joint.kind.nv()];
+        let turned = posture.poses[index].rotation;
+        let frame = || match link.parent {
+            None => link.at.rotation,
+            Some(parent) => posture.poses[parent].rotation * link.at.rotation,
+        };
+        let vector = |at: usize| Vec3::new(own[at], own[at + 1], own[at + 2]);
+        let still = Vec3::zeros();
+        Some(match joint.kind {
+            JointKind::Fixed => [still, still],
+            // The axis is its own image under the joint's motion.
+            JointKind::Revolute => [still, turned * joint.axis * (joint.multiplier * own[0])],
+            JointKind::Prismatic => [turned * joint.axis * (joint.multiplier * own[0]), still],
+            JointKind::Planar => {
+                let shift = Vec3::new(own[0], own[1], 0.0);
+                [frame() * shift, frame().column(2) * own[2]]
+            }
+            JointKind::Spherical => [still, turned * vector(0)],
+            JointKind::Free => [turned * vector(0), turned * vector(3)],
+            JointKind::FreeEuler => [frame() * vector(0), still],
+            JointKind::Custom(_) => return None,
+        })
+    }
+
+    /// Visits the joints that carry something, no farther than `reach` from a link's origin, from the link down to a frame.
+    fn visit_motions(
+        &self,
+        frame: Option<usize>,
+        link: usize,
+        reach: f64,
+        q: &[f64],
+        v: &[f64],
+        mut visit: impl FnMut(JointMotion),
+    ) {
+        let links = self.links();
+        // The largest distance from the current joint's origin to a point of what is carried.
+        let mut extent = reach;
         let mut next = Some(link);
-        while let Some(index) = next {
+        while let Some(index) = next.filter(|_| next != frame) {
             let here = &links[index];
             let joint = &here.joint;
             let own_q = &q[joint.coordinate..joint.coordinate + joint.kind.nq()];
@@ -60,10 +181,35 @@ impl Robot {
                     (shift, turn, away)
                 }
             };
-            bound += shift + if turn == 0.0 { 0.0 } else { turn * reach };
-            reach += away + shift + here.at.translation.norm();
+            visit(JointMotion {
+                link: index,
+                shift,
+                turn,
+                extent,
+            });
+            extent += away + shift + here.at.translation.norm();
             next = here.parent;
         }
-        bound
     }
+
+    /// The link nearest to two links that carries both (it may be one of them); `None` for the world.
+    pub fn common_carrier(&self, links: [usize; 2]) -> Option<usize> {
+        let [mut a, mut b] = links.map(Some);
+        // Parents have smaller numbers.
+        while a != b {
+            let above = a.max(b)?;
+            let parent = self.links()[above].parent;
+            if a > b {
+                a = parent;
+            } else {
+                b = parent;
+            }
+        }
+        a
+    }
+}
+
+/// A product in which 0 wins over infinity.
+fn times(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }

@@ -236,6 +236,42 @@ impl Space {
         self.robots[robot].reach_motion_bound(link - offset.link, reach, q, v)
     }
 
+    /// The same along a unit direction of the world; see [`Robot::directed_motion_bound`].
+    pub fn directed_motion_bound(
+        &self,
+        link: usize,
+        reach: f64,
+        direction: &Vec3,
+        posture: Posture,
+        v: &[f64],
+    ) -> f64 {
+        let robot = self.robot_of(link);
+        let offset = self.offsets[robot];
+        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
+        let own = Posture {
+            q: &posture.q[self.coordinates_of(robot)],
+            poses: &posture.poses[offset.link..],
+        };
+        self.robots[robot].directed_motion_bound(link - offset.link, reach, direction, own, v)
+    }
+
+    /// No distance between things fixed to two links, each no farther than its extent from its link's origin, changes by
+    /// more than this. Links that no joint moves relative to each other have a bound of 0.
+    pub fn relative_motion_bound(&self, sides: [(usize, f64); 2], q: &[f64], v: &[f64]) -> f64 {
+        let [a, b] = sides.map(|(link, _)| self.robot_of(link));
+        if a != b {
+            let in_world = |(link, extent)| self.reach_motion_bound(link, extent, q, v);
+            return sides.map(in_world).iter().sum();
+        }
+        let (robot, offset) = (&self.robots[a], self.offsets[a]);
+        let v = &v[offset.velocity..offset.velocity + robot.nv()];
+        let q = &q[self.coordinates_of(a)];
+        let sides = sides.map(|(link, extent)| (link - offset.link, extent));
+        let shared = robot.common_carrier(sides.map(|(link, _)| link));
+        let in_shared = |(link, extent)| robot.motion_bound_in(shared, link, extent, q, v);
+        sides.map(in_shared).iter().sum()
+    }
+
     /// The link that a link is joined to; `None` for the world.
     pub fn parent(&self, link: usize) -> Option<usize> {
         let first = self.offsets[self.robot_of(link)].link;

@@ -1,0 +1,76 @@
+#include "walk.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace {
+
+const std::size_t steps_a_walk = 40;
+
+// The length of a step in C-space: radians for the UR5, and the Panda's fingers hardly count.
+const double step_length = 0.05;
+
+std::vector<double> free_start(const Cell &cell, const cstk::Query &query,
+                               const cstk::CObject &all, std::uint64_t &random) {
+    for (;;) {
+        std::vector<double> q = cell.space.sample(random);
+        if (query.classify(all, q) == CSTK_OUTSIDE) {
+            return q;
+        }
+    }
+}
+
+std::vector<double> direction(const Cell &cell, std::uint64_t &random) {
+    const std::vector<double> from = cell.space.neutral(), to = cell.space.sample(random);
+    std::vector<double> step = cell.space.difference(from, to);
+    double length = 0;
+    for (double x : step) {
+        length += x * x;
+    }
+    for (double &x : step) {
+        x *= step_length / std::sqrt(length);
+    }
+    return step;
+}
+
+} // namespace
+
+void Steps::add(double microseconds, cstk_slide_outcome outcome) {
+    times.push_back(microseconds);
+    moved += outcome == CSTK_SLIDE_MOVED;
+    blocked += outcome == CSTK_SLIDE_BLOCKED;
+}
+
+double Steps::quantile(double share) const {
+    if (times.empty()) {
+        return NAN;
+    }
+    std::vector<double> sorted = times;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+Walks walk(const Cell &cell, const Shells &shells, std::size_t walks, std::uint64_t seed) {
+    using Clock = std::chrono::steady_clock;
+    const cstk::Query query;
+    const cstk::CObject all =
+        cstk::CObject::union_of({cell.obstacles, cell.itself.with_shell(shells.links)});
+    const cstk_slide_options options = cstk::slide_options(shells.obstacles);
+    Walks made;
+    for (std::size_t i = 0; i < walks; ++i) {
+        std::vector<double> q = free_start(cell, query, all, seed);
+        const std::vector<double> step = direction(cell, seed);
+        for (std::size_t k = 0; k < steps_a_walk; ++k) {
+            const bool is_near = query.within(cell.obstacles, q, shells.obstacles);
+            const Clock::time_point start = Clock::now();
+            const cstk_slide_result result = query.slide(all, q, step, options);
+            const std::chrono::duration<double, std::micro> time = Clock::now() - start;
+            (is_near ? made.sliding : made.free).add(time.count(), result.outcome);
+            if (result.outcome != CSTK_SLIDE_MOVED) {
+                break;
+            }
+        }
+    }
+    return made;
+}

@@ -1,0 +1,145 @@
+//! How fast a straight way through C-space changes the distance of a pure set.
+
+use super::{PureSet, PureShape};
+use crate::robot::{Block, BlockKind, Coordinate};
+use crate::space::Space;
+
+impl PureSet {
+    /// A floor or the world box as one set for each link, so that each has a distance and a contact of its own; any other set
+    /// as it is.
+    pub fn by_link(&self) -> Vec<Self> {
+        match &self.shape {
+            PureShape::Floor {
+                links,
+                normal,
+                offset,
+            } => {
+                let of_link = |&link: &usize| PureShape::Floor {
+                    links: vec![link],
+                    normal: *normal,
+                    offset: *offset,
+                };
+                self.with_shapes(links.iter().map(of_link))
+            }
+            PureShape::BeyondWorld { links } => {
+                let of_link = |&link: &usize| PureShape::BeyondWorld { links: vec![link] };
+                self.with_shapes(links.iter().map(of_link))
+            }
+            _ => vec![self.clone()],
+        }
+    }
+
+    /// The sets whose distances a proof looks at one by one, for a way whose ends are in the coordinates' ranges. Of limits
+    /// those of the positions of free joints, as half-spaces: coordinates that move alone stay between their values at the
+    /// ends.
+    pub fn parts_on_way(&self, space: &Space) -> Vec<Self> {
+        match &self.shape {
+            PureShape::BeyondLimits => self.with_shapes(position_limits(space).into_iter()),
+            _ => self.by_link(),
+        }
+    }
+
+    fn with_shapes(&self, shapes: impl Iterator<Item = PureShape>) -> Vec<Self> {
+        let with = |shape: PureShape| Self {
+            shape,
+            ..self.clone()
+        };
+        shapes.map(with).collect()
+    }
+
+    /// The distance falls by no more than this on the way from q with velocity v for a unit of time. Infinite for predicates,
+    /// and where a custom joint does not state its speeds. The ends of the way are in the coordinates' ranges.
+    pub fn motion_bound(&self, space: &Space, q: &[f64], v: &[f64]) -> f64 {
+        match &self.shape {
+            PureShape::Predicate(_) => f64::INFINITY,
+            PureShape::Floor { links, .. } => {
+                let links = links.iter().map(|&link| space.motion_bound(link, q, v));
+                links.fold(0.0, f64::max)
+            }
+            PureShape::BeyondWorld { links } => {
+                let origin = |&link: &usize| space.reach_motion_bound(link, 0.0, q, v);
+                links.iter().map(origin).fold(0.0, f64::max)
+            }
+            PureShape::BeyondLimits => {
+                let parts = self.parts_on_way(space);
+                let bounds = parts.iter().map(|part| part.motion_bound(space, q, v));
+                bounds.fold(0.0, f64::max)
+            }
+            PureShape::Box { low, high } => {
+                let is_bounded = |c: usize| low[c].is_finite() || high[c].is_finite();
+                self.scale() * box_bound(space, is_bounded, v)
+            }
+            PureShape::HalfSpace { normal, .. } => {
+                self.scale() * half_space_bound(space, normal, v)
+            }
+            PureShape::Ball { .. } => self.scale() * norm(v),
+        }
+    }
+}
+
+/// The half-spaces beyond the ends of the ranges of free joints' positions.
+fn position_limits(space: &Space) -> Vec<PureShape> {
+    let mut found = Vec::new();
+    for block in placements(space) {
+        for c in block.coordinate..block.coordinate + 3 {
+            let Coordinate::Interval { lower, upper } = space.coordinates()[c] else {
+                continue;
+            };
+            for (end, sign) in [(lower, 1.0), (upper, -1.0)] {
+                if end.is_finite() {
+                    let mut normal = vec![0.0; space.nq()];
+                    normal[c] = sign;
+                    found.push(PureShape::HalfSpace {
+                        normal,
+                        offset: sign * end,
+                    });
+                }
+            }
+        }
+    }
+    found
+}
+
+fn placements(space: &Space) -> impl Iterator<Item = &Block> {
+    let blocks = space.blocks().iter();
+    blocks.filter(|block| block.kind == BlockKind::Placement)
+}
+
+/// The length of the way in the coordinates that the box bounds.
+fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f64 {
+    let mut square = 0.0;
+    for block in space.blocks() {
+        let count = match block.kind {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 0,
+            BlockKind::Placement => 3,
+        };
+        if (block.coordinate..block.coordinate + count).any(&is_bounded) {
+            let shift = norm(&v[block.velocity..block.velocity + count]);
+            square += shift * shift;
+        }
+    }
+    square.sqrt()
+}
+
+/// Along coordinates that move alone the distance changes at one rate, which does not count where it grows.
+fn half_space_bound(space: &Space, normal: &[f64], v: &[f64]) -> f64 {
+    let (mut bound, mut size) = (0.0, 0.0);
+    for block in space.blocks() {
+        let (c, k) = (block.coordinate, block.velocity);
+        let falls = match block.kind {
+            BlockKind::Line => -normal[c] * v[k],
+            BlockKind::Rotation => 0.0,
+            BlockKind::Placement => norm(&normal[c..c + 3]) * norm(&v[k..k + 3]),
+        };
+        bound += falls;
+        size += falls.abs();
+    }
+    // What cancels leaves rounding behind.
+    let rounding = space.nv() as f64 * f64::EPSILON * size;
+    (bound + rounding).max(0.0) / norm(normal)
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
