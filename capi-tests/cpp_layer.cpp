@@ -255,6 +255,12 @@ static void queries() {
     REQUIRE(slide.outcome == CSTK_SLIDE_MOVED && std::fabs(moving[0] - 0.6) < 1e-15);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
+    query.set_limit(1);
+    REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_LIMIT);
+    query.set_limit(0);
+    REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
+    const cstk_query_statistics done = query.statistics(true);
+    REQUIRE(done.primitive_distances <= done.primitive_pairs);
 
     const cstk::Pose here = cstk::identity(), there = cstk::translation(3, 0, 0);
     REQUIRE(query.pair_distance(body, here, body, there).distance == 2.0);

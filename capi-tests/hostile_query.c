@@ -30,6 +30,13 @@ static void get_statistics(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void set_limit(const fixture *f) {
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_FAILS(cstk_query_set_limit(bad->handle, 1), bad->status, "query");
+    }
+    fixture_unchanged(f);
+}
+
 /* The arguments of a query: by coordinates or by link poses, with the number some queries take (a
  * threshold, a largest distance, a shell) and the largest count. */
 typedef struct question {
@@ -210,6 +217,21 @@ static void query_poses(const fixture *f, const form *of) {
         memcpy(poses + 12 * FIXTURE_TIP, bad->pose, sizeof bad->pose);
         refuse(of, &a, bad->status, "link_poses[3]");
     }
+}
+
+static void query_limits(const fixture *f, const form *of) {
+    /* A class or a threshold may be decided by the one pair that the context remembers. */
+    if (of->number == NULL || strcmp(of->number, "threshold") == 0) {
+        return;
+    }
+    const question a = good_question(f, of);
+    answer out;
+    CHECK_OK(cstk_query_set_limit(f->query, 1));
+    refuse(of, &a, CSTK_LIMIT, "limit of 1");
+    CHECK_OK(cstk_query_set_limit(f->query, UINT64_MAX));
+    CHECK_OK(of->ask(&a, &out));
+    CHECK_OK(cstk_query_set_limit(f->query, 0));
+    CHECK_OK(of->ask(&a, &out));
 }
 
 static void slide_arguments(const fixture *f, const cstk_slide_options *options) {
@@ -477,10 +499,12 @@ int main(void) {
     fixture_create(&f);
     query_create(&f);
     get_statistics(&f);
+    set_limit(&f);
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
         query_handles(&f, &forms[i]);
         query_counts(&f, &forms[i]);
         query_numbers(&f, &forms[i]);
+        query_limits(&f, &forms[i]);
         if (forms[i].by_poses) {
             query_poses(&f, &forms[i]);
         } else {

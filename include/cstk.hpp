@@ -1310,6 +1310,11 @@ public:
         return out;
     }
 
+    /// Limits the work of each query from now on; 0 for no limit. A query that needs more fails with CSTK_LIMIT.
+    void set_limit(std::uint64_t node_and_primitive_pairs) const {
+        check(cstk_query_set_limit(get(), node_and_primitive_pairs));
+    }
+
     /// Which pairs of links to test for self-collision, for CObject::induced_links().
     std::vector<std::array<std::uint32_t, 2>>
     link_pairs(const Space &space,

@@ -41,6 +41,8 @@ pub enum ErrorKind {
     Callback,
     /// The object is in use by another thread, or by the call this one is made from.
     Busy,
+    /// The call needs more work than its limit allows.
+    Limit,
 }
 
 /// A failure: its kind and the sentence that names the culprit.

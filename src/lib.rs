@@ -7,6 +7,7 @@ pub mod tolerance;
 
 pub mod error;
 pub mod user_data;
+pub mod work_meter;
 
 mod cow_vec;
 pub mod lanes;

@@ -46,7 +46,8 @@ pub struct cstk_explanation {
     /// Every leaf; one that is meant both as it is and by its complement stands twice.
     pub leaves: *const cstk_verdict,
     pub leaf_count: usize,
-    /// Pairs that meet where the leaf's class is CSTK_INSIDE, or are within its contact epsilon where it is CSTK_CONTACT.
+    /// Pairs that meet where the leaf's class is CSTK_INSIDE, or are within its contact epsilon where it is CSTK_CONTACT: as
+    /// for classes, doubt within rounding counts as within, so that `distance` may be above the epsilon by that.
     pub list: cstk_witness_list,
     pub reserved: [u64; 4],
 }

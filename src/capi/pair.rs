@@ -102,7 +102,8 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
 /// Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
 /// translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
 /// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
-/// pair of polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
+/// pair of polyhedra grows with the number of their edges and with that of the pairs of edges that face each other.
+/// CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
 /// or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
 /// of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
 /// set. The array stays valid until the next call with this query context.

@@ -44,6 +44,12 @@ impl Noun for Query {
     const NAME: &'static str = "cstk_query";
 }
 
+/// Fills an array anew, in the memory that it has.
+fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
+    array.clear();
+    array.extend(items.iter().map(From::from));
+}
+
 /// Where an array is; NULL if it is empty.
 pub(super) fn start<T>(items: &[T]) -> *const T {
     if items.is_empty() {
@@ -56,7 +62,7 @@ pub(super) fn start<T>(items: &[T]) -> *const T {
 impl State {
     /// Takes over a list and says where its array now is.
     pub fn keep_penetrations(&mut self, list: &PenetrationList) -> cstk_penetration_list {
-        self.penetrations = list.penetrations.iter().map(From::from).collect();
+        refill(&mut self.penetrations, &list.penetrations);
         cstk_penetration_list {
             penetrations: start(&self.penetrations),
             count: self.penetrations.len(),
@@ -69,7 +75,7 @@ impl State {
 
     /// Takes over pairs of links, and which of them are to be tested.
     pub fn keep_pairs(&mut self, pairs: &[LinkPair], skip_never: bool) {
-        self.pairs = pairs.iter().map(From::from).collect();
+        refill(&mut self.pairs, pairs);
         let is_tested = |pair: &&LinkPair| match pair.verdict {
             PairVerdict::Test => true,
             PairVerdict::Never => !skip_never,
@@ -83,8 +89,8 @@ impl State {
 
     /// Takes over a list and says where its arrays now are.
     pub fn keep(&mut self, list: WitnessList) -> cstk_witness_list {
-        self.witnesses = list.witnesses.iter().map(From::from).collect();
-        self.contacts = list.contacts.iter().map(From::from).collect();
+        refill(&mut self.witnesses, &list.witnesses);
+        refill(&mut self.contacts, &list.contacts);
         self.gradients = list.gradients;
         cstk_witness_list {
             witnesses: start(&self.witnesses),
@@ -107,8 +113,12 @@ pub(super) fn with_query(
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let query = handle::share::<Query>(query, "query")?;
-    // Caches are dispensable, and scratch memory is only as good as the call that left it.
-    let renew = |state: &mut State| *state = State::default();
+    // Caches are dispensable, and scratch memory is only as good as the call that left it. What the caller has set stays.
+    let renew = |state: &mut State| {
+        let limit = state.context.limit();
+        *state = State::default();
+        state.context.set_limit(limit);
+    };
     exclusively(&query.0, "the query context", renew, action)
 }
 
@@ -156,17 +166,42 @@ pub unsafe extern "C" fn cstk_query_get_version(
     })
 }
 
+/// Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the
+/// context and answers, or slides, from cstk_pair_within to cstk_link_pairs. A query that needs more returns CSTK_LIMIT and
+/// writes nothing; the context can be asked again at once. 0 stands for no limit, with which a context begins.
+///
+/// What counts is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10
+/// milliseconds (nodes of meshes) to a second (primitives that are no polygons). Penetrations of polyhedra count each two edges that are compared, too. The work depends on the question
+/// and on what the context remembers of earlier ones, neither on the thread nor on the machine's load: a context asked the
+/// same from its creation on ends at the same call. Not counted is what a call takes whatever it finds: kinematics, pure
+/// sets, functions of the caller.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_set_limit(
+    query: *mut cstk_query,
+    node_and_primitive_pairs: u64,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let limit = (node_and_primitive_pairs > 0).then_some(node_and_primitive_pairs);
+            state.context.set_limit(limit);
+            Ok(())
+        })
+    })
+}
+
 /// The work a query context has done.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_query_statistics {
-    /// Pairs of hierarchy nodes whose wrappers were tested.
+    /// Pairs of hierarchy nodes whose wrappers were tested, pairs of bodies with them; of rays into solids, the nodes.
     pub node_pairs: u64,
-    /// Primitive pairs whose distance was computed.
+    /// Primitive pairs that were looked at; of rays, the faces.
     pub primitive_pairs: u64,
     /// Witnesses of earlier queries that were evaluated first.
     pub cache_hits: u64,
-    pub reserved: [u64; 5],
+    /// Of `primitive_pairs` those whose distance was computed: no separating direction was known yet.
+    pub primitive_distances: u64,
+    pub reserved: [u64; 4],
 }
 
 /// Writes the work done since the context was made, or since the last call with `reset`.
@@ -187,7 +222,8 @@ pub unsafe extern "C" fn cstk_query_get_statistics(
                 node_pairs: done.node_pairs,
                 primitive_pairs: done.primitive_pairs,
                 cache_hits: done.cache_hits,
-                reserved: [0; 5],
+                primitive_distances: done.primitive_distances,
+                reserved: [0; 4],
             });
             Ok(())
         })

@@ -53,6 +53,8 @@ pub enum cstk_status {
     CSTK_CALLBACK_FAILED = 20,
     /// A body was declared solid whose surface is not closed; the message names open edges.
     CSTK_NOT_CLOSED = 21,
+    /// The query needs more work than cstk_query_set_limit allows.
+    CSTK_LIMIT = 22,
 }
 
 impl From<ErrorKind> for cstk_status {
@@ -75,6 +77,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::Cancelled => Self::CSTK_CANCELLED,
             ErrorKind::Busy => Self::CSTK_BUSY,
             ErrorKind::Callback => Self::CSTK_CALLBACK_FAILED,
+            ErrorKind::Limit => Self::CSTK_LIMIT,
         }
     }
 }
@@ -105,6 +108,7 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
         19 => c"CSTK_INTERNAL",
         20 => c"CSTK_CALLBACK_FAILED",
         21 => c"CSTK_NOT_CLOSED",
+        22 => c"CSTK_LIMIT",
         _ => c"unknown status",
     };
     name.as_ptr()

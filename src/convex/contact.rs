@@ -114,15 +114,21 @@ pub(super) fn polytope_contacts(
     }
     // Outlines that cross over one another.
     if !planar {
-        for (edge_r, segment_r) in on_r.sides() {
-            for (edge_s, segment_s) in on_s.sides() {
-                let (t, u) = closest_parameters(&segment_r, &segment_s);
+        let sides_r = on_r.sides();
+        let sides_s = if sides_r.is_empty() {
+            Vec::new()
+        } else {
+            on_s.sides()
+        };
+        for (edge_r, segment_r) in &sides_r {
+            for (edge_s, segment_s) in &sides_s {
+                let (t, u) = closest_parameters(segment_r, segment_s);
                 let inside = |x: f64| x > 0.0 && x < 1.0;
                 let points = [segment_r.at(t), segment_s.at(u)];
                 let between = points[0] - points[1];
                 let aside = between - normal * normal.dot(&between);
                 if inside(t) && inside(u) && aside.norm() <= slack {
-                    offer(points, [Feature::edge(edge_r), Feature::edge(edge_s)]);
+                    offer(points, [Feature::edge(*edge_r), Feature::edge(*edge_s)]);
                 }
             }
         }
@@ -175,16 +181,12 @@ impl<'a> Supporting<'a> {
         let level: Vec<u32> = (0..placed.vertices.len() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
             .collect();
-        let (x, y) = plane_axes(direction);
-        let flat: Vec<_> = level
-            .iter()
-            .map(|&i| placed.vertex(i))
-            .map(|p| Vector2::new(x.dot(&p), y.dot(&p)))
-            .collect();
-        let ring: Vec<u32> = convex_hull_2d(&flat, slack)
-            .iter()
-            .map(|&i| level[i as usize])
-            .collect();
+        // Mostly it is a lone corner.
+        let ring = if level.len() == 1 {
+            level
+        } else {
+            outline(placed, &level, direction, slack)
+        };
         let feature = feature_of(placed, &ring);
         Self {
             placed: *placed,
@@ -244,6 +246,15 @@ impl<'a> Supporting<'a> {
             }
         }
     }
+}
+
+/// Those of some vertices that are corners of their outline, seen along a direction, in order around it.
+fn outline(placed: &Placed, level: &[u32], direction: &Vec3, slack: f64) -> Vec<u32> {
+    let (x, y) = plane_axes(direction);
+    let points = level.iter().map(|&i| placed.vertex(i));
+    let flat: Vec<_> = points.map(|p| Vector2::new(x.dot(&p), y.dot(&p))).collect();
+    let corners = convex_hull_2d(&flat, slack);
+    corners.iter().map(|&i| level[i as usize]).collect()
 }
 
 fn edge_between(placed: &Placed, ends: [u32; 2]) -> Option<u32> {

@@ -7,6 +7,7 @@ use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
+use crate::work_meter::WorkMeter;
 
 /// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
 const DIRECTION_KNOWN: f64 = 1e-12;
@@ -114,7 +115,8 @@ impl ContactPair<'_> {
         if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MOST_EDGE_PAIRS {
             return None;
         }
-        let found = polytope_penetration(self.r, self.s, self.precision);
+        let meter = &mut WorkMeter::default();
+        let found = polytope_penetration(self.r, self.s, self.precision, meter);
         (found.depth <= most).then_some(found.direction)
     }
 

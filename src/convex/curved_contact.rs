@@ -10,6 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::gjk::Support;
 use crate::pose::Vec3;
 use crate::tolerance;
+use crate::work_meter::WorkMeter;
 
 /// The contacts of a pair of which one at least is curved. As long as the cores are apart they are exact, however deep the
 /// sets around them are in one another.
@@ -110,7 +111,12 @@ fn touch(
 
 /// The penetration of two sets of which one at least is curved. Smooth cores are refused: the shortest way out of them has no
 /// closed form.
-pub fn curved_penetration(r: &Placed, s: &Placed, precision: &Precision) -> Result<Penetration> {
+pub fn curved_penetration(
+    r: &Placed,
+    s: &Placed,
+    precision: &Precision,
+    meter: &mut WorkMeter,
+) -> Result<Penetration> {
     if is_smooth(r, s) {
         return Err(Error::new(
             ErrorKind::Unsupported,
@@ -127,7 +133,7 @@ pub fn curved_penetration(r: &Placed, s: &Placed, precision: &Precision) -> Resu
             points: cores.points,
         }
     } else {
-        polytope_penetration(r, s, precision)
+        polytope_penetration(r, s, precision, meter)
     };
     Ok(Penetration {
         depth: (inner.depth + radii[0] + radii[1]).max(0.0),

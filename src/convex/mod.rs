@@ -6,6 +6,8 @@ mod contact_normal;
 mod curved;
 mod curved_contact;
 mod distance;
+mod extreme_vertex;
+mod gauss_arcs;
 mod nearest_edges;
 mod outline;
 mod penetration;

@@ -3,17 +3,18 @@
 //! The sets are apart after a translation of r along n when it is at least what s reaches along n less what r begins at. The
 //! shortest one goes along the normal of a facet of the sets' Minkowski difference: a face's normal, or the cross product of
 //! an edge of each (in the plane, an edge's normal). All of those are tried, so the result is exact to rounding and there is
-//! no iteration that could stop early. Crossing edges are tried only where both support along their cross product, as far as
-//! the neighbouring corners tell.
+//! no iteration that could stop early. Edges are tried only where both support along their cross product, as far as the
+//! neighbouring corners tell; pairs that may do so are those whose arcs of the Gauss map may cross.
 
-use std::collections::HashMap;
-
+use super::closest::{FeatureSet, closest_features};
 use super::curved::is_curved;
 use super::curved_contact::curved_penetration;
-use super::distance::{DistanceScratch, closest_polytopes};
+use super::extreme_vertex::ExtremeVertex;
+use super::gauss_arcs::GaussArcs;
 use super::placed::{Placed, Precision};
 use crate::error::Result;
 use crate::pose::Vec3;
+use crate::work_meter::WorkMeter;
 
 /// The shortest translation of r that leaves r and s touching: by `depth` along `direction`, a unit vector from s to r.
 #[derive(Clone, Copy, Debug)]
@@ -28,54 +29,46 @@ pub struct Penetration {
 /// How far a corner may reach beyond an edge that supports, relative to the pair's size.
 const SUPPORT_SLACK: f64 = 1e-9;
 
-/// The penetration of two sets that meet. Fails for smooth ones.
-pub fn penetration(r: &Placed, s: &Placed, precision: &Precision) -> Result<Penetration> {
+/// The penetration of two sets that meet. Fails for smooth ones. The meter counts the pairs of edges that are compared; where
+/// it says that the call has done enough, the result means nothing.
+pub fn penetration(
+    r: &Placed,
+    s: &Placed,
+    precision: &Precision,
+    meter: &mut WorkMeter,
+) -> Result<Penetration> {
     if is_curved(r, s) {
-        curved_penetration(r, s, precision)
+        curved_penetration(r, s, precision, meter)
     } else {
-        Ok(polytope_penetration(r, s, precision))
+        Ok(polytope_penetration(r, s, precision, meter))
     }
 }
 
 /// The penetration of the hulls of two primitives' vertices that meet.
-pub(super) fn polytope_penetration(r: &Placed, s: &Placed, precision: &Precision) -> Penetration {
-    let mut shortest = Shortest {
-        r,
-        s,
-        depth: f64::INFINITY,
-        direction: Vec3::x(),
-    };
+pub(super) fn polytope_penetration(
+    r: &Placed,
+    s: &Placed,
+    precision: &Precision,
+    meter: &mut WorkMeter,
+) -> Penetration {
+    let mut shortest = Shortest::new(r, s);
     if precision.planar {
         for placed in [r, s] {
             for &edge in &placed.shape.edges {
                 let (from, to) = placed.edge_ends(edge);
                 let along = to - from;
-                shortest.offer(&Vec3::new(-along.y, along.x, 0.0));
+                shortest.offer_next(&Vec3::new(-along.y, along.x, 0.0));
             }
         }
     } else {
         for placed in [r, s] {
             for face in 0..placed.shape.faces.len() {
-                shortest.offer(&placed.normal(face));
+                shortest.offer_next(&placed.normal(face));
             }
         }
-        let slack = SUPPORT_SLACK * precision.size;
-        let sides = [r, s].map(wings);
-        for edge_r in &sides[0] {
-            for edge_s in &sides[1] {
-                let Some(normal) = edge_r.along.cross(&edge_s.along).try_normalize(0.0) else {
-                    continue;
-                };
-                let [low_r, high_r] = edge_r.reach(&normal);
-                let [low_s, high_s] = edge_s.reach(&normal);
-                let supports =
-                    (low_r >= -slack && high_s <= slack) || (high_r <= slack && low_s >= -slack);
-                if supports {
-                    shortest.offer(&normal);
-                }
-            }
-        }
+        offer_edges(r, s, SUPPORT_SLACK * precision.size, meter, &mut shortest);
     }
+    shortest.settle();
     // Sets without an inside in common and without faces: upright to what there is of them.
     if shortest.depth == f64::INFINITY {
         let along = [r, s]
@@ -100,92 +93,151 @@ pub(super) fn polytope_penetration(r: &Placed, s: &Placed, precision: &Precision
         } else {
             along.cross(&across)
         };
-        shortest.offer(&upright);
+        shortest.offer_next(&upright);
+        shortest.settle();
     }
-    let Shortest {
-        depth, direction, ..
-    } = shortest;
-    let depth = depth.max(0.0);
+    let depth = shortest.depth.max(0.0);
+    let direction = shortest.direction;
     Penetration {
         depth,
         direction,
-        points: brought_together(r, s, depth * direction, precision),
+        points: brought_together(r, s, depth, &direction, precision),
     }
 }
 
-/// Points of both sets that meet when r has moved by `shift`.
-fn brought_together(r: &Placed, s: &Placed, shift: Vec3, precision: &Precision) -> [Vec3; 2] {
+/// Offers the cross products of edges that both support along them.
+fn offer_edges(r: &Placed, s: &Placed, slack: f64, meter: &mut WorkMeter, shortest: &mut Shortest) {
+    let (arcs_r, arcs_s) = (
+        GaussArcs::new(r, true, slack),
+        GaussArcs::new(s, false, slack),
+    );
+    let first = shortest.next;
+    arcs_r.visit_crossing(&arcs_s, meter, |edge_r, edge_s| {
+        let cross = arcs_r.along(edge_r).cross(arcs_s.along(edge_s));
+        let Some(normal) = cross.try_normalize(0.0) else {
+            return;
+        };
+        let [low_r, high_r] = arcs_r.reach(edge_r, &normal);
+        let [low_s, high_s] = arcs_s.reach(edge_s, &normal);
+        let supports = (low_r >= -slack && high_s <= slack) || (high_r <= slack && low_s >= -slack);
+        if supports {
+            let pair = u64::from(edge_r) * arcs_s.len() as u64 + u64::from(edge_s);
+            shortest.offer(first + pair, &normal);
+        }
+    });
+    shortest.next += (arcs_r.len() * arcs_s.len()) as u64;
+}
+
+/// Points of both sets that meet when r has moved by `depth` along `direction`, the normal of the planes in which they touch
+/// then: the nearest, with r moved a little farther, of the features in these planes.
+fn brought_together(
+    r: &Placed,
+    s: &Placed,
+    depth: f64,
+    direction: &Vec3,
+    precision: &Precision,
+) -> [Vec3; 2] {
+    let slack = SUPPORT_SLACK * precision.size;
+    let shift = direction * (depth + slack);
     let vertices: Vec<Vec3> = r.vertices.iter().map(|v| v + shift).collect();
     let moved = Placed {
         vertices: &vertices,
         ..*r
     };
-    let met = closest_polytopes(&moved, s, precision, &mut DistanceScratch::default());
+    let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
+    on_r.set_supporting(&moved, &-direction, slack);
+    on_s.set_supporting(s, direction, slack);
+    let met = closest_features(&moved, &on_r, s, &on_s, false);
     [met.points[0] - shift, met.points[1]]
 }
 
+/// The shortest way out of all lines tried.
 struct Shortest<'a> {
-    r: &'a Placed<'a>,
-    s: &'a Placed<'a>,
+    sets: [&'a Placed<'a>; 2],
+    extremes: [ExtremeVertex<'a>; 2],
     depth: f64,
     direction: Vec3,
+    /// Of the line that the direction is of, and whether it is the line's opposite: of equal depths the first counts.
+    rank: (u64, bool),
+    /// The number of the line to come.
+    next: u64,
+    /// Lines of which the depth may be least, to be measured with all vertices.
+    waiting: Vec<Line>,
 }
 
-impl Shortest<'_> {
-    /// Tries a line, of any length, both ways. Ties go to the first.
-    fn offer(&mut self, line: &Vec3) {
+struct Line {
+    number: u64,
+    normal: Vec3,
+    /// No way along it is shorter.
+    at_least: f64,
+}
+
+/// Lines that are measured together: those of them that vertices say least of first, which mostly proves the others longer.
+const TOGETHER: usize = 64;
+
+impl<'a> Shortest<'a> {
+    fn new(r: &'a Placed<'a>, s: &'a Placed<'a>) -> Self {
+        Self {
+            sets: [r, s],
+            extremes: [r, s].map(|placed| ExtremeVertex::new(placed.vertices, &placed.shape.edges)),
+            depth: f64::INFINITY,
+            direction: Vec3::x(),
+            rank: (u64::MAX, true),
+            next: 0,
+            waiting: Vec::new(),
+        }
+    }
+
+    /// Tries a line, of any length, both ways.
+    fn offer_next(&mut self, line: &Vec3) {
+        self.offer(self.next, line);
+        self.next += 1;
+    }
+
+    /// The same for the line of a number.
+    fn offer(&mut self, number: u64, line: &Vec3) {
         let Some(normal) = line.try_normalize(0.0) else {
             return;
         };
-        let (low_r, high_r) = self.r.extent_along(&normal);
-        let (low_s, high_s) = self.s.extent_along(&normal);
-        for (depth, direction) in [(high_s - low_r, normal), (high_r - low_s, -normal)] {
-            if depth < self.depth {
-                (self.depth, self.direction) = (depth, direction);
-            }
+        // Any vertex bounds what all reach, rounded as they are.
+        let [(low_r, high_r), (low_s, high_s)] =
+            [0, 1].map(|i| self.extremes[i].extent_within(&normal));
+        let at_least = (high_s - low_r).min(high_r - low_s);
+        if at_least > self.depth {
+            return;
+        }
+        self.waiting.push(Line {
+            number,
+            normal,
+            at_least,
+        });
+        if self.waiting.len() >= TOGETHER {
+            self.settle();
         }
     }
-}
 
-/// An edge, and from it to a corner of each face beside it.
-struct WingedEdge {
-    along: Vec3,
-    wings: Vec<Vec3>,
-}
-
-impl WingedEdge {
-    /// How far the corners beside the edge reach along a normal of it.
-    fn reach(&self, normal: &Vec3) -> [f64; 2] {
-        self.wings
-            .iter()
-            .map(|wing| normal.dot(wing))
-            .fold([0.0f64; 2], |[low, high], x| [low.min(x), high.max(x)])
-    }
-}
-
-fn wings(placed: &Placed) -> Vec<WingedEdge> {
-    let key = |a: u32, b: u32| [a.min(b), a.max(b)];
-    let mut beside: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
-    for face in &placed.shape.faces {
-        let ring = &face.vertices;
-        for i in 0..ring.len() {
-            let at = |k: usize| ring[(i + k) % ring.len()];
-            beside.entry(key(at(0), at(1))).or_default().push(at(2));
-        }
-    }
-    placed
-        .shape
-        .edges
-        .iter()
-        .map(|&[a, b]| {
-            let from = placed.vertex(a);
-            let corners = beside.get(&key(a, b)).into_iter().flatten();
-            WingedEdge {
-                along: placed.vertex(b) - from,
-                wings: corners
-                    .map(|&corner| placed.vertex(corner) - from)
-                    .collect(),
+    /// Measures the lines that wait.
+    fn settle(&mut self) {
+        let mut waiting = std::mem::take(&mut self.waiting);
+        waiting.sort_unstable_by(|a, b| {
+            let by_bound = a.at_least.total_cmp(&b.at_least);
+            by_bound.then(a.number.cmp(&b.number))
+        });
+        for line in waiting.drain(..) {
+            if line.at_least > self.depth {
+                break;
             }
-        })
-        .collect()
+            let normal = line.normal;
+            let [(low_r, high_r), (low_s, high_s)] =
+                self.sets.map(|placed| placed.extent_along(&normal));
+            let ways = [(high_s - low_r, normal), (high_r - low_s, -normal)];
+            for ((depth, direction), is_opposite) in ways.into_iter().zip([false, true]) {
+                let rank = (line.number, is_opposite);
+                if depth < self.depth || (depth == self.depth && rank < self.rank) {
+                    (self.depth, self.direction, self.rank) = (depth, direction, rank);
+                }
+            }
+        }
+        self.waiting = waiting;
+    }
 }

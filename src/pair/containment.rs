@@ -8,12 +8,14 @@ use super::box_bounds::ROUNDING;
 use super::hit::{Hit, HitKey, Inner};
 use super::near_primitives::NearPrimitives;
 use super::pairing::Pairing;
+use super::shortlist::Ranked;
 use super::traversal::{Met, Scratch, Visitor, traverse};
 use super::winding::{RayScratch, winding};
 use crate::body::{Body, Piece, Solid};
 use crate::hierarchy::PackedBox;
 use crate::lanes::{cross3, each3};
 use crate::pose::{Pose, Vec3};
+use crate::work_meter::WorkMeter;
 
 /// A piece that may lie inside a solid.
 #[derive(Clone, Copy)]
@@ -32,9 +34,9 @@ impl<'a> Pairing<'a> {
     }
 
     /// Whether a piece of one body lies inside the other, or meets it.
-    pub fn is_one_inside(&self) -> bool {
+    pub fn is_one_inside(&self, scratch: &mut Scratch) -> bool {
         let mut found = false;
-        self.visit_candidates(|_| {
+        self.visit_candidates(scratch, |_| {
             found = true;
             ControlFlow::Break(())
         });
@@ -45,7 +47,7 @@ impl<'a> Pairing<'a> {
     /// hits of the given pair of bodies.
     pub fn contained(&self, pair: u32, scratch: &mut Scratch) -> Vec<Hit> {
         let mut candidates = Vec::new();
-        self.visit_candidates(|candidate| {
+        self.visit_candidates(scratch, |candidate| {
             candidates.push(candidate);
             ControlFlow::Continue(())
         });
@@ -81,9 +83,12 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// Shows the pieces a point of which is inside the other body, until the visitor breaks.
-    fn visit_candidates(&self, mut visit: impl FnMut(Candidate) -> ControlFlow<()>) {
-        let mut rays = RayScratch::default();
+    /// Shows the pieces a point of which is inside the other body, until the visitor breaks, or the call has done enough.
+    fn visit_candidates(
+        &self,
+        scratch: &mut Scratch,
+        mut visit: impl FnMut(Candidate) -> ControlFlow<()>,
+    ) {
         for inner in [Inner::A, Inner::B] {
             let outer = self.body(inner.other());
             let Some(solid) = outer.solid() else {
@@ -100,9 +105,15 @@ impl<'a> Pairing<'a> {
             if outside > ball.radius + self.slack() {
                 continue;
             }
-            for number in self.pieces_near(inner, solid, &into_outer) {
+            let near = &mut scratch.rays.near;
+            for number in self.pieces_near(inner, solid, &into_outer, near) {
                 let piece = &self.body(inner).pieces().list[number as usize];
-                let Some(around) = around(outer, piece, &into_outer, &mut rays) else {
+                let around = around(outer, piece, &into_outer, &mut scratch.rays);
+                scratch.count_rays();
+                if scratch.meter().is_exceeded() {
+                    return;
+                }
+                let Some(around) = around else {
                     continue;
                 };
                 let primitives = match inner {
@@ -124,7 +135,13 @@ impl<'a> Pairing<'a> {
 
 impl Pairing<'_> {
     /// The pieces of a body the lowest primitive of which may meet the box of a solid, in their order: others are outside.
-    fn pieces_near(&self, inner: Inner, solid: &Solid, into_outer: &Pose) -> Vec<u32> {
+    fn pieces_near(
+        &self,
+        inner: Inner,
+        solid: &Solid,
+        into_outer: &Pose,
+        near: &mut NearPrimitives,
+    ) -> Vec<u32> {
         // So few are looked at one by one.
         const FEW: usize = 8;
         let body = self.body(inner);
@@ -150,7 +167,6 @@ impl Pairing<'_> {
             half: each3(|k| (half[k] as f32).next_up()),
         };
         let error = 2.0 * ROUNDING * size + self.slack() / unit;
-        let mut near = NearPrimitives::default();
         let lowest = near.find(tree, one, error).iter().filter_map(|&primitive| {
             let piece = pieces.of(primitive);
             (pieces.list[piece as usize].lowest == primitive).then_some(piece)
@@ -198,7 +214,7 @@ impl Visitor for Apart<'_> {
         0.0
     }
 
-    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
         if met.apart <= met.error {
             let pairing = self.pairing;
             self.candidates.retain(|candidate| {

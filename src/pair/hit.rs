@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use super::shortlist::Ranked;
+
 /// Names a primitive pair among all the pairs of a query: `pair` is the body pair's rank, in order of ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HitKey {
@@ -39,12 +41,31 @@ pub struct Hit {
     pub contained: Option<Inner>,
 }
 
-impl Hit {
+impl Ranked for Hit {
     /// Nearest first; ties go to the lowest ids.
-    pub fn order(&self, other: &Hit) -> Ordering {
+    fn order(&self, other: &Hit) -> Ordering {
         self.distance
             .total_cmp(&other.distance)
             .then(self.key.cmp(&other.key))
             .then(self.contained.cmp(&other.contained))
+    }
+}
+
+impl Hit {
+    /// The primitives from which on no pair of a body pair comes before this one, where sets meet; none if it is farther.
+    pub fn settles(&self, pair: u32) -> Option<[u32; 2]> {
+        if self.distance > 0.0 {
+            return None;
+        }
+        match self.key.pair.cmp(&pair) {
+            Ordering::Less => Some([0, 0]),
+            Ordering::Greater => None,
+            Ordering::Equal => {
+                // The same primitives come before a piece that they stand for.
+                let [a, b] = self.key.primitives;
+                let next = u32::from(self.contained.is_some());
+                Some([a, b.saturating_add(next)])
+            }
+        }
     }
 }

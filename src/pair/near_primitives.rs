@@ -9,6 +9,15 @@ use crate::lanes::{Instructions, Work, with_widest};
 pub struct NearPrimitives {
     open: Vec<Unit>,
     found: Vec<u32>,
+    /// Boxes and primitives that descents came upon since they were last counted.
+    pub seen: Seen,
+}
+
+/// What descents came upon.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    pub boxes: u64,
+    pub primitives: u64,
 }
 
 impl NearPrimitives {
@@ -21,6 +30,7 @@ impl NearPrimitives {
             cutoff: (error as f32).next_up(),
             near: &mut *self,
         });
+        self.seen.primitives += self.found.len() as u64;
         // What has several leaves is met more than once.
         self.found.sort_unstable();
         self.found.dedup();
@@ -40,7 +50,7 @@ impl Work for Descent<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) {
-        let NearPrimitives { open, found } = self.near;
+        let NearPrimitives { open, found, seen } = self.near;
         open.clear();
         open.push(self.tree.root());
         while let Some(unit) = open.pop() {
@@ -53,6 +63,7 @@ impl Work for Descent<'_> {
             let eight = self.tree.node(index).boxes(lanes, 1.0);
             let bounds = bounds(lanes, &eight, &self.one, false);
             let children = self.tree.children(index);
+            seen.boxes += children.count as u64;
             let mut near = lanes.at_most(bounds, self.cutoff) & ((1 << children.count) - 1);
             while near != 0 {
                 let lane = near.trailing_zeros() as usize & 7;

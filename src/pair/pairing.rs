@@ -13,6 +13,7 @@ use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::tolerance;
+use crate::work_meter::WorkMeter;
 
 /// Bodies A (the r-side) and B (the s-side), seen from the centre of A.
 pub struct Pairing<'a> {
@@ -35,8 +36,6 @@ pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MOST_CORNERS / 4];
 pub struct PrimitiveScratch {
     buffer: PlacedBuffer,
     distance: DistanceScratch,
-    /// How many pairs had all their features compared.
-    pub exact_pairs: u64,
 }
 
 /// How far two primitives are apart, and where.
@@ -178,7 +177,6 @@ impl<'a> Pairing<'a> {
 
     #[inline(never)]
     fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
-        scratch.exact_pairs += 1;
         let [a, b] = [(self.a, places[0]), (self.b, places[1])]
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let primitives = [a.primitive, b.primitive];
@@ -218,9 +216,13 @@ impl<'a> Pairing<'a> {
     }
 
     /// The contacts of one primitive pair, in the world.
-    pub fn world_contacts(&self, primitives: [u32; 2], closest: &Closest) -> Vec<WorldContact> {
-        let mut buffer = PlacedBuffer::default();
-        let [a, b] = self.place(primitives, &mut buffer);
+    pub fn world_contacts(
+        &self,
+        primitives: [u32; 2],
+        closest: &Closest,
+        scratch: &mut PrimitiveScratch,
+    ) -> Vec<WorldContact> {
+        let [a, b] = self.place(primitives, &mut scratch.buffer);
         contacts(&a, &b, closest, &self.precision)
             .into_iter()
             .map(|contact| WorldContact {
@@ -232,11 +234,15 @@ impl<'a> Pairing<'a> {
     }
 
     /// How deep a primitive pair that meets is in one another, in the world.
-    /// Fails for smooth primitives.
-    pub fn world_penetration(&self, primitives: [u32; 2]) -> Result<Penetration> {
+    /// Fails for smooth primitives. It means nothing where the meter says that the call has done enough.
+    pub fn world_penetration(
+        &self,
+        primitives: [u32; 2],
+        meter: &mut WorkMeter,
+    ) -> Result<Penetration> {
         let mut buffer = PlacedBuffer::default();
         let [a, b] = self.place(primitives, &mut buffer);
-        let found = penetration(&a, &b, &self.precision)?;
+        let found = penetration(&a, &b, &self.precision, meter)?;
         Ok(Penetration {
             depth: found.depth,
             direction: self.frame.rotation * found.direction,

@@ -7,9 +7,11 @@ use super::box_bounds::{self, Motion32, ROUNDING};
 use super::hit::{Hit, HitKey};
 use super::nearest_first::{Entry, Waiting};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::winding::RayScratch;
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
+use crate::work_meter::WorkMeter;
 
 /// What a query wants from the walk.
 pub trait Visitor {
@@ -24,8 +26,8 @@ pub trait Visitor {
         None
     }
 
-    /// Meets a primitive pair.
-    fn visit(&mut self, met: &Met) -> ControlFlow<()>;
+    /// Meets a primitive pair. What it takes to look closer is counted by the meter.
+    fn visit(&mut self, met: &Met, meter: &mut WorkMeter) -> ControlFlow<()>;
 }
 
 /// A primitive pair that the walk came upon.
@@ -54,24 +56,12 @@ impl Met {
     }
 }
 
-/// Work done, for the user's eyes.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Statistics {
-    /// Pairs of boxes whose bound was computed.
-    pub node_pairs: u64,
-    /// Primitive pairs that were looked at.
-    pub primitive_pairs: u64,
-    /// Of those, pairs whose exact distance was computed.
-    pub exact_pairs: u64,
-    /// Remembered witnesses that were evaluated first.
-    pub cache_hits: u64,
-}
-
 /// Memory of the walk, reused from query to query.
 pub struct Scratch {
     stack: Waiting,
     buffer: MovedOutline,
     state: State,
+    pub(super) rays: RayScratch,
 }
 
 impl Default for Scratch {
@@ -80,22 +70,26 @@ impl Default for Scratch {
             stack: Waiting::default(),
             buffer: EMPTY,
             state: State::default(),
+            rays: RayScratch::default(),
         }
     }
 }
 
 impl Scratch {
-    /// Work done since the last reset.
-    pub fn statistics(&self) -> Statistics {
-        Statistics {
-            exact_pairs: self.state.primitives.exact_pairs,
-            ..self.state.statistics
-        }
+    /// The work done with this memory, and the limit of a call.
+    pub fn meter(&self) -> &WorkMeter {
+        &self.state.meter
     }
 
-    pub fn reset_statistics(&mut self) {
-        self.state.statistics = Statistics::default();
-        self.state.primitives.exact_pairs = 0;
+    pub fn meter_mut(&mut self) -> &mut WorkMeter {
+        &mut self.state.meter
+    }
+
+    /// Counts a ray, and what it came upon.
+    pub(super) fn count_rays(&mut self) {
+        let seen = std::mem::take(&mut self.rays.near.seen);
+        self.state.meter.count_nodes(1 + seen.boxes);
+        self.state.meter.count_primitives(seen.primitives);
     }
 }
 
@@ -105,7 +99,7 @@ struct State {
     /// From B to A where they were last seen nearest, in A's frame: a unit vector, or zero. And how far apart that was.
     direction: Vec3,
     direction_at: f64,
-    statistics: Statistics,
+    meter: WorkMeter,
 }
 
 /// Shows the visitor the primitives at two places.
@@ -121,7 +115,8 @@ pub fn visit_pair(
 
 /// Walks both trees from their roots, after the primitives at two places if any are given: nearer children first, and
 /// after each nearer pair from the nearest of all that waits.
-/// Breaks as soon as the visitor does.
+/// Breaks as soon as the visitor does, and where the meter of the scratch memory says that the call has done enough: what the
+/// visitor has seen is then not all, and the meter refuses it.
 pub fn traverse(
     pairing: &Pairing,
     first: Option<[u32; 2]>,
@@ -132,6 +127,7 @@ pub fn traverse(
         stack,
         buffer,
         state,
+        ..
     } = scratch;
     let meetings = Meetings::new(pairing, buffer, state, visitor);
     with_widest(Traversal {
@@ -171,7 +167,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
     #[inline(always)]
     fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
-        self.state.statistics.primitive_pairs += 1;
+        self.state.meter.count_primitives(1);
         let outline = self.pairing.outline_b(places[1], self.buffer);
         let outlines = self.pairing.outline_a(places[0]).zip(outline);
         if let Some((a, b)) = &outlines {
@@ -180,6 +176,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
                 return ControlFlow::Continue(());
             }
         }
+        self.state.meter.done.primitive_distances += 1;
         let primitives = &mut self.state.primitives;
         let Some(apart) = self
             .pairing
@@ -189,7 +186,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         };
         let mut met = self.pairing.met(places, apart.distance);
         met.error += apart.doubt;
-        self.visitor.visit(&met)?;
+        self.visitor.visit(&met, &mut self.state.meter)?;
         if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
@@ -232,7 +229,7 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
         if let Some(places) = self.first {
-            self.meetings.state.statistics.cache_hits += 1;
+            self.meetings.state.meter.done.cache_hits += 1;
             self.meetings.visit(places, true)?;
         }
         Walk::new(self.meetings, self.stack).run(lanes)
@@ -289,6 +286,9 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let bound = f32::NEG_INFINITY;
         self.stack.push(&Entry { bound, a, b });
         while let Some(entry) = self.stack.pop() {
+            if self.meetings.state.meter.is_exceeded() {
+                return ControlFlow::Break(());
+            }
             let cutoff = self.cutoff();
             if !self.matters(&entry, cutoff) {
                 continue;
@@ -389,7 +389,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             bounds = lanes.max(bounds, gaps);
         }
         let children = tree.children(index);
-        self.meetings.state.statistics.node_pairs += children.count as u64;
+        self.meetings.state.meter.count_nodes(children.count as u64);
         self.stack
             .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);
     }

@@ -1,10 +1,16 @@
 //! The queries as visitors of the one walk. Each may see several body pairs in turn; `pair` and `margin` say which.
 
-use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use super::hit::Hit;
+use super::shortlist::{Ranked, Shortlist};
 use super::traversal::{Met, Visitor};
+use crate::work_meter::WorkMeter;
+
+/// Whether a primitive pair meets, to within the error of its distance.
+pub fn meets(met: &Met) -> bool {
+    measured(met, 0.0).0 == 0.0
+}
 
 /// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
 fn measured(met: &Met, margin: f64) -> (f64, f64) {
@@ -67,16 +73,10 @@ impl Visitor for Nearest {
     }
 
     fn settled_from(&self) -> Option<[u32; 2]> {
-        // Where the sets meet nothing is nearer, and only lower ids are of interest.
-        let best = self.best.as_ref().filter(|best| best.distance == 0.0)?;
-        match best.key.pair.cmp(&self.pair) {
-            Ordering::Less => Some([0, 0]),
-            Ordering::Equal => Some(best.key.primitives),
-            Ordering::Greater => None,
-        }
+        self.best.as_ref()?.settles(self.pair)
     }
 
-    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
         let (distance, lower) = measured(met, self.margin);
         self.take(met.hit(self.pair, distance), lower);
         ControlFlow::Continue(())
@@ -98,7 +98,7 @@ impl Visitor for Within {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
+    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
         let (_, lower) = measured(met, self.margin);
         if lower <= self.threshold {
             self.found = Some(met.places);
@@ -112,22 +112,20 @@ impl Visitor for Within {
 pub struct Collect {
     pub pair: u32,
     pub margin: f64,
-    pub hits: Vec<Hit>,
-    /// More pairs than `max_count` are within the threshold.
-    pub truncated: bool,
+    list: Shortlist<Hit>,
     threshold: f64,
-    max_count: usize,
+    counts_doubt: bool,
 }
 
 impl Collect {
-    pub fn new(threshold: f64, max_count: usize) -> Self {
+    /// With `counts_doubt` pairs count as within the threshold if their lower bound is, as they do for [`Within`].
+    pub fn new(threshold: f64, max_count: usize, counts_doubt: bool) -> Self {
         Self {
             pair: 0,
             margin: 0.0,
-            hits: Vec::new(),
-            truncated: false,
+            list: Shortlist::new(max_count),
             threshold,
-            max_count,
+            counts_doubt,
         }
     }
 
@@ -138,30 +136,16 @@ impl Collect {
 
     /// Takes a hit that is within the threshold.
     pub fn take(&mut self, hit: Hit) {
-        self.hits.push(hit);
-        if self.hits.len() > self.max_count.max(512).saturating_mul(2) {
-            self.cut();
+        if self.list.offer(hit) && self.list.is_truncated() {
+            // What is farther than the last kept pair is of no interest any more; if none is kept, nothing is.
+            let last = self.list.last();
+            self.threshold = last.map_or(f64::NEG_INFINITY, |last| last.distance);
         }
     }
 
-    /// The pairs, nearest first.
-    pub fn finish(mut self) -> (Vec<Hit>, bool) {
-        self.cut();
-        (self.hits, self.truncated)
-    }
-
-    fn cut(&mut self) {
-        self.hits.sort_unstable_by(Hit::order);
-        // A primitive with several leaves is met more than once.
-        self.hits.dedup_by_key(|hit| (hit.key, hit.contained));
-        if self.hits.len() > self.max_count {
-            self.hits.truncate(self.max_count);
-            self.truncated = true;
-            // What is farther than the last kept pair is of no interest any more.
-            if let Some(last) = self.hits.last() {
-                self.threshold = last.distance;
-            }
-        }
+    /// The pairs, nearest first, and whether there are more.
+    pub fn finish(self) -> (Vec<Hit>, bool) {
+        self.list.finish()
     }
 }
 
@@ -172,9 +156,14 @@ impl Visitor for Collect {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, met: &Met) -> ControlFlow<()> {
-        let (distance, _) = measured(met, self.margin);
-        if distance <= self.threshold {
+    fn settled_from(&self) -> Option<[u32; 2]> {
+        self.list.last()?.settles(self.pair)
+    }
+
+    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
+        let (distance, lower) = measured(met, self.margin);
+        let compared = if self.counts_doubt { lower } else { distance };
+        if compared <= self.threshold {
             self.take(met.hit(self.pair, distance));
         }
         ControlFlow::Continue(())

@@ -33,7 +33,7 @@ pub struct Winding {
 /// Memory of rays, reused from one to the next.
 #[derive(Default)]
 pub struct RayScratch {
-    near: NearPrimitives,
+    pub(super) near: NearPrimitives,
     /// How often each piece that a ray goes through winds around the point.
     counts: Vec<(u32, i32)>,
 }

@@ -116,12 +116,7 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let with_gradients = false;
-        let listed = Listed {
-            epsilon,
-            max_count,
-            with_gradients,
-        };
+        let listed = Listed::within(epsilon, max_count);
         self.listed(cobject, at, listed)
     }
 
@@ -133,11 +128,9 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let with_gradients = true;
         let listed = Listed {
-            epsilon,
-            max_count,
-            with_gradients,
+            with_gradients: true,
+            ..Listed::within(epsilon, max_count)
         };
         self.listed(cobject, Configuration::Coordinates(q), listed)
     }
@@ -178,9 +171,8 @@ impl QueryContext {
         cobject.require_one_unit()?;
         let scene = scene(cobject, world, Configuration::Coordinates(q))?;
         let listed = Listed {
-            epsilon: shell.max_shell,
-            max_count: shell.max_count,
             with_gradients: true,
+            ..Listed::within(shell.max_shell, shell.max_count)
         };
         let mut found = match only_group(cobject) {
             Some(group) => self.group_pseudo_normal(group, &scene, listed)?,
@@ -209,12 +201,12 @@ impl QueryContext {
             ..Wanted::within(listed.epsilon)
         };
         scene.check(group)?;
-        let candidates = scene.candidates(group, wanted, &mut self.near);
+        let candidates = self.candidates(scene, group, wanted)?;
         let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
         let list = self.list(group, scene, &candidates, listed)?;
         let class = if distance.lower == 0.0 {
             Class::Inside
-        } else if self.any_in_contact(&candidates, distance.lower) {
+        } else if self.any_in_contact(&candidates, distance.lower)? {
             Class::Contact
         } else {
             Class::Outside

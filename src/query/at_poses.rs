@@ -1,18 +1,16 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
-use super::answer::{
-    ContactRecord, Distance, PenetrationList, PrimitivePenetration, Witness, WitnessList,
-};
+use super::answer::{ContactRecord, Distance, Witness, WitnessList};
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
-use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::convex::Closest;
 use crate::error::{Error, Result};
-use crate::pair::{Hit, Pairing};
+use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch};
 
-fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
+/// Two bodies as a target of searches.
+pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
     if a.0.dimension() != b.0.dimension() {
         return Err(Error::invalid(format!(
             "the bodies differ in dimension: {} and {}",
@@ -49,7 +47,8 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         let targets = [target(a, b)?];
-        let found = self.nearest(&targets, max_distance);
+        self.scratch.meter_mut().start_call();
+        let found = self.nearest(&targets, max_distance)?;
         Ok(Distance::from_found(&found, max_distance, |_| {
             Leaf::default()
         }))
@@ -58,8 +57,19 @@ impl QueryContext {
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
     pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
+        self.scratch.meter_mut().start_call();
+        self.bodies_within(a, b, threshold)
+    }
+
+    /// The same as a part of a call, with a threshold that was checked.
+    pub(super) fn bodies_within(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        threshold: f64,
+    ) -> Result<bool> {
         let target = target(a, b)?;
-        Ok(self.any_within(&[target], |_| threshold))
+        self.any_within(&[target], |_| threshold)
     }
 
     /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
@@ -73,57 +83,19 @@ impl QueryContext {
         check_threshold(epsilon, "epsilon")?;
         let target = target(a, b)?;
         let pairing = &target.pairing();
-        let (hits, truncated) = self.collect(std::slice::from_ref(&target), epsilon, max_count);
+        self.scratch.meter_mut().start_call();
+        let visitor = Collect::new(epsilon, max_count, false);
+        let (hits, truncated) = self.collect(std::slice::from_ref(&target), visitor)?;
         let mut list = WitnessList {
             truncated,
             ..Default::default()
         };
+        list.reserve(hits.len());
+        let mut scratch = PrimitiveScratch::default();
         for hit in &hits {
-            list.push(&target, pairing, hit, Leaf::default());
+            list.push(&target, pairing, hit, Leaf::default(), &mut scratch);
         }
         Ok(list)
-    }
-
-    /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
-    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies
-    /// wholly inside a solid meets no primitive of it, and is not listed.
-    pub fn pair_penetration(
-        &mut self,
-        a: Placement,
-        b: Placement,
-        max_count: usize,
-    ) -> Result<PenetrationList> {
-        let target = target(a, b)?;
-        let pairing = &target.pairing();
-        let (hits, _) = self.collect(std::slice::from_ref(&target), 0.0, usize::MAX);
-        let mut penetrations: Vec<PrimitivePenetration> = hits
-            .iter()
-            .filter(|hit| hit.contained.is_none())
-            .map(|hit| {
-                let primitives = hit.key.primitives;
-                let named = |e: Error| {
-                    e.within(format_args!(
-                        "primitives {} and {}",
-                        primitives[0], primitives[1]
-                    ))
-                };
-                Ok(PrimitivePenetration {
-                    primitives,
-                    tags: Witness::of(&target, hit, Leaf::default()).tags,
-                    penetration: pairing.world_penetration(primitives).map_err(named)?,
-                })
-            })
-            .collect::<Result<_>>()?;
-        // Stable: those of equal depth stay in the order of their numbers.
-        penetrations.sort_by(|x, y| y.penetration.depth.total_cmp(&x.penetration.depth));
-        let truncated = penetrations.len() > max_count;
-        penetrations.truncate(max_count);
-        let is_one = |body: &Body| body.primitives().len() == 1;
-        Ok(PenetrationList {
-            penetrations,
-            of_whole_bodies: is_one(a.0) && is_one(b.0),
-            truncated,
-        })
     }
 }
 
@@ -131,8 +103,6 @@ impl Witness {
     /// A witness whose contacts are not known yet.
     pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
         let (r_link, r_object, s_side) = target.parties();
-        let [(a, _), (b, _)] = target.sides;
-        let [on_a, on_b] = hit.key.primitives;
         Self {
             leaf,
             r_link,
@@ -140,7 +110,7 @@ impl Witness {
             s_carrier: target.s_carrier,
             s_side,
             primitives: hit.key.primitives,
-            tags: [a.tag(on_a), b.tag(on_b)],
+            tags: target.tags(hit.key.primitives),
             data: target.data,
             distance: hit.distance,
             first_contact: 0,
@@ -154,18 +124,34 @@ impl Witness {
 
 impl WitnessList {
     /// Takes a primitive pair with its contacts.
-    pub(super) fn push(&mut self, target: &Target, pairing: &Pairing, hit: &Hit, leaf: Leaf) {
-        let contacts = match hit.contained {
-            Some(_) => Vec::new(),
-            None => contact_records(pairing, hit, &pairing.closest(hit), target.options.margin),
-        };
+    pub(super) fn push(
+        &mut self,
+        target: &Target,
+        pairing: &Pairing,
+        hit: &Hit,
+        leaf: Leaf,
+        scratch: &mut PrimitiveScratch,
+    ) {
+        let first_contact = self.contacts.len();
+        if hit.contained.is_none() {
+            let closest = pairing.closest(hit);
+            let margin = target.options.margin;
+            self.contacts
+                .extend(contact_records(pairing, hit, &closest, margin, scratch));
+        }
+        let contact_count = self.contacts.len() - first_contact;
         self.witnesses.push(Witness {
-            first_contact: self.contacts.len(),
-            contact_count: contacts.len(),
-            overlapping: contacts.is_empty() && hit.distance == 0.0,
+            first_contact,
+            contact_count,
+            overlapping: contact_count == 0 && hit.distance == 0.0,
             ..Witness::of(target, hit, leaf)
         });
-        self.contacts.extend(contacts);
+    }
+
+    /// Makes room for so many witnesses; most have one contact.
+    pub(super) fn reserve(&mut self, count: usize) {
+        self.witnesses.reserve(count);
+        self.contacts.reserve(count);
     }
 }
 
@@ -175,17 +161,15 @@ pub(super) fn contact_records(
     hit: &Hit,
     closest: &Closest,
     margin: f64,
-) -> Vec<ContactRecord> {
-    pairing
-        .world_contacts(hit.key.primitives, closest)
-        .into_iter()
-        .map(|found| ContactRecord {
-            points: found.points,
-            normal: found.normal,
-            distance: (found.contact.distance - margin).max(0.0),
-            clearance: found.contact.gap - margin,
-            mode: found.contact.mode,
-            features: found.contact.features,
-        })
-        .collect()
+    scratch: &mut PrimitiveScratch,
+) -> impl Iterator<Item = ContactRecord> + use<> {
+    let found = pairing.world_contacts(hit.key.primitives, closest, scratch);
+    found.into_iter().map(move |found| ContactRecord {
+        points: found.points,
+        normal: found.normal,
+        distance: (found.contact.distance - margin).max(0.0),
+        clearance: found.contact.gap - margin,
+        mode: found.contact.mode,
+        features: found.contact.features,
+    })
 }

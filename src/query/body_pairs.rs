@@ -2,13 +2,14 @@
 
 use super::answer::SSide;
 use super::candidates::{Candidates, Wanted};
-use super::context::CacheKey;
+use super::context::{CacheKey, QueryContext};
 use super::scene::{Group, Held, Scene};
 use super::target::{Placement, Target};
 use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
+use crate::work_meter::WorkMeter;
 
 /// What stands on the r-side: a link's own body, or an s-object attached to it.
 #[derive(Clone, Copy)]
@@ -121,8 +122,9 @@ impl<'a> Scene<'a> {
         group: &Group,
         wanted: Wanted,
         scratch: &mut NearScratch,
-    ) -> Vec<Target<'_>> {
-        let mut candidates = Candidates::new(wanted);
+        meter: &mut WorkMeter,
+    ) -> Result<Vec<Target<'_>>> {
+        let mut candidates = Candidates::new(wanted, meter);
         for (number, term) in (0..).zip(group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
@@ -156,7 +158,7 @@ impl<'a> Scene<'a> {
         pairs: &[[usize; 2]],
         options: &InducedOptions,
         term: u32,
-        candidates: &mut Candidates<'s>,
+        candidates: &mut Candidates<'s, '_>,
     ) {
         // Most links are in several pairs.
         let mut known: Vec<Option<Bounds>> = vec![None; self.space().link_count()];
@@ -202,7 +204,7 @@ impl<'a> Scene<'a> {
     fn offer_objects<'s>(
         &'s self,
         term: &ObjectsTerm<'_, 's>,
-        candidates: &mut Candidates<'s>,
+        candidates: &mut Candidates<'s, '_>,
         scratch: &mut NearScratch,
     ) {
         let &ObjectsTerm {
@@ -401,5 +403,17 @@ impl<'a> Held<'a> {
             placement: (&*self.object.body, &self.pose),
             carrier: Some(self.attachment.link),
         }
+    }
+}
+
+impl QueryContext {
+    /// The body pairs of a group that was checked that a search may need: see [`Scene::candidates`].
+    pub(super) fn candidates<'s>(
+        &mut self,
+        scene: &'s Scene,
+        group: &Group,
+        wanted: Wanted,
+    ) -> Result<Vec<Target<'s>>> {
+        scene.candidates(group, wanted, &mut self.near, self.scratch.meter_mut())
     }
 }

@@ -3,6 +3,8 @@
 use super::target::Target;
 use crate::cobject::InducedOptions;
 use crate::environment::Bounds;
+use crate::error::Result;
+use crate::work_meter::WorkMeter;
 
 /// Which body pairs a search needs.
 #[derive(Clone, Copy, Debug)]
@@ -26,19 +28,21 @@ impl Wanted {
 }
 
 /// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
-pub(super) struct Candidates<'s> {
+pub(super) struct Candidates<'s, 'm> {
     wanted: Wanted,
+    meter: &'m mut WorkMeter,
     /// No pair that is farther than this, less its margin, is nearest.
     nearest: f64,
     found: Vec<Target<'s>>,
 }
 
-impl<'s> Candidates<'s> {
-    pub fn new(wanted: Wanted) -> Self {
+impl<'s, 'm> Candidates<'s, 'm> {
+    pub fn new(wanted: Wanted, meter: &'m mut WorkMeter) -> Self {
         // Most searches end with a handful.
         const FEW: usize = 8;
         Self {
             wanted,
+            meter,
             nearest: f64::INFINITY,
             found: Vec::with_capacity(FEW),
         }
@@ -54,6 +58,7 @@ impl<'s> Candidates<'s> {
         at_least: f64,
         target: impl FnOnce() -> Target<'s>,
     ) -> f64 {
+        self.meter.count_nodes(1);
         let [lower, upper] = bounds[0].distance(bounds[1]);
         let bound = lower.max(at_least) - options.margin;
         self.nearest = self.nearest.min(upper - options.margin);
@@ -64,9 +69,12 @@ impl<'s> Candidates<'s> {
         limit + options.margin
     }
 
-    /// Pairs that are farther apart than this, less their margin, do not matter.
+    /// Pairs that are farther apart than this, less their margin, do not matter: none does where the call has done enough.
     #[inline(always)]
     fn limit(&self, options: &InducedOptions) -> f64 {
+        if self.meter.is_exceeded() {
+            return f64::NEG_INFINITY;
+        }
         let contact = if self.wanted.in_contact {
             options.contact_epsilon
         } else {
@@ -85,7 +93,8 @@ impl<'s> Candidates<'s> {
     }
 
     /// Those that still matter, each once, ranked by ids and sorted by bound.
-    pub fn finish(mut self) -> Vec<Target<'s>> {
+    pub fn finish(mut self) -> Result<Vec<Target<'s>>> {
+        self.meter.check()?;
         let mut found = std::mem::take(&mut self.found);
         found.retain(|target| target.bound <= self.limit(&target.options));
         found.sort_by_key(Target::parties);
@@ -99,7 +108,7 @@ impl<'s> Candidates<'s> {
             target.rank = rank;
         }
         found.sort_by(|a, b| a.bound.total_cmp(&b.bound));
-        found
+        Ok(found)
     }
 }
 

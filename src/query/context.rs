@@ -8,7 +8,8 @@ use super::answer::SSide;
 use super::world::World;
 use crate::cobject::CObject;
 use crate::environment::{Environment, NearScratch};
-use crate::pair::{Scratch, Statistics};
+use crate::pair::Scratch;
+use crate::work_meter::Statistics;
 
 /// Names a body pair across queries: a space and two of its parties, or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,8 +46,9 @@ impl QueryContext {
         Self::default()
     }
 
-    /// The world as a C-object sees it now, which [`QueryContext::version_seen`] tells from then on.
+    /// The world as a C-object sees it now, which [`QueryContext::version_seen`] tells from then on. A call begins with it.
     pub(super) fn look(&mut self, cobject: &CObject) -> World {
+        self.scratch.meter_mut().start_call();
         let world = World::of(cobject);
         self.seen.clear();
         self.seen.extend(world.versions());
@@ -63,11 +65,21 @@ impl QueryContext {
 
     /// Work done since the context was made or last reset.
     pub fn statistics(&self) -> Statistics {
-        self.scratch.statistics()
+        self.scratch.meter().done
     }
 
     pub fn reset_statistics(&mut self) {
-        self.scratch.reset_statistics();
+        self.scratch.meter_mut().done = Statistics::default();
+    }
+
+    /// How many node pairs and primitive pairs a call may look at; `None` for no limit. A call that needs more fails with
+    /// [`crate::error::ErrorKind::Limit`].
+    pub fn limit(&self) -> Option<u64> {
+        self.scratch.meter().limit
+    }
+
+    pub fn set_limit(&mut self, limit: Option<u64>) {
+        self.scratch.meter_mut().limit = limit;
     }
 
     /// Forgets the witnesses of earlier queries.

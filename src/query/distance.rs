@@ -4,6 +4,7 @@ use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
 use super::at_poses::contact_records;
 use super::search::Found;
 use crate::cobject::{Leaf, Reach};
+use crate::pair::PrimitiveScratch;
 
 impl Distance {
     pub(super) fn empty(version: u64) -> Self {
@@ -36,8 +37,9 @@ impl Distance {
             None => {
                 let closest = pairing.closest(hit);
                 // The first is that at the closest points.
-                let contacts = contact_records(&pairing, hit, &closest, target.options.margin);
-                (pairing.world_points(&closest), contacts.into_iter().next())
+                let (margin, scratch) = (target.options.margin, &mut PrimitiveScratch::default());
+                let mut contacts = contact_records(&pairing, hit, &closest, margin, scratch);
+                (pairing.world_points(&closest), contacts.next())
             }
         };
         let witness = Witness {

@@ -152,10 +152,10 @@ impl QueryContext {
             (Class::Contact, Asked::Induced(group)) => group[0].options.contact_epsilon,
             (Class::Contact, Asked::Pure(set)) => set.epsilon(),
         };
+        // Doubt made the class, so that it must list what made it.
         let listed = Listed {
-            epsilon,
-            max_count,
-            with_gradients: false,
+            counts_doubt: true,
+            ..Listed::within(epsilon, max_count)
         };
         match asked {
             Asked::Induced(group) => self.group_witnesses(group, scene, listed),

@@ -96,6 +96,7 @@ impl QueryContext {
         progress: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<Vec<LinkPair>> {
         options.check()?;
+        self.scratch.meter_mut().start_call();
         let rest = match &options.rest {
             Some(rest) => {
                 space
@@ -155,7 +156,7 @@ impl QueryContext {
                 continue;
             };
             let [at_a, at_b] = pair.links.map(|link| &poses[link]);
-            if self.pair_within((a, at_a), (b, at_b), margin)? {
+            if self.bodies_within((a, at_a), (b, at_b), margin)? {
                 tell(pair);
             }
         }

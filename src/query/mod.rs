@@ -11,6 +11,7 @@ mod distance;
 mod explain;
 mod half_spaces;
 mod link_pairs;
+mod pair_penetration;
 mod pure_answer;
 mod scene;
 mod search;

@@ -22,7 +22,7 @@ impl QueryContext {
         &mut self,
         targets: &'t [Target<'a>],
         limit: f64,
-    ) -> Found<'t, 'a> {
+    ) -> Result<Found<'t, 'a>> {
         let mut visitor = Nearest::up_to(limit);
         // The pairs last nearest between each two bodies bound the distance before any tree is walked.
         for target in targets.iter().filter(|_| targets.len() > 1) {
@@ -31,6 +31,7 @@ impl QueryContext {
             if target.bound > visitor.limit() {
                 break;
             }
+            self.count_body_pair()?;
             if let Some(places) = self.remembered(&target.key) {
                 let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
             }
@@ -38,6 +39,10 @@ impl QueryContext {
         for target in targets {
             visitor.margin = target.options.margin;
             visitor.pair = target.rank;
+            if target.bound > visitor.limit() {
+                continue;
+            }
+            self.count_body_pair()?;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 if pairing.has_solid() && visitor.settled_from() != Some([0, 0]) {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
@@ -47,6 +52,7 @@ impl QueryContext {
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }
+        self.scratch.meter().check()?;
         let lower = visitor.lower;
         let hit = visitor.best.and_then(|hit| {
             let target = targets.iter().find(|target| target.rank == hit.key.pair)?;
@@ -55,7 +61,7 @@ impl QueryContext {
             }
             Some((hit, target))
         });
-        Found { hit, lower }
+        Ok(Found { hit, lower })
     }
 
     /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
@@ -112,7 +118,7 @@ impl QueryContext {
                 visit(&pairing, places, &options, &mut self.scratch);
             }
         }
-        Ok(())
+        self.scratch.meter().check()
     }
 
     /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from
@@ -121,18 +127,21 @@ impl QueryContext {
         &mut self,
         targets: &[Target],
         threshold: impl Fn(&Target) -> f64,
-    ) -> bool {
+    ) -> Result<bool> {
         // Those last found to meet first.
         let recent = self.recent;
         let is_recent = |target: &&Target| recent == Some(target.key);
         let first = targets.iter().filter(is_recent);
         for target in first.chain(targets.iter().filter(|target| !is_recent(target))) {
             let threshold = threshold(target);
+            self.count_body_pair()?;
             let Some(pairing) = target.pairing_within(threshold) else {
                 continue;
             };
-            if pairing.has_solid() && pairing.is_one_inside() {
-                return true;
+            let is_one_inside = pairing.has_solid() && pairing.is_one_inside(&mut self.scratch);
+            self.scratch.meter().check()?;
+            if is_one_inside {
+                return Ok(true);
             }
             let mut visitor = Within {
                 margin: target.options.margin,
@@ -141,26 +150,29 @@ impl QueryContext {
             };
             let first = self.remembered(&target.key);
             let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
+            self.scratch.meter().check()?;
             if let Some(places) = visitor.found {
                 self.remember(target.key, places);
-                return true;
+                return Ok(true);
             }
         }
-        false
+        Ok(false)
     }
 
-    /// All pieces inside other bodies and all primitive pairs within the threshold, nearest first, and whether there are
-    /// more than `max_count`.
+    /// All pieces inside other bodies and all primitive pairs that the visitor lists, nearest first, and whether there are
+    /// more than it keeps.
     pub(super) fn collect(
         &mut self,
         targets: &[Target],
-        threshold: f64,
-        max_count: usize,
-    ) -> (Vec<Hit>, bool) {
-        let mut visitor = Collect::new(threshold, max_count);
+        mut visitor: Collect,
+    ) -> Result<(Vec<Hit>, bool)> {
         for target in targets {
             visitor.margin = target.options.margin;
             visitor.pair = target.rank;
+            if target.bound > visitor.limit() {
+                continue;
+            }
+            self.count_body_pair()?;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 if pairing.has_solid() {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
@@ -169,6 +181,14 @@ impl QueryContext {
                 let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
             }
         }
-        visitor.finish()
+        self.scratch.meter().check()?;
+        Ok(visitor.finish())
+    }
+
+    /// Counts the bounds of two bodies; refuses to go on past the limit of the call.
+    pub(super) fn count_body_pair(&mut self) -> Result<()> {
+        let meter = self.scratch.meter_mut();
+        meter.count_nodes(1);
+        meter.check()
     }
 }

@@ -17,6 +17,7 @@ use super::world::World;
 use crate::cobject::{BodyPairs, CObject, Induced, PureSet, PureShape, Set};
 use crate::environment::{Environment, SObject};
 use crate::error::Result;
+use crate::pair::PrimitiveScratch;
 use crate::pose::Vec3;
 
 /// At most this many distances are computed for one pair; a way that needs more counts as not free.
@@ -130,7 +131,8 @@ impl QueryContext {
         };
         scene.check(term)?;
         let wanted = Wanted::within(fastest / STEP_FRACTION);
-        let candidates = scene.candidates(term, wanted, &mut self.near);
+        let candidates =
+            scene.candidates(term, wanted, &mut self.near, self.scratch.meter_mut())?;
         for &target in &candidates {
             let rate = way.rate(scene, &target);
             if STEP_FRACTION * target.bound >= rate {
@@ -222,9 +224,9 @@ impl QueryContext {
     ) -> Result<bool> {
         let listed = Listed {
             // What is farther cannot come to touch.
-            epsilon: trust.distance / STEP_FRACTION,
-            max_count: trust.max_count,
             with_gradients: true,
+            counts_doubt: true,
+            ..Listed::within(trust.distance / STEP_FRACTION, trust.max_count)
         };
         let list = obstacle.witnesses(self, scene, listed)?;
         let keeps_off =
@@ -236,9 +238,10 @@ impl QueryContext {
 
 impl Obstacle for PairOnWay<'_> {
     fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
-        let target = self.at(scene);
-        let found = target.map(|target| context.nearest(&[target], limit).lower);
-        Ok(found.unwrap_or(0.0).min(limit))
+        let Some(target) = self.at(scene) else {
+            return Ok(0.0);
+        };
+        Ok(context.nearest(&[target], limit)?.lower.min(limit))
     }
 
     fn witnesses(
@@ -262,12 +265,14 @@ impl Obstacle for PairOnWay<'_> {
             return None;
         };
         let targets = &[target];
-        let (hit, _) = context.nearest(targets, f64::INFINITY).hit?;
+        let (hit, _) = context.nearest(targets, f64::INFINITY).ok()?.hit?;
         if hit.contained.is_some() {
             return None;
         }
         let pairing = target.pairing();
-        let contacts = pairing.world_contacts(hit.key.primitives, &pairing.closest(&hit));
+        let scratch = &mut PrimitiveScratch::default();
+        let closest = pairing.closest(&hit);
+        let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
         let normal = contacts.first()?.normal;
         Some(Separation {
             gap: pairing.gap_along(&normal) - target.options.margin,

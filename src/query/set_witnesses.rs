@@ -11,6 +11,7 @@ use super::scene::{Group, Scene};
 use super::target::Target;
 use crate::cobject::{CObject, Induced, PureSet, Set};
 use crate::error::Result;
+use crate::pair::{Collect, PrimitiveScratch};
 use crate::robot::Posture;
 use crate::space::Space;
 
@@ -61,6 +62,19 @@ pub(super) struct Listed {
     pub epsilon: f64,
     pub max_count: usize,
     pub with_gradients: bool,
+    /// Pairs count as within `epsilon` if their lower bound is, as they do for classes; else if their distance is.
+    pub counts_doubt: bool,
+}
+
+impl Listed {
+    pub fn within(epsilon: f64, max_count: usize) -> Self {
+        Self {
+            epsilon,
+            max_count,
+            with_gradients: false,
+            counts_doubt: false,
+        }
+    }
 }
 
 impl QueryContext {
@@ -94,7 +108,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         let wanted = Wanted::within(listed.epsilon);
         scene.check(group)?;
-        let candidates = scene.candidates(group, wanted, &mut self.near);
+        let candidates = self.candidates(scene, group, wanted)?;
         self.list(group, scene, &candidates, listed)
     }
 
@@ -106,18 +120,21 @@ impl QueryContext {
         candidates: &[Target],
         listed: Listed,
     ) -> Result<WitnessList> {
-        let (hits, truncated) = self.collect(candidates, listed.epsilon, listed.max_count);
+        let visitor = Collect::new(listed.epsilon, listed.max_count, listed.counts_doubt);
+        let (hits, truncated) = self.collect(candidates, visitor)?;
         let posture = scene.posture().filter(|_| listed.with_gradients);
         let mut list = WitnessList {
             truncated,
             ..WitnessList::empty(scene, listed)
         };
         let ranked = by_rank(candidates);
+        let mut scratch = PrimitiveScratch::default();
+        list.reserve(hits.len());
         for hit in &hits {
             let target = ranked[hit.key.pair as usize];
             let first = list.contacts.len();
             let leaf = group[target.term as usize].leaf;
-            list.push(target, &target.pairing(), hit, leaf);
+            list.push(target, &target.pairing(), hit, leaf, &mut scratch);
             if let Some(posture) = posture {
                 for contact in &list.contacts[first..] {
                     push_gradient(scene.space(), posture, target, contact, &mut list.gradients)?;

@@ -124,10 +124,10 @@ impl QueryContext {
             in_contact: true,
             ..Wanted::within(0.0)
         };
-        let candidates = scene.candidates(group, wanted, &mut self.near);
-        Ok(if self.any_within(&candidates, |_| 0.0) {
+        let candidates = self.candidates(scene, group, wanted)?;
+        Ok(if self.any_within(&candidates, |_| 0.0)? {
             Class::Inside
-        } else if self.any_in_contact(&candidates, 0.0) {
+        } else if self.any_in_contact(&candidates, 0.0)? {
             Class::Contact
         } else {
             Class::Outside
@@ -135,7 +135,7 @@ impl QueryContext {
     }
 
     /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
-    pub(super) fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> bool {
+    pub(super) fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> Result<bool> {
         let reaches = |c: &Target| {
             let epsilon = c.options.contact_epsilon;
             if epsilon > 0.0 && epsilon >= lower {
@@ -144,7 +144,11 @@ impl QueryContext {
                 f64::NEG_INFINITY
             }
         };
-        candidates.iter().any(|c| reaches(c) >= 0.0) && self.any_within(candidates, reaches)
+        if candidates.iter().any(|c| reaches(c) >= 0.0) {
+            self.any_within(candidates, reaches)
+        } else {
+            Ok(false)
+        }
     }
 
     pub(super) fn set_within(
@@ -218,8 +222,8 @@ impl QueryContext {
         if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
-        let candidates = scene.candidates(group, Wanted::within(threshold), &mut self.near);
-        Ok(self.any_within(&candidates, |_| threshold))
+        let candidates = self.candidates(scene, group, Wanted::within(threshold))?;
+        self.any_within(&candidates, |_| threshold)
     }
 
     pub(super) fn set_distance(
@@ -300,7 +304,7 @@ impl QueryContext {
             nearest: Some(nearest),
             ..Wanted::within(0.0)
         };
-        let candidates = scene.candidates(group, wanted, &mut self.near);
+        let candidates = self.candidates(scene, group, wanted)?;
         self.distance_among(group, scene, &candidates, max_distance)
     }
 
@@ -315,7 +319,7 @@ impl QueryContext {
         if scene.is_empty(group) || (candidates.is_empty() && is_all_asked) {
             return Ok(Distance::empty(scene.version()));
         }
-        let found = self.nearest(candidates, max_distance);
+        let found = self.nearest(candidates, max_distance)?;
         let leaf = |term: u32| group[term as usize].leaf;
         Ok(Distance {
             version: scene.version(),

@@ -64,9 +64,8 @@ struct ContactSearch<'a> {
 impl ContactSearch<'_> {
     fn listed(&self, epsilon: f64) -> Listed {
         Listed {
-            epsilon,
-            max_count: self.options.max_witnesses,
             with_gradients: true,
+            ..Listed::within(epsilon, self.options.max_witnesses)
         }
     }
 
@@ -75,7 +74,8 @@ impl ContactSearch<'_> {
         scene.check(group)?;
         let shells = group.iter().map(|term| term.shell.unwrap_or(max_shell));
         let wanted = Wanted::within(shells.fold(0.0, f64::max));
-        let candidates = scene.candidates(group, wanted, &mut context.near);
+        let meter = context.scratch.meter_mut();
+        let candidates = scene.candidates(group, wanted, &mut context.near, meter)?;
         for target in &candidates {
             let shell = group[target.term as usize].shell.unwrap_or(max_shell);
             if target.bound > shell {
@@ -83,7 +83,7 @@ impl ContactSearch<'_> {
             }
             // Alone in its searches, whose hits name it by its rank.
             let target = &[Target { rank: 0, ..*target }];
-            let Some(listed) = self.listed_of(context, target, shell) else {
+            let Some(listed) = self.listed_of(context, target, shell)? else {
                 continue;
             };
             let list = context.list(group, scene, target, listed)?;
@@ -98,24 +98,26 @@ impl ContactSearch<'_> {
         context: &mut QueryContext,
         target: &[Target; 1],
         shell: f64,
-    ) -> Option<Listed> {
+    ) -> Result<Option<Listed>> {
         let whole = self.listed(shell);
         let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
         if a.saturating_mul(b) <= SMALL_PAIR {
-            return Some(whole);
+            return Ok(Some(whole));
         }
-        let (nearest, _) = context.nearest(target, shell).hit?;
+        let Some((nearest, _)) = context.nearest(target, shell)?.hit else {
+            return Ok(None);
+        };
         let epsilon = (nearest.distance + BAND * shell).min(shell);
         // Of primitives that meet all must be seen: some may overlap.
         let max_count = match nearest.distance > 0.0 {
             true => whole.max_count.min(MAX_OF_LARGE_PAIR),
             false => whole.max_count,
         };
-        Some(Listed {
+        Ok(Some(Listed {
             epsilon,
             max_count,
             ..whole
-        })
+        }))
     }
 
     /// Floors and the world box are seen link by link: one that rests on a floor does not hide another.

@@ -52,6 +52,12 @@ impl<'a> Target<'a> {
         }
     }
 
+    /// The tags of a primitive of each.
+    pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
+        let [(a, _), (b, _)] = self.sides;
+        [a.tag(on_a), b.tag(on_b)]
+    }
+
     /// The two in one frame: made when it is needed, as most targets turn out to be too far.
     pub fn pairing(&self) -> Pairing<'a> {
         let [a, b] = self.sides;

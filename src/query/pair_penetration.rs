@@ -1,0 +1,104 @@
+//! Penetrations of two bodies' primitives: of all pairs that meet, the deepest.
+
+use std::cmp::Ordering;
+use std::ops::ControlFlow;
+
+use super::answer::{PenetrationList, PrimitivePenetration};
+use super::at_poses::target;
+use super::context::QueryContext;
+use super::target::{Placement, Target};
+use crate::body::Body;
+use crate::error::{Error, Result};
+use crate::pair::{Met, Pairing, Ranked, Shortlist, Visitor, meets, traverse};
+use crate::work_meter::WorkMeter;
+
+impl Ranked for PrimitivePenetration {
+    /// Deepest first; ties go to the lowest numbers.
+    fn order(&self, other: &Self) -> Ordering {
+        let depths = [self, other].map(|found| found.penetration.depth);
+        let deepest_first = depths[1].total_cmp(&depths[0]);
+        deepest_first.then(self.primitives.cmp(&other.primitives))
+    }
+}
+
+/// The deepest of the primitive pairs that meet.
+struct Deepest<'a> {
+    target: &'a Target<'a>,
+    pairing: &'a Pairing<'a>,
+    list: Shortlist<PrimitivePenetration>,
+    /// The lowest pair that cannot be measured, and why: with it the call fails.
+    failed: Option<([u32; 2], Error)>,
+}
+
+impl Visitor for Deepest<'_> {
+    const REFINES: bool = true;
+
+    fn bound(&self) -> f64 {
+        0.0
+    }
+
+    fn settled_from(&self) -> Option<[u32; 2]> {
+        self.failed.as_ref().map(|(primitives, _)| *primitives)
+    }
+
+    fn visit(&mut self, met: &Met, meter: &mut WorkMeter) -> ControlFlow<()> {
+        let primitives = met.primitives;
+        let is_settled = self.settled_from().is_some_and(|from| from <= primitives);
+        if !meets(met) || is_settled {
+            return ControlFlow::Continue(());
+        }
+        match self.pairing.world_penetration(primitives, meter) {
+            Ok(penetration) => {
+                self.list.offer(PrimitivePenetration {
+                    primitives,
+                    tags: self.target.tags(primitives),
+                    penetration,
+                });
+            }
+            Err(error) => {
+                let [a, b] = primitives;
+                let error = error.within(format_args!("primitives {a} and {b}"));
+                self.failed = Some((primitives, error));
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl QueryContext {
+    /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
+    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies
+    /// wholly inside a solid meets no primitive of it, and is not listed.
+    pub fn pair_penetration(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        max_count: usize,
+    ) -> Result<PenetrationList> {
+        let target = &target(a, b)?;
+        self.scratch.meter_mut().start_call();
+        self.count_body_pair()?;
+        let mut list = Shortlist::new(max_count);
+        if let Some(pairing) = &target.pairing_within(0.0) {
+            let mut visitor = Deepest {
+                target,
+                pairing,
+                list,
+                failed: None,
+            };
+            let _ = traverse(pairing, None, &mut self.scratch, &mut visitor);
+            self.scratch.meter().check()?;
+            if let Some((_, error)) = visitor.failed {
+                return Err(error);
+            }
+            list = visitor.list;
+        }
+        let (penetrations, truncated) = list.finish();
+        let is_one = |body: &Body| body.primitives().len() == 1;
+        Ok(PenetrationList {
+            penetrations,
+            of_whole_bodies: is_one(a.0) && is_one(b.0),
+            truncated,
+        })
+    }
+}

@@ -1,0 +1,128 @@
+//! What queries hold at a time: it grows with what they are asked to list, not with what they come upon.
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use cstk::body::{Body, BodyBuilder};
+use cstk::hierarchy::HierarchyOptions;
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext, WitnessList};
+
+use common::robots::{against, environment, free_body, space};
+
+/// The system's allocator, and how much is allocated now and was at most.
+struct Counting;
+
+static NOW: AtomicUsize = AtomicUsize::new(0);
+static MOST: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: all is passed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let now = NOW.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        MOST.fetch_max(now, Ordering::Relaxed);
+        // SAFETY: as the caller states.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
+        NOW.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: as the caller states.
+        unsafe { System.dealloc(place, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// How many bytes more than before an action holds at a time, at most.
+fn held<T>(action: impl FnOnce() -> T) -> (T, usize) {
+    let before = NOW.load(Ordering::Relaxed);
+    MOST.store(before, Ordering::Relaxed);
+    let found = action();
+    (found, MOST.load(Ordering::Relaxed) - before)
+}
+
+/// Spheres about one point, of radius 1, each moved by less than that.
+fn spheres(count: usize) -> Arc<Body> {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    for i in 0..count {
+        let angle = i as f64;
+        let center = Vec3::new(angle.cos(), angle.sin(), (0.7 * angle).sin()) * 0.3;
+        builder.add_sphere(&center, 1.0, i as u64).unwrap();
+    }
+    let options = HierarchyOptions::default();
+    Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap())
+}
+
+/// The same triangle many times.
+fn triangles(count: usize) -> Arc<Body> {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+    for i in 0..count {
+        builder.add_polygon(&corners, i as u64).unwrap();
+    }
+    let options = HierarchyOptions::default();
+    Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap())
+}
+
+const MEGABYTE: usize = 1 << 20;
+
+/// One test: the counts are those of the whole program.
+#[test]
+fn memory_is_bounded_by_what_is_listed() {
+    let here = Pose::identity();
+    let mut query = QueryContext::new();
+
+    // 16 million pairs meet; to list them takes a gigabyte.
+    let many = spheres(4000);
+    let (found, most) = held(|| query.pair_penetration((&many, &here), (&many, &here), 16));
+    let found = found.unwrap();
+    assert!(found.truncated && found.penetrations.len() == 16);
+    // A sphere with itself is deepest, by the sum of the radii.
+    for (i, deepest) in (0..).zip(&found.penetrations) {
+        assert_eq!(deepest.primitives, [i; 2]);
+        assert_eq!(deepest.penetration.depth, 2.0);
+    }
+    assert!(most < MEGABYTE, "{most} bytes for penetrations");
+
+    let (found, most) = held(|| query.pair_witnesses((&many, &here), (&many, &here), 0.1, 16));
+    let found = found.unwrap();
+    assert!(found.truncated);
+    assert_eq!(pairs(&found), (0..16).map(|i| [0, i]).collect::<Vec<_>>());
+    assert!(most < MEGABYTE, "{most} bytes for witnesses of spheres");
+
+    let coincident = triangles(2000);
+    let bodies = ((&*coincident, &here), (&*coincident, &here));
+    for max_count in [0, 1, 16, 1000] {
+        let (found, most) = held(|| query.pair_witnesses(bodies.0, bodies.1, 0.1, max_count));
+        let found = found.unwrap();
+        assert!(found.truncated);
+        let first = (0..max_count as u32).map(|i| [0, i]);
+        assert_eq!(pairs(&found), first.collect::<Vec<_>>());
+        assert!(
+            most < 2 * MEGABYTE,
+            "{most} bytes for {max_count} witnesses"
+        );
+    }
+
+    let space = space(vec![free_body(&coincident)]);
+    let (environment, _) = environment(&[(&coincident, here)]);
+    let cobject = against(&space, &environment);
+    let q = [0.0; 6];
+    let (found, most) = held(|| query.gradients(&cobject, &q, 0.1, 16));
+    assert!(found.unwrap().truncated && most < MEGABYTE, "{most} bytes");
+    let at = Configuration::Coordinates(&q);
+    let (found, most) = held(|| query.explain(&cobject, at, 16));
+    assert!(
+        found.unwrap().list.truncated && most < MEGABYTE,
+        "{most} bytes"
+    );
+}
+
+fn pairs(list: &WitnessList) -> Vec<[u32; 2]> {
+    list.witnesses.iter().map(|w| w.primitives).collect()
+}
