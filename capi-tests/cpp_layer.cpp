@@ -629,6 +629,8 @@ static void urdf() {
     options.prefix = "b_";
     options.base = CSTK_JOINT_FREE;
     REQUIRE(builder.load_urdf(file, options) == 1);
+    const cstk_urdf_report report = builder.urdf_report();
+    REQUIRE(report.root == 1 && report.links_with_body == 1 && report.primitive_count == 1);
     const cstk::Robot robot = builder.build();
     REQUIRE(robot.find_link("b_a") == 1 && robot.nq() == 7 && robot.nv() == 6);
     REQUIRE(robot.body(1).statistics().primitive_count == 1);

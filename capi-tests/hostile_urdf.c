@@ -1,5 +1,8 @@
 /* Hostile input to the reader of URDF files: arguments, options, and files that are none. */
 #include <math.h>
+#include <stddef.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "check.h"
 #include "fixture.h"
@@ -37,6 +40,8 @@ static void defaults(void) {
     CHECK_REFUSED(options, cstk_urdf_options_default(&options, 0), CSTK_WRONG_SIZE, "size");
     CHECK_REFUSED(options, cstk_urdf_options_default(&options, sizeof options - 1), CSTK_WRONG_SIZE,
                   "size");
+    /* The size that the structure had without cache_folder. */
+    CHECK_OK(cstk_urdf_options_default(&options, offsetof(cstk_urdf_options, cache_folder)));
 }
 
 static void arguments(const fixture *f) {
@@ -113,6 +118,63 @@ static void fields(const fixture *f) {
     options = good_options();
     options.hierarchy = &damaged;
     refuse(f, &options, CSTK_NOT_INITIALISED, "urdf_options->hierarchy");
+    options = good_options();
+    options.cache_folder = file;
+    refuse(f, &options, CSTK_IO, file);
+    options.cache_folder = "/dev/null/folder";
+    refuse(f, &options, CSTK_IO, "/dev/null/folder");
+    options.cache_folder = "";
+    refuse(f, &options, CSTK_IO, file);
+    fixture_unchanged(f);
+}
+
+/* What was read is told; a failed load leaves the report of the one before. */
+static void reports(const fixture *f) {
+    cstk_urdf_report report;
+    cstk_robot_builder *builder = NULL;
+    EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
+        CHECK_REFUSED(report, cstk_robot_builder_urdf_report(bad->handle, &report), bad->status,
+                      "builder");
+    }
+    CHECK_OK(cstk_robot_builder_create(3, &builder));
+    CHECK_FAILS(cstk_robot_builder_urdf_report(builder, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(report, cstk_robot_builder_urdf_report(builder, &report), CSTK_EMPTY, "URDF");
+    CHECK_OK(cstk_robot_builder_load_urdf(builder, file, NULL, NULL, NULL, NULL));
+    for (int i = 0; i < 2; ++i) {
+        CHECK_OK(cstk_robot_builder_urdf_report(builder, &report));
+        CHECK(report.root == 0 && report.link_count == 1 && report.joint_count == 0);
+        CHECK(report.links_with_body == 1 && report.body_count == 1);
+        CHECK(report.shape_count == 1 && report.primitive_count == 1);
+        CHECK(report.links_with_other_shapes == 0 && report.skipped_elements == 0);
+        CHECK_FAILS(cstk_robot_builder_load_urdf(builder, file, NULL, NULL, NULL, NULL),
+                    CSTK_INVALID_ARGUMENT, "name");
+    }
+    CHECK_OK(cstk_robot_builder_release(builder));
+}
+
+/* Files that never end, or never begin. */
+static void devices(const fixture *f) {
+    static const char *const robot =
+        "<robot><link name='a'><collision><geometry><mesh filename='%s'/></geometry></collision>"
+        "</link></robot>";
+    char text[256];
+    cstk_robot_builder *builder = f->robot_builder;
+    CHECK(mkfifo("hostile_pipe.stl", 0600) == 0);
+    CHECK(symlink("/dev/zero", "hostile_zero.stl") == 0);
+    const char *names[] = {"hostile_pipe.stl", "hostile_zero.stl"};
+    for (int i = 0; i < 2; ++i) {
+        cstk_body *body;
+        CHECK_FAILS(cstk_robot_builder_load_urdf(builder, names[i], NULL, NULL, NULL, NULL),
+                    CSTK_IO, names[i]);
+        CHECK_REFUSED(body, cstk_body_load(names[i], &body), CSTK_IO, names[i]);
+        CHECK_FAILS(cstk_body_builder_add_mesh_file(f->body_builder, names[i]), CSTK_IO, names[i]);
+        CHECK_FAILS(cstk_body_save(f->body, names[i]), CSTK_IO, names[i]);
+        snprintf(text, sizeof text, robot, names[i]);
+        write_file(text);
+        refuse(f, NULL, CSTK_NOT_FOUND, names[i]);
+        CHECK(remove(names[i]) == 0);
+    }
+    write_file(good);
     fixture_unchanged(f);
 }
 
@@ -183,6 +245,8 @@ int main(void) {
     defaults();
     arguments(&f);
     fields(&f);
+    reports(&f);
+    devices(&f);
     files(&f);
     taken();
     CHECK(remove(file) == 0);

@@ -719,12 +719,19 @@ public:
         return number;
     }
 
-    /// Adds the robot of a URDF file; returns its root link.
+    /// Adds the robot of a URDF file; returns its root link. urdf_report() tells what was read and built.
     std::uint32_t load_urdf(const std::string &file,
                             const cstk_urdf_options &options = urdf_options()) {
         std::uint32_t root = 0;
         check(cstk_robot_builder_load_urdf(get(), file.c_str(), &options, nullptr, nullptr, &root));
         return root;
+    }
+
+    /// What became of the URDF file added last.
+    cstk_urdf_report urdf_report() const {
+        cstk_urdf_report report;
+        check(cstk_robot_builder_urdf_report(get(), &report));
+        return report;
     }
 
     Robot build() const {

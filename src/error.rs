@@ -43,6 +43,8 @@ pub enum ErrorKind {
     Busy,
     /// The call needs more work than its limit allows.
     Limit,
+    /// There is not enough memory for what the input asks for.
+    OutOfMemory,
 }
 
 /// A failure: its kind and the sentence that names the culprit.
@@ -62,6 +64,20 @@ impl Error {
 
     pub fn invalid(message: impl Into<String>) -> Self {
         Self::new(ErrorKind::InvalidArgument, message)
+    }
+
+    /// A failure of the operating system.
+    pub fn io(error: std::io::Error) -> Self {
+        let kind = match error.kind() {
+            std::io::ErrorKind::OutOfMemory => ErrorKind::OutOfMemory,
+            _ => ErrorKind::Io,
+        };
+        Self::new(kind, error.to_string())
+    }
+
+    /// Memory that could not be reserved.
+    pub fn memory(error: std::collections::TryReserveError) -> Self {
+        Self::new(ErrorKind::OutOfMemory, error.to_string())
     }
 
     /// Puts the culprit's container in front: `polygon 3: vertex 2 is NaN`.

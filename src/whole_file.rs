@@ -1,28 +1,156 @@
-//! Files that are written whole or not at all.
+//! Files that are read whole, and written whole or not at all; the lines of texts.
 
-use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// Writes beside the file and renames, so that no reader ever sees half of it. A file of that name is replaced.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let failed =
-        |error: std::io::Error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display()));
-    if path.is_dir() {
-        return Err(Error::new(
-            ErrorKind::Io,
-            format!("{} is a folder", path.display()),
-        ));
+/// Symbolic links that are followed to a destination, as many as Linux follows in a path.
+const MAX_SYMLINKS: usize = 40;
+
+/// Reads a regular file of at most `max_bytes`. FIFOs and devices are refused without waiting for them: reading one could
+/// block for ever or have no end.
+pub fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
+    let file = open_at_once(path).map_err(Error::io)?;
+    // Of the file that is open, whatever its name stands for by now.
+    let metadata = file.metadata().map_err(Error::io)?;
+    if metadata.is_dir() {
+        return Err(Error::new(ErrorKind::Io, "it is a folder"));
     }
-    // Threads may write under one name at the same time.
-    static NEXT: AtomicU64 = AtomicU64::new(0);
-    let number = NEXT.fetch_add(1, Ordering::Relaxed);
-    let beside = path.with_file_name(format!(".cstk-{}-{number}.part", std::process::id()));
-    std::fs::write(&beside, bytes)
-        .and_then(|()| std::fs::rename(&beside, path))
-        .map_err(|error| {
-            let _ = std::fs::remove_file(&beside);
-            failed(error)
-        })
+    if !metadata.is_file() {
+        return Err(not_regular());
+    }
+    let too_large = |length: u64| {
+        Error::new(
+            ErrorKind::Unsupported,
+            format!("the file has {length} bytes; at most {max_bytes} are read"),
+        )
+    };
+    if metadata.len() > max_bytes {
+        return Err(too_large(metadata.len()));
+    }
+    let mut bytes = Vec::new();
+    let reserved = bytes.try_reserve_exact(metadata.len() as usize);
+    reserved.map_err(Error::memory)?;
+    // A file that grows meanwhile ends one byte beyond the limit.
+    file.take(max_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(Error::io)?;
+    match bytes.len() as u64 {
+        length if length > max_bytes => Err(too_large(length)),
+        _ => Ok(bytes),
+    }
+}
+
+/// Opens for reading; of a FIFO, it does not wait for a writer.
+fn open_at_once(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32);
+    }
+    options.open(path)
+}
+
+/// Writes a file of its own in the destination's folder and renames it, so that no reader ever sees half of it. A regular
+/// file of that name is replaced, and its mode kept; a symbolic link stays and its target is written, as editors do it.
+/// What is no regular file is refused. File and folder are on the disk when this returns.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    write_unnamed(path, bytes).map_err(|error| error.within(path.display()))
+}
+
+fn write_unnamed(path: &Path, bytes: &[u8]) -> Result<()> {
+    let target = followed(path)?;
+    let mode = match fs::symlink_metadata(&target) {
+        Ok(there) if there.is_dir() => return Err(Error::new(ErrorKind::Io, "it is a folder")),
+        Ok(there) if !there.is_file() => return Err(not_regular()),
+        Ok(there) => Some(kept_mode(&there.permissions())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(Error::io(error)),
+    };
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".cstk-").suffix(".part");
+    // A new file has the mode that the process gives to files, and never more than the one it replaces.
+    if let Some(mode) = mode.clone().or_else(new_mode) {
+        builder.permissions(mode);
+    }
+    let written = builder.tempfile_in(folder).and_then(|mut part| {
+        part.write_all(bytes)?;
+        if let Some(mode) = mode {
+            part.as_file().set_permissions(mode)?;
+        }
+        part.as_file().sync_all()?;
+        part.persist(&target).map_err(|failed| failed.error)
+    });
+    written.map_err(Error::io)?;
+    // The file stands by now, whole. A folder that may be written but not read cannot be opened to be synchronized.
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+/// The name at the end of the symbolic links that begin at `path`. It need not exist.
+fn followed(path: &Path) -> Result<PathBuf> {
+    let mut target = path.to_path_buf();
+    for _ in 0..=MAX_SYMLINKS {
+        let Ok(next) = fs::read_link(&target) else {
+            return Ok(target);
+        };
+        // A relative link begins in its own folder.
+        target = target.parent().unwrap_or(Path::new("")).join(next);
+    }
+    Err(Error::new(ErrorKind::Io, "too many symbolic links"))
+}
+
+fn not_regular() -> Error {
+    Error::new(
+        ErrorKind::Io,
+        "it is no regular file, but a FIFO, socket or device",
+    )
+}
+
+#[cfg(unix)]
+fn kept_mode(permissions: &Permissions) -> Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    // Without set-user-ID and set-group-ID: the owner may be another.
+    Permissions::from_mode(permissions.mode() & 0o777)
+}
+
+#[cfg(not(unix))]
+fn kept_mode(permissions: &Permissions) -> Permissions {
+    permissions.clone()
+}
+
+/// What the process's umask is applied to.
+#[cfg(unix)]
+fn new_mode() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt;
+    Some(Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn new_mode() -> Option<Permissions> {
+    None
+}
+
+/// The text of a file's bytes.
+pub fn text_of(bytes: &[u8]) -> Result<&str> {
+    std::str::from_utf8(bytes).map_err(|e| {
+        let line = line_of(bytes, e.valid_up_to());
+        Error::new(ErrorKind::Parse, format!("line {line}: not UTF-8"))
+    })
+}
+
+/// The line of a byte, counted from 1.
+pub fn line_of(bytes: &[u8], place: usize) -> usize {
+    1 + bytes[..place].iter().filter(|&&b| b == b'\n').count()
 }

@@ -3,20 +3,46 @@
 use roxmltree::{Document, Node};
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::whole_file::line_of;
 
-/// A document of a file's bytes.
-pub fn text_of(bytes: &[u8]) -> Result<&str> {
-    std::str::from_utf8(bytes).map_err(|e| {
-        let line = 1 + bytes[..e.valid_up_to()]
-            .iter()
-            .filter(|&&b| b == b'\n')
-            .count();
-        Error::new(ErrorKind::Parse, format!("line {line}: not UTF-8"))
-    })
+/// roxmltree reserves some 100 bytes for each `<` before it reads, and some 80 for each `=`.
+const MAX_TAGS: usize = 1 << 23;
+
+/// It compares each attribute of an element with all before it.
+const MAX_ATTRIBUTES: usize = 1 << 12;
+
+/// It copies the namespaces of an element to each child that declares another.
+const MAX_NAMESPACES: usize = 1 << 8;
+
+/// Entities are refused: a document type is no part of the formats read here.
+pub fn parse(text: &str) -> Result<Document<'_>> {
+    require_parseable(text)?;
+    Document::parse(text).map_err(|e| Error::new(ErrorKind::Parse, e.to_string()))
 }
 
-pub fn parse(text: &str) -> Result<Document<'_>> {
-    Document::parse(text).map_err(|e| Error::new(ErrorKind::Parse, e.to_string()))
+/// Refuses what the parser would need far more time or memory for than the text is long.
+fn require_parseable(text: &str) -> Result<()> {
+    let refused = |message: String| Err(Error::new(ErrorKind::Unsupported, message));
+    let count = |byte: u8, text: &str| text.bytes().filter(|&b| b == byte).count();
+    if count(b'<', text).max(count(b'=', text)) > MAX_TAGS {
+        return refused(format!("more than {MAX_TAGS} elements or attributes"));
+    }
+    if text.matches("xmlns").count() > MAX_NAMESPACES {
+        return refused(format!("more than {MAX_NAMESPACES} namespaces"));
+    }
+    let mut end = 0;
+    for part in text.split('<') {
+        // The attributes of an element end before the next `<`.
+        let is_element = end > 0 && !part.starts_with(['!', '?', '/']);
+        if is_element && count(b'=', part) > MAX_ATTRIBUTES {
+            let line = line_of(text.as_bytes(), end);
+            return refused(format!(
+                "line {line}: an element has more than {MAX_ATTRIBUTES} attributes"
+            ));
+        }
+        end += part.len() + 1;
+    }
+    Ok(())
 }
 
 /// Where an element stands: `line 12, <origin>`.
@@ -75,6 +101,9 @@ pub fn numbers<const N: usize>(node: Node, what: &str, text: &str) -> Result<[f6
 /// All numbers of a text.
 pub fn list<T: std::str::FromStr>(node: Node, what: &str, text: &str) -> Result<Vec<T>> {
     let mut found = Vec::new();
+    let count = text.split_ascii_whitespace().count();
+    let reserved = found.try_reserve_exact(count);
+    reserved.map_err(|e| Error::memory(e).within(place(node)))?;
     for word in text.split_ascii_whitespace() {
         found.push(word.parse().map_err(|_| {
             fault(

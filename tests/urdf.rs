@@ -4,11 +4,12 @@ mod common;
 
 use std::path::{Path, PathBuf};
 
+use cstk::body::Body;
 use cstk::error::{Error, ErrorKind};
 use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::query::QueryContext;
 use cstk::robot::{Coordinate, JointKind, Robot, RobotBuilder};
-use cstk::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file};
+use cstk::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file};
 
 /// A folder of its own that goes when the test ends.
 struct Folder(PathBuf);
@@ -342,7 +343,8 @@ fn a_robot_on_a_robot_with_a_free_base() {
         prefix: "second/".into(),
         ..Default::default()
     };
-    let root = add_urdf_file(&mut builder, &path, &second, &mut |_| Ok(())).unwrap();
+    let report = add_urdf_file(&mut builder, &path, &second, &mut |_| Ok(())).unwrap();
+    let root = report.root;
     assert_eq!(root, count);
     let robot = builder.build().unwrap();
     assert_eq!(robot.links()[root].parent, Some(count - 1));
@@ -528,4 +530,183 @@ fn a_long_chain_of_mimics_is_followed_to_its_end() {
             assert_eq!((joint.multiplier, joint.offset), (multiplier, offset));
         }
     }
+}
+
+fn report(path: &Path, options: &UrdfOptions) -> (UrdfReport, RobotBuilder) {
+    let mut builder = RobotBuilder::new(3).unwrap();
+    let report = add_urdf_file(&mut builder, path, options, &mut |_| Ok(())).unwrap();
+    (report, builder)
+}
+
+#[test]
+fn the_report_counts_what_was_read_built_and_passed_over() {
+    let folder = Folder::new("report");
+    folder.write("part.obj", TRIANGLE_OBJ);
+    let mesh = "<geometry><mesh filename=\"part.obj\"/></geometry>";
+    let shape = "<geometry><sphere radius=\"1\"/><box size=\"1 1 1\"/></geometry>";
+    let text = format!(
+        "<robot name=\"r\"><material/><transmission/>\
+         <link name=\"a\"><inertial/><collision>{mesh}</collision><collision>{shape}</collision></link>\
+         <link name=\"b\"><collision>{mesh}</collision><visual>{mesh}<material/></visual></link>\
+         <link name=\"c\"><collision><verbose/>{mesh}</collision></link>\
+         <link name=\"d\"><visual>{shape}</visual></link><link name=\"e\"/>\
+         <joint name=\"ab\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/><dynamics/></joint>\
+         <joint name=\"bc\" type=\"fixed\"><parent link=\"b\"/><child link=\"c\"/></joint>\
+         <joint name=\"cd\" type=\"fixed\"><parent link=\"c\"/><child link=\"d\"/></joint>\
+         <joint name=\"de\" type=\"fixed\"><parent link=\"d\"/><child link=\"e\"/></joint></robot>"
+    );
+    let path = folder.write("robot.urdf", text);
+    let with = |geometry| UrdfOptions {
+        geometry,
+        ..Default::default()
+    };
+    let all = UrdfReport {
+        links: 5,
+        joints: 4,
+        ..Default::default()
+    };
+    let collision = UrdfReport {
+        links_with_body: 3,
+        links_with_other_shapes: 1,
+        bodies: 2,
+        shapes: 4,
+        mesh_files: 1,
+        primitives: 3,
+        // material, transmission; inertial, the box; visual; verbose; visual; dynamics.
+        skipped_elements: 8,
+        ..all
+    };
+    assert_eq!(report(&path, &with(UrdfGeometry::Collision)).0, collision);
+    let visual = UrdfReport {
+        links_with_body: 2,
+        links_with_other_shapes: 2,
+        bodies: 2,
+        shapes: 2,
+        mesh_files: 1,
+        primitives: 2,
+        // material, transmission; inertial, two collisions; collision, material; collision; the box; dynamics.
+        skipped_elements: 10,
+        ..all
+    };
+    assert_eq!(report(&path, &with(UrdfGeometry::Visual)).0, visual);
+    let none = report(&path, &with(UrdfGeometry::None)).0;
+    assert_eq!((none.links_with_body, none.links_with_other_shapes), (0, 4));
+    assert_eq!((none.bodies, none.mesh_files), (0, 0));
+}
+
+/// The content of a body, without the times of its construction.
+fn content(body: &Body) -> String {
+    let s = body.statistics();
+    let tags: Vec<u64> = (0..s.primitives as u32).map(|i| body.tag(i)).collect();
+    format!(
+        "{:?} {:?} {:?} {tags:?} {} {} {} {:?} {:?}",
+        body.primitives(),
+        body.tree(),
+        body.center(),
+        s.nodes,
+        s.faces_split,
+        s.faces_dropped,
+        s.low,
+        s.high
+    )
+}
+
+#[test]
+fn a_second_load_builds_nothing_and_gives_equal_bodies() {
+    let folder = Folder::new("cache");
+    let cache = folder.0.join("new/cache");
+    let mut mesh = String::new();
+    for i in 0..60 {
+        let [x, y] = [f64::from(i % 8), f64::from(i / 8)];
+        mesh += &format!("v {x} {y} {}\n", 0.1 * f64::from(i * 7 % 5));
+    }
+    for i in 1..50 {
+        mesh += &format!("f {i} {} {}\n", i + 1, i + 9);
+    }
+    folder.write("part.obj", &mesh);
+    let shape = |scale: &str| {
+        format!(
+            "<collision><geometry><mesh filename=\"part.obj\" scale=\"{scale}\"/></geometry></collision>"
+        )
+    };
+    let body = format!(
+        "<link name=\"a\">{}</link><link name=\"b\">{}<collision><geometry><sphere radius=\"1\"/></geometry></collision></link>\
+         <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>",
+        shape("1 1 1"),
+        shape("1 2 1")
+    );
+    let path = folder.write("robot.urdf", format!("<robot name=\"r\">{body}</robot>"));
+    let plain = report(&path, &UrdfOptions::default()).1;
+    let options = UrdfOptions {
+        cache_folder: Some(cache.clone()),
+        ..Default::default()
+    };
+    let files = || {
+        let entries = std::fs::read_dir(&cache).unwrap();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        files
+    };
+    let same_as_built = |options: &UrdfOptions, from_cache: usize| {
+        let (found, builder) = report(&path, options);
+        assert_eq!((found.bodies, found.bodies_from_cache), (2, from_cache));
+        for (link, built) in builder.links().iter().zip(plain.links()) {
+            let [link, built] = [link, built].map(|l| l.body.as_ref().unwrap());
+            assert_eq!(content(link), content(built));
+        }
+        found
+    };
+    same_as_built(&options, 0);
+    assert_eq!(files().len(), 2);
+    same_as_built(&options, 2);
+    // The number of threads does not matter.
+    let mut threads = options.clone();
+    threads.hierarchy.threads = 2;
+    same_as_built(&threads, 2);
+
+    // Damaged, cut, exchanged, replaced by a folder: what is kept is not believed.
+    let whole: Vec<Vec<u8>> = files().iter().map(|f| std::fs::read(f).unwrap()).collect();
+    let [first, second] = [files()[0].clone(), files()[1].clone()];
+    for bytes in [
+        &whole[0][..whole[0].len() - 1],
+        b"",
+        &whole[1],
+        &whole[0][40..],
+    ] {
+        std::fs::write(&first, bytes).unwrap();
+        same_as_built(&options, 1);
+        same_as_built(&options, 2);
+    }
+    let mut flipped = whole[1].clone();
+    for place in [0, 9, 39, 41, 60, whole[1].len() / 2, whole[1].len() - 1] {
+        flipped[place] ^= 4;
+        std::fs::write(&second, &flipped).unwrap();
+        same_as_built(&options, 1);
+        flipped[place] ^= 4;
+    }
+    assert_eq!(files().len(), 2);
+    std::fs::remove_file(&first).unwrap();
+    std::fs::create_dir(&first).unwrap();
+    assert_eq!(same_as_built(&options, 1).cache_failures, 1);
+    std::fs::remove_dir(&first).unwrap();
+
+    // Other meshes and other options are other bodies.
+    let mut wrapped = options.clone();
+    wrapped.hierarchy.hull_vertex_limit = 16;
+    assert_eq!(report(&path, &wrapped).0.bodies_from_cache, 0);
+    let sided = UrdfOptions {
+        sides: 8,
+        ..options.clone()
+    };
+    assert_eq!(report(&path, &sided).0.bodies_from_cache, 0);
+    folder.write("part.obj", mesh.replace("v 1 0", "v 1.5 0"));
+    assert_eq!(report(&path, &options).0.bodies_from_cache, 0);
+
+    let no_folder = UrdfOptions {
+        cache_folder: Some(path.clone()),
+        ..options
+    };
+    let error = load(&path, &no_folder).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::Io);
+    assert!(error.message.contains("robot.urdf: "), "{error}");
 }

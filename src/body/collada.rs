@@ -4,21 +4,24 @@
 //! files are made, this takes coordinates as they are written.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
-use nalgebra::{Matrix4, Rotation3, Unit};
-use roxmltree::Node;
+use foldhash::fast::RandomState;
+use nalgebra::{Matrix4, Point3, Rotation3, Unit};
+use roxmltree::{Node, NodeId};
 
 use super::Mesh;
-use crate::error::{ErrorKind, Result, require_finite};
+use super::mesh_budget::{MeshBudget, MeshSize, require_mesh_size};
+use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
-use crate::xml::{child, children, fault, list, numbers, parse, required, required_child, text_of};
+use crate::whole_file::text_of;
+use crate::xml::{child, children, fault, list, numbers, parse, required, required_child};
 
 /// Nodes of a scene may be nested so deep; instances of nodes that hold themselves end here.
-const DEEPEST: usize = 64;
+const MAX_DEPTH: usize = 64;
 
-/// So many vertices and indices are read at most, and so many nodes: those that hold others twice, again and again, end here.
-const MOST_NUMBERS: usize = 1 << 24;
-const MOST_NODES: usize = 1 << 16;
+/// Nodes with their transforms and parts, counted in every instance: nodes that hold others twice, again and again, end here.
+const MAX_NODE_PARTS: usize = 1 << 20;
 
 pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
     let document = parse(text_of(bytes)?)?;
@@ -35,12 +38,7 @@ pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
         Some((unit, text)) => numbers::<1>(unit, "meter", text)?[0],
         None => 1.0,
     };
-    let mut reader = Reader {
-        ids: HashMap::new(),
-        mesh: Mesh::default(),
-        nodes: 0,
-        numbers: 0,
-    };
+    let mut reader = Reader::default();
     for node in root.descendants() {
         if let Some(id) = node.attribute("id") {
             reader.ids.entry(id).or_insert(node);
@@ -51,25 +49,46 @@ pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
         Some(instance) => {
             let scene = reader.refer(instance, "url", "visual_scene")?;
             for node in children(scene, "node") {
-                reader.read_node(node, &world, 0)?;
+                reader.add_node(node, &world, 0)?;
             }
         }
         None => {
             let libraries = children(root, "library_geometries");
             for geometry in libraries.flat_map(|library| children(library, "geometry")) {
-                reader.read_geometry(geometry, &world)?;
+                reader.add_geometry(geometry, geometry, &world)?;
             }
         }
     }
     Ok(reader.mesh)
 }
 
+/// What a node of a scene says: read once, however often it is instanced.
+struct SceneNode<'a, 'i> {
+    /// In the order in which they stand and are applied.
+    transforms: Vec<Matrix4<f64>>,
+    parts: Vec<Part<'a, 'i>>,
+}
+
+enum Part<'a, 'i> {
+    Node(Node<'a, 'i>),
+    Geometry {
+        instance: Node<'a, 'i>,
+        geometry: Node<'a, 'i>,
+    },
+}
+
+#[derive(Default)]
 struct Reader<'a, 'i> {
     ids: HashMap<&'a str, Node<'a, 'i>>,
+    nodes: HashMap<NodeId, Rc<SceneNode<'a, 'i>>>,
+    /// The meshes of geometries, in their own coordinates.
+    geometries: HashMap<NodeId, Rc<Mesh>>,
+    /// The points of sources.
+    positions: HashMap<NodeId, Rc<Vec<Vec3>>>,
+    /// The scene so far.
     mesh: Mesh,
-    nodes: usize,
-    /// How many numbers were read, those of a source that is read again too.
-    numbers: usize,
+    budget: MeshBudget,
+    node_parts: usize,
 }
 
 impl<'a, 'i> Reader<'a, 'i> {
@@ -88,41 +107,61 @@ impl<'a, 'i> Reader<'a, 'i> {
             })
     }
 
-    fn read_node(
+    fn add_node(
         &mut self,
-        node: Node<'a, 'i>,
+        element: Node<'a, 'i>,
         to_world: &Matrix4<f64>,
         depth: usize,
     ) -> Result<()> {
-        self.nodes += 1;
-        if depth == DEEPEST || self.nodes > MOST_NODES {
-            return Err(fault(
-                node,
-                ErrorKind::Unsupported,
-                format!("nodes are nested deeper than {DEEPEST}, or more than {MOST_NODES}"),
+        let refused = |message: String| Err(fault(element, ErrorKind::Unsupported, message));
+        if depth == MAX_DEPTH {
+            return refused(format!("nodes are nested deeper than {MAX_DEPTH}"));
+        }
+        let node = self.node(element)?;
+        self.node_parts += 1 + node.transforms.len() + node.parts.len();
+        if self.node_parts > MAX_NODE_PARTS {
+            return refused(format!(
+                "the scene has more than {MAX_NODE_PARTS} nodes, transforms and instances"
             ));
         }
         let mut to_world = *to_world;
-        // Transforms are applied in the order in which they stand.
-        for element in node.children().filter(Node::is_element) {
-            if let Some(transform) = transform(element)? {
-                to_world *= transform;
+        for transform in &node.transforms {
+            to_world *= transform;
+        }
+        for part in &node.parts {
+            match *part {
+                Part::Node(other) => self.add_node(other, &to_world, depth + 1)?,
+                Part::Geometry { instance, geometry } => {
+                    self.add_geometry(instance, geometry, &to_world)?;
+                }
             }
         }
-        for element in node.children().filter(Node::is_element) {
-            match element.tag_name().name() {
-                "node" => self.read_node(element, &to_world, depth + 1)?,
+        Ok(())
+    }
+
+    fn node(&mut self, element: Node<'a, 'i>) -> Result<Rc<SceneNode<'a, 'i>>> {
+        if let Some(known) = self.nodes.get(&element.id()) {
+            return Ok(known.clone());
+        }
+        let mut node = SceneNode {
+            transforms: Vec::new(),
+            parts: Vec::new(),
+        };
+        for part in element.children().filter(Node::is_element) {
+            node.transforms.extend(transform(part)?);
+            match part.tag_name().name() {
+                "node" => node.parts.push(Part::Node(part)),
                 "instance_node" => {
-                    let other = self.refer(element, "url", "node")?;
-                    self.read_node(other, &to_world, depth + 1)?;
+                    let other = self.refer(part, "url", "node")?;
+                    node.parts.push(Part::Node(other));
                 }
-                "instance_geometry" => {
-                    let geometry = self.refer(element, "url", "geometry")?;
-                    self.read_geometry(geometry, &to_world)?;
-                }
+                "instance_geometry" => node.parts.push(Part::Geometry {
+                    instance: part,
+                    geometry: self.refer(part, "url", "geometry")?,
+                }),
                 "instance_controller" => {
                     return Err(fault(
-                        element,
+                        part,
                         ErrorKind::Unsupported,
                         "skins and morphs have no rigid shape",
                     ));
@@ -130,10 +169,51 @@ impl<'a, 'i> Reader<'a, 'i> {
                 _ => {}
             }
         }
+        let node = Rc::new(node);
+        self.nodes.insert(element.id(), node.clone());
+        Ok(node)
+    }
+
+    /// Adds an instance of a geometry to the scene.
+    fn add_geometry(
+        &mut self,
+        instance: Node<'a, 'i>,
+        geometry: Node<'a, 'i>,
+        to_world: &Matrix4<f64>,
+    ) -> Result<()> {
+        let is_repeated = self.geometries.contains_key(&geometry.id());
+        let own = self.geometry(geometry)?;
+        let named = |e: Error| fault(instance, e.kind, e.message);
+        self.budget
+            .take(MeshSize::of(&own), is_repeated)
+            .map_err(named)?;
+        let all = &mut self.mesh;
+        let base = all.vertices.len() as u32;
+        let reserved = (all.vertices.try_reserve(own.vertices.len()))
+            .and_then(|()| all.indices.try_reserve(own.indices.len()))
+            .and_then(|()| all.face_sizes.try_reserve(own.face_sizes.len()));
+        reserved.map_err(Error::memory).map_err(named)?;
+        let moved = own
+            .vertices
+            .iter()
+            .map(|p| to_world.transform_point(&Point3::from(*p)).coords);
+        all.vertices.extend(moved);
+        all.indices.extend(own.indices.iter().map(|i| base + i));
+        all.face_sizes.extend(&own.face_sizes);
         Ok(())
     }
 
-    fn read_geometry(&mut self, geometry: Node<'a, 'i>, to_world: &Matrix4<f64>) -> Result<()> {
+    fn geometry(&mut self, geometry: Node<'a, 'i>) -> Result<Rc<Mesh>> {
+        if let Some(known) = self.geometries.get(&geometry.id()) {
+            return Ok(known.clone());
+        }
+        let read = Rc::new(self.read_geometry(geometry)?);
+        self.geometries.insert(geometry.id(), read.clone());
+        Ok(read)
+    }
+
+    /// The faces of a geometry, over those of its positions that they use.
+    fn read_geometry(&mut self, geometry: Node<'a, 'i>) -> Result<Mesh> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Err(fault(
                 geometry,
@@ -141,8 +221,9 @@ impl<'a, 'i> Reader<'a, 'i> {
                 "only geometries that are a <mesh> are read",
             ));
         };
+        let mut own = Mesh::default();
         // Elements that share their vertices share them in the mesh too.
-        let mut bases: HashMap<roxmltree::NodeId, (u32, u32)> = HashMap::new();
+        let mut used: HashMap<(NodeId, u32), u32, RandomState> = HashMap::default();
         for element in mesh.children().filter(Node::is_element) {
             let kind = element.tag_name().name();
             if !["triangles", "polylist", "polygons", "trifans", "tristrips"].contains(&kind) {
@@ -152,14 +233,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 .find(|input| input.attribute("semantic") == Some("VERTEX"))
                 .ok_or_else(|| fault(element, ErrorKind::Parse, "it has no input of VERTEX"))?;
             let vertices = self.refer(input, "source", "vertices")?;
-            let (base, count) = match bases.get(&vertices.id()) {
-                Some(known) => *known,
-                None => {
-                    let read = self.read_vertices(vertices, to_world)?;
-                    bases.insert(vertices.id(), read);
-                    read
-                }
-            };
+            let positions = self.positions(vertices)?;
             let offset = offset(input)?;
             let stride = 1 + children(element, "input")
                 .map(self::offset)
@@ -167,52 +241,48 @@ impl<'a, 'i> Reader<'a, 'i> {
                 .into_iter()
                 .max()
                 .unwrap_or(0);
-            let mut runs: Vec<Vec<u32>> = Vec::new();
+            let first = own.indices.len();
+            let mut runs = Vec::new();
             for p in children(element, "p") {
-                let all = list::<u32>(p, "index", p.text().unwrap_or_default())?;
-                if all.len() % stride != 0 {
-                    return Err(fault(
-                        p,
-                        ErrorKind::WrongSize,
-                        format!("{} indices are no multiple of {stride}", all.len()),
-                    ));
-                }
-                let own: Vec<u32> = all.iter().skip(offset).step_by(stride).copied().collect();
-                if let Some(i) = own.iter().find(|&&i| i >= count) {
-                    return Err(fault(
-                        p,
-                        ErrorKind::NotFound,
-                        format!("vertex {i} does not exist; there are {count}, counted from 0"),
-                    ));
-                }
-                runs.push(own.iter().map(|i| base + i).collect());
+                let run = list::<u32>(p, "index", p.text().unwrap_or_default())?;
+                runs.push(corners(p, run, offset, stride, positions.len())?);
             }
-            for face in faces(element, &runs)? {
-                self.mesh.face_sizes.push(face.len() as u32);
-                self.mesh.indices.extend(face);
+            add_faces(element, &runs, &mut own)?;
+            for index in &mut own.indices[first..] {
+                let fresh = own.vertices.len() as u32;
+                let place = *used.entry((vertices.id(), *index)).or_insert(fresh);
+                if place == fresh {
+                    own.vertices.push(positions[*index as usize]);
+                }
+                *index = place;
             }
-            self.check_size(element)?;
+            require_mesh_size(&own).map_err(|e| fault(element, e.kind, e.message))?;
         }
-        Ok(())
+        Ok(own)
     }
 
-    /// Appends the positions of a <vertices>; returns where they begin and how many there are.
-    fn read_vertices(
-        &mut self,
-        vertices: Node<'a, 'i>,
-        to_world: &Matrix4<f64>,
-    ) -> Result<(u32, u32)> {
+    /// The positions of a <vertices>.
+    fn positions(&mut self, vertices: Node<'a, 'i>) -> Result<Rc<Vec<Vec3>>> {
         let input = children(vertices, "input")
             .find(|input| input.attribute("semantic") == Some("POSITION"))
             .ok_or_else(|| fault(vertices, ErrorKind::Parse, "it has no input of POSITION"))?;
         let source = self.refer(input, "source", "source")?;
-        let array = required_child(source, "float_array")?;
-        let numbers = list::<f64>(array, "coordinate", array.text().unwrap_or_default())?;
-        require_finite(&numbers, "coordinate").map_err(|e| fault(array, e.kind, e.message))?;
-        let accessor = child(source, "technique_common").and_then(|t| child(t, "accessor"));
-        let number = |name: &str, default: usize| match accessor
-            .and_then(|a| Some((a, a.attribute(name)?)))
-        {
+        if let Some(known) = self.positions.get(&source.id()) {
+            return Ok(known.clone());
+        }
+        let read = Rc::new(read_positions(source)?);
+        self.positions.insert(source.id(), read.clone());
+        Ok(read)
+    }
+}
+
+fn read_positions(source: Node) -> Result<Vec<Vec3>> {
+    let array = required_child(source, "float_array")?;
+    let numbers = list::<f64>(array, "coordinate", array.text().unwrap_or_default())?;
+    require_finite(&numbers, "coordinate").map_err(|e| fault(array, e.kind, e.message))?;
+    let accessor = child(source, "technique_common").and_then(|t| child(t, "accessor"));
+    let number =
+        |name: &str, default: usize| match accessor.and_then(|a| Some((a, a.attribute(name)?))) {
             None => Ok(default),
             Some((accessor, text)) => text.parse().map_err(|_| {
                 fault(
@@ -222,44 +292,48 @@ impl<'a, 'i> Reader<'a, 'i> {
                 )
             }),
         };
-        let (stride, first) = (number("stride", 3)?, number("offset", 0)?);
-        if stride < 3 {
-            return Err(fault(
-                source,
-                ErrorKind::Parse,
-                "positions need three coordinates",
-            ));
-        }
-        if first > numbers.len() {
-            return Err(fault(
-                source,
-                ErrorKind::NotFound,
-                "its accessor begins beyond its numbers",
-            ));
-        }
-        self.numbers += numbers.len();
-        let base = self.mesh.vertices.len() as u32;
-        let points = numbers.get(first..).unwrap_or_default().chunks(stride);
-        let whole = points.filter(|point| point.len() >= 3);
-        let moved =
-            whole.map(|p| to_world.transform_point(&nalgebra::Point3::new(p[0], p[1], p[2])));
-        self.mesh
-            .vertices
-            .extend(moved.map(|p| Vec3::from(p.coords)));
-        self.check_size(vertices)?;
-        Ok((base, self.mesh.vertices.len() as u32 - base))
+    let (stride, first) = (number("stride", 3)?, number("offset", 0)?);
+    if stride < 3 {
+        return Err(fault(
+            source,
+            ErrorKind::Parse,
+            "positions need three coordinates",
+        ));
     }
+    let numbers = numbers.get(first..).ok_or_else(|| {
+        fault(
+            source,
+            ErrorKind::NotFound,
+            "its accessor begins beyond its numbers",
+        )
+    })?;
+    let whole = numbers.chunks(stride).filter(|point| point.len() >= 3);
+    Ok(whole.map(|p| Vec3::new(p[0], p[1], p[2])).collect())
+}
 
-    fn check_size(&self, node: Node) -> Result<()> {
-        let largest = self.mesh.vertices.len().max(self.mesh.indices.len());
-        if largest.max(self.numbers) > MOST_NUMBERS {
-            return Err(fault(
-                node,
-                ErrorKind::Unsupported,
-                "the scene is too large",
-            ));
-        }
-        Ok(())
+/// Of the indices of a <p>, those of the vertices.
+fn corners(
+    p: Node,
+    indices: Vec<u32>,
+    offset: usize,
+    stride: usize,
+    vertex_count: usize,
+) -> Result<Vec<u32>> {
+    if indices.len() % stride != 0 {
+        return Err(fault(
+            p,
+            ErrorKind::WrongSize,
+            format!("{} indices are no multiple of {stride}", indices.len()),
+        ));
+    }
+    let own: Vec<u32> = indices.into_iter().skip(offset).step_by(stride).collect();
+    match own.iter().find(|&&i| i as usize >= vertex_count) {
+        None => Ok(own),
+        Some(i) => Err(fault(
+            p,
+            ErrorKind::NotFound,
+            format!("vertex {i} does not exist; there are {vertex_count}, counted from 0"),
+        )),
     }
 }
 
@@ -276,11 +350,15 @@ fn offset(input: Node) -> Result<usize> {
     }
 }
 
-/// The corners of each face of an element, from its lists of indices.
-fn faces(element: Node, runs: &[Vec<u32>]) -> Result<Vec<Vec<u32>>> {
-    let all = runs.concat();
-    Ok(match element.tag_name().name() {
+/// Appends the faces of an element, from its lists of indices.
+fn add_faces(element: Node, runs: &[Vec<u32>], mesh: &mut Mesh) -> Result<()> {
+    let mut add = |face: &[u32]| {
+        mesh.face_sizes.push(face.len() as u32);
+        mesh.indices.extend(face);
+    };
+    match element.tag_name().name() {
         "triangles" => {
+            let all = runs.concat();
             if all.len() % 3 != 0 {
                 return Err(fault(
                     element,
@@ -288,12 +366,12 @@ fn faces(element: Node, runs: &[Vec<u32>]) -> Result<Vec<Vec<u32>>> {
                     format!("{} corners make no triangles", all.len()),
                 ));
             }
-            all.chunks_exact(3).map(<[u32]>::to_vec).collect()
+            all.chunks_exact(3).for_each(add);
         }
         "polylist" => {
-            let sizes = required_child(element, "vcount")?;
+            let all = runs.concat();
             let mut rest = &all[..];
-            let mut found = Vec::new();
+            let sizes = required_child(element, "vcount")?;
             for size in list::<u32>(sizes, "vcount", sizes.text().unwrap_or_default())? {
                 let (face, after) = rest.split_at_checked(size as usize).ok_or_else(|| {
                     fault(
@@ -302,14 +380,13 @@ fn faces(element: Node, runs: &[Vec<u32>]) -> Result<Vec<Vec<u32>>> {
                         "its faces need more corners than there are",
                     )
                 })?;
-                found.push(face.to_vec());
+                add(face);
                 rest = after;
             }
             if !rest.is_empty() {
                 let message = format!("{} corners are left after the last face", rest.len());
                 return Err(fault(sizes, ErrorKind::WrongSize, message));
             }
-            found
         }
         "polygons" => {
             if let Some(holed) = child(element, "ph") {
@@ -319,20 +396,19 @@ fn faces(element: Node, runs: &[Vec<u32>]) -> Result<Vec<Vec<u32>>> {
                     "polygons with holes are not read",
                 ));
             }
-            runs.to_vec()
+            runs.iter().for_each(|run| add(run));
         }
         "trifans" => {
-            let fan = |run: &Vec<u32>| -> Vec<Vec<u32>> {
+            for run in runs {
                 let rim = run.get(1..).unwrap_or_default().windows(2);
-                rim.map(|two| vec![run[0], two[0], two[1]]).collect()
-            };
-            runs.iter().flat_map(fan).collect()
+                rim.for_each(|two| add(&[run[0], two[0], two[1]]));
+            }
         }
         _ => runs
             .iter()
-            .flat_map(|run| run.windows(3).map(<[u32]>::to_vec))
-            .collect(),
-    })
+            .for_each(|run| run.windows(3).for_each(&mut add)),
+    }
+    Ok(())
 }
 
 /// What an element of a node does to what is in the node; `None` if it is no transform.

@@ -1,7 +1,6 @@
 //! Bodies in files: the primitives and the whole hierarchy, so that loading builds nothing. docs/body-file.md describes
 //! the format.
 
-use std::fs;
 use std::path::Path;
 
 use super::file_reader::Reader;
@@ -10,11 +9,14 @@ use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::BuildTimes;
 use crate::pose::check_dimension;
-use crate::whole_file::write_whole;
+use crate::whole_file::{read_whole, write_whole};
 
 const MAGIC: [u8; 8] = *b"cstkbody";
-const VERSION: u32 = 3;
+pub const VERSION: u32 = 3;
 const HEADER_BYTES: usize = 32;
+
+/// 16 GiB: many times what the largest body that a mesh file can give (`mesh_size`) takes.
+pub const MAX_FILE_BYTES: u64 = 1 << 34;
 
 impl Body {
     /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is. Fails for a body
@@ -26,13 +28,13 @@ impl Body {
 
     /// Reads a body from a file that [`Body::save`] wrote. It answers as the saved one does, bit for bit.
     pub fn load(path: &Path) -> Result<Self> {
-        let named = |error: Error| error.within(path.display());
-        let bytes = fs::read(path)
-            .map_err(|error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display())))?;
-        Self::from_bytes(&bytes).map_err(named)
+        read_whole(path, MAX_FILE_BYTES)
+            .and_then(|bytes| Self::from_bytes(&bytes))
+            .map_err(|error| error.within(path.display()))
     }
 
-    fn to_bytes(&self) -> Result<Vec<u8>> {
+    /// The content of a body file.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
         let mut payload = Writer::default();
         payload.u32(self.dimension);
         payload.vector(&self.center);
@@ -65,7 +67,8 @@ impl Body {
         Ok(bytes.0)
     }
 
-    fn from_bytes(bytes: &[u8]) -> Result<Self> {
+    /// The body of such content, which is checked.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let payload = checked_payload(bytes)?;
         let mut reader = Reader {
             payload,

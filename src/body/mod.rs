@@ -2,6 +2,7 @@
 
 #[allow(clippy::module_inception)]
 mod body;
+mod body_cache;
 mod builder;
 mod closed_surface;
 mod collada;
@@ -10,18 +11,23 @@ mod file;
 mod file_reader;
 mod file_writer;
 mod mesh;
+mod mesh_budget;
 mod mesh_file;
+mod obj;
 mod pieces;
 mod shapes;
 mod solid;
+mod stl;
 mod surface_edges;
 mod vertex_numbers;
 
 pub use body::{Body, BodyStatistics};
+pub use body_cache::{BodyCache, BodyKey};
 pub use builder::BodyBuilder;
 pub use farthest::Farthest;
 pub use mesh::Mesh;
-pub use mesh_file::read_mesh_file;
+pub use mesh_budget::{MeshBudget, MeshSize};
+pub use mesh_file::{MeshFormat, read_mesh_bytes, read_mesh_file};
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;
 pub use solid::Solid;

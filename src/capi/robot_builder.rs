@@ -16,13 +16,20 @@ use crate::body::Body;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{JointKind, LinkDefinition, RobotBuilder};
+use crate::urdf::UrdfReport;
 
 /// Collects the links of a robot.
 pub struct cstk_robot_builder {
     _opaque: [u8; 0],
 }
 
-pub(super) struct Builder(Mutex<RobotBuilder>);
+pub(super) struct Builder(Mutex<State>);
+
+/// The links so far, and what became of the last URDF file.
+pub(super) struct State {
+    pub robot: RobotBuilder,
+    pub urdf: Option<UrdfReport>,
+}
 
 impl Noun for Builder {
     type Handle = cstk_robot_builder;
@@ -96,7 +103,7 @@ unsafe impl OptionsStruct for cstk_link_def {
 
 pub(super) fn with_builder(
     builder: *mut cstk_robot_builder,
-    action: impl FnOnce(&mut RobotBuilder) -> Result<(), Failure>,
+    action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     // Held for the time of the call, whatever other threads release.
     let builder = handle::share::<Builder>(builder, "builder")?;
@@ -112,8 +119,11 @@ pub unsafe extern "C" fn cstk_robot_builder_create(
 ) -> cstk_status {
     guard(|| {
         let out = Output::checked(out, "out")?;
-        let builder = Builder(Mutex::new(RobotBuilder::new(dimension)?));
-        out.write(handle::create(Arc::new(builder)));
+        let state = State {
+            robot: RobotBuilder::new(dimension)?,
+            urdf: None,
+        };
+        out.write(handle::create(Arc::new(Builder(Mutex::new(state)))));
         Ok(())
     })
 }
@@ -176,7 +186,7 @@ pub unsafe extern "C" fn cstk_robot_builder_add_link(
             } else {
                 Some(handle::share::<Body>(def.body, "def->body")?)
             };
-            let link = builder.add_link(LinkDefinition {
+            let link = builder.robot.add_link(LinkDefinition {
                 name: name.to_string(),
                 joint_name: joint_name.to_string(),
                 body,
@@ -231,7 +241,7 @@ pub unsafe extern "C" fn cstk_robot_build(
     guard(|| {
         with_builder(builder, |builder| {
             let out = Output::checked(out, "out")?;
-            out.write(handle::create(Arc::new(builder.build()?)));
+            out.write(handle::create(Arc::new(builder.robot.build()?)));
             Ok(())
         })
     })

@@ -55,6 +55,8 @@ pub enum cstk_status {
     CSTK_NOT_CLOSED = 21,
     /// The query needs more work than cstk_query_set_limit allows.
     CSTK_LIMIT = 22,
+    /// There is not enough memory for what the input asks for.
+    CSTK_OUT_OF_MEMORY = 23,
 }
 
 impl From<ErrorKind> for cstk_status {
@@ -76,6 +78,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::NotConverged => Self::CSTK_NOT_CONVERGED,
             ErrorKind::Cancelled => Self::CSTK_CANCELLED,
             ErrorKind::Busy => Self::CSTK_BUSY,
+            ErrorKind::OutOfMemory => Self::CSTK_OUT_OF_MEMORY,
             ErrorKind::Callback => Self::CSTK_CALLBACK_FAILED,
             ErrorKind::Limit => Self::CSTK_LIMIT,
         }
@@ -109,6 +112,7 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
         20 => c"CSTK_CALLBACK_FAILED",
         21 => c"CSTK_NOT_CLOSED",
         22 => c"CSTK_LIMIT",
+        23 => c"CSTK_OUT_OF_MEMORY",
         _ => c"unknown status",
     };
     name.as_ptr()

@@ -12,9 +12,9 @@ use super::input::{
 use super::joint::cstk_joint_kind;
 use super::robot_builder::{cstk_robot_builder, with_builder};
 use super::status::cstk_status;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
-use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file};
+use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file};
 
 /// Which shapes of a URDF file's links become their bodies.
 #[repr(i32)]
@@ -54,12 +54,18 @@ pub struct cstk_urdf_options {
     pub package_path_count: usize,
     /// How the links' hierarchies are built; NULL for the defaults.
     pub hierarchy: *const cstk_hierarchy_options,
+    /// A folder that keeps the links' bodies, so that the next load builds none of them; made if there is none. NULL, the
+    /// default, for none. A body is kept under a digest of its meshes' bytes, its shapes and these options; a file that is
+    /// damaged, of other content or of another version of the library is built anew and replaced. Processes may share the
+    /// folder. Nothing is ever deleted from it. Who can write to it can change the robot's shapes.
+    pub cache_folder: *const c_char,
 }
 
-// SAFETY: repr(C), six 32-bit numbers, twelve doubles, four words: no padding; pointers only read after checks.
+// SAFETY: repr(C), six 32-bit numbers, twelve doubles, five words: no padding; pointers only read after checks.
 unsafe impl OptionsStruct for cstk_urdf_options {
     const COOKIE: u32 = 0x4353_0204;
     const NAME: &'static str = "cstk_urdf_options";
+    const EARLIER_SIZES: &'static [usize] = &[152];
     fn defaults() -> Self {
         Self {
             size: 0,
@@ -73,6 +79,65 @@ unsafe impl OptionsStruct for cstk_urdf_options {
             package_paths: std::ptr::null(),
             package_path_count: 0,
             hierarchy: std::ptr::null(),
+            cache_folder: std::ptr::null(),
+        }
+    }
+}
+
+/// What was read from a URDF file, what was built, and what was passed over.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_urdf_report {
+    /// The number of the root link in the builder.
+    pub root: u32,
+    /// The <link> and <joint> elements.
+    pub link_count: u32,
+    pub joint_count: u32,
+    /// Links that have a body. A robot without any meets nothing.
+    pub links_with_body: u32,
+    /// Links without a body that have shapes of the kind that was not asked for: <visual> with CSTK_URDF_COLLISION, and so
+    /// on. Where it is not 0, ask for that kind, or for both in two robots.
+    pub links_with_other_shapes: u32,
+    /// The links' bodies: links of equal shapes share one.
+    pub body_count: u32,
+    /// Those of them that were read from the cache folder; the others were built.
+    pub bodies_from_cache: u32,
+    /// Built bodies that could not be written to the cache folder.
+    pub cache_failures: u32,
+    /// The shapes that the bodies consist of, those of a shared body once for each link.
+    pub shape_count: u32,
+    pub mesh_file_count: u32,
+    /// Elements in the robot, its links, joints and shapes that were passed over: inertia, materials, transmissions, shapes
+    /// of the other kind.
+    pub skipped_elements: u32,
+    pub reserved_number: u32,
+    /// Convex primitives of the bodies, those of a shared body once.
+    pub primitive_count: u64,
+    /// Mesh faces that were not convex or not planar and became triangles, and those without area that were left out.
+    pub faces_split: u64,
+    pub faces_dropped: u64,
+    pub reserved: [u64; 6],
+}
+
+impl From<&UrdfReport> for cstk_urdf_report {
+    fn from(report: &UrdfReport) -> Self {
+        Self {
+            root: report.root as u32,
+            link_count: report.links as u32,
+            joint_count: report.joints as u32,
+            links_with_body: report.links_with_body as u32,
+            links_with_other_shapes: report.links_with_other_shapes as u32,
+            body_count: report.bodies as u32,
+            bodies_from_cache: report.bodies_from_cache as u32,
+            cache_failures: report.cache_failures as u32,
+            shape_count: report.shapes as u32,
+            mesh_file_count: report.mesh_files as u32,
+            skipped_elements: report.skipped_elements as u32,
+            reserved_number: 0,
+            primitive_count: report.primitives,
+            faces_split: report.faces_split,
+            faces_dropped: report.faces_dropped,
+            reserved: [0; 6],
         }
     }
 }
@@ -94,8 +159,15 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 ///
 /// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
 /// box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
-/// are surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name
-/// the file, the line and the element; the builder is then as it was.
+/// are surfaces: what is wholly inside one does not meet it. A mesh file is read once, and links of equal shapes share one
+/// body: cstk_body_set_data then is for all of them. Whatever else the file says is passed over;
+/// cstk_robot_builder_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
+/// then as it was.
+///
+/// Limits, beyond which a file is CSTK_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^13 links; 2^23 faces
+/// and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
+/// that are made by referring to a mesh or a geometry again. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
+/// namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     builder: *mut cstk_robot_builder,
@@ -114,8 +186,27 @@ pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
                 (path(file, "file")?, decode(&given)?)
             };
             let mut report = reporter(progress, user);
-            let link = add_urdf_file(builder, file, &options, &mut report)?;
-            root.write(link as u32);
+            let loaded = add_urdf_file(&mut builder.robot, file, &options, &mut report)?;
+            builder.urdf = Some(loaded);
+            root.write(loaded.root as u32);
+            Ok(())
+        })
+    })
+}
+
+/// Writes what became of the URDF file that was last added to the builder. CSTK_EMPTY if there is none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_builder_urdf_report(
+    builder: *mut cstk_robot_builder,
+    out: *mut cstk_urdf_report,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let out = Output::checked(out, "out")?;
+            let report = builder.urdf.as_ref().ok_or_else(|| {
+                Error::new(ErrorKind::Empty, "no URDF file was added to the builder")
+            })?;
+            out.write(report.into());
             Ok(())
         })
     })
@@ -173,6 +264,11 @@ unsafe fn decode(given: &cstk_urdf_options) -> Result<UrdfOptions, Failure> {
             search,
             sides: given.sides as usize,
             hierarchy: options_or_default(given.hierarchy, "urdf_options->hierarchy")?.decode()?,
+            cache_folder: if given.cache_folder.is_null() {
+                None
+            } else {
+                Some(path(given.cache_folder, "urdf_options->cache_folder")?.to_path_buf())
+            },
         })
     }
 }

@@ -2,18 +2,20 @@
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use super::model::{JointElement, JointType, LinkElement, Model};
-use super::shapes::ShapeReader;
 use nalgebra::Rotation3;
 
-use crate::body::Body;
+use super::bodies::LinkBodies;
+use super::model::{JointElement, JointType, LinkElement, Model};
+use super::report::UrdfReport;
+use super::shapes::ShapeReader;
+use crate::body::BodyCache;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::HierarchyOptions;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{JointKind, LinkDefinition, RobotBuilder};
-use crate::xml::{fault, parse, text_of};
+use crate::whole_file::{read_whole, text_of};
+use crate::xml::{fault, parse};
 
 /// Which of a link's shapes become its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +52,8 @@ pub struct UrdfOptions {
     pub sides: usize,
     /// How the links' hierarchies are built.
     pub hierarchy: HierarchyOptions,
+    /// A folder that keeps built bodies for the next load; it is made if there is none.
+    pub cache_folder: Option<PathBuf>,
 }
 
 impl Default for UrdfOptions {
@@ -63,30 +67,34 @@ impl Default for UrdfOptions {
             search: Vec::new(),
             sides: 0,
             hierarchy: HierarchyOptions::default(),
+            cache_folder: None,
         }
     }
 }
 
 /// Circles are not divided finer.
-const MOST_SIDES: usize = 1024;
+const MAX_SIDES: usize = 1024;
 
-/// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns the number of its root
-/// link. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that
+/// The largest URDF file that is read, 64 MiB; those of humanoids have some 100 KiB.
+const MAX_URDF_FILE_BYTES: u64 = 1 << 26;
+
+/// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns what became of
+/// it. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that
 /// is done. The file is added whole or not at all; failures name file, line and element.
 pub fn add_urdf_file(
     builder: &mut RobotBuilder,
     path: &Path,
     options: &UrdfOptions,
     progress: &mut dyn FnMut(f64) -> Result<()>,
-) -> Result<usize> {
+) -> Result<UrdfReport> {
     if builder.dimension() != 3 {
         return Err(Error::invalid(
             "a URDF robot needs a robot builder of dimension 3",
         ));
     }
-    if options.sides != 0 && !(3..=MOST_SIDES).contains(&options.sides) {
+    if options.sides != 0 && !(3..=MAX_SIDES).contains(&options.sides) {
         return Err(Error::invalid(format!(
-            "sides is {}; 0 and 3 to {MOST_SIDES} are possible",
+            "sides is {}; 0 and 3 to {MAX_SIDES} are possible",
             options.sides
         )));
     }
@@ -94,7 +102,7 @@ pub fn add_urdf_file(
         ErrorKind::Cancelled => e,
         _ => e.within(path.display()),
     };
-    let bytes = std::fs::read(path).map_err(|e| named(Error::new(ErrorKind::Io, e.to_string())))?;
+    let bytes = read_whole(path, MAX_URDF_FILE_BYTES).map_err(named)?;
     let folder = path.canonicalize();
     let folder = folder
         .as_deref()
@@ -102,9 +110,9 @@ pub fn add_urdf_file(
         .and_then(Path::parent)
         .unwrap_or(Path::new("."));
     let mut extended = builder.clone();
-    let root = add_text(&mut extended, &bytes, folder, options, progress).map_err(named)?;
+    let report = add_text(&mut extended, &bytes, folder, options, progress).map_err(named)?;
     *builder = extended;
-    Ok(root)
+    Ok(report)
 }
 
 fn add_text(
@@ -113,7 +121,7 @@ fn add_text(
     folder: &Path,
     options: &UrdfOptions,
     progress: &mut dyn FnMut(f64) -> Result<()>,
-) -> Result<usize> {
+) -> Result<UrdfReport> {
     let document = parse(text_of(bytes)?)?;
     let geometry = match options.geometry {
         UrdfGeometry::Collision => Some("collision"),
@@ -122,17 +130,15 @@ fn add_text(
     };
     let model = Model::read(document.root_element(), geometry)?;
     let order = Tree::of(&model)?.links_by_depth();
+    let followed = followed(&model)?;
+    let cache = options.cache_folder.as_deref().map(BodyCache::open);
+    let shapes = ShapeReader::new(folder, &options.search, options.sides);
     let mut assembly = Assembly {
         builder,
         options,
-        followed: followed(&model)?,
+        followed,
         coordinates: HashMap::new(),
-        shapes: ShapeReader {
-            folder,
-            search: &options.search,
-            sides: options.sides,
-            meshes: HashMap::new(),
-        },
+        bodies: LinkBodies::new(&model.links, shapes, &options.hierarchy, cache.transpose()?)?,
         numbers: HashMap::new(),
     };
     let count = order.len() as f64;
@@ -140,7 +146,15 @@ fn add_text(
         assembly.add(link, *joint)?;
         progress((i + 1) as f64 / count)?;
     }
-    Ok(assembly.numbers[order[0].0.name])
+    let is_hidden = |link: &&LinkElement| link.geometry.is_empty() && link.has_other_shapes;
+    Ok(UrdfReport {
+        root: assembly.numbers[order[0].0.name],
+        links: model.links.len(),
+        joints: model.joints.len(),
+        links_with_other_shapes: model.links.iter().filter(is_hidden).count(),
+        skipped_elements: model.skipped_elements,
+        ..assembly.bodies.report()
+    })
 }
 
 /// The links of a model and the joints between them, known to be a tree.
@@ -327,7 +341,7 @@ struct Assembly<'m, 'a, 'i, 'o> {
     followed: HashMap<&'a str, Followed<'m, 'a, 'i>>,
     /// Which coordinate each joint took, by the name of the joint at the end of a chain of mimics.
     coordinates: HashMap<&'a str, usize>,
-    shapes: ShapeReader<'o>,
+    bodies: LinkBodies<'o>,
     numbers: HashMap<&'a str, usize>,
 }
 
@@ -337,7 +351,7 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
         link: &LinkElement<'a, '_>,
         joint: Option<&JointElement<'a, '_>>,
     ) -> Result<()> {
-        let body = self.body(link)?;
+        let body = self.bodies.body(link)?;
         let prefix = &self.options.prefix;
         let definition = LinkDefinition {
             name: format!("{prefix}{}", link.name),
@@ -362,17 +376,6 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
         };
         self.numbers.insert(link.name, number);
         Ok(())
-    }
-
-    fn body(&mut self, link: &LinkElement) -> Result<Option<Arc<Body>>> {
-        if link.geometry.is_empty() {
-            return Ok(None);
-        }
-        let shapes = self.shapes.read(link)?;
-        let body = shapes
-            .build(&self.options.hierarchy, &mut |_| Ok(()))
-            .map_err(|e| e.within(format_args!("link \"{}\"", link.name)))?;
-        Ok(Some(Arc::new(body)))
     }
 
     fn add_joint(

@@ -4,8 +4,11 @@
 //! numbers it cannot read, and brings fifteen crates along.
 
 mod assemble;
+mod bodies;
 mod model;
 mod packages;
+mod report;
 mod shapes;
 
 pub use assemble::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file};
+pub use report::UrdfReport;

@@ -6,7 +6,11 @@ use crate::error::{ErrorKind, Result};
 use crate::pose::{Pose, Vec3, rotation_about};
 use crate::xml::{child, children, fault, numbers, required, required_child};
 
+/// The largest humanoids have some hundred links. Names are compared with each other.
+const MAX_LINKS: usize = 1 << 13;
+
 /// A shape in its own frame.
+#[derive(Debug)]
 pub enum Shape {
     Box { size: [f64; 3] },
     Sphere { radius: f64 },
@@ -27,6 +31,8 @@ pub struct LinkElement<'a, 'i> {
     pub node: Node<'a, 'i>,
     pub name: &'a str,
     pub geometry: Vec<Geometry<'a, 'i>>,
+    /// It has shapes of the kind that was not asked for.
+    pub has_other_shapes: bool,
 }
 
 /// The kind of a <joint>.
@@ -66,6 +72,8 @@ pub struct Model<'a, 'i> {
     pub node: Node<'a, 'i>,
     pub links: Vec<LinkElement<'a, 'i>>,
     pub joints: Vec<JointElement<'a, 'i>>,
+    /// Elements that say nothing that is read.
+    pub skipped_elements: usize,
 }
 
 impl<'a, 'i> Model<'a, 'i> {
@@ -78,19 +86,58 @@ impl<'a, 'i> Model<'a, 'i> {
                 "a URDF file begins with <robot>",
             ));
         }
-        let links = children(root, "link")
+        for name in ["link", "joint"] {
+            let count = children(root, name).count();
+            if count > MAX_LINKS {
+                let message = format!("it has {count} {name}s; at most {MAX_LINKS} are possible");
+                return Err(fault(root, ErrorKind::Unsupported, message));
+            }
+        }
+        let links: Vec<_> = children(root, "link")
             .map(|node| read_link(node, geometry))
             .collect::<Result<_>>()?;
         // Joints of <transmission> and the like stand elsewhere.
-        let joints = children(root, "joint")
+        let joints: Vec<_> = children(root, "joint")
             .map(read_joint)
             .collect::<Result<_>>()?;
+        let of_links = links
+            .iter()
+            .map(|link: &LinkElement| link.skipped_elements(geometry));
+        let of_joints = joints.iter().map(|joint: &JointElement| {
+            skipped(
+                joint.node,
+                &["origin", "parent", "child", "axis", "limit", "mimic"],
+            )
+        });
         Ok(Self {
             node: root,
+            skipped_elements: skipped(root, &["link", "joint"])
+                + of_links.chain(of_joints).sum::<usize>(),
             links,
             joints,
         })
     }
+}
+
+impl LinkElement<'_, '_> {
+    fn skipped_elements(&self, geometry: Option<&str>) -> usize {
+        let in_shape = |shape: &Geometry| {
+            let own = skipped(shape.node, &["origin", "geometry"]);
+            // Of several shapes in one <geometry>, the first is read.
+            let shapes = child(shape.node, "geometry").into_iter();
+            own + shapes.map(|node| skipped(node, &[]) - 1).sum::<usize>()
+        };
+        let in_shapes: usize = self.geometry.iter().map(in_shape).sum();
+        skipped(self.node, geometry.as_slice()) + in_shapes
+    }
+}
+
+/// The number of elements in a node that have none of these names.
+fn skipped(node: Node, read: &[&str]) -> usize {
+    let elements = node.children().filter(Node::is_element);
+    elements
+        .filter(|element| !read.contains(&element.tag_name().name()))
+        .count()
 }
 
 fn read_link<'a, 'i>(node: Node<'a, 'i>, geometry: Option<&str>) -> Result<LinkElement<'a, 'i>> {
@@ -104,6 +151,9 @@ fn read_link<'a, 'i>(node: Node<'a, 'i>, geometry: Option<&str>) -> Result<LinkE
             .map(read_geometry)
             .collect::<Result<_>>()
             .map_err(named)?,
+        has_other_shapes: ["collision", "visual"]
+            .into_iter()
+            .any(|kind| geometry != Some(kind) && child(node, kind).is_some()),
     })
 }
 

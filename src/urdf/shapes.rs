@@ -1,38 +1,118 @@
 //! The shapes of URDF as primitives. Round ones may become polyhedra that hold them, so that what is called free is free.
 
 use std::collections::HashMap;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::model::{Geometry, LinkElement, Shape};
 use super::packages::resolve;
-use crate::body::{BodyBuilder, Mesh, read_mesh_file};
-use crate::error::{Result, require_finite};
+use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshFormat, MeshSize, read_mesh_bytes};
+use crate::error::{Error, Result, require_finite};
 use crate::pose::{Pose, Vec3};
 use crate::xml::place;
 
-/// Reads the links' geometry, each mesh file once.
+/// Reads the links' shapes, each mesh file once.
 pub struct ShapeReader<'a> {
-    pub folder: &'a Path,
-    pub search: &'a [PathBuf],
+    folder: &'a Path,
+    search: &'a [PathBuf],
     /// Into how many sides a circle is divided; 0 for none.
-    pub sides: usize,
-    pub meshes: HashMap<PathBuf, Arc<Mesh>>,
+    sides: usize,
+    /// The places among the files of the names in the URDF file, and of the paths that they stand for.
+    names: HashMap<String, usize>,
+    paths: HashMap<PathBuf, usize>,
+    files: Vec<MeshFile>,
+    budget: MeshBudget,
 }
 
-impl ShapeReader<'_> {
+struct MeshFile {
+    path: PathBuf,
+    digest: String,
+    content: Content,
+}
+
+/// The bytes are parsed only for a body that is to be built.
+enum Content {
+    Bytes(MeshFormat, Vec<u8>),
+    Mesh(Arc<Mesh>),
+}
+
+impl<'a> ShapeReader<'a> {
+    pub fn new(folder: &'a Path, search: &'a [PathBuf], sides: usize) -> Self {
+        Self {
+            folder,
+            search,
+            sides,
+            names: HashMap::new(),
+            paths: HashMap::new(),
+            files: Vec::new(),
+            budget: MeshBudget::default(),
+        }
+    }
+
+    /// The mesh files read so far.
+    pub fn file_count(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Everything that the link's shapes consist of. Links of the same description have equal shapes.
+    pub fn describe(&mut self, link: &LinkElement) -> Result<String> {
+        let mut text = format!("sides {}\n", self.sides);
+        for geometry in &link.geometry {
+            let origin = geometry.origin.to_row_major();
+            let shape = match &geometry.shape {
+                Shape::Mesh { file, scale } => {
+                    let file = self.file(file).map_err(|e| at(link, geometry, e))?;
+                    let MeshFile { path, digest, .. } = &self.files[file];
+                    let format = MeshFormat::of(path)?;
+                    format!("{format:?} {digest} {scale:?}")
+                }
+                other => format!("{other:?}"),
+            };
+            let _ = writeln!(text, "{origin:?} {shape}");
+        }
+        Ok(text)
+    }
+
+    /// Reads the meshes of a link whose body is to be built, and counts what it will have.
+    pub fn prepare(&mut self, link: &LinkElement) -> Result<()> {
+        for geometry in &link.geometry {
+            self.count(geometry).map_err(|e| at(link, geometry, e))?;
+        }
+        Ok(())
+    }
+
+    fn count(&mut self, geometry: &Geometry) -> Result<()> {
+        let sides = self.sides as u64;
+        let on_sphere = 2 + (sides / 2) * sides;
+        let points = match &geometry.shape {
+            Shape::Mesh { file, .. } => {
+                let index = self.file(file)?;
+                let is_repeated = matches!(self.files[index].content, Content::Mesh(_));
+                let size = MeshSize::of(&*self.mesh(index)?);
+                let taken = self.budget.take(size, is_repeated);
+                return taken.map_err(|e| e.within(file));
+            }
+            Shape::Box { .. } => 8,
+            Shape::Cylinder { .. } => 2 * sides,
+            Shape::Sphere { .. } => on_sphere,
+            Shape::Capsule { .. } => 2 * on_sphere,
+        };
+        // A polyhedron has at most two faces for each of its points.
+        let size = MeshSize {
+            faces: 2 * points,
+            indices: 6 * points,
+        };
+        self.budget.take(size, false)
+    }
+
     /// The link's shapes in its frame; primitives are tagged with the number of the shape, those of meshes with the face's
     /// number in its file.
     pub fn read(&mut self, link: &LinkElement) -> Result<BodyBuilder> {
         let mut builder = BodyBuilder::new(3)?;
         for (i, geometry) in link.geometry.iter().enumerate() {
-            self.add(geometry, i as u64, &mut builder).map_err(|e| {
-                e.within(format_args!(
-                    "link \"{}\": {}",
-                    link.name,
-                    place(geometry.node)
-                ))
-            })?;
+            self.add(geometry, i as u64, &mut builder)
+                .map_err(|e| at(link, geometry, e))?;
         }
         Ok(builder)
     }
@@ -80,7 +160,8 @@ impl ShapeReader<'_> {
                 add_polyhedron(builder, points, at, tag)
             }
             Shape::Mesh { file, scale } => {
-                let mut mesh = (*self.mesh(file)?).clone();
+                let index = self.file(file)?;
+                let mut mesh = (*self.mesh(index)?).clone();
                 for vertex in &mut mesh.vertices {
                     *vertex = at.transform_point(&vertex.component_mul(&Vec3::from(*scale)));
                 }
@@ -89,21 +170,58 @@ impl ShapeReader<'_> {
         }
     }
 
-    fn mesh(&mut self, name: &str) -> Result<Arc<Mesh>> {
-        let path = resolve(name, self.folder, self.search)?;
-        if let Some(known) = self.meshes.get(&path) {
-            return Ok(known.clone());
+    /// The place of a mesh file, which is read when it is first named. One file may have several names.
+    fn file(&mut self, name: &str) -> Result<usize> {
+        if let Some(&known) = self.names.get(name) {
+            return Ok(known);
         }
-        let read = read_mesh_file(&path).map_err(|e| e.within(path.display()))?;
+        let path = resolve(name, self.folder, self.search)?;
+        let named = |e: Error| e.within(path.display());
+        let real = path.canonicalize().map_err(Error::io).map_err(named)?;
+        let place = match self.paths.get(&real) {
+            Some(&known) => known,
+            None => {
+                let format = MeshFormat::of(&path).map_err(named)?;
+                let bytes = read_mesh_bytes(&path).map_err(named)?;
+                self.files.push(MeshFile {
+                    path,
+                    digest: BodyKey::digest(&bytes),
+                    content: Content::Bytes(format, bytes),
+                });
+                self.paths.insert(real, self.files.len() - 1);
+                self.files.len() - 1
+            }
+        };
+        self.names.insert(name.to_string(), place);
+        Ok(place)
+    }
+
+    fn mesh(&mut self, index: usize) -> Result<Arc<Mesh>> {
+        let file = &mut self.files[index];
+        let (format, bytes) = match &file.content {
+            Content::Mesh(known) => return Ok(known.clone()),
+            Content::Bytes(format, bytes) => (format, bytes),
+        };
+        let path = &file.path;
+        let read = format.parse(bytes).map_err(|e| e.within(path.display()))?;
         // Before they are moved, so that the message tells the number that the file holds.
         for (i, vertex) in read.vertices.iter().enumerate() {
             require_finite(vertex.as_slice(), "coordinate")
                 .map_err(|e| e.within(format_args!("{}: vertex {i}", path.display())))?;
         }
         let read = Arc::new(read);
-        self.meshes.insert(path, read.clone());
+        file.content = Content::Mesh(read.clone());
         Ok(read)
     }
+}
+
+/// Names a link's shape in a message.
+fn at(link: &LinkElement, geometry: &Geometry, error: Error) -> Error {
+    error.within(format_args!(
+        "link \"{}\": {}",
+        link.name,
+        place(geometry.node)
+    ))
 }
 
 fn add_polyhedron(

@@ -1,0 +1,105 @@
+//! The links' bodies: links of equal shapes share one, and a folder may keep them between loads.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use super::model::LinkElement;
+use super::report::UrdfReport;
+use super::shapes::ShapeReader;
+use crate::body::{Body, BodyCache, BodyKey};
+use crate::error::Result;
+use crate::hierarchy::HierarchyOptions;
+
+/// The bodies of one file's links.
+pub struct LinkBodies<'a> {
+    shapes: ShapeReader<'a>,
+    hierarchy: &'a HierarchyOptions,
+    cache: Option<BodyCache>,
+    /// By the link's name.
+    keys: HashMap<&'a str, BodyKey>,
+    known: HashMap<BodyKey, Arc<Body>>,
+    report: UrdfReport,
+}
+
+impl<'a> LinkBodies<'a> {
+    /// Looks for the links' bodies in the cache, and reads the meshes of those that have to be built. All of it is counted
+    /// before the first is built, so that a file that asks for too much is soon refused.
+    pub fn new(
+        links: &[LinkElement<'a, '_>],
+        shapes: ShapeReader<'a>,
+        hierarchy: &'a HierarchyOptions,
+        cache: Option<BodyCache>,
+    ) -> Result<Self> {
+        let mut bodies = Self {
+            shapes,
+            hierarchy,
+            cache,
+            keys: HashMap::new(),
+            known: HashMap::new(),
+            report: UrdfReport::default(),
+        };
+        // How bodies are built does not depend on the number of threads.
+        let options = HierarchyOptions {
+            threads: 0,
+            ..*hierarchy
+        };
+        let mut to_build = HashSet::new();
+        for link in links.iter().filter(|link| !link.geometry.is_empty()) {
+            let shapes = bodies.shapes.describe(link)?;
+            let key = BodyKey::of(&format!("{options:?}\n{shapes}"));
+            bodies.keys.insert(link.name, key);
+            bodies.report.links_with_body += 1;
+            bodies.report.shapes += link.geometry.len();
+            if bodies.known.contains_key(&key) || !to_build.insert(key) {
+                continue;
+            }
+            match bodies.cache.as_ref().and_then(|cache| cache.load(&key)) {
+                Some(body) => {
+                    bodies.report.bodies_from_cache += 1;
+                    bodies.add(key, Arc::new(body));
+                }
+                None => bodies.shapes.prepare(link)?,
+            }
+        }
+        bodies.report.mesh_files = bodies.shapes.file_count();
+        Ok(bodies)
+    }
+
+    /// The body of a link, built when it is first asked for.
+    pub fn body(&mut self, link: &LinkElement) -> Result<Option<Arc<Body>>> {
+        let Some(key) = self.keys.get(link.name).copied() else {
+            return Ok(None);
+        };
+        if let Some(known) = self.known.get(&key) {
+            return Ok(Some(known.clone()));
+        }
+        let body = self
+            .shapes
+            .read(link)?
+            .build(self.hierarchy, &mut |_| Ok(()))
+            .map_err(|e| e.within(format_args!("link \"{}\"", link.name)))?;
+        let body = Arc::new(body);
+        // The robot is whole without it: a folder that cannot be written to is told in the report.
+        if let Some(cache) = &self.cache
+            && cache.store(&key, &body).is_err()
+        {
+            self.report.cache_failures += 1;
+        }
+        self.add(key, body.clone());
+        Ok(Some(body))
+    }
+
+    fn add(&mut self, key: BodyKey, body: Arc<Body>) {
+        let statistics = body.statistics();
+        self.report.bodies += 1;
+        self.report.primitives += statistics.primitives;
+        self.report.faces_split += statistics.faces_split;
+        self.report.faces_dropped += statistics.faces_dropped;
+        self.known.insert(key, body);
+    }
+
+    /// What was read and built so far.
+    pub fn report(&self) -> UrdfReport {
+        self.report
+    }
+}
