@@ -1,4 +1,4 @@
-//! Vectors whose clones share what none of them has changed since.
+//! Vectors whose clones share what none of them has changed since, and that follow each other's changes.
 
 use std::ops::Index;
 use std::sync::Arc;
@@ -11,10 +11,23 @@ type Block<T, const N: usize> = [Arc<Chunk<T, N>>; WIDTH];
 
 /// A vector in chunks of `N` items, a power of two. A clone takes no time; a change after it copies the item's chunk, and
 /// the words that lead there, one for each 32 `N` items and few more.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct CowVec<T, const N: usize> {
     blocks: Arc<[Arc<Block<T, N>>]>,
     len: usize,
+    /// The items changed since this was cloned from another vector or followed it, in any order; `None` if it was made
+    /// otherwise.
+    changed: Option<Vec<u32>>,
+}
+
+impl<T, const N: usize> Clone for CowVec<T, N> {
+    fn clone(&self) -> Self {
+        Self {
+            blocks: self.blocks.clone(),
+            len: self.len,
+            changed: Some(Vec::new()),
+        }
+    }
 }
 
 impl<T, const N: usize> Default for CowVec<T, N> {
@@ -22,6 +35,7 @@ impl<T, const N: usize> Default for CowVec<T, N> {
         Self {
             blocks: Arc::new([]),
             len: 0,
+            changed: None,
         }
     }
 }
@@ -43,7 +57,62 @@ impl<T, const N: usize> CowVec<T, N> {
 impl<T: Clone + Default, const N: usize> CowVec<T, N> {
     pub fn get_mut(&mut self, index: usize) -> &mut T {
         assert!(index < self.len, "{index} of {}", self.len);
-        self.slot(index)
+        self.note(index);
+        &mut self.chunk(index)[index % N]
+    }
+
+    /// Changes some items. Fastest where neighbours follow one another: they share the way to their chunk.
+    #[inline(always)]
+    pub fn update(
+        &mut self,
+        indices: impl IntoIterator<Item = usize>,
+        mut change: impl FnMut(usize, &mut T),
+    ) {
+        let mut indices = indices.into_iter();
+        let mut next = indices.next();
+        while let Some(first) = next {
+            let of_chunk = first / N;
+            let mut index = first;
+            let len = self.len;
+            let mut changed = self.changed.take();
+            let chunk = self.chunk(first);
+            loop {
+                assert!(index < len, "{index} of {len}");
+                if let Some(changed) = &mut changed {
+                    changed.push(index as u32);
+                }
+                change(index, &mut chunk[index % N]);
+                next = indices.next();
+                match next {
+                    Some(other) if other / N == of_chunk => index = other,
+                    _ => break,
+                }
+            }
+            self.changed = changed;
+        }
+    }
+
+    /// Becomes equal to a vector that was cloned from this one, or followed it, and was then changed: only what changed is
+    /// copied, in place where nobody else has a share in it.
+    pub fn follow(&mut self, other: &Self) {
+        let Some(changed) = other.changed.as_ref() else {
+            *self = other.clone();
+            return;
+        };
+        if self.blocks.len() != other.blocks.len() {
+            *self = other.clone();
+            return;
+        }
+        self.len = other.len;
+        let mut own = self.changed.take().unwrap_or_default();
+        own.clear();
+        self.update(
+            changed.iter().map(|&index| index as usize),
+            |index, item| {
+                item.clone_from(&other[index]);
+            },
+        );
+        self.changed = Some(own);
     }
 
     pub fn push(&mut self, item: T) {
@@ -52,15 +121,24 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
             let block = Arc::new(std::array::from_fn(|_| unused.clone()));
             self.blocks = self.blocks.iter().cloned().chain([block]).collect();
         }
-        *self.slot(self.len) = item;
+        let index = self.len;
         self.len += 1;
+        self.note(index);
+        self.chunk(index)[index % N] = item;
     }
 
     #[inline]
-    fn slot(&mut self, index: usize) -> &mut T {
+    fn note(&mut self, index: usize) {
+        if let Some(changed) = &mut self.changed {
+            changed.push(index as u32);
+        }
+    }
+
+    /// The chunk of an item, with nobody else's share in it.
+    #[inline]
+    fn chunk(&mut self, index: usize) -> &mut Chunk<T, N> {
         let block = &mut Arc::make_mut(&mut self.blocks)[index / N / WIDTH];
-        let chunk = &mut Arc::make_mut(block)[index / N % WIDTH];
-        &mut Arc::make_mut(chunk)[index % N]
+        Arc::make_mut(&mut Arc::make_mut(block)[index / N % WIDTH])
     }
 }
 
@@ -95,6 +173,7 @@ impl<T: Clone + Default, const N: usize> FromIterator<T> for CowVec<T, N> {
         Self {
             blocks: blocks.into(),
             len,
+            changed: None,
         }
     }
 }
@@ -135,6 +214,41 @@ mod tests {
             assert!(vector.get(plain.len()).is_none());
             let collected: CowVec<String, 2> = plain.iter().cloned().collect();
             assert!(collected.iter().eq(plain) && collected.len() == plain.len());
+        }
+    }
+
+    /// Two vectors that take turns, as the states of an environment do, with clones of some states kept.
+    #[test]
+    fn a_vector_that_follows_another_is_equal_to_it() {
+        let mut state = 7u64;
+        let mut random = move |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1);
+            (state >> 33) as usize % n
+        };
+        let mut now: CowVec<String, 2> = (0..20).map(|i: u32| i.to_string()).collect();
+        let mut before = CowVec::default();
+        let mut plain: Vec<String> = now.iter().cloned().collect();
+        let mut kept = Vec::new();
+        for step in 0..500 {
+            before.follow(&now);
+            std::mem::swap(&mut before, &mut now);
+            assert!(now.iter().eq(&plain) && now.len() == plain.len());
+            if random(5) == 0 {
+                kept.push((now.clone(), plain.clone()));
+            }
+            for _ in 0..random(4) {
+                now.push(step.to_string());
+                plain.push(step.to_string());
+            }
+            let indices: Vec<usize> = (0..random(6)).map(|_| random(plain.len())).collect();
+            now.update(indices.iter().copied(), |_, item| item.push('x'));
+            indices.iter().for_each(|&i| plain[i].push('x'));
+            if random(50) == 0 {
+                now = plain.iter().cloned().collect();
+            }
+        }
+        for (now, plain) in kept {
+            assert!(now.iter().eq(&plain));
         }
     }
 

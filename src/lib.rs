@@ -10,6 +10,7 @@ pub mod user_data;
 pub mod work_meter;
 
 mod cow_vec;
+pub mod index_set;
 pub mod lanes;
 mod whole_file;
 mod xml;

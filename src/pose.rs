@@ -156,12 +156,13 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
         ));
     }
     // Newton's iteration for the orthogonal polar factor; quadratic, so two steps from 1e-6 reach round-off.
-    let mut r = given;
+    let (mut r, mut off) = (given, off);
     for _ in 0..3 {
-        if error(&r) <= 8.0 * tolerance::EPSILON {
+        if off <= 8.0 * tolerance::EPSILON {
             break;
         }
         r = r * (Mat3::identity() * 1.5 - r.transpose() * r * 0.5);
+        off = error(&r);
     }
     Ok(r)
 }

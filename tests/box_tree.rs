@@ -4,9 +4,8 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use cstk::hierarchy::{
-    BOX, BoxFrame, BoxNode, BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox, PackedBox,
-};
+use cstk::hierarchy::{BOX, BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox, PackedBox};
+use cstk::index_set::IndexSet;
 use cstk::pose::{Mat3, Vec3};
 
 use common::random::Random;
@@ -21,7 +20,7 @@ struct Set {
 
 impl Boxes for Set {
     fn extent(&self, place: usize) -> Extent {
-        Extent::of(&self.boxes[place].corners)
+        Extent::of(&corners(&self.boxes[place]))
     }
 
     fn oriented(&self, place: usize) -> OrientedBox {
@@ -29,14 +28,22 @@ impl Boxes for Set {
     }
 }
 
+fn corners(given: &OrientedBox) -> [Vec3; 8] {
+    let [x, y] = given.axes;
+    let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
+    let local = box_corners((2.0 * given.half).into());
+    std::array::from_fn(|i| given.center + axes * local[i])
+}
+
 fn random_box(random: &mut Random, center: Vec3, size: f64) -> OrientedBox {
     let axes = random.rotation();
-    // The shortest side is the last.
-    let sides = [size, size * random.within(0.1, 1.0), size * 0.1];
-    let corners = box_corners(sides);
+    // Orthonormal to within what boxes may be.
+    let off = random.within(-1.0, 1.0) / 8192.0;
+    let (x, y) = (axes.column(0).into_owned(), axes.column(1).into_owned());
     OrientedBox {
-        corners: std::array::from_fn(|i| center + axes * corners[i]),
-        axes,
+        center,
+        axes: [x, y + x * off],
+        half: Vec3::new(size, size * random.within(0.1, 1.0), size * 0.1) * 0.5,
     }
 }
 
@@ -49,23 +56,21 @@ struct Below {
 }
 
 /// Walks all of a tree and checks every box by the corners below it.
-fn check(node: &BoxNode, frame: &BoxFrame, set: &Set, is_root: bool) -> Below {
+fn check(tree: &BoxTree, name: u32, set: &Set, is_root: bool) -> Below {
+    let (node, frame) = (tree.node(name), tree.frame());
     let mut found = Below::default();
     let children = node.wide.children();
     assert!(is_root || children.len() >= 2);
     for (lane, &child) in children.iter().enumerate() {
-        let below = match &node.below[lane] {
-            Some(below) => {
-                assert_eq!(child & BOX, 0);
-                check(below, frame, set, false)
-            }
-            None => Below {
+        let below = match child & BOX {
+            0 => check(tree, child, set, false),
+            _ => Below {
                 places: vec![(child & !BOX) as usize],
                 ..Below::default()
             },
         };
         for &place in &below.places {
-            for corner in &set.boxes[place].corners {
+            for corner in &corners(&set.boxes[place]) {
                 assert_holds(
                     &node.wide.get(lane),
                     &((corner - frame.center) / frame.scale),
@@ -76,7 +81,7 @@ fn check(node: &BoxNode, frame: &BoxFrame, set: &Set, is_root: bool) -> Below {
         found.surface += below.surface;
         found.depth = found.depth.max(below.depth + 1);
     }
-    let corners = found.places.iter().flat_map(|&i| set.boxes[i].corners);
+    let corners = found.places.iter().flat_map(|&i| corners(&set.boxes[i]));
     found.surface += Extent::of(&corners.collect::<Vec<_>>()).half_surface();
     found
 }
@@ -100,11 +105,11 @@ fn check_all(tree: &BoxTree, set: &Set) -> usize {
         assert!(set.held.is_empty());
         return 0;
     };
-    let found = check(root, tree.frame(), set, true);
+    let found = check(tree, root, set, true);
     let mut places = found.places;
     places.sort_unstable();
     assert!(places.iter().eq(&set.held), "{places:?} {:?}", set.held);
-    let corners = places.iter().flat_map(|&i| set.boxes[i].corners);
+    let corners = places.iter().flat_map(|&i| corners(&set.boxes[i]));
     let root = Extent::of(&corners.collect::<Vec<_>>());
     assert_eq!(tree.extent(), Some(&root));
     let below = found.surface - root.half_surface();
@@ -138,7 +143,6 @@ fn boxes_stand_around_all_that_is_below() {
         let mut kept = Vec::new();
         for step in 0..600 {
             let index = random.below(set.boxes.len());
-            let before = set.extent(index);
             if step % 97 == 0 {
                 kept.push((tree.clone(), set.clone()));
             }
@@ -159,21 +163,37 @@ fn boxes_stand_around_all_that_is_below() {
                     tree: &mut tree,
                     boxes: &set,
                 };
-                changes.remove(index, &before);
+                changes.remove(index);
                 assert!(!tree.holds(index));
             } else {
-                let near = random.below(2) == 0;
-                let center = if near {
-                    0.5 * (before.low + before.high) + random.point(0.1 * size)
-                } else {
-                    away + random.point(half)
-                };
-                set.boxes[index] = random_box(&mut random, center, size);
-                BoxTreeChanges {
+                // One, some or all, by little or to anywhere.
+                let held: Vec<usize> = set.held.iter().copied().collect();
+                let count = [1, 1 + random.below(held.len()), held.len()][random.below(3)];
+                let mut moved = IndexSet::new(set.boxes.len());
+                for _ in 0..count {
+                    moved.insert(held[random.below(held.len())]);
+                }
+                let near = random.below(3) > 0;
+                for index in moved.iter() {
+                    let center = if near {
+                        set.boxes[index].center + random.point(0.1 * size)
+                    } else {
+                        away + random.point(half)
+                    };
+                    set.boxes[index] = random_box(&mut random, center, size);
+                }
+                let mut changes = BoxTreeChanges {
                     tree: &mut tree,
                     boxes: &set,
+                };
+                if count == 1 && !near {
+                    for index in moved.iter() {
+                        changes.remove(index);
+                        changes.insert(index);
+                    }
+                } else {
+                    changes.refit(&moved);
                 }
-                .follow(index, &before);
             }
             if step % 7 == 0 {
                 check_all(&tree, &set);
@@ -183,15 +203,66 @@ fn boxes_stand_around_all_that_is_below() {
             check_all(tree, set);
         }
         for index in std::mem::take(&mut set.held) {
-            let before = set.extent(index);
             BoxTreeChanges {
                 tree: &mut tree,
                 boxes: &set,
             }
-            .remove(index, &before);
+            .remove(index);
         }
         check_all(&tree, &set);
         assert_eq!(tree.surface(), 0.0);
+    }
+}
+
+/// Two trees take turns, as the states of an environment do: the one before becomes the next.
+#[test]
+fn a_tree_that_follows_another_is_equal_to_it() {
+    let mut random = Random::new(3);
+    let place = |random: &mut Random| {
+        let center = random.point(1.0);
+        random_box(random, center, 0.1)
+    };
+    let mut set = Set {
+        boxes: (0..200).map(|_| place(&mut random)).collect(),
+        held: (0..200).collect(),
+    };
+    let mut now = built(&set);
+    let mut before = now.clone();
+    let mut kept = Vec::new();
+    for step in 0..300 {
+        before.follow(&now);
+        check_all(&before, &set);
+        std::mem::swap(&mut before, &mut now);
+        if step % 23 == 0 {
+            kept.push((now.clone(), set.clone()));
+        }
+        if step % 50 == 49 {
+            now = built(&set);
+        }
+        let mut moved = IndexSet::new(set.boxes.len());
+        for _ in 0..random.below(30) {
+            let index = random.below(set.boxes.len());
+            set.boxes[index] = place(&mut random);
+            moved.insert(index);
+        }
+        let added = place(&mut random);
+        set.boxes.push(added);
+        set.held.insert(set.boxes.len() - 1);
+        let mut changes = BoxTreeChanges {
+            tree: &mut now,
+            boxes: &set,
+        };
+        changes.refit(&moved);
+        changes.insert(set.boxes.len() - 1);
+        // What goes is taken out before its box changes, as an object that moves while it is not in the world.
+        let gone = random.below(set.boxes.len());
+        if set.held.contains(&gone) {
+            changes.remove(gone);
+            set.held.remove(&gone);
+        }
+    }
+    for (tree, set) in &kept {
+        check_all(tree, set);
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use cstk::body::{Body, BodyBuilder, read_mesh_file};
 use cstk::error::{Error, ErrorKind};
 use cstk::hierarchy::HierarchyOptions;
-use cstk::pose::Vec3;
+use cstk::pose::{Pose, Vec3};
 use cstk::robot::RobotBuilder;
 use cstk::urdf::{UrdfOptions, add_urdf_file};
 
@@ -138,7 +138,9 @@ fn what_is_no_regular_file_is_refused_both_ways() {
         refused(body().save(path), path, culprit);
         refused(Body::load(path), path, culprit);
         refused(
-            BodyBuilder::new(3).unwrap().add_mesh_file(path),
+            BodyBuilder::new(3)
+                .unwrap()
+                .add_mesh_file(path, &Pose::identity(), &Vec3::repeat(1.0)),
             path,
             culprit,
         );

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+// What is measured of changes and of the classes after them: the change and the class, the change
+// alone, the first class after it, or the second.
+enum class Timed { both, change, first_class, next_class };
+
 struct Asked {
     std::string library, variant;
     // Before a pass: forgets what the last one left.
@@ -15,6 +19,8 @@ struct Asked {
     std::function<void(std::size_t)> ask;
     // What the last query found, as a number.
     std::function<double()> answer;
+    // Before each query, unmeasured; may be empty.
+    std::function<void(std::size_t)> prepare = {};
 };
 
 // One way, at one size of a scene, as it is measured.
@@ -39,6 +45,12 @@ class Runner {
     std::size_t queries_;
     std::vector<double> times_;
 };
+
+// A change and a class, of which a part is measured. The class before is that of the query before.
+Asked timed_after(std::string library, std::string variant, std::function<void()> begin,
+                  std::function<void(std::size_t)> change,
+                  std::function<void(std::size_t)> classify, std::function<double()> answer,
+                  Timed timed);
 
 // A number for a pair of a link and an object, or of their primitives too. The sum of those of a
 // set stands for it.

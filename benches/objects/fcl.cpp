@@ -71,7 +71,7 @@ template <class BV> class Kind {
     }
 
     void after_moves(const Poses &at, const std::vector<Step> &steps, const Step &home,
-                     std::vector<Asked> &to) {
+                     Timed timed, std::vector<Asked> &to) {
         const auto found = std::make_shared<bool>();
         const Poses targets = transforms_of(steps, [](const Step &step) { return step.to; });
         const auto back = std::make_shared<std::vector<Transform>>(transforms(home.to));
@@ -81,12 +81,15 @@ template <class BV> class Kind {
         };
         for (const Update update : {Update::listed, Update::all}) {
             for (const Way way : ways) {
-                const auto ask = [=, &steps](std::size_t query) {
+                const auto change = [=, &steps](std::size_t query) {
                     managed_.move(steps[query].moved, (*targets)[query], update);
+                };
+                const auto classify = [=](std::size_t query) {
                     *found = managed_.meets((*at)[query], way);
                 };
-                to.push_back({"FCL", says(way) + (update == Update::all ? " refit" : ""), begin,
-                              ask, [found] { return *found ? 1.0 : 0.0; }});
+                to.push_back(timed_after("FCL", says(way) + (update == Update::all ? " refit" : ""),
+                                         begin, change, classify,
+                                         [found] { return *found ? 1.0 : 0.0; }, timed));
             }
         }
     }
@@ -150,10 +153,10 @@ std::vector<Asked> Fcl::near_objects(const std::vector<Station> &at, double epsi
 }
 
 std::vector<Asked> Fcl::after_moves(const std::vector<Station> &at, const std::vector<Step> &steps,
-                                    const Step &home) {
+                                    const Step &home, Timed timed) {
     const Poses poses = transforms_of(at);
     std::vector<Asked> made;
-    managers_->obb.after_moves(poses, steps, home, made);
-    managers_->obb_box.after_moves(poses, steps, home, made);
+    managers_->obb.after_moves(poses, steps, home, timed, made);
+    managers_->obb_box.after_moves(poses, steps, home, timed, made);
     return made;
 }

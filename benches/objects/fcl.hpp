@@ -22,7 +22,7 @@ class Fcl {
     // that meet, and the nearest points of the others.
     std::vector<Asked> near_objects(const std::vector<Station> &at, double epsilon);
     std::vector<Asked> after_moves(const std::vector<Station> &at, const std::vector<Step> &steps,
-                                   const Step &home);
+                                   const Step &home, Timed timed);
 
   private:
     struct Managers;

@@ -9,9 +9,11 @@
 #include "ours.hpp"
 #include "table.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -64,15 +66,34 @@ struct Size {
     Ours ours;
     Fcl fcl;
 };
-using Sizes = std::vector<std::unique_ptr<Size>>;
+// Made when the first row asks for them.
+class Sizes {
+  public:
+    using All = std::vector<std::unique_ptr<Size>>;
 
-template <class Ask> std::vector<Question> at_each(Sizes &sizes, Ask ask) {
-    std::vector<Question> questions;
-    for (const auto &size : sizes) {
-        questions.push_back(ask(*size));
-        questions.back().objects = size->scene.items.size();
+    explicit Sizes(std::function<All()> make) : make_(std::move(make)) {}
+
+    const All &all() {
+        if (all_.empty()) {
+            all_ = make_();
+        }
+        return all_;
     }
-    return questions;
+
+  private:
+    std::function<All()> make_;
+    All all_;
+};
+
+template <class Ask> auto at_each(Sizes &sizes, Ask ask) {
+    return [&sizes, ask] {
+        std::vector<Question> questions;
+        for (const auto &size : sizes.all()) {
+            questions.push_back(ask(*size));
+            questions.back().objects = size->scene.items.size();
+        }
+        return questions;
+    };
 }
 
 void ask_queries(const std::string &motion, const std::vector<Station> &at, Sizes &sizes,
@@ -93,22 +114,37 @@ void ask_queries(const std::string &motion, const std::vector<Station> &at, Size
         }));
 }
 
-void ask_changes(const Workplace &place, std::size_t moved, std::size_t count, Sizes &sizes,
-                 Table &table) {
+// How many of a scene's objects move at once.
+struct Moved {
+    std::size_t part(std::size_t all) const { return all_of_them ? all : std::min(count, all); }
+    std::string name() const { return all_of_them ? "all" : std::to_string(count); }
+
+    std::size_t count;
+    bool all_of_them;
+};
+
+void ask_changes(const Workplace &place, Moved moved, Jump jump, Timed timed, std::size_t count,
+                 Sizes &sizes, Table &table) {
     struct Moves {
         std::vector<Step> steps;
         Step home;
     };
+    const std::string what = moved.name() + (jump == Jump::far ? " jump" : " moved");
+    const std::string name = timed == Timed::both     ? what + " + classify"
+                             : timed == Timed::change ? what
+                             : timed == Timed::first_class
+                                 ? "first classify after " + what
+                                 : "next classify after " + what;
     std::vector<std::unique_ptr<Moves>> all;
     const auto &at = place.coherent();
-    const std::string name = std::to_string(moved) + " moved + classify";
     table.row(name, count, 0, at_each(sizes, [&](Size &s) {
                   all.push_back(std::make_unique<Moves>());
                   Moves &moves = *all.back();
-                  moves.steps = place.steps(s.scene, moved, count);
+                  const std::size_t part = moved.part(s.scene.items.size());
+                  moves.steps = place.steps(s.scene, part, count, jump);
                   moves.home = back_home(s.scene, moves.steps);
-                  return Question{0, s.ours.after_moves(at, moves.steps, moves.home),
-                                  s.fcl.after_moves(at, moves.steps, moves.home)};
+                  return Question{0, s.ours.after_moves(at, moves.steps, moves.home, timed),
+                                  s.fcl.after_moves(at, moves.steps, moves.home, timed)};
               }));
 }
 
@@ -116,8 +152,22 @@ void show(const char *title, const char *name, Sizes sizes, const Workplace &pla
     table.start(name, title);
     ask_queries("random", place.random(), sizes, table);
     ask_queries("coherent", place.coherent(), sizes, table);
-    ask_changes(place, 1, 100, sizes, table);
-    ask_changes(place, 100, 30, sizes, table);
+    ask_changes(place, {1, false}, Jump::little, Timed::both, 100, sizes, table);
+    ask_changes(place, {100, false}, Jump::little, Timed::both, 30, sizes, table);
+}
+
+// Changes alone, and the classes after them.
+void show_changes(const char *title, const char *name, Sizes sizes, const Workplace &place,
+                  Table &table) {
+    table.start(name, title);
+    for (const Jump jump : {Jump::little, Jump::far}) {
+        for (const Timed timed : {Timed::change, Timed::first_class, Timed::next_class}) {
+            ask_changes(place, {1, false}, jump, timed, 100, sizes, table);
+            ask_changes(place, {100, false}, jump, timed, 30, sizes, table);
+            ask_changes(place, {1000, false}, jump, timed, 30, sizes, table);
+            ask_changes(place, {0, true}, jump, timed, 20, sizes, table);
+        }
+    }
 }
 
 std::string processor() {
@@ -138,11 +188,13 @@ int run(const Options &options) {
         counts.push_back(10000);
     }
     const auto sizes = [&](Scene (Workplace::*scene)(std::size_t) const) {
-        Sizes made;
-        for (const std::size_t count : counts) {
-            made.push_back(std::make_unique<Size>(place, (place.*scene)(count)));
-        }
-        return made;
+        return Sizes([&place, &counts, scene] {
+            Sizes::All made;
+            for (const std::size_t count : counts) {
+                made.push_back(std::make_unique<Size>(place, (place.*scene)(count)));
+            }
+            return made;
+        });
     };
     Table table(options.quick ? 3 : 9, options.only);
     std::printf("processor: %s\n", processor().c_str());
@@ -150,6 +202,8 @@ int run(const Options &options) {
     show("All scattered at one density", "dense", sizes(&Workplace::dense), place, table);
     show("Crowded: ever more and smaller objects about the arm", "crowded",
          sizes(&Workplace::crowded), place, table);
+    show_changes("Objects that move, all scattered at one density", "moves",
+                 sizes(&Workplace::dense), place, table);
     std::printf("\n%zu answers of FCL's compared, %zu differ\n", table.compared(),
                 table.differing());
     if (!options.csv.empty()) {

@@ -83,8 +83,8 @@ Asked Ours::listed(const std::vector<Station> &at, double epsilon, bool primitiv
 }
 
 Asked Ours::after_moves(const std::vector<Station> &at, const std::vector<Step> &steps,
-                        const Step &home) {
-    const auto found = std::make_shared<cstk_class>();
+                        const Step &home, Timed timed) {
+    const auto found = std::make_shared<cstk_class>(CSTK_OUTSIDE);
     const auto changes = std::make_shared<std::vector<Changes>>();
     for (const Step &step : steps) {
         changes->push_back(moves(step));
@@ -95,11 +95,10 @@ Asked Ours::after_moves(const std::vector<Station> &at, const std::vector<Step> 
         query_ = cstk::Query();
         class_at(at[0]);
     };
-    const auto ask = [=, &at](std::size_t query) {
-        apply((*changes)[query]);
-        *found = class_at(at[query]);
-    };
-    return {"cstk", "", begin, ask, [found] { return number_of(*found); }};
+    const auto change = [=](std::size_t query) { apply((*changes)[query]); };
+    const auto classify = [=, &at](std::size_t query) { *found = class_at(at[query]); };
+    return timed_after("cstk", "", begin, change, classify, [found] { return number_of(*found); },
+                       timed);
 }
 
 Ours::Changes Ours::moves(const Step &step) const {

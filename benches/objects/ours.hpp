@@ -22,9 +22,10 @@ class Ours {
     Asked witnesses(const std::vector<Station> &at, double epsilon);
     // The same; the answer is the set of the pairs of link and object.
     Asked near_objects(const std::vector<Station> &at, double epsilon);
-    // Objects moved, and then the class. After them all objects are moved home.
+    // Objects moved; what is measured of it, and of the class then. Before a pass all objects are
+    // moved home.
     Asked after_moves(const std::vector<Station> &at, const std::vector<Step> &steps,
-                      const Step &home);
+                      const Step &home, Timed timed);
 
   private:
     using Changes = std::vector<cstk_environment_change>;

@@ -168,7 +168,8 @@ Scene Workplace::crowded(std::size_t count) const {
     return scene;
 }
 
-std::vector<Step> Workplace::steps(const Scene &scene, std::size_t count, std::size_t steps) const {
+std::vector<Step> Workplace::steps(const Scene &scene, std::size_t count, std::size_t steps,
+                                   Jump jump) const {
     Random random(seed_ + 4);
     std::vector<std::size_t> order(scene.items.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -177,7 +178,9 @@ std::vector<Step> Workplace::steps(const Scene &scene, std::size_t count, std::s
         Step next;
         for (std::size_t i = 0; i < count; ++i) {
             std::swap(order[i], order[i + random.below(order.size() - i)]);
-            const cstk::Pose &home = scene.items[order[i]].pose;
+            const bool is_far = jump == Jump::far;
+            const std::size_t to = is_far ? random.below(scene.items.size()) : order[i];
+            const cstk::Pose &home = scene.items[to].pose;
             cstk::Pose pose = placed(random.uniform(0, 0.05), random);
             for (const std::size_t k : {3, 7, 11}) {
                 pose[k] += home[k];

@@ -38,6 +38,9 @@ struct Step {
 // All objects that steps move, and where they stood first.
 Step back_home(const Scene &scene, const std::vector<Step> &steps);
 
+// How far objects are moved.
+enum class Jump { little, far };
+
 // How many objects are near in every scene: all of the smallest.
 const std::size_t near_count = 100;
 
@@ -60,8 +63,10 @@ class Workplace {
     // The near objects, and smaller ones among them, clear of the arm where it was free.
     Scene crowded(std::size_t count) const;
 
-    // `count` objects at a time are moved, by little, and turned.
-    std::vector<Step> steps(const Scene &scene, std::size_t count, std::size_t steps) const;
+    // `count` objects at a time are moved, by little, and turned; or each to where another stood
+    // first, and turned.
+    std::vector<Step> steps(const Scene &scene, std::size_t count, std::size_t steps,
+                            Jump jump) const;
 
   private:
     Station station(const std::array<double, 6> &q, const Ours &ours) const;

@@ -44,12 +44,13 @@ void Table::start(const std::string &scene, const std::string &title) {
 }
 
 void Table::row(const std::string &name, std::size_t queries, double allowed,
-                std::vector<Question> questions) {
+                const std::function<std::vector<Question>()> &questions) {
     if ((scene_ + " " + name).find(only_) == std::string::npos) {
         return;
     }
+    std::vector<Question> asked = questions();
     std::vector<Measured> sizes;
-    for (Question &question : questions) {
+    for (Question &question : asked) {
         sizes.push_back({question.objects, Runner(std::move(question.ours), queries), {}});
         for (Asked &peer : question.peers) {
             sizes.back().peers.emplace_back(std::move(peer), queries);

@@ -25,7 +25,7 @@ class Table {
     void start(const std::string &scene, const std::string &title);
     // Measures the row and prints it. Answers may differ by `allowed` of ours.
     void row(const std::string &name, std::size_t queries, double allowed,
-             std::vector<Question> sizes);
+             const std::function<std::vector<Question>()> &sizes);
 
     // The rows so far, as lines of a file.
     const std::string &csv() const { return csv_; }

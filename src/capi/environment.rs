@@ -16,7 +16,6 @@ use crate::environment::{Attachment, Change, Environment};
 use crate::error::Error;
 use crate::pose::Pose;
 use crate::space::Space;
-use crate::user_data::UserData;
 
 /// The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
 /// bodies of its objects.
@@ -162,19 +161,13 @@ pub unsafe extern "C" fn cstk_environment_apply(
         let mut next = changes;
         for i in 0..count {
             // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
-            let change = unsafe { options(next, &format!("changes[{i}]"))? };
-            let data = Kept::new(change.data, change.destroy);
+            let change = unsafe { options(next, format_args!("changes[{i}]"))? };
             // SAFETY: checked for NULL; the header states the length.
-            read.push(unsafe { change_from(&change, i, data.as_user_data())? });
-            kept.push(data);
+            read.push(unsafe { change_from(&change, i, &mut kept)? });
             next = next.wrapping_byte_add(change.size as usize);
         }
         let (applied, now) = environment.apply(&read)?;
-        for (data, change) in kept.iter().zip(&read) {
-            if matches!(change, Change::Add { .. }) {
-                data.take_ownership();
-            }
-        }
+        kept.iter().for_each(|data| data.take_ownership());
         ids.write(&applied);
         version.write(now);
         Ok(())
@@ -184,7 +177,7 @@ pub unsafe extern "C" fn cstk_environment_apply(
 unsafe fn change_from(
     change: &cstk_environment_change,
     i: usize,
-    data: Option<UserData>,
+    kept: &mut Vec<Arc<Kept>>,
 ) -> Result<Change, Failure> {
     let pose = || {
         Pose::from_row_major(&change.pose).map_err(|e| e.within(format_args!("changes[{i}].pose")))
@@ -192,11 +185,14 @@ unsafe fn change_from(
     let is = |kind: cstk_change_kind| change.kind == kind as i32;
     if is(cstk_change_kind::CSTK_CHANGE_ADD) {
         let body = handle::share::<Body>(change.body, &format!("changes[{i}].body"))?;
-        Ok(Change::Add {
+        let data = Kept::new(change.data, change.destroy);
+        let added = Change::Add {
             body,
             pose: pose()?,
-            data,
-        })
+            data: data.as_user_data(),
+        };
+        kept.push(data);
+        Ok(added)
     } else if is(cstk_change_kind::CSTK_CHANGE_MOVE) {
         Ok(Change::Move {
             id: change.id,

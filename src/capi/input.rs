@@ -1,6 +1,7 @@
 //! Checked input: slices, strings, outputs, and options structures.
 
 use std::ffi::{CStr, c_char};
+use std::fmt;
 
 use super::boundary::Failure;
 use super::status::cstk_status;
@@ -228,12 +229,15 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
 }
 
 /// The caller's structure in this library's layout.
-pub unsafe fn options<T: OptionsStruct>(given: *const T, argument: &str) -> Result<T, Failure> {
+pub unsafe fn options<T: OptionsStruct>(
+    given: *const T,
+    argument: impl fmt::Display,
+) -> Result<T, Failure> {
     if given.is_null() {
-        return Err(null(argument));
+        return Err(null(&argument.to_string()));
     }
     if !given.is_aligned() {
-        return Err(misaligned(argument));
+        return Err(misaligned(&argument.to_string()));
     }
     let not_initialised = |what: String| {
         Failure::new(

@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::hierarchy::{Extent, OrientedBox};
 use crate::lanes::{along64, each3};
-use crate::pose::{Mat3, Pose, Vec3};
+use crate::pose::{Pose, Vec3};
 use crate::tolerance;
 
 /// What bounds a body at a pose: a ball, and a box.
@@ -56,6 +56,7 @@ impl Bounds {
     }
 
     /// The box, along the axes of coordinates, around that of the body.
+    #[inline(always)]
     pub(super) fn extent(&self) -> Extent {
         let [x, y] = &self.axes;
         let reach = x.abs() * self.half.x + y.abs() * self.half.y + x.cross(y).abs() * self.half.z;
@@ -65,18 +66,12 @@ impl Bounds {
         }
     }
 
+    #[inline(always)]
     pub(super) fn oriented_box(&self) -> OrientedBox {
-        let whole = Extent {
-            low: -self.half,
-            high: self.half,
-        };
-        let [x, y] = self.axes;
-        let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
-        let x = x.normalize();
-        let y = (y - x * x.dot(&y)).normalize();
         OrientedBox {
-            corners: whole.corners().map(|c| self.box_center + axes * c),
-            axes: Mat3::from_columns(&[x, y, x.cross(&y)]),
+            center: self.box_center,
+            axes: self.axes,
+            half: self.half,
         }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::{Attachment, SObject, Snapshot};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
+use crate::index_set::IndexSet;
 use crate::pose::Pose;
 use crate::user_data::UserData;
 
@@ -41,8 +42,18 @@ pub struct Environment {
     serial: u64,
     frozen: bool,
     /// Held by who changes the environment, so that `state` is never held for long.
-    writer: Mutex<()>,
+    writer: Mutex<Writer>,
     state: Mutex<Arc<Snapshot>>,
+}
+
+/// Memory that goes from one change to the next.
+#[derive(Debug, Default)]
+struct Writer {
+    /// The state before the last change. It becomes the next one if nobody else holds it: what little differs is copied, and
+    /// nothing is allocated. It holds no object that is gone.
+    spare: Option<Arc<Snapshot>>,
+    /// The last change about each place of those that were changed.
+    latest: Vec<u32>,
 }
 
 static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
@@ -94,32 +105,65 @@ impl Environment {
                 "the environment is a snapshot; it cannot be changed",
             ));
         }
-        // What the state before does not share is freed when no lock is held any more: that runs functions of the caller.
-        let before;
-        let _alone = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
-        before = self.snapshot();
-        let mut next = Snapshot::clone(&before);
+        // What is no longer part of any state is freed when no lock is held any more: that runs functions of the caller.
+        let _gone;
+        let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
+        let Writer { spare, latest } = &mut *writer;
+        let before = self.snapshot();
+        let mut next = next_state(spare.take(), &before);
+        let state = Arc::get_mut(&mut next).expect("nobody else knows it yet");
         let mut ids = Vec::with_capacity(changes.len());
-        let mut places = Vec::with_capacity(changes.len());
+        let mut changed = IndexSet::new(state.place_count() + changes.len());
+        latest.resize(state.place_count() + changes.len(), 0);
         for (i, change) in changes.iter().enumerate() {
-            let (id, place) = next
+            let (id, place) = state
                 .change(change)
                 .map_err(|error| error.within(format_args!("changes[{i}]")))?;
             ids.push(id);
-            places.push(place);
+            changed.insert(place);
+            latest[place] = i as u32;
         }
-        places.sort_unstable();
-        places.dedup();
-        next.update_tree(&places);
-        next.version += 1;
-        let version = next.version;
-        *self.state.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(next);
+        state.settle(&changed, |place| changes[latest[place] as usize].target());
+        state.version += 1;
+        let version = state.version;
+        *self.state.lock().unwrap_or_else(PoisonError::into_inner) = next;
+        let is_deletion = |change: &Change| matches!(change, Change::Delete { .. });
+        if changes.iter().any(is_deletion) {
+            _gone = before;
+        } else {
+            *spare = Some(before);
+        }
         Ok((ids, version))
     }
 }
 
+impl Change {
+    /// Where the object is to go, and what holds it there, if it is moved.
+    fn target(&self) -> Option<(&Pose, Option<&Attachment>)> {
+        match self {
+            Change::Move { pose, .. } => Some((pose, None)),
+            Change::Attach {
+                pose, attachment, ..
+            } => Some((pose, Some(attachment))),
+            Change::Add { .. } | Change::Delete { .. } => None,
+        }
+    }
+}
+
+/// A state equal to the one before the change: the spare one brought up to date, if nobody else holds it.
+fn next_state(spare: Option<Arc<Snapshot>>, before: &Snapshot) -> Arc<Snapshot> {
+    if let Some(mut spare) = spare
+        && let Some(state) = Arc::get_mut(&mut spare)
+    {
+        state.follow(before);
+        return spare;
+    }
+    Arc::new(before.clone())
+}
+
 impl Snapshot {
-    /// Changes the objects, but not the tree. Returns the id and the place of the one it is about.
+    /// Checks a change, and adds or deletes its object; those that are to move stay until [`Snapshot::settle`]. Returns the id
+    /// and the place of the one it is about.
     fn change(&mut self, change: &Change) -> Result<(u64, usize)> {
         match change {
             Change::Add { body, pose, data } => {
@@ -130,10 +174,11 @@ impl Snapshot {
                         "planar and spatial bodies cannot share an environment",
                     ));
                 }
+                check_planar(body, pose)?;
                 let object = SObject {
                     id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
                     body: body.clone(),
-                    pose: planar_checked(body, pose)?,
+                    pose: *pose,
                     attachment: None,
                     data: data.clone(),
                 };
@@ -141,18 +186,14 @@ impl Snapshot {
             }
             Change::Move { id, pose } => {
                 let place = self.required(*id)?;
-                let pose = planar_checked(&self.object(place).body, pose)?;
-                self.set_pose(place, pose, None);
+                check_planar(&self.object(place).body, pose)?;
+                self.note_attached(place, false);
                 Ok((*id, place))
             }
-            Change::Attach {
-                id,
-                pose,
-                attachment,
-            } => {
+            Change::Attach { id, pose, .. } => {
                 let place = self.required(*id)?;
-                let pose = planar_checked(&self.object(place).body, pose)?;
-                self.set_pose(place, pose, Some(Arc::new(attachment.clone())));
+                check_planar(&self.object(place).body, pose)?;
+                self.note_attached(place, true);
                 Ok((*id, place))
             }
             Change::Delete { id } => {
@@ -173,11 +214,11 @@ impl Snapshot {
     }
 }
 
-fn planar_checked(body: &Body, pose: &Pose) -> Result<Pose> {
+fn check_planar(body: &Body, pose: &Pose) -> Result<()> {
     if body.dimension() == 2 && !pose.is_planar() {
         return Err(Error::invalid(
             "a planar body's pose leaves the plane z = 0",
         ));
     }
-    Ok(*pose)
+    Ok(())
 }

@@ -7,7 +7,12 @@ use super::bounds::{Bounds, slack};
 use super::tree_limits::{FAR, TreeLimits};
 use super::{Place, Places};
 use crate::hierarchy::{BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox};
+use crate::index_set::IndexSet;
 use crate::pair::ROUNDING;
+
+/// If one of so many objects, or more, leave their neighbours at once, all are refitted, and the tree is built anew if that left
+/// it loose.
+const LEAVING: usize = 4;
 
 /// The objects of one state of an environment, by their places in it.
 #[derive(Clone, Debug, Default)]
@@ -30,6 +35,10 @@ pub struct ObjectTree {
 #[derive(Clone, Copy, Debug, Default)]
 struct Wear {
     changes: usize,
+    /// Boxes put in and taken out.
+    reshapings: usize,
+    /// Boxes of the last change that left their neighbours and were refitted with all others.
+    leaving: usize,
     /// As they were then.
     count: usize,
     surface: f64,
@@ -37,16 +46,18 @@ struct Wear {
 }
 
 impl ObjectTree {
-    /// The tree over those objects that are in the world.
-    pub(super) fn new(places: &[Place]) -> Self {
+    /// The tree over those objects that are in the world; each place has one.
+    pub(super) fn new(places: &Places) -> Self {
         let limits = TreeLimits::of(places);
         let all = (0..places.len() as u32).filter(|&i| places[i as usize].is_in_world());
         let (taken, strays): (Vec<u32>, Vec<u32>) =
             all.partition(|&i| limits.hold(&places[i as usize].bounds));
-        let tree = BoxTree::new(&taken, places.len(), &places);
+        let tree = BoxTree::new(&taken, places.len(), places);
         let mut built = Self {
             wear: Wear {
                 changes: 0,
+                reshapings: 0,
+                leaving: 0,
                 count: taken.len() + strays.len(),
                 surface: tree.surface(),
                 strays: strays.len(),
@@ -64,6 +75,23 @@ impl ObjectTree {
         built
     }
 
+    /// Takes over what was changed in a tree that was cloned from this one, or followed it.
+    pub(super) fn follow(&mut self, other: &Self) {
+        self.tree.follow(&other.tree);
+        self.strays = other.strays.clone();
+        let &Self {
+            limits,
+            deviation,
+            radius,
+            reach,
+            count,
+            wear,
+            ..
+        } = other;
+        (self.limits, self.deviation, self.radius) = (limits, deviation, radius);
+        (self.reach, self.count, self.wear) = (reach, count, wear);
+    }
+
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -73,36 +101,67 @@ impl ObjectTree {
         self.tree.surface()
     }
 
-    /// Goes after the object of a place, which is new, gone, or elsewhere and had other bounds.
-    pub(super) fn update(&mut self, place: usize, from: &Bounds, places: &Places) {
-        let stray = self.strays.binary_search(&(place as u32));
-        let was_held = self.tree.holds(place);
-        let was_there = was_held || stray.is_ok();
-        let Place { bounds, .. } = &places[place];
-        let is_there = places[place].is_in_world();
-        let is_held = is_there && self.limits.hold(bounds);
-        self.count = self.count + usize::from(is_there) - usize::from(was_there);
-        self.wear.changes += 1;
-        if is_held {
-            self.measure(bounds);
+    /// Goes after the objects of some places, which are new, gone, or elsewhere. Boxes that stay about where they were are
+    /// refitted, all in one pass; one that leaves its neighbours is put into the tree anew, unless many do. False where so many
+    /// come and go that the tree is to be built anew, and is left unfinished.
+    pub(super) fn update(&mut self, changed: &IndexSet, places: &Places) -> bool {
+        let mut refitted = IndexSet::new(places.len());
+        let (mut removed, mut inserted, mut leaving) = (Vec::new(), Vec::new(), Vec::new());
+        for place in changed.iter() {
+            let was_held = self.tree.holds(place);
+            let Place { bounds, .. } = &places[place];
+            let is_there = places[place].is_in_world();
+            let is_held = is_there && self.limits.hold(bounds);
+            self.wear.changes += 1;
+            let was_stray = self.note_stray(place, is_there && !is_held);
+            self.count = self.count + usize::from(is_there) - usize::from(was_held || was_stray);
+            if is_held {
+                self.measure(bounds);
+            }
+            match (was_held, is_held) {
+                (true, true) => {
+                    refitted.insert(place);
+                    if self.tree.leaves_node(place, &bounds.extent()) {
+                        leaving.push(place);
+                    }
+                }
+                (true, false) => removed.push(place),
+                (false, true) => inserted.push(place),
+                (false, false) => {}
+            }
+        }
+        if 2 * (removed.len() + inserted.len()) > self.count {
+            return false;
+        }
+        self.wear.reshapings += removed.len() + inserted.len();
+        self.wear.leaving = 0;
+        if LEAVING * leaving.len() <= self.count {
+            self.wear.reshapings += 2 * leaving.len();
+            removed.extend(&leaving);
+            inserted.extend(&leaving);
+            leaving.iter().for_each(|&place| refitted.remove(place));
+        } else {
+            self.wear.leaving = leaving.len();
         }
         let mut changes = BoxTreeChanges {
             tree: &mut self.tree,
             boxes: places,
         };
-        match (was_held, is_held) {
-            (true, true) => changes.follow(place, &from.extent()),
-            (true, false) => changes.remove(place, &from.extent()),
-            (false, true) => changes.insert(place),
-            (false, false) => {}
-        }
-        match (stray, is_there && !is_held) {
-            (Ok(at), false) => {
-                Arc::make_mut(&mut self.strays).remove(at);
-            }
+        removed.iter().for_each(|&place| changes.remove(place));
+        changes.refit(&refitted);
+        inserted.iter().for_each(|&place| changes.insert(place));
+        true
+    }
+
+    /// Notes whether the object of a place is a stray; returns whether it was.
+    fn note_stray(&mut self, place: usize, is_stray: bool) -> bool {
+        let found = self.strays.binary_search(&(place as u32));
+        match (found, is_stray) {
+            (Ok(at), false) => drop(Arc::make_mut(&mut self.strays).remove(at)),
             (Err(at), true) => Arc::make_mut(&mut self.strays).insert(at, place as u32),
             _ => {}
         }
+        found.is_ok()
     }
 
     /// Whether the tree is to be built anew: after so many changes that each bears a small part of it. `objects` counts those
@@ -110,6 +169,8 @@ impl ObjectTree {
     pub fn is_worn(&self, objects: usize) -> bool {
         let Wear {
             changes,
+            reshapings,
+            leaving,
             count,
             surface,
             strays,
@@ -122,9 +183,9 @@ impl ObjectTree {
         let is_loose = self.surface() > 1.3 * more * surface;
         is_blurred && changes > self.count / 16
             || self.strays.len() > strays + self.count / 8
-            || is_loose && changes > self.count
+            || is_loose && (changes > self.count || leaving > 0)
             || self.count > 2 * count + 8
-            || changes > 4 * self.count + 64
+            || reshapings > 4 * self.count + 64
             || self.tree.places() > 2 * objects + 64
     }
 
@@ -138,20 +199,12 @@ impl ObjectTree {
 }
 
 impl Boxes for Places {
+    #[inline(always)]
     fn extent(&self, place: usize) -> Extent {
         self[place].bounds.extent()
     }
 
-    fn oriented(&self, place: usize) -> OrientedBox {
-        self[place].bounds.oriented_box()
-    }
-}
-
-impl Boxes for &[Place] {
-    fn extent(&self, place: usize) -> Extent {
-        self[place].bounds.extent()
-    }
-
+    #[inline(always)]
     fn oriented(&self, place: usize) -> OrientedBox {
         self[place].bounds.oriented_box()
     }

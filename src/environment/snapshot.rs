@@ -5,6 +5,8 @@ use std::sync::Arc;
 use super::{Attachment, Bounds, ObjectTree};
 use crate::body::Body;
 use crate::cow_vec::CowVec;
+use crate::index_set::IndexSet;
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Pose;
 use crate::user_data::UserData;
 
@@ -33,11 +35,11 @@ impl SObject {
 /// What is at each place.
 pub(super) type Places = CowVec<Place, 16>;
 
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Place {
     /// None for a while after it was deleted.
     pub object: Option<SObject>,
-    /// Those of the object, or the last one, when the tree was told.
+    /// Those of the object, or the last one.
     pub bounds: Bounds,
 }
 
@@ -142,22 +144,13 @@ impl Snapshot {
         self.attached.iter().map(|&place| self.object(place))
     }
 
-    /// Moves the object at a place, attaches it or lets it go. The tree is not told.
-    pub(super) fn set_pose(
-        &mut self,
-        place: usize,
-        pose: Pose,
-        attachment: Option<Arc<Attachment>>,
-    ) {
-        let is_attached = attachment.is_some();
-        if let Some(object) = &mut self.places.get_mut(place).object {
-            object.pose = pose;
-            object.attachment = attachment;
-        }
-        self.note_attached(place, is_attached);
+    /// The number of places: more than there are objects where some were deleted.
+    pub(super) fn place_count(&self) -> usize {
+        self.places.len()
     }
 
-    fn note_attached(&mut self, place: usize, is_attached: bool) {
+    /// Notes whether the object at a place is attached.
+    pub(super) fn note_attached(&mut self, place: usize, is_attached: bool) {
         match self.attached.binary_search(&place) {
             Ok(i) if !is_attached => drop(Arc::make_mut(&mut self.attached).remove(i)),
             Err(i) if is_attached => Arc::make_mut(&mut self.attached).insert(i, place),
@@ -176,34 +169,99 @@ impl Snapshot {
         }
     }
 
-    /// Tells the tree of changed places, each once.
-    pub(super) fn update_tree(&mut self, changed: &[usize]) {
-        // Most of the tree at once is built faster than it is changed.
-        if 2 * changed.len() < self.count {
-            for &place in changed {
-                let from = self.places[place].bounds;
-                self.places.get_mut(place).measure();
-                self.tree.update(place, &from, &self.places);
-            }
-            if !self.tree.is_worn(self.count) {
-                return;
-            }
+    /// Moves the objects at changed places to where `target` says, if it does, with what holds them there; the tree goes
+    /// after all that changed.
+    pub(super) fn settle<'a>(
+        &mut self,
+        changed: &IndexSet,
+        target: impl Fn(usize) -> Option<(&'a Pose, Option<&'a Attachment>)>,
+    ) {
+        with_widest(Moving {
+            places: &mut self.places,
+            changed,
+            target,
+        });
+        if self.tree.update(changed, &self.places) && !self.tree.is_worn(self.count) {
+            return;
         }
         if self.places.len() > self.count {
-            self.ids = self.objects().map(|object| object.id).collect();
+            self.close_gaps();
         }
-        let mut left: Vec<Place> = self
-            .places
-            .iter()
-            .filter(|place| place.object.is_some())
-            .cloned()
-            .collect();
-        left.iter_mut().for_each(Place::measure);
+        self.tree = ObjectTree::new(&self.places);
+    }
+
+    /// Gives the objects new places, so that each place has one.
+    fn close_gaps(&mut self) {
+        self.ids = self.objects().map(|object| object.id).collect();
+        let left = self.places.iter().filter(|place| place.object.is_some());
+        self.places = left.cloned().collect();
         self.first = 0;
-        let is_attached = |place: &usize| left[*place].is_attached();
-        self.attached = Arc::new((0..left.len()).filter(is_attached).collect());
-        self.tree = ObjectTree::new(&left);
-        self.places = left.into_iter().collect();
+        let is_attached = |place: &usize| self.places[*place].is_attached();
+        self.attached = Arc::new((0..self.places.len()).filter(is_attached).collect());
+    }
+
+    /// Takes over what was changed in a state that was cloned from this one, or followed it.
+    pub(super) fn follow(&mut self, other: &Self) {
+        self.version = other.version;
+        self.places.follow(&other.places);
+        self.ids.follow(&other.ids);
+        (self.count, self.first) = (other.count, other.first);
+        self.tree.follow(&other.tree);
+        self.attached = other.attached.clone();
+    }
+}
+
+/// Changed places, whose objects go to where they are to be.
+struct Moving<'m, F> {
+    places: &'m mut Places,
+    changed: &'m IndexSet,
+    target: F,
+}
+
+impl<'a, F> Work for Moving<'_, F>
+where
+    F: Fn(usize) -> Option<(&'a Pose, Option<&'a Attachment>)>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) {
+        let target = self.target;
+        self.places.update(self.changed.iter(), |index, place| {
+            let Some(object) = &mut place.object else {
+                return;
+            };
+            if let Some((pose, attachment)) = target(index) {
+                object.pose = *pose;
+                if object.attachment.is_some() || attachment.is_some() {
+                    object.attachment = attachment.cloned().map(Arc::new);
+                }
+            }
+            place.bounds = Bounds::of(&object.body, &object.pose);
+        });
+    }
+}
+
+impl Clone for Place {
+    fn clone(&self) -> Self {
+        Self {
+            object: self.object.clone(),
+            bounds: self.bounds,
+        }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        match (&mut self.object, &other.object) {
+            // An id keeps its body and its data for good.
+            (Some(own), Some(now)) if own.id == now.id => {
+                own.pose = now.pose;
+                if own.attachment.is_some() || now.attachment.is_some() {
+                    own.attachment = now.attachment.clone();
+                }
+            }
+            (own, now) => *own = now.clone(),
+        }
+        self.bounds = other.bounds;
     }
 }
 
@@ -216,11 +274,5 @@ impl Place {
     /// Whether the tree holds what is here.
     pub fn is_in_world(&self) -> bool {
         self.object.is_some() && !self.is_attached()
-    }
-
-    fn measure(&mut self) {
-        if let Some(object) = &self.object {
-            self.bounds = Bounds::of(&object.body, &object.pose);
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Which objects a tree takes. Its boxes are in single precision, for all of it alike: one that is very far away, or known
 //! very badly, would blur all others.
 
-use super::Place;
+use super::Places;
 use super::bounds::{Bounds, slack};
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
@@ -19,8 +19,8 @@ pub struct TreeLimits {
 
 impl TreeLimits {
     /// Those for a tree over some objects: 15 of 16 are within, and others if they are not very far from those.
-    pub fn of(all: &[Place]) -> Self {
-        if all.is_empty() {
+    pub fn of(all: &Places) -> Self {
+        if all.len() == 0 {
             return Self::default();
         }
         let nth = |value: &dyn Fn(&Bounds) -> f64, n: usize| {

@@ -3,7 +3,7 @@
 use super::bounds::{Bounds, slack};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
-use crate::hierarchy::{BOX, BoxNode, Extent, PackedBox, power_of_two};
+use crate::hierarchy::{BOX, Extent, PackedBox, power_of_two};
 use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
 use crate::pose::{Pose, Vec3};
@@ -22,31 +22,26 @@ impl ObjectTree {
         if self.is_empty() {
             return;
         }
-        let mut open: Vec<Open> = std::mem::take(&mut scratch.0);
         with_widest(Visit {
             objects: self,
             bodies,
             limit,
-            open: &mut open,
+            open: &mut scratch.0,
             visit,
         });
-        open.clear();
-        // No entry is left that could not live so long: only the memory goes back.
-        scratch.0 = open.into_iter().map(|_| Open::default()).collect();
     }
 }
 
 /// Memory of a descent, reused from one to the next.
 #[derive(Debug, Default)]
-pub struct NearScratch(Vec<Open<'static>>);
+pub struct NearScratch(Vec<Open>);
 
 /// A node or an object to be visited.
-#[derive(Clone, Copy, Debug, Default)]
-struct Open<'a> {
+#[derive(Clone, Copy, Debug)]
+struct Open {
     bound: f32,
-    /// A stray by its place, if it is no node.
-    place: u32,
-    node: Option<&'a BoxNode>,
+    /// The name of a node, or [`BOX`] + the place of a stray.
+    name: u32,
     /// For which bodies: a bit each.
     bodies: u64,
 }
@@ -57,15 +52,15 @@ pub type Named<'b> = (usize, &'b Body, &'b Pose);
 /// So many bodies go down the tree together.
 const TOGETHER: usize = u64::BITS as usize;
 
-struct Visit<'a, 'o, B, V> {
-    objects: &'o ObjectTree,
+struct Visit<'a, B, V> {
+    objects: &'a ObjectTree,
     bodies: B,
     limit: f64,
-    open: &'a mut Vec<Open<'o>>,
+    open: &'a mut Vec<Open>,
     visit: V,
 }
 
-impl<'b, B, V> Work for Visit<'_, '_, B, V>
+impl<'b, B, V> Work for Visit<'_, B, V>
 where
     B: Iterator<Item = Named<'b>>,
     V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
@@ -88,7 +83,7 @@ where
     }
 }
 
-impl<'b, B, V> Visit<'_, '_, B, V>
+impl<'b, B, V> Visit<'_, B, V>
 where
     V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
 {
@@ -96,31 +91,31 @@ where
     fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
         let descent = Descent::new(self.objects, bodies);
         let all = u64::MAX >> (TOGETHER - bodies.len());
-        let first = |node, place| Open {
+        let first = |name| Open {
             bound: f32::NEG_INFINITY,
-            place,
-            node,
+            name,
             bodies: all,
         };
         self.open.clear();
         // Those that are not in the tree come first: they may be the only near ones, and how near shortens the way.
         let root = self.objects.tree.root();
-        self.open.extend(root.map(|root| first(Some(root), 0)));
+        self.open.extend(root.map(first));
         let strays = self.objects.strays.iter();
-        self.open.extend(strays.map(|&place| first(None, place)));
+        self.open.extend(strays.map(|&place| first(place | BOX)));
         while let Some(next) = self.open.pop() {
-            let Some(node) = next.node else {
+            if next.name & BOX != 0 {
+                let place = (next.name & !BOX) as usize;
                 for (named, body) in bodies {
                     let at_least = f64::NEG_INFINITY;
-                    self.limit = (self.visit)(named, body, next.place as usize, at_least);
+                    self.limit = (self.visit)(named, body, place, at_least);
                 }
                 continue;
-            };
+            }
             let mut cutoff = descent.cutoff(self.limit);
             if next.bound > cutoff {
                 continue;
             }
-            let wide = &node.wide;
+            let wide = &self.objects.tree.node(next.name).wide;
             let eight = wide.boxes(lanes, descent.unit);
             let children = (1 << wide.count) - 1;
             if next.bodies == all && bodies.len() > 1 {
@@ -131,11 +126,11 @@ where
                     continue;
                 }
                 let lane = near.trailing_zeros() as usize & 7;
-                let below = node.below[lane].as_deref();
-                if near.is_power_of_two() && below.is_some() {
+                let below = wide.children[lane];
+                if near.is_power_of_two() && below & BOX == 0 {
                     self.open.push(Open {
                         bound: lanes.array(bounds)[lane],
-                        node: below,
+                        name: below,
                         ..next
                     });
                     continue;
@@ -177,8 +172,7 @@ where
                 let mut at = self.open.len();
                 self.open.push(Open {
                     bound,
-                    place: 0,
-                    node: node.below[lane].as_deref(),
+                    name: wide.children[lane],
                     bodies: of_lanes[lane],
                 });
                 // The nearest goes on top.

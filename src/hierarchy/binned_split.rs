@@ -4,6 +4,7 @@ use super::Forest;
 use super::extent::Extent;
 use super::parallel::{self, Progress};
 use crate::error::Result;
+use crate::pose::Vec3;
 
 const BINS: usize = 16;
 
@@ -124,21 +125,26 @@ fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
             high: center,
         })
     });
-    let bin = |axis: usize, body: u32| -> usize {
-        let along = (forest.center(body)[axis] - centers.low[axis]) / centers.size()[axis];
+    let size = centers.size();
+    let bin = |axis: usize, center: &Vec3| -> usize {
+        let along = (center[axis] - centers.low[axis]) / size[axis];
         ((along * BINS as f64) as usize).min(BINS - 1)
     };
-    let mut best: Option<(f64, usize, usize, usize)> = None;
-    for axis in 0..3 {
-        if centers.size()[axis] <= 0.0 {
-            continue;
+    let mut all = [[(0, None); BINS]; 3];
+    for &body in members.iter() {
+        let own = forest.extents[body as usize];
+        let center = own.center();
+        for (axis, bins) in all.iter_mut().enumerate() {
+            if size[axis] > 0.0 {
+                let bin = &mut bins[bin(axis, &center)];
+                *bin = joined(*bin, (1, Some(own)));
+            }
         }
-        let mut bins: [(usize, Option<Extent>); BINS] = [(0, None); BINS];
-        for &body in members.iter() {
-            let (count, extent) = &mut bins[bin(axis, body)];
-            let own = forest.extents[body as usize];
-            *count += 1;
-            *extent = Some(extent.map_or(own, |e| e.union(&own)));
+    }
+    let mut best: Option<(f64, usize, usize, usize)> = None;
+    for (axis, bins) in all.iter().enumerate() {
+        if size[axis] <= 0.0 {
+            continue;
         }
         let mut above = [(0, 0.0); BINS];
         let mut sum: (usize, Option<Extent>) = (0, None);
@@ -163,7 +169,11 @@ fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
     match best {
         Some((_, axis, k, left)) => {
             // Stable, so that the order is the same on every machine.
-            members.sort_by_key(|&body| bin(axis, body) >= k);
+            let goes_right = |&body: &u32| bin(axis, &forest.center(body)) >= k;
+            let (first, second): (Vec<u32>, Vec<u32>) =
+                members.iter().partition(|&body| !goes_right(body));
+            members[..left].copy_from_slice(&first);
+            members[left..].copy_from_slice(&second);
             left
         }
         None => {

@@ -1,21 +1,22 @@
-//! A tree over oriented boxes, eight children a node: which of many bodies are near. Its clones share the nodes below which
-//! none of them has changed since.
-
-use std::sync::Arc;
+//! A tree over oriented boxes, eight children a node: which of many bodies are near. The nodes lie side by side in chunks;
+//! clones of the tree share the chunks that none of them has changed since.
 
 use super::binned_split::{levels_for, split_within};
 use super::packed_tree::power_of_two;
 use super::wide_node::WideNode;
 use super::{Extent, Forest, Node, SubsetTree};
 use crate::cow_vec::CowVec;
-use crate::pose::{Mat3, Vec3};
+use crate::pose::Vec3;
 
-/// A box around a body.
+/// A box around a body: of its axes the first two, orthonormal to within 2^-12 (see [`PackedBox`]); the third is their cross
+/// product. The box is the points center + sum c_i axis_i with |c_i| <= half_i.
+///
+/// [`PackedBox`]: super::PackedBox
 #[derive(Clone, Copy, Debug)]
 pub struct OrientedBox {
-    pub corners: [Vec3; 8],
-    /// Orthonormal columns, that of the shortest side last.
-    pub axes: Mat3,
+    pub center: Vec3,
+    pub axes: [Vec3; 2],
+    pub half: Vec3,
 }
 
 /// The boxes that a tree is over, by their places.
@@ -31,10 +32,11 @@ pub const BOX: u32 = 1 << 31;
 /// The node above what is in none.
 pub(super) const NOWHERE: u32 = u32::MAX;
 
-/// Nodes have names, which are numbers. Each box of a node stands around all that is below.
+/// Nodes have names, which are their places among all. Each box of a node stands around all that is below.
 #[derive(Clone, Debug, Default)]
 pub struct BoxTree {
-    pub(super) root: Option<Arc<BoxNode>>,
+    pub(super) nodes: CowVec<BoxNode, 8>,
+    pub(super) root: Option<u32>,
     /// The node above each node, by their names.
     pub(super) parents: CowVec<u32, 128>,
     /// The node of each box, by its place.
@@ -45,16 +47,13 @@ pub struct BoxTree {
 }
 
 /// It has two children at least, unless it is the root.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct BoxNode {
     /// In the units of the tree's frame. A child is the name of another node, or [`BOX`] + the place of a box.
     pub wide: WideNode,
-    /// The children that are nodes.
-    pub below: [Option<Arc<BoxNode>>; 8],
     /// The box, along the axes of coordinates, of all that is below.
     pub(super) extent: Extent,
-    pub(super) name: u32,
 }
 
 /// Lengths in nodes are in units of `scale`, a power of two, from `center`.
@@ -105,34 +104,41 @@ impl BoxTree {
 
     /// Makes the nodes: their names are the places of their plans.
     fn fill(&mut self, plans: &[Plan], above: &mut [u32], boxes: &impl Boxes) {
-        let mut made: Vec<Option<Arc<BoxNode>>> = plans.iter().map(|_| None).collect();
-        for (name, plan) in plans.iter().enumerate().rev() {
+        let made = plans.iter().enumerate().map(|(name, plan)| {
             let given = |lane: usize| match plan.children[lane] {
                 child if child & BOX == 0 => OrientedBox::from(&plans[child as usize].extent),
                 child => boxes.oriented((child & !BOX) as usize),
             };
-            let mut below: [Option<Arc<BoxNode>>; 8] = Default::default();
-            for (below, &child) in below.iter_mut().zip(&plan.children) {
-                if child & BOX == 0 {
-                    *below = made[child as usize].take();
-                } else {
-                    above[(child & !BOX) as usize] = name as u32;
-                }
+            for &child in plan.children.iter().filter(|&&child| child & BOX != 0) {
+                above[(child & !BOX) as usize] = name as u32;
             }
             self.surface += plan.extent.half_surface();
-            made[name] = Some(Arc::new(BoxNode {
+            BoxNode {
                 wide: self.frame.packed(&plan.children, &plan.extent, given),
-                below,
                 extent: plan.extent,
-                name: name as u32,
-            }));
-        }
-        self.root = made.swap_remove(0);
+            }
+        });
+        self.nodes = made.collect();
+        self.root = Some(0);
         self.parents = plans.iter().map(|plan| plan.parent).collect();
     }
 
-    pub fn root(&self) -> Option<&BoxNode> {
-        self.root.as_deref()
+    /// The name of the root.
+    pub fn root(&self) -> Option<u32> {
+        self.root
+    }
+
+    #[inline(always)]
+    pub fn node(&self, name: u32) -> &BoxNode {
+        &self.nodes[name as usize]
+    }
+
+    /// Takes over what was changed in a tree that was cloned from this one, or followed it.
+    pub fn follow(&mut self, other: &Self) {
+        self.nodes.follow(&other.nodes);
+        self.parents.follow(&other.parents);
+        self.above.follow(&other.above);
+        (self.root, self.frame, self.surface) = (other.root, other.frame, other.surface);
     }
 
     pub fn frame(&self) -> &BoxFrame {
@@ -141,7 +147,7 @@ impl BoxTree {
 
     /// The box, along the axes of coordinates, of all.
     pub fn extent(&self) -> Option<&Extent> {
-        self.root().map(|root| &root.extent)
+        self.root.map(|root| &self.node(root).extent)
     }
 
     /// Half the surfaces of the boxes of all nodes below the root: a descent opens about as many nodes as it is large.
@@ -153,6 +159,15 @@ impl BoxTree {
     /// No box with this place or a higher one was ever in the tree.
     pub fn places(&self) -> usize {
         self.above.len()
+    }
+
+    /// Whether a box of the tree, as it is now, would make that of its node, which is not the root, more than twice as large:
+    /// it has left its neighbours.
+    pub fn leaves_node(&self, place: usize, now: &Extent) -> bool {
+        let name = self.above[place];
+        let own = &self.node(name).extent;
+        let grown = own.union(now).half_surface();
+        grown > 2.0 * own.half_surface() && self.root != Some(name)
     }
 
     /// Whether a box is in the tree.
@@ -193,17 +208,25 @@ impl BoxFrame {
     }
 
     /// Sets the box of a child; false if it does not fit.
+    #[inline(always)]
     pub(super) fn put(&self, wide: &mut WideNode, lane: usize, given: &OrientedBox) -> bool {
-        let local = given.corners.map(|c| (c - self.center) / self.scale);
-        wide.put(lane, &local, &given.axes)
+        // A power of two: exact.
+        let inverse_scale = 1.0 / self.scale;
+        let local = OrientedBox {
+            center: (given.center - self.center) * inverse_scale,
+            half: given.half * inverse_scale,
+            ..*given
+        };
+        wide.put(lane, &local)
     }
 }
 
 impl From<&Extent> for OrientedBox {
     fn from(extent: &Extent) -> Self {
         Self {
-            corners: extent.corners(),
-            axes: Mat3::identity(),
+            center: extent.center(),
+            axes: [Vec3::x(), Vec3::y()],
+            half: extent.size() * 0.5,
         }
     }
 }

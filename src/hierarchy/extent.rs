@@ -22,6 +22,7 @@ impl Extent {
         })
     }
 
+    #[inline]
     pub fn union(&self, other: &Self) -> Self {
         Self {
             low: self.low.inf(&other.low),
