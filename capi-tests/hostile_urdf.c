@@ -1,4 +1,5 @@
 /* Hostile input to the reader of URDF files: arguments, options, and files that are none. */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stddef.h>
 #include <sys/stat.h>

@@ -166,6 +166,38 @@ typedef int32_t cstk_status;
 #endif // __cplusplus
 
 /**
+ * Kinds of primitives.
+ */
+enum cstk_primitive_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  CSTK_PRIMITIVE_POINT = 0,
+  CSTK_PRIMITIVE_SEGMENT = 1,
+  CSTK_PRIMITIVE_POLYGON = 2,
+  CSTK_PRIMITIVE_POLYHEDRON = 3,
+  CSTK_PRIMITIVE_SPHERE = 4,
+  CSTK_PRIMITIVE_CAPSULE = 5,
+  CSTK_PRIMITIVE_ROUNDED_POLYGON = 6,
+  CSTK_PRIMITIVE_ROUNDED_POLYHEDRON = 7,
+  CSTK_PRIMITIVE_CYLINDER = 8,
+  CSTK_PRIMITIVE_CONE = 9,
+  CSTK_PRIMITIVE_ELLIPSOID = 10,
+  /**
+   * Given by a support function (cstk_body_builder_add_support).
+   */
+  CSTK_PRIMITIVE_SUPPORT_FUNCTION = 11,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_primitive_kind cstk_primitive_kind;
+#else
+typedef int32_t cstk_primitive_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * The kind of convex bound at each node.
  */
 enum cstk_wrapper_kind
@@ -516,7 +548,8 @@ enum cstk_grouping
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default.
+   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
+   * nothing but points (cstk_body_builder_add_points), which have no edges, are split from the top.
    */
   CSTK_GROUPING_HYBRID = 0,
   /**
@@ -762,6 +795,28 @@ typedef struct cstk_body_statistics {
 } cstk_body_statistics;
 
 /**
+ * What a primitive is. A sphere is a point with a radius, a capsule a segment with one: its features are those of this core.
+ */
+typedef struct cstk_primitive {
+  cstk_primitive_kind kind;
+  /**
+   * Features of the primitive, or of its core; 0 for cylinders, cones, ellipsoids and support functions.
+   */
+  uint32_t vertex_count;
+  uint32_t edge_count;
+  uint32_t face_count;
+  /**
+   * Around the core: of spheres, capsules, and rounded polygons and polyhedra. 0 for others.
+   */
+  double radius;
+  /**
+   * As it was given; of a mesh's face its index, of a point of a cloud its own.
+   */
+  uint64_t tag;
+  uint64_t reserved[8];
+} cstk_primitive;
+
+/**
  * Writes to `point` (three doubles) a point of a bounded convex set that is farthest along the unit vector `direction`.
  * Returns CSTK_OK, or anything else when it fails.
  */
@@ -806,7 +861,8 @@ typedef struct cstk_hierarchy_statistics {
   double grouping_seconds;
   double construction_seconds;
   /**
-   * Memory of the hierarchy and of what queries read of the primitives.
+   * Memory of the hierarchy and of what queries read of the primitives. Of a body of nothing but points, whose wrappers
+   * are made when nodes are first looked at, it is more afterwards.
    */
   uint64_t memory_bytes;
   uint64_t reserved[8];
@@ -1855,6 +1911,10 @@ cstk_status cstk_body_builder_add_polyhedron(struct cstk_body_builder *builder,
  * `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
  * NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
  *
+ * The mesh is scaled along its own x, y and z by the three factors of `scale`, NULL for 1, then moved by `pose`, NULL for the
+ * identity. Factors below 0 mirror; faces of what is mirrored are turned round, so that they face outwards as before.
+ * CSTK_INVALID_ARGUMENT for a factor nearer to 0 than 1e-50 or larger than 1e50.
+ *
  * Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
  * cstk_body_get_statistics). CSTK_NOT_FOUND for an index beyond the vertices, CSTK_WRONG_SIZE for counts that do not
  * match, CSTK_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
@@ -1865,15 +1925,19 @@ cstk_status cstk_body_builder_add_mesh(struct cstk_body_builder *builder,
                                        const uint32_t *face_sizes,
                                        size_t face_count,
                                        const uint32_t *indices,
-                                       size_t index_count);
+                                       size_t index_count,
+                                       const double *pose,
+                                       const double *scale);
 
 /**
- * Adds the mesh in a file as cstk_body_builder_add_mesh does. The name ends in .obj, .stl (ASCII or binary) or .dae
+ * Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name ends in .obj, .stl (ASCII or binary) or .dae
  * (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
  * CSTK_IO if it cannot be read, CSTK_PARSE if it is damaged or truncated, CSTK_UNSUPPORTED for another ending.
  */
 cstk_status cstk_body_builder_add_mesh_file(struct cstk_body_builder *builder,
-                                            const char *file);
+                                            const char *file,
+                                            const double *pose,
+                                            const double *scale);
 
 /**
  * Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
@@ -1896,8 +1960,8 @@ cstk_status cstk_body_builder_set_solid(struct cstk_body_builder *builder,
  * CSTK_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
  * CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
  *
- * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon;
- * build once and share, or keep the body in a file (cstk_body_save).
+ * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon, and
+ * one a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a file (cstk_body_save).
  */
 cstk_status cstk_body_build(struct cstk_body_builder *builder,
                             const struct cstk_hierarchy_options *options,
@@ -1965,6 +2029,15 @@ cstk_status cstk_body_save(const struct cstk_body *body,
  */
 cstk_status cstk_body_load(const char *file,
                            struct cstk_body **out);
+
+/**
+ * Writes what a primitive of the body is. Primitives are numbered from 0 in the order in which they were added, triangles of
+ * a split face side by side; cstk_body_get_statistics tells how many there are, and cstk_body_feature_vertices where the
+ * vertices are: CSTK_VERTEX for one, CSTK_INTERIOR for all. CSTK_NOT_FOUND for an index beyond the last.
+ */
+cstk_status cstk_body_get_primitive(const struct cstk_body *body,
+                                    uint32_t index,
+                                    struct cstk_primitive *out);
 
 /**
  * Adds a ball around `center` (three doubles); in the plane a disc. As exact as a point: 1e-12 of the largest coordinate.
@@ -2048,8 +2121,12 @@ cstk_status cstk_body_builder_add_rounded_polyhedron(struct cstk_body_builder *b
 /**
  * Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
  * of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
- * added then. Building takes up to 60 microseconds and 3 kB a point with a radius: for clouds of millions keep one point
- * of each small cube, and let the radius cover the others.
+ * added then.
+ *
+ * A body of nothing but points is built in about a microsecond a point, and holds less than 100 bytes of each: points are
+ * split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
+ * hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
+ * primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.
  */
 cstk_status cstk_body_builder_add_points(struct cstk_body_builder *builder,
                                          const double *xyz,
@@ -2091,7 +2168,8 @@ cstk_status cstk_body_builder_add_support(struct cstk_body_builder *builder,
                                           uint64_t tag);
 
 /**
- * Describes the body's hierarchy. Takes time in proportion to its nodes.
+ * Describes the body's hierarchy. Takes time in proportion to its nodes. That of nothing but points is described by the
+ * boxes around the points, along the axes of coordinates, whatever its wrappers.
  */
 cstk_status cstk_body_get_hierarchy(const struct cstk_body *body,
                                     struct cstk_hierarchy_statistics *out);
@@ -2531,8 +2609,11 @@ cstk_status cstk_environment_change_default(struct cstk_environment_change *out,
  * about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
  * are unique in the process. All changes have the size of the first.
  *
- * A change takes some microseconds, whatever the number of objects; at times the tree over them is built anew (2
- * microseconds an object). Other threads that change wait meanwhile; those that query never do.
+ * A change takes some microseconds, whatever the number of objects, and many changes in one call much less each: boxes above
+ * objects that stay near are refitted in one pass. At times the tree over all objects is built anew (some microseconds an
+ * object): after changes of a sixteenth of the objects at the earliest. Other threads that change wait meanwhile; those that
+ * query never do. The environment keeps the memory of the state before the last change for the next one; a call that finds
+ * that state held by a query or a snapshot copies the parts it changes.
  *
  * CSTK_NOT_FOUND for an id that is not there (any more), CSTK_UNSUPPORTED for a snapshot.
  */
@@ -2631,7 +2712,8 @@ cstk_status cstk_cobject_release(struct cstk_cobject *cobject);
  * Makes the union of `count` C-objects of one space: its class is the largest of theirs. It keeps its parts. A
  * body pair that several induced parts hold in one state counts once, with the largest margin.
  *
- * Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). Of a union of induced sets every
+ * Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). A union may be grown one part at a
+ * time: a call takes time in proportion to `count`, the first query of the whole in proportion to all parts. Of a union of induced sets every
  * query is exact; of other compounds cstk_distance says what it knows:
  * - a union is as near as its nearest part;
  * - an intersection is no nearer than its farthest part: CSTK_LOWER_BOUND, but for 0 where all parts are 0;
@@ -3041,11 +3123,11 @@ cstk_status cstk_slide_options_default(struct cstk_slide_options *out, size_t si
  * way is proved free. Along a contact only part of the step is left; see `normalize`.
  *
  * The proof takes each pair of bodies, and each link with a floor or the world box, for itself: by its own distance, and by
- * how far the joints between the two can move them relative to each other. Pairs that no joint of the step moves relative
- * to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
+ * how far the joints between the two can move them relative to each other, or a link along the normal of a plane between
+ * it and an obstacle. Pairs that no joint of the step moves relative to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
  * first 1e-4 of max_shell (or of the smallest link's radius), and must be apart from there on, unless the whole way is
- * shorter than that. Of two bodies with more than 64 primitive pairs those constrain a step that are no more than a tenth
- * of the shell farther apart than the nearest.
+ * shorter than that. Of two bodies with more than 64 primitive pairs only the nearest constrain a step: at most 8, no more
+ * than 1 % of the shell farther apart than the first.
  *
  * `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of
  * time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more

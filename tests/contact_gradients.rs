@@ -144,9 +144,8 @@ fn world(shape: &Shape, pose: &Pose) -> Vec<Vec3> {
 
 /// The body's one primitive, in the body's frame.
 fn primitive(shape: &Shape) -> Convex {
-    shape.body.primitives()[0]
-        .clone()
-        .recentered(&-shape.body.center())
+    let own = shape.body.primitives().get(0);
+    own.moved(shape.body.center())
 }
 
 fn case(

@@ -191,7 +191,7 @@ fn modes_are_those_of_the_features() {
             seen.insert(format!("{:?}", contact.mode));
             // Each point lies on the feature named: on the hull of its vertices.
             for (k, (shape, pose)) in [(&a, &pose_a), (&b, &pose_b)].into_iter().enumerate() {
-                let primitive = &shape.body.primitives()[0];
+                let primitive = shape.body.primitives().get(0).shape;
                 let corners: Vec<Vec3> = primitive
                     .feature_vertices(contact.features[k])
                     .unwrap()

@@ -391,6 +391,25 @@ fn robots_of_too_many_links_are_refused() {
     refused(load(&path), ErrorKind::Unsupported, &["<robot>", "links"]);
 }
 
+#[test]
+fn faces_of_too_many_corners_are_refused() {
+    let _one = alone();
+    let folder = Folder::new("corners");
+    let mut text = String::new();
+    for i in 0..100_000 {
+        let (s, c) = (i as f64 * 6e-5).sin_cos();
+        let radius = 1.0 + 0.3 * f64::from(i % 2);
+        writeln!(text, "v {} {} 0", radius * c, radius * s).unwrap();
+    }
+    text += "f 1 2 3\nf";
+    for i in 1..=100_000 {
+        write!(text, " {i}").unwrap();
+    }
+    let path = folder.write("star.obj", text);
+    let read = read_mesh_file(&path);
+    refused(read, ErrorKind::Unsupported, &["face 1", "corners"]);
+}
+
 /// The length that a header claims is compared with what there is.
 #[test]
 fn claims_of_headers_reserve_nothing() {

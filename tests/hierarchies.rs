@@ -94,7 +94,7 @@ fn wrappers_hold_vertices(body: &Body, what: &str) -> usize {
             if !whole {
                 continue;
             }
-            for p in &body.primitives()[primitive as usize].vertices {
+            for p in body.primitives().get(primitive as usize).vertices {
                 if !seen.insert([p.x, p.y, p.z].map(f64::to_bits)) {
                     continue;
                 }
@@ -286,12 +286,12 @@ fn the_same_input_gives_the_same_tree_and_keeps_its_names() {
                     .iter()
                     .map(|&v| Vec3::from(mesh.vertices[v as usize]) - body.center())
                     .collect();
-                assert_eq!(body.primitives()[f].vertices, given);
+                assert_eq!(body.primitives().get(f).vertices, given);
             }
             // A leaf bounds the primitive it names, and nothing else.
             for node in 0..body.tree().subsets().nodes.len() as u32 {
                 if let Node::Leaf { primitive } = body.tree().node(node) {
-                    let own = Extent::of(&body.primitives()[primitive as usize].vertices);
+                    let own = Extent::of(body.primitives().get(primitive as usize).vertices);
                     assert_eq!(body.tree().wrapper(node).extent(), own);
                 }
             }
@@ -366,11 +366,12 @@ fn progress_rises_to_one_and_an_error_ends_the_build() {
 #[test]
 fn a_hierarchy_can_be_built_of_primitives_alone() {
     let body = built(&builder(&scenes::lamp()), &HierarchyOptions::default());
-    let (tree, times) =
-        build_hierarchy(body.primitives(), &HierarchyOptions::default(), &mut |_| {
-            Ok(())
-        })
-        .unwrap();
+    let (tree, times) = build_hierarchy(
+        &body.primitives().as_shapes(),
+        &HierarchyOptions::default(),
+        &mut |_| Ok(()),
+    )
+    .unwrap();
     assert!(tree == *body.tree());
     assert!(
         [times.preparation, times.grouping, times.construction]

@@ -53,7 +53,7 @@ fn check_boxes(
     let met = if unit.is_leaf() {
         let place = tree.place(unit);
         let primitive = tree.primitives().entry(place as usize).primitive;
-        for vertex in &body.primitives()[primitive as usize].vertices {
+        for vertex in body.primitives().get(primitive as usize).vertices {
             for bounds in ancestors.iter() {
                 let excess = outside(bounds, &(vertex / tree.scale()));
                 assert!(excess <= 1e-15, "primitive {primitive} is {excess} outside");
@@ -165,12 +165,14 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
                 None
             );
         }
-        let moved: Vec<Vec3> = b.primitives()[0]
+        let moved: Vec<Vec3> = b
+            .primitives()
+            .get(0)
             .vertices
             .iter()
             .map(|v| pairing.relative.transform_point(v))
             .collect();
-        let truth = hull_distance(&a.primitives()[0].vertices, &moved);
+        let truth = hull_distance(a.primitives().get(0).vertices, &moved);
         let error = (found - truth.upper).max(truth.lower() - found) / size;
         worst = worst.max(error);
         assert!(
@@ -179,8 +181,8 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
         );
         let (mut buffer_a, mut buffer_b) = (PlacedBuffer::default(), PlacedBuffer::default());
         let features = closest_points(
-            &buffer_a.place(&a.primitives()[0], &Pose::identity()),
-            &buffer_b.place(&b.primitives()[0], &pairing.relative),
+            &buffer_a.place(a.primitives().get(0), &Pose::identity()),
+            &buffer_b.place(b.primitives().get(0), &pairing.relative),
             &pairing.precision,
             &mut DistanceScratch::default(),
         );

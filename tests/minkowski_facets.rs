@@ -15,7 +15,7 @@ fn depth_of_all_lines(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> f64 {
     let corners = [a, b].map(|(shape, pose)| shape.placed(pose, &origin).concat());
     let [faces, edges] = [0, 1].map(|what| {
         [a, b].map(|(shape, pose)| -> Vec<Vec3> {
-            let primitive = &shape.body.primitives()[0];
+            let primitive = shape.body.primitives().get(0).shape;
             let vertices = &primitive.vertices;
             if what == 0 {
                 let faces = primitive.faces.iter();
@@ -63,7 +63,7 @@ fn check(a: (&Shape, &Pose), b: (&Shape, &Pose), case: &str) -> bool {
     assert!(gap <= 1e-13 * size, "{case}: the points are {gap:e} off");
     // The points belong to the two.
     for ((shape, pose), point) in [a, b].into_iter().zip([on_a, on_b]) {
-        let primitive = &shape.body.primitives()[0];
+        let primitive = shape.body.primitives().get(0).shape;
         let home = pose.inverse().transform_point(point) - shape.body.center();
         for face in &primitive.faces {
             let height = face

@@ -162,7 +162,7 @@ fn no_text_leads_to_a_fault() {
                 0 => drop(text.splice(place..place, word.iter().copied())),
                 1 => {
                     let end = (place + pick(8)).min(text.len());
-                    text.splice(place..end, word.iter().copied());
+                    drop(text.splice(place..end, word.iter().copied()));
                 }
                 _ => {
                     text.extend(b"f ");

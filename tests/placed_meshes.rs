@@ -33,7 +33,7 @@ fn volume(body: &Body) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|i| polygon.vertices[i]);
         a.dot(&b.cross(&c))
     };
-    body.primitives().iter().map(of).sum()
+    body.primitives().iter().map(|p| of(p.shape)).sum()
 }
 
 #[test]

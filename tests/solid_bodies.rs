@@ -45,7 +45,7 @@ fn check_contained(inner: (&Arc<Body>, &Pose), outer: (&Arc<Body>, &Pose), primi
         let [p, q] = found.points;
         assert_eq!(p, q);
         let seen = inner.1.inverse().transform_point(&p);
-        let vertices = inner.0.primitives().iter().flat_map(|p| &p.vertices);
+        let vertices = inner.0.primitives().iter().flat_map(|p| p.vertices);
         let mut off = vertices.map(|v| (v + inner.0.center() - seen).norm());
         assert!(off.any(|off| off < 1e-12 * (1.0 + p.norm())));
         assert!(within(a, b, 0.0) && within(a, b, 1.0));
@@ -216,7 +216,7 @@ fn convex_solids_are_as_far_as_their_hulls() {
                 let holds = |outer: &Body, inner: &Mesh, place: Pose| {
                     inner.vertices.iter().all(|v| {
                         let p = place.transform_point(v) - outer.center();
-                        let shape = &outer.primitives()[0];
+                        let shape = outer.primitives().get(0).shape;
                         shape.faces.iter().all(|face| {
                             let corner = shape.vertices[face.vertices[0] as usize];
                             face.normal.dot(&(p - corner)) < 1e-12 * scale + 1e-15 * offset
@@ -268,7 +268,7 @@ fn each_piece_inside_is_a_witness() {
         let mut expected = BTreeSet::new();
         for (lowest, alone) in &pieces {
             let apart = distance((alone, &here), (&flat_wheel, &Pose::identity()));
-            let vertex = alone.primitives()[0].vertices[0] + alone.center();
+            let vertex = alone.primitives().get(0).vertices[0] + alone.center();
             let turns = turns_around(&ring, &here.transform_point(&vertex));
             if apart.distance > 0.0 && turns.round() != 0.0 {
                 expected.insert(*lowest);

@@ -42,7 +42,7 @@ fn the_points_inside_are_found() {
         let within = |p: &Vec3| {
             let here = pose.transform_point(p) - Vec3::x() * q[0] - solid.center();
             let depth = faces.iter().map(|face| {
-                let normal = face.faces[0].normal;
+                let normal = face.shape.faces[0].normal;
                 let outward = normal * normal.dot(&face.vertices[0]).signum();
                 outward.dot(&(face.vertices[0] - here))
             });

@@ -57,7 +57,7 @@ fn aligned_points(random: &mut Random, body: &Body, count: usize) -> Vec<Vec3> {
     let size = body.radius();
     (0..count)
         .map(|i| {
-            let ring = &primitives[random.below(primitives.len())].vertices;
+            let ring = primitives.get(random.below(primitives.len())).vertices;
             let k = random.below(ring.len());
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
             let mut p = match i % 3 {
@@ -228,10 +228,10 @@ fn points_near_faces() {
     for mesh in [given.clone(), moved(&given, &turned), cube(1.0)] {
         let body = solid_one(&mesh);
         let mut scratch = RayScratch::default();
-        for primitive in body.primitives() {
+        for primitive in body.primitives().iter() {
             let middle = primitive.vertices.iter().sum::<Vec3>() / primitive.vertices.len() as f64;
             for (height, inside) in [(1e-9, 0), (-1e-9, 1)] {
-                let p = middle + primitive.faces[0].normal * height;
+                let p = middle + primitive.shape.faces[0].normal * height;
                 assert_eq!(winding(&body, &p, &mut scratch).number, inside);
             }
         }

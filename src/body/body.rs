@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::pieces::Pieces;
+use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
+use super::wrappers::Wrappers;
 use crate::error::{Error, Result};
-use crate::hierarchy::{BuildTimes, PackedTree, WrapperTree};
+use crate::hierarchy::{BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree};
 use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::primitive::Primitives;
 use crate::user_data::UserData;
 
 /// A rigid union of convex primitives, in a frame of its own whose origin is `center` in the caller's frame: the middle
@@ -20,12 +21,11 @@ pub struct Body {
     pub(super) center: Vec3,
     pub(super) radius: f64,
     pub(super) deviation: f64,
-    pub(super) primitives: Vec<Convex>,
-    pub(super) tags: Vec<u64>,
-    pub(super) tree: WrapperTree,
+    pub(super) primitives: Primitives,
+    pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
     pub(super) solid: Option<Solid>,
-    /// Made when first asked for, but for solids.
+    /// Made when first asked for, but for solids. Bodies of nothing but points do without.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
@@ -53,24 +53,21 @@ impl Body {
     pub(super) fn assemble(
         dimension: u32,
         center: Vec3,
-        primitives: Vec<Convex>,
-        tags: Vec<u64>,
-        tree: WrapperTree,
+        primitives: Primitives,
+        wrappers: Wrappers,
         packed: PackedTree,
         statistics: BodyStatistics,
     ) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
-        let points = primitives.iter().flat_map(|p| p.bounding_points());
         Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             dimension,
             center,
-            radius: points.map(Vec3::norm).fold(0.0, f64::max),
-            deviation: primitives.iter().map(|p| p.deviation).fold(0.0, f64::max),
-            tags,
+            radius: primitives.radius(),
+            deviation: primitives.deviation(),
             packed,
             primitives,
-            tree,
+            wrappers,
             solid: None,
             pieces: OnceLock::new(),
             statistics,
@@ -118,7 +115,7 @@ impl Body {
     }
 
     /// The primitives, in the body's own (centred) frame.
-    pub fn primitives(&self) -> &[Convex] {
+    pub fn primitives(&self) -> &Primitives {
         &self.primitives
     }
 
@@ -135,11 +132,27 @@ impl Body {
     }
 
     pub fn tag(&self, primitive: u32) -> u64 {
-        self.tags[primitive as usize]
+        self.primitives.tag(primitive as usize)
     }
 
+    /// The wrapper tree; of a cloud of points it is made when first asked for.
     pub fn tree(&self) -> &WrapperTree {
-        &self.tree
+        self.wrappers.tree(&self.primitives)
+    }
+
+    /// The kind of the wrappers, made or not.
+    pub fn wrapper_kind(&self) -> WrapperKind {
+        self.wrappers.kind()
+    }
+
+    /// What the hierarchy is like, with the bytes that it and the points of clouds take. Makes no wrappers.
+    pub fn tree_statistics(&self) -> TreeStatistics {
+        let statistics = self.wrappers.statistics(&self.primitives);
+        let read = self.packed.bytes() + self.primitives.point_bytes();
+        TreeStatistics {
+            bytes: statistics.bytes + read as u64,
+            ..statistics
+        }
     }
 
     /// The tree as queries walk it.
@@ -157,6 +170,29 @@ impl Body {
     pub fn pieces(&self) -> &Pieces {
         self.pieces
             .get_or_init(|| Pieces::new(&self.primitives, &[]))
+    }
+
+    pub fn piece_count(&self) -> usize {
+        match self.primitives.are_points() {
+            true => self.primitives.len(),
+            false => self.pieces().list.len(),
+        }
+    }
+
+    /// A piece by its number; pieces are in the order of their lowest primitives.
+    pub fn piece(&self, number: u32) -> Piece {
+        match self.primitives.are_points() {
+            true => Piece::of_point(number, &self.primitives.points()[number as usize]),
+            false => self.pieces().list[number as usize],
+        }
+    }
+
+    /// The number of the piece that a primitive belongs to.
+    pub fn piece_of(&self, primitive: u32) -> u32 {
+        match self.primitives.are_points() {
+            true => primitive,
+            false => self.pieces().of(primitive),
+        }
     }
 
     pub fn statistics(&self) -> &BodyStatistics {

@@ -48,6 +48,8 @@ impl BodyCache {
     pub fn open(folder: &Path) -> Result<Self> {
         let failed = |e: std::io::Error| Error::io(e).within(folder.display());
         std::fs::create_dir_all(folder).map_err(failed)?;
+        // An empty name is no failure of the line above.
+        std::fs::read_dir(folder).map_err(failed)?;
         Ok(Self {
             folder: folder.to_path_buf(),
         })

@@ -5,19 +5,23 @@ use std::time::Instant;
 
 use super::mesh_file::read_mesh_file;
 use super::solid::{Scrap, Solid};
+use super::wrappers::Wrappers;
 use super::{Body, BodyStatistics, Mesh};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{HierarchyOptions, PackedTree, build_hierarchy};
+use crate::hierarchy::{
+    BuildTimes, HierarchyOptions, PackedTree, build_cloud, build_hierarchy, is_cloud,
+};
 use crate::pose::{Pose, Vec3, check_dimension};
-use crate::primitive::{Convex, FaceSplit, convex_polygon, convex_polyhedron, split_face};
+use crate::primitive::{
+    Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
+};
 
 /// Primitives on their way to a body. A failed call adds nothing.
 #[derive(Debug)]
 pub struct BodyBuilder {
     pub(super) dimension: u32,
-    primitives: Vec<Convex>,
-    tags: Vec<u64>,
-    /// Which primitives are polygons, that may bound a solid; the others were given as polyhedra.
+    primitives: Primitives,
+    /// Which of the shapes among the primitives are polygons, that may bound a solid; the others were given as polyhedra.
     is_face: Vec<bool>,
     /// What of the meshes' faces had no area.
     scraps: Vec<Scrap>,
@@ -32,8 +36,7 @@ impl BodyBuilder {
         check_dimension(dimension)?;
         Ok(Self {
             dimension,
-            primitives: Vec::new(),
-            tags: Vec::new(),
+            primitives: Primitives::default(),
             is_face: Vec::new(),
             scraps: Vec::new(),
             is_solid: false,
@@ -182,54 +185,38 @@ impl BodyBuilder {
         let boundary = match self.is_solid && self.dimension == 3 {
             true => Some(Solid::checked(
                 &self.primitives,
-                &self.tags,
                 &self.is_face,
                 &self.scraps,
             )?),
             false => None,
         };
-        let (low, high) = self
-            .primitives
-            .iter()
-            .map(Convex::extent)
-            .reduce(|all, one| (all.0.inf(&one.0), all.1.sup(&one.1)))
-            .unwrap_or_default();
+        let (low, high) = self.primitives.extent();
         let center = low * 0.5 + high * 0.5;
-        let primitives: Vec<Convex> = self
-            .primitives
-            .iter()
-            .map(|primitive| primitive.clone().recentered(&center))
-            .collect();
+        let primitives = self.primitives.recentered(&center);
         let solid = boundary.and_then(|(signs, mut scraps)| {
             for vertex in scraps.iter_mut().flatten() {
                 *vertex -= center;
             }
             Solid::new(signs, scraps, &primitives)
         });
-        let start = Instant::now();
-        let (tree, mut times) = build_hierarchy(&primitives, options, progress)?;
-        let packed = PackedTree::new(&primitives, &tree);
-        // Packing the tree is part of its construction.
-        let before = times.preparation + times.grouping;
-        times.construction = start.elapsed().as_secs_f64() - before;
+        let built = build(&primitives, options, progress)?;
         let statistics = BodyStatistics {
             is_solid: self.is_solid,
             primitives: primitives.len() as u64,
             faces_split: self.faces_split,
             faces_dropped: self.faces_dropped,
-            nodes: tree.subsets().nodes.len() as u64,
-            depth: tree.subsets().depth() as u64,
+            nodes: built.nodes as u64,
+            depth: built.depth as u64,
             low: low.into(),
             high: high.into(),
-            times,
+            times: built.times,
         };
         Ok(Body::assemble(
             self.dimension,
             center,
             primitives,
-            self.tags.clone(),
-            tree,
-            packed,
+            built.wrappers,
+            built.packed,
             statistics,
         )
         .bounding(solid))
@@ -237,9 +224,15 @@ impl BodyBuilder {
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
         self.require_room(1)?;
-        self.primitives.push(primitive);
-        self.tags.push(tag);
+        self.primitives.push(primitive, tag);
         self.is_face.push(is_face);
+        Ok(())
+    }
+
+    /// Adds points of one shape, tagged by their indices among these: all of them or none.
+    pub(super) fn push_points(&mut self, shape: &Convex, points: &[Vec3]) -> Result<()> {
+        self.require_room(points.len())?;
+        self.primitives.push_points(shape, points);
         Ok(())
     }
 
@@ -247,8 +240,7 @@ impl BodyBuilder {
     pub(super) fn push_all(&mut self, added: Vec<(Convex, u64)>, are_faces: bool) -> Result<()> {
         self.require_room(added.len())?;
         for (primitive, tag) in added {
-            self.primitives.push(primitive);
-            self.tags.push(tag);
+            self.primitives.push(primitive, tag);
             self.is_face.push(are_faces);
         }
         Ok(())
@@ -274,6 +266,47 @@ impl BodyBuilder {
             _ => Ok(()),
         }
     }
+}
+
+/// A body's hierarchy, and what is told of it.
+struct Hierarchy {
+    wrappers: Wrappers,
+    packed: PackedTree,
+    nodes: usize,
+    depth: usize,
+    times: BuildTimes,
+}
+
+/// Builds the hierarchy of primitives in their body's own frame.
+fn build(
+    primitives: &Primitives,
+    options: &HierarchyOptions,
+    progress: &mut dyn FnMut(f64) -> Result<()>,
+) -> Result<Hierarchy> {
+    if is_cloud(primitives, options) {
+        let cloud = build_cloud(primitives, options, progress)?;
+        return Ok(Hierarchy {
+            wrappers: Wrappers::of_cloud(options),
+            packed: cloud.packed,
+            nodes: 2 * primitives.len() - 1,
+            depth: cloud.depth,
+            times: cloud.times,
+        });
+    }
+    let start = Instant::now();
+    let shapes = primitives.as_shapes();
+    let (tree, mut times) = build_hierarchy(&shapes, options, progress)?;
+    let packed = PackedTree::new(&shapes, &tree);
+    // Packing the tree is part of its construction.
+    let before = times.preparation + times.grouping;
+    times.construction = start.elapsed().as_secs_f64() - before;
+    Ok(Hierarchy {
+        packed,
+        nodes: tree.subsets().nodes.len(),
+        depth: tree.subsets().depth(),
+        wrappers: Wrappers::Eager(Box::new(tree)),
+        times,
+    })
 }
 
 /// The rings between a face and its triangles, where those leave out vertices that repeat others.

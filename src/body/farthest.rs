@@ -32,7 +32,10 @@ impl Body {
             if unit.is_leaf() {
                 let place = tree.place(unit) as usize;
                 let primitive = tree.primitives().entry(place).primitive;
-                let point = self.primitives()[primitive as usize].farthest(direction);
+                let point = self
+                    .primitives()
+                    .get(primitive as usize)
+                    .farthest(direction);
                 let along = direction.dot(&point);
                 let is_better =
                     along > best.along || along == best.along && primitive < best.primitive;

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::file_reader::Reader;
-use super::file_writer::{LEAF, Writer};
+use super::file_writer::Writer;
 use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::BuildTimes;
@@ -12,7 +12,7 @@ use crate::pose::check_dimension;
 use crate::whole_file::{read_whole, write_whole};
 
 const MAGIC: [u8; 8] = *b"cstkbody";
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 const HEADER_BYTES: usize = 32;
 
 /// 16 GiB: many times what the largest body that a mesh file can give (`mesh_size`) takes.
@@ -46,13 +46,8 @@ impl Body {
         for seconds in [times.preparation, times.grouping, times.construction] {
             payload.f64(seconds);
         }
-        payload.count(self.primitives.len());
-        for (i, (primitive, &tag)) in self.primitives.iter().zip(&self.tags).enumerate() {
-            payload.u64(tag);
-            let written = payload.primitive(primitive);
-            written.map_err(|error| error.within(format_args!("primitive {i}")))?;
-        }
-        payload.tree(&self.tree);
+        payload.primitives(&self.primitives)?;
+        payload.wrappers(&self.wrappers, self.statistics.depth);
         payload.packed(&self.packed);
         payload.u32(self.statistics.is_solid.into());
         payload.solid(self.solid.as_ref());
@@ -89,30 +84,20 @@ impl Body {
             },
             ..BodyStatistics::default()
         };
-        let count = reader.count(32)?;
-        if count == 0 || count >= LEAF as usize {
-            return Err(reader.damaged("the number of primitives"));
-        }
-        let mut tags = Vec::with_capacity(count);
-        let mut primitives = Vec::with_capacity(count);
-        for _ in 0..count {
-            tags.push(reader.u64()?);
-            primitives.push(reader.primitive(dimension == 2)?);
-        }
-        let tree = reader.tree(count)?;
-        let packed = reader.packed(&primitives, &tree)?;
+        let primitives = reader.primitives(dimension == 2)?;
+        let wrappers;
+        (wrappers, [statistics.nodes, statistics.depth]) = reader.wrappers(&primitives)?;
+        let packed = reader.packed(&primitives, wrappers.ball(&primitives))?;
         statistics.is_solid = reader.flag()?;
         let solid = reader.solid(&primitives)?;
         if !reader.payload.is_empty() {
             return Err(reader.damaged("the end: more follows"));
         }
-        statistics.primitives = count as u64;
-        statistics.nodes = tree.subsets().nodes.len() as u64;
-        statistics.depth = tree.subsets().depth() as u64;
-        Ok(Self::assemble(
-            dimension, center, primitives, tags, tree, packed, statistics,
+        statistics.primitives = primitives.len() as u64;
+        Ok(
+            Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
+                .bounding(solid),
         )
-        .bounding(solid))
     }
 }
 
@@ -167,7 +152,7 @@ fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
 mod tests {
     use super::*;
     use crate::body::BodyBuilder;
-    use crate::body::file_writer::KINDS;
+    use crate::body::file_writer::{KINDS, LEAF};
     use crate::hierarchy::HierarchyOptions;
     use crate::hierarchy::WrapperKind;
     use crate::pose::Vec3;
@@ -217,10 +202,9 @@ mod tests {
         for kind in KINDS {
             let saved = steps(kind);
             let loaded = Body::from_bytes(&saved.to_bytes().unwrap()).unwrap();
-            assert_eq!(loaded.tree, saved.tree);
+            assert_eq!(loaded.tree(), saved.tree());
             assert_eq!(loaded.packed, saved.packed);
             assert_eq!(loaded.primitives, saved.primitives);
-            assert_eq!(loaded.tags, saved.tags);
             assert_eq!(loaded.center, saved.center);
             assert_eq!(loaded.radius, saved.radius);
             assert_eq!(loaded.deviation, saved.deviation);
@@ -247,10 +231,10 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 4;
+        altered[8] = 5;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 4"), "{}", error.message);
+        assert!(error.message.contains("version 5"), "{}", error.message);
     }
 
     /// Content that passes the checksum but was not written by us must not lead out of bounds.

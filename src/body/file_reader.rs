@@ -1,12 +1,19 @@
 //! Numbers, primitives and hierarchies from the bytes of a body file.
 
 use super::Solid;
-use super::file_writer::{CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, PLAIN, ROUNDED};
+use super::file_writer::{CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, PLAIN, POINTS, ROUNDED, SHAPE};
+use super::wrappers::Wrappers;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{Frame, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperTree};
+use crate::hierarchy::{
+    Ball, Frame, HierarchyOptions, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperKind,
+    WrapperTree, is_cloud,
+};
 use crate::pose::{Mat3, Vec3};
-use crate::primitive::{Convex, Curve, Face, Smooth, SmoothKind};
+use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
 use crate::tolerance;
+
+/// A tree over 2^31 leaves has no more than 2 log2 of them.
+const MAX_DEPTH: u32 = 62;
 
 /// Reads a payload that passed its checksum; what it says is still not trusted.
 pub struct Reader<'a> {
@@ -129,8 +136,40 @@ impl Reader<'_> {
         Ok(Some((radius, Some(Smooth { kind, axes }))))
     }
 
-    /// A primitive of a body of the plane or of space.
-    pub fn primitive(&mut self, planar: bool) -> Result<Convex> {
+    /// The primitives of a body of the plane or of space.
+    pub fn primitives(&mut self, planar: bool) -> Result<Primitives> {
+        // A point takes the least.
+        let count = self.count(24)?;
+        if count == 0 || count >= LEAF as usize {
+            return Err(self.damaged("the number of primitives"));
+        }
+        let mut primitives = Primitives::default();
+        while primitives.len() < count {
+            match self.u32()? {
+                SHAPE => {
+                    let tag = self.u64()?;
+                    primitives.push(self.primitive(planar)?, tag);
+                }
+                POINTS => {
+                    let points = self.count(24)?;
+                    if points == 0 || points > count - primitives.len() {
+                        return Err(self.damaged("the number of points"));
+                    }
+                    let radius = self.length()?;
+                    let shape = sphere(&Vec3::zeros(), radius, planar);
+                    let shape = shape.map_err(|_| self.damaged("a radius"))?;
+                    let points: Vec<Vec3> =
+                        (0..points).map(|_| self.vector()).collect::<Result<_>>()?;
+                    primitives.push_points(&shape, &points);
+                }
+                _ => return Err(self.damaged("the sort of a primitive")),
+            }
+        }
+        Ok(primitives)
+    }
+
+    /// A shape of a body of the plane or of space.
+    fn primitive(&mut self, planar: bool) -> Result<Convex> {
         let (vertices, edges, faces) = (
             self.short_count(24)?,
             self.short_count(8)?,
@@ -175,10 +214,30 @@ impl Reader<'_> {
         Ok(read)
     }
 
-    pub fn tree(&mut self, primitives: usize) -> Result<WrapperTree> {
-        let kind = *KINDS
+    /// The wrapper tree, or of a cloud of points how it is made; the numbers of nodes and of levels.
+    pub fn wrappers(&mut self, primitives: &Primitives) -> Result<(Wrappers, [u64; 2])> {
+        let wrapper = *KINDS
             .get(self.u32()? as usize)
             .ok_or_else(|| self.damaged("the kind of wrappers"))?;
+        if self.flag()? {
+            let tree = self.tree(primitives.len(), wrapper)?;
+            let shape = [tree.subsets().nodes.len(), tree.subsets().depth()];
+            return Ok((Wrappers::Eager(Box::new(tree)), shape.map(|n| n as u64)));
+        }
+        let options = HierarchyOptions {
+            wrapper,
+            hull_vertex_limit: self.u32()?,
+            ..HierarchyOptions::default()
+        };
+        let depth = self.u32()?;
+        if !is_cloud(primitives, &options) || options.check().is_err() || depth > MAX_DEPTH {
+            return Err(self.damaged("what is said of the hierarchy"));
+        }
+        let nodes = 2 * primitives.len() as u64 - 1;
+        Ok((Wrappers::of_cloud(&options), [nodes, depth.into()]))
+    }
+
+    fn tree(&mut self, primitives: usize, kind: WrapperKind) -> Result<WrapperTree> {
         let count = self.count(48)?;
         let pieces = self.count(4)?;
         let mut nodes = Vec::with_capacity(count);
@@ -222,7 +281,7 @@ impl Reader<'_> {
         ))
     }
 
-    pub fn packed(&mut self, primitives: &[Convex], tree: &WrapperTree) -> Result<PackedTree> {
+    pub fn packed(&mut self, primitives: &Primitives, ball: Ball) -> Result<PackedTree> {
         let leaves = self.count(4)?;
         let order: Vec<u32> = (0..leaves)
             .map(|_| self.index(primitives.len()))
@@ -234,19 +293,19 @@ impl Reader<'_> {
                 WideNode::from_bytes(&bytes).ok_or_else(|| self.damaged("a node of boxes"))
             })
             .collect::<Result<_>>()?;
-        PackedTree::from_parts(nodes, &order, primitives, tree)
+        PackedTree::from_parts(nodes, &order, primitives, ball)
             .ok_or_else(|| self.damaged("the tree of boxes"))
     }
 
-    pub fn solid(&mut self, primitives: &[Convex]) -> Result<Option<Solid>> {
+    pub fn solid(&mut self, primitives: &Primitives) -> Result<Option<Solid>> {
         if !self.flag()? {
             return Ok(None);
         }
-        let mut sign_of = |primitive: &Convex| {
+        let mut sign_of = |primitive: Primitive| {
             let sign = i8::from_le_bytes(self.take()?);
             let is_possible = match sign {
                 0 => true,
-                -1 | 1 => primitive.faces.len() == 1,
+                -1 | 1 => primitive.shape.faces.len() == 1,
                 _ => false,
             };
             is_possible

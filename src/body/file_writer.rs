@@ -1,15 +1,20 @@
 //! Numbers, primitives and hierarchies as bytes of a body file.
 
 use super::Solid;
+use super::wrappers::Wrappers;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{Node, PackedTree, WrapperKind, WrapperTree};
 use crate::pose::{Mat3, Vec3};
-use crate::primitive::{Convex, Smooth, SmoothKind};
+use crate::primitive::{Convex, PrimitiveGroup, Primitives, Smooth, SmoothKind};
 
 /// Marks leaves among the codes of nodes.
 pub const LEAF: u32 = 1 << 31;
 
-/// The kinds of primitives by their numbers in files.
+/// What follows in the list of primitives.
+pub const SHAPE: u32 = 0;
+pub const POINTS: u32 = 1;
+
+/// The kinds of shapes by their numbers in files.
 pub const PLAIN: u32 = 0;
 pub const ROUNDED: u32 = 1;
 pub const CYLINDER: u32 = 2;
@@ -51,8 +56,35 @@ impl Writer {
         }
     }
 
+    /// Fails for a support function, naming the primitive.
+    pub fn primitives(&mut self, primitives: &Primitives) -> Result<()> {
+        self.count(primitives.len());
+        let mut index = 0;
+        for group in primitives.groups() {
+            match group {
+                PrimitiveGroup::Shape(shape, tag) => {
+                    self.u32(SHAPE);
+                    self.u64(tag);
+                    let written = self.primitive(shape);
+                    written.map_err(|error| error.within(format_args!("primitive {index}")))?;
+                    index += 1;
+                }
+                PrimitiveGroup::Points(shape, points) => {
+                    self.u32(POINTS);
+                    self.count(points.len());
+                    self.f64(shape.radius());
+                    for point in points {
+                        self.vector(point);
+                    }
+                    index += points.len();
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Fails for a support function.
-    pub fn primitive(&mut self, primitive: &Convex) -> Result<()> {
+    fn primitive(&mut self, primitive: &Convex) -> Result<()> {
         self.u32(primitive.vertices.len() as u32);
         self.u32(primitive.edges.len() as u32);
         self.u32(primitive.faces.len() as u32);
@@ -110,9 +142,24 @@ impl Writer {
         Ok(())
     }
 
-    pub fn tree(&mut self, tree: &WrapperTree) {
-        let kind = KINDS.iter().position(|&kind| kind == tree.kind());
+    /// The wrapper tree, or of a cloud of points how it is made.
+    pub fn wrappers(&mut self, wrappers: &Wrappers, depth: u64) {
+        let kind = KINDS.iter().position(|&kind| kind == wrappers.kind());
         self.u32(kind.unwrap_or(0) as u32);
+        match wrappers {
+            Wrappers::Eager(tree) => {
+                self.u32(1);
+                self.tree(tree);
+            }
+            Wrappers::Lazy { options, .. } => {
+                self.u32(0);
+                self.u32(options.hull_vertex_limit);
+                self.u32(depth as u32);
+            }
+        }
+    }
+
+    fn tree(&mut self, tree: &WrapperTree) {
         self.count(tree.subsets().nodes.len());
         self.count(tree.pieces().len());
         for (i, node) in tree.subsets().nodes.iter().enumerate() {

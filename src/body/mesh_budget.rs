@@ -13,6 +13,9 @@ pub const MAX_INDICES: u64 = 4 * MAX_FACES;
 pub const MAX_REPEATED_FACES: u64 = 1 << 20;
 pub const MAX_REPEATED_INDICES: u64 = 4 * MAX_REPEATED_FACES;
 
+/// Corners of one face. A face that is not convex is split in time that grows with their square: some 10 s for as many.
+const MAX_FACE_CORNERS: u32 = 1 << 14;
+
 /// The largest mesh file that is read, 1 GiB: ASCII STL needs some 128 bytes for a face.
 pub const MAX_MESH_FILE_BYTES: u64 = 1 << 30;
 
@@ -47,7 +50,7 @@ impl MeshSize {
             None => Ok(()),
             Some((what, count, max)) => Err(Error::new(
                 ErrorKind::Unsupported,
-                format!("{count} {what}{how} by here; at most {max} are possible"),
+                format!("{count} {what}{how}; at most {max} are possible"),
             )),
         }
     }
@@ -77,6 +80,19 @@ impl MeshBudget {
             indices: MAX_REPEATED_INDICES,
         };
         self.repeated.require(max, " of repeated meshes")
+    }
+}
+
+/// Fails for a face that would take too long to split.
+pub fn require_face_sizes(mesh: &Mesh) -> Result<()> {
+    let sizes = mesh.face_sizes.iter().enumerate();
+    let mut large = sizes.filter(|(_, size)| **size > MAX_FACE_CORNERS);
+    match large.next() {
+        None => Ok(()),
+        Some((face, size)) => Err(Error::new(
+            ErrorKind::Unsupported,
+            format!("face {face} has {size} corners; at most {MAX_FACE_CORNERS} are possible"),
+        )),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Mesh;
 use super::collada::parse_collada;
-use super::mesh_budget::MAX_MESH_FILE_BYTES;
+use super::mesh_budget::{MAX_MESH_FILE_BYTES, require_face_sizes};
 use super::obj::parse_obj;
 use super::stl::parse_stl;
 use crate::error::{Error, ErrorKind, Result};
@@ -48,6 +48,7 @@ impl MeshFormat {
         if mesh.face_sizes.is_empty() {
             return Err(Error::new(ErrorKind::Empty, "the file holds no face"));
         }
+        require_face_sizes(&mesh)?;
         Ok(mesh)
     }
 }

@@ -20,6 +20,7 @@ mod solid;
 mod stl;
 mod surface_edges;
 mod vertex_numbers;
+mod wrappers;
 
 pub use body::{Body, BodyStatistics};
 pub use body_cache::{BodyCache, BodyKey};

@@ -2,7 +2,7 @@
 
 use super::vertex_numbers::VertexNumbers;
 use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::primitive::Primitives;
 
 /// Primitives that are one connected set: polygons that share vertices, or a single primitive of another kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +11,16 @@ pub struct Piece {
     pub lowest: u32,
     /// The first vertex of that, and of the piece's vertices one that is farthest from it.
     pub ends: [Vec3; 2],
+}
+
+impl Piece {
+    /// A point by itself.
+    pub(super) fn of_point(primitive: u32, point: &Vec3) -> Self {
+        Self {
+            lowest: primitive,
+            ends: [*point; 2],
+        }
+    }
 }
 
 /// The pieces of a body, which may touch or overlap.
@@ -26,7 +36,7 @@ pub struct Pieces {
 
 impl Pieces {
     /// Scraps are rings of vertices that join the polygons which they share vertices with.
-    pub(super) fn new(primitives: &[Convex], scraps: &[Vec<Vec3>]) -> Self {
+    pub(super) fn new(primitives: &Primitives, scraps: &[Vec<Vec3>]) -> Self {
         let mut numbers = VertexNumbers::default();
         let mut firsts = Vec::with_capacity(primitives.len());
         // Vertices that hang together, each towards the first of them.
@@ -40,9 +50,9 @@ impl Pieces {
             }
             first
         };
-        for primitive in primitives {
-            let is_polygon = primitive.faces.len() == 1;
-            firsts.push(is_polygon.then(|| join_all(&primitive.vertices)).flatten());
+        for primitive in primitives.iter() {
+            let is_polygon = primitive.shape.faces.len() == 1;
+            firsts.push(is_polygon.then(|| join_all(primitive.vertices)).flatten());
         }
         let scrap_firsts: Vec<Option<u32>> = scraps.iter().map(|scrap| join_all(scrap)).collect();
         let mut pieces = Self {
@@ -66,7 +76,7 @@ impl Pieces {
             }
             pieces.of.push(piece);
             let [start, end] = &mut pieces.list[piece as usize].ends;
-            for vertex in &primitive.vertices {
+            for vertex in primitive.vertices {
                 if (vertex - *start).norm_squared() > (*end - *start).norm_squared() {
                     *end = *vertex;
                 }

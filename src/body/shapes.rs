@@ -93,13 +93,19 @@ impl BodyBuilder {
     /// Adds balls of one radius around points, tagged with their indices; a radius of 0 leaves the points. Exact to 1e-12 L.
     pub fn add_points(&mut self, points: &[Vec3], radius: f64) -> Result<()> {
         self.require_planar(points)?;
-        let mut added = Vec::with_capacity(points.len());
+        // The first that is at fault is named.
         for (i, point) in points.iter().enumerate() {
-            let ball = sphere(point, radius, self.is_planar());
-            let ball = ball.map_err(|e| e.within(format_args!("point {i}")))?;
-            added.push((ball, i as u64));
+            let checked = require_coordinates(point.as_slice(), "coordinate");
+            checked.map_err(|e| e.within(format_args!("point {i}: the center")))?;
+            if i == 0 {
+                sphere(point, radius, self.is_planar()).map_err(|e| e.within("point 0"))?;
+            }
         }
-        self.push_all(added, false)
+        if points.is_empty() {
+            return Ok(());
+        }
+        let shape = sphere(&Vec3::zeros(), radius, self.is_planar())?;
+        self.push_points(&shape, points)
     }
 
     /// Adds a grid of heights over the plane of x and y: two triangles a cell, split along the diagonal from (i, j) to

@@ -5,7 +5,7 @@ use super::surface_edges::Outline;
 use crate::error::Result;
 use crate::hierarchy::Extent;
 use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::primitive::Primitives;
 
 /// Which polygons of a body are the boundary of a solid, and which way round. The solid is where the boundary's winding
 /// number is not 0: where shells overlap too, and not in a cavity, whose shell faces the other way than the one around it.
@@ -26,19 +26,19 @@ pub(super) struct Scrap {
 }
 
 impl Solid {
-    /// The solid that polygons bound, if they bound one. `is_face` tells which primitives are the faces of it.
+    /// The solid that polygons bound, if they bound one. `is_face` tells which of the shapes are the faces
+    /// of it.
     pub(super) fn checked(
-        primitives: &[Convex],
-        tags: &[u64],
+        primitives: &Primitives,
         is_face: &[bool],
         scraps: &[Scrap],
     ) -> Result<(Vec<i8>, Vec<Vec<Vec3>>)> {
-        let faces = (0..).zip(primitives.iter().zip(tags));
-        let outlines: Vec<Outline> = faces
-            .filter(|(i, _)| is_face[*i as usize])
-            .map(|(i, (primitive, &tag))| Outline {
-                vertices: &primitive.vertices,
-                primitive: Some(i),
+        let shapes = primitives.shapes().zip(is_face);
+        let outlines: Vec<Outline> = shapes
+            .filter(|(_, is_face)| **is_face)
+            .map(|((index, shape, tag), _)| Outline {
+                vertices: &shape.vertices,
+                primitive: Some(index),
                 tag,
             })
             .chain(scraps.iter().map(|scrap| Outline {
@@ -64,14 +64,14 @@ impl Solid {
     pub(super) fn new(
         signs: Vec<i8>,
         scraps: Vec<Vec<Vec3>>,
-        primitives: &[Convex],
+        primitives: &Primitives,
     ) -> Option<Self> {
         let used = primitives.iter().zip(&signs);
         let used = used.filter(|(_, sign)| **sign != 0);
         let extent = used
-            .map(|(primitive, _)| &primitive.vertices)
-            .chain(&scraps)
-            .map(|vertices| Extent::of(vertices))
+            .map(|(primitive, _)| primitive.vertices)
+            .chain(scraps.iter().map(|scrap| &scrap[..]))
+            .map(Extent::of)
             .reduce(|all, extent| all.union(&extent))?;
         Some(Self {
             signs,

@@ -7,12 +7,11 @@ use super::boundary::guard;
 use super::custom_joint::cstk_destroy_fn;
 use super::handle::{self, Noun};
 use super::input::{Output, OutputSlice, path};
-use super::primitive::primitive_of;
 use super::status::cstk_status;
 use super::user_data::{Kept, address};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind};
-use crate::primitive::{Feature, FeatureKind};
+use crate::primitive::{Feature, FeatureKind, Primitive};
 
 /// A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
 pub struct cstk_body {
@@ -154,13 +153,24 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
             depth: s.depth,
             low: s.low,
             high: s.high,
-            piece_count: body.pieces().list.len() as u64,
+            piece_count: body.piece_count() as u64,
             solid: s.is_solid,
             reserved_bytes: [0; 7],
             reserved: [0; 6],
         });
         Ok(())
     })
+}
+
+/// The primitive of a body with this index, which witnesses name.
+pub(super) fn primitive_of(body: &Body, primitive: u32) -> Result<Primitive<'_>, Error> {
+    let count = body.primitives().len();
+    body.primitives()
+        .try_get(primitive as usize)
+        .ok_or_else(|| {
+            let message = format!("primitive {primitive} does not exist; the body has {count}");
+            Error::new(ErrorKind::NotFound, message)
+        })
 }
 
 /// The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
@@ -183,8 +193,9 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
         let count = Output::checked(count, "count")?;
         let kind = cstk_feature_kind::decode(kind)
             .ok_or_else(|| Error::invalid(format!("kind {kind} is no cstk_feature_kind")))?;
-        let shape = primitive_of(body, primitive)?;
-        let indices = shape
+        let found = primitive_of(body, primitive)?;
+        let indices = found
+            .shape
             .feature_vertices(Feature {
                 kind,
                 index: feature,
@@ -197,7 +208,7 @@ pub unsafe extern "C" fn cstk_body_feature_vertices(
             })?;
         let coordinates: Vec<f64> = indices
             .iter()
-            .map(|&i| shape.vertices[i as usize] + body.center())
+            .map(|&i| found.vertices[i as usize] + body.center())
             .flat_map(<[f64; 3]>::from)
             .collect();
         room.write(&coordinates);

@@ -10,7 +10,8 @@ use crate::hierarchy::{Cost, Grouping, HierarchyOptions, Pieces, WrapperKind};
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_grouping {
-    /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default.
+    /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
+    /// nothing but points (cstk_body_builder_add_points), which have no edges, are split from the top.
     CSTK_GROUPING_HYBRID = 0,
     /// Clustering of what is near; needs no adjacency (the report's Basic Clustering).
     CSTK_GROUPING_BASIC = 1,

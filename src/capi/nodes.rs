@@ -58,7 +58,8 @@ pub struct cstk_hierarchy_statistics {
     pub preparation_seconds: f64,
     pub grouping_seconds: f64,
     pub construction_seconds: f64,
-    /// Memory of the hierarchy and of what queries read of the primitives.
+    /// Memory of the hierarchy and of what queries read of the primitives. Of a body of nothing but points, whose wrappers
+    /// are made when nodes are first looked at, it is more afterwards.
     pub memory_bytes: u64,
     pub reserved: [u64; 8],
 }
@@ -113,7 +114,8 @@ pub struct cstk_mesh_view {
     pub reserved: [u64; 4],
 }
 
-/// Describes the body's hierarchy. Takes time in proportion to its nodes.
+/// Describes the body's hierarchy. Takes time in proportion to its nodes. That of nothing but points is described by the
+/// boxes around the points, along the axes of coordinates, whatever its wrappers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_hierarchy(
     body: *const cstk_body,
@@ -122,10 +124,10 @@ pub unsafe extern "C" fn cstk_body_get_hierarchy(
     guard(|| {
         let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
-        let s = body.tree().statistics();
+        let s = body.tree_statistics();
         let times = body.statistics().times;
         out.write(cstk_hierarchy_statistics {
-            wrapper: body.tree().kind().into(),
+            wrapper: body.wrapper_kind().into(),
             reserved_0: 0,
             node_count: s.nodes,
             leaf_count: s.leaves,
@@ -138,7 +140,7 @@ pub unsafe extern "C" fn cstk_body_get_hierarchy(
             preparation_seconds: times.preparation,
             grouping_seconds: times.grouping,
             construction_seconds: times.construction,
-            memory_bytes: s.bytes + body.packed().bytes() as u64,
+            memory_bytes: s.bytes,
             reserved: [0; 8],
         });
         Ok(())
@@ -368,8 +370,8 @@ pub unsafe extern "C" fn cstk_mesh_get(
 }
 
 fn require_node(body: &Body, node: u32) -> Result<(), Error> {
-    let count = body.tree().subsets().nodes.len();
-    if (node as usize) < count {
+    let count = body.statistics().nodes;
+    if u64::from(node) < count {
         return Ok(());
     }
     Err(Error::new(

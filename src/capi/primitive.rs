@@ -1,13 +1,12 @@
 //! What a body's primitives are.
 
-use super::body::cstk_body;
+use super::body::{cstk_body, primitive_of};
 use super::boundary::guard;
 use super::handle;
 use super::input::Output;
 use super::status::cstk_status;
 use crate::body::Body;
-use crate::error::{Error, ErrorKind};
-use crate::primitive::{Convex, PrimitiveKind};
+use crate::primitive::PrimitiveKind;
 
 /// Kinds of primitives.
 #[repr(i32)]
@@ -63,15 +62,6 @@ pub struct cstk_primitive {
     pub reserved: [u64; 8],
 }
 
-/// The primitive of a body with this index, which witnesses name.
-pub(super) fn primitive_of(body: &Body, primitive: u32) -> Result<&Convex, Error> {
-    let count = body.primitives().len();
-    body.primitives().get(primitive as usize).ok_or_else(|| {
-        let message = format!("primitive {primitive} does not exist; the body has {count}");
-        Error::new(ErrorKind::NotFound, message)
-    })
-}
-
 /// Writes what a primitive of the body is. Primitives are numbered from 0 in the order in which they were added, triangles of
 /// a split face side by side; cstk_body_get_statistics tells how many there are, and cstk_body_feature_vertices where the
 /// vertices are: CSTK_VERTEX for one, CSTK_INTERIOR for all. CSTK_NOT_FOUND for an index beyond the last.
@@ -84,7 +74,7 @@ pub unsafe extern "C" fn cstk_body_get_primitive(
     guard(|| {
         let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
-        let primitive = primitive_of(body, index)?;
+        let primitive = primitive_of(body, index)?.shape;
         let [vertices, edges, faces] = primitive.feature_counts().map(|count| count as u32);
         out.write(cstk_primitive {
             kind: primitive.kind().into(),

@@ -1,7 +1,7 @@
 //! A primitive's coordinates in the frame in which a pair is examined.
 
 use crate::pose::{Mat3, Pose, Vec3};
-use crate::primitive::Convex;
+use crate::primitive::{Convex, Primitive};
 
 /// The lengths that decide about a pair of bodies, their dimension with them.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +28,18 @@ pub struct Placed<'a> {
 pub struct PlacedBuffer(Vec<Vec3>);
 
 impl PlacedBuffer {
-    /// `shape` moved by `pose`.
-    pub fn place<'a>(&'a mut self, shape: &'a Convex, pose: &'a Pose) -> Placed<'a> {
+    /// A primitive moved by `pose`.
+    pub fn place<'a>(
+        &'a mut self,
+        primitive: impl Into<Primitive<'a>>,
+        pose: &'a Pose,
+    ) -> Placed<'a> {
+        let primitive = primitive.into();
         self.0.clear();
-        self.0
-            .extend(shape.vertices.iter().map(|v| pose.transform_point(v)));
+        let moved = primitive.vertices.iter().map(|v| pose.transform_point(v));
+        self.0.extend(moved);
         Placed {
-            shape,
+            shape: primitive.shape,
             vertices: &self.0,
             rotation: Some(&pose.rotation),
         }
@@ -43,10 +48,11 @@ impl PlacedBuffer {
 
 impl<'a> Placed<'a> {
     /// A primitive in its own frame.
-    pub fn at_home(shape: &'a Convex) -> Self {
+    pub fn at_home(primitive: impl Into<Primitive<'a>>) -> Self {
+        let primitive = primitive.into();
         Self {
-            shape,
-            vertices: &shape.vertices,
+            shape: primitive.shape,
+            vertices: primitive.vertices,
             rotation: None,
         }
     }

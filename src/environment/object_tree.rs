@@ -14,6 +14,10 @@ use crate::pair::ROUNDING;
 /// it loose.
 const LEAVING: usize = 4;
 
+/// Up to one of so many objects are put into the tree anew sooner than many at once: that keeps it tighter, and costs each
+/// some times what a refit does.
+const FEW: usize = 16;
+
 /// The objects of one state of an environment, by their places in it.
 #[derive(Clone, Debug, Default)]
 pub struct ObjectTree {
@@ -107,6 +111,8 @@ impl ObjectTree {
     pub(super) fn update(&mut self, changed: &IndexSet, places: &Places) -> bool {
         let mut refitted = IndexSet::new(places.len());
         let (mut removed, mut inserted, mut leaving) = (Vec::new(), Vec::new(), Vec::new());
+        let is_few = FEW * changed.iter().take(self.count / FEW + 1).count() <= self.count;
+        let max_growth = if is_few { 1.1 } else { 1.5 };
         for place in changed.iter() {
             let was_held = self.tree.holds(place);
             let Place { bounds, .. } = &places[place];
@@ -121,7 +127,7 @@ impl ObjectTree {
             match (was_held, is_held) {
                 (true, true) => {
                     refitted.insert(place);
-                    if self.tree.leaves_node(place, &bounds.extent()) {
+                    if self.tree.growth(place, &bounds.extent()) > max_growth {
                         leaving.push(place);
                     }
                 }

@@ -161,13 +161,17 @@ impl BoxTree {
         self.above.len()
     }
 
-    /// Whether a box of the tree, as it is now, would make that of its node, which is not the root, more than twice as large:
-    /// it has left its neighbours.
-    pub fn leaves_node(&self, place: usize, now: &Extent) -> bool {
+    /// How much larger the surface of a box's node becomes to hold the box as it is now: more than 1 where it leaves its
+    /// neighbours. That of the root counts for nothing: there is no better place.
+    pub fn growth(&self, place: usize, now: &Extent) -> f64 {
         let name = self.above[place];
         let own = &self.node(name).extent;
         let grown = own.union(now).half_surface();
-        grown > 2.0 * own.half_surface() && self.root != Some(name)
+        if grown > 0.0 && self.root != Some(name) {
+            grown / own.half_surface()
+        } else {
+            1.0
+        }
     }
 
     /// Whether a box is in the tree.

@@ -6,7 +6,7 @@ use super::convex_pieces::convex_pieces;
 use super::grouping::group;
 use super::parallel::Progress;
 use super::parts::{Part, parts};
-use super::{HierarchyOptions, WrapperTree};
+use super::{HierarchyOptions, Node, WrapperTree};
 use crate::error::Result;
 use crate::primitive::Convex;
 
@@ -57,13 +57,17 @@ pub fn build_hierarchy(
         &mut progress.part(0.1, 0.5),
     )?;
     let grouped = start.elapsed().as_secs_f64();
-    let tree = WrapperTree::build(
-        groups,
-        primitives,
-        &parts,
-        options,
-        &mut progress.part(0.5, 1.0),
-    )?;
+    let points_of = |part: u32| {
+        let (points, doubt) = parts[part as usize].vertices(primitives);
+        (points.to_vec(), doubt)
+    };
+    let mut rest = progress.part(0.5, 1.0);
+    let mut tree = WrapperTree::build(groups, points_of, options, &mut rest)?;
+    for node in &mut tree.subsets.nodes {
+        if let Node::Leaf { primitive } = node {
+            *primitive = parts[*primitive as usize].primitive;
+        }
+    }
     progress.at(1.0)?;
     let times = BuildTimes {
         preparation: prepared,

@@ -143,7 +143,7 @@ fn reach(points: &[Vec3], center: &Vec3) -> f64 {
 }
 
 /// A distance from `center`, with what its computation may have lost.
-fn outwards(distance: f64, center: &Vec3) -> f64 {
+pub fn outwards(distance: f64, center: &Vec3) -> f64 {
     distance + tolerance::WRAPPER_ERROR * (distance + center.amax())
 }
 

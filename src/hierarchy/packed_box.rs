@@ -20,20 +20,25 @@ const FEW: usize = 12;
 /// The axes of a box of little surface around points, that of its shortest side last: distances are bounded best by such
 /// boxes, as those turn away the most of what comes from all sides. `flat` is a polygon among the points.
 pub fn fitted_axes(points: &[Vec3], flat: Option<&Convex>) -> Mat3 {
+    let searched = (points.len() > FEW).then(|| least_volume_axes(points));
+    let natural = flat.and_then(polygon_axes);
+    let natural = natural.unwrap_or_else(|| principal_axes(points));
+    best_axes(points, searched.into_iter().chain([natural]))
+}
+
+/// The same without a search: in time that grows with the points alone.
+pub fn simply_fitted_axes(points: &[Vec3]) -> Mat3 {
+    best_axes(points, [principal_axes(points)])
+}
+
+fn best_axes(points: &[Vec3], offers: impl IntoIterator<Item = Mat3>) -> Mat3 {
     let mut best = (surface(points, &Mat3::identity()), Mat3::identity());
-    let mut offer = |axes: Mat3| {
+    for axes in offers {
         let size = surface(points, &axes);
         // The axes of coordinates are kept where nothing is gained.
         if size < best.0 * (1.0 - 1e-6) {
             best = (size, axes);
         }
-    };
-    if points.len() > FEW {
-        offer(least_volume_axes(points));
-    }
-    match flat.and_then(polygon_axes) {
-        Some(axes) => offer(axes),
-        None => offer(principal_axes(points)),
     }
     shortest_last(points, &best.1)
 }

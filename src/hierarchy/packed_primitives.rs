@@ -63,6 +63,11 @@ impl PackedPrimitives {
         self.entries.push(entry);
     }
 
+    /// Makes room for so many more.
+    pub fn reserve(&mut self, more: usize) {
+        self.entries.reserve_exact(more);
+    }
+
     pub fn len(&self) -> usize {
         self.entries.len()
     }

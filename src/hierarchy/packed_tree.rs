@@ -7,8 +7,8 @@ use super::packed_primitives::PackedPrimitives;
 use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
-use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::pose::{Pose, Vec3};
+use crate::primitive::{Convex, Primitives};
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +59,8 @@ pub struct Children {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedTree {
     /// The first has one child, the root.
-    nodes: Vec<WideNode>,
-    primitives: PackedPrimitives,
+    pub(super) nodes: Vec<WideNode>,
+    pub(super) primitives: PackedPrimitives,
     scale: f64,
     whole: Whole,
 }
@@ -77,44 +77,69 @@ pub struct Whole {
     pub ball_radius: f64,
 }
 
+/// A ball around a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    pub center: Vec3,
+    pub radius: f64,
+}
+
+impl Ball {
+    /// A lower bound of the distance of the bodies in two balls. `pose` places `other`.
+    pub fn apart(&self, other: &Self, pose: &Pose) -> f64 {
+        let apart = (pose.transform_point(&other.center) - self.center).norm();
+        apart - self.radius - other.radius
+    }
+}
+
+impl Whole {
+    pub fn ball(&self) -> Ball {
+        Ball {
+            center: Vec3::from(each3(|k| self.frame[k].0[3])),
+            radius: self.ball_radius,
+        }
+    }
+}
+
 impl PackedTree {
     pub fn new(primitives: &[Convex], tree: &WrapperTree) -> Self {
         let mut builder = Builder {
             tree,
             shapes: primitives,
-            packed: Self::empty(tree),
+            packed: Self::empty(tree.ball()),
         };
         builder.build();
-        builder.packed.finish(tree);
+        builder.packed.finish(tree.ball());
         builder.packed
     }
 
-    /// The tree of given nodes, and of primitives in the order of its leaves; `None` if they do not make one.
+    /// The tree of given nodes, and of primitives in the order of its leaves, with a ball around all; `None` if they do not
+    /// make one.
     pub fn from_parts(
         nodes: Vec<WideNode>,
         order: &[u32],
-        primitives: &[Convex],
-        tree: &WrapperTree,
+        primitives: &Primitives,
+        ball: Ball,
     ) -> Option<Self> {
-        let mut packed = Self::empty(tree);
+        let mut packed = Self::empty(ball);
+        packed.primitives.reserve(order.len());
         for &primitive in order {
-            packed
-                .primitives
-                .push(primitive, primitives.get(primitive as usize)?);
+            let shape = primitives.try_get(primitive as usize)?.shape;
+            packed.primitives.push(primitive, shape);
         }
         packed.nodes = nodes;
         packed.is_sound().then(|| {
-            packed.finish(tree);
+            packed.finish(ball);
             packed
         })
     }
 
-    fn empty(tree: &WrapperTree) -> Self {
-        let root = tree.wrapper(0);
+    /// A tree without nodes, in which lengths suit a ball around all.
+    pub(super) fn empty(ball: Ball) -> Self {
         Self {
             nodes: Vec::new(),
             primitives: PackedPrimitives::default(),
-            scale: power_of_two(root.radius + root.center.norm()),
+            scale: power_of_two(ball.radius + ball.center.norm()),
             whole: Whole {
                 frame: [F64x4::splat(0.0); 3],
                 half: Vec3::zeros(),
@@ -145,10 +170,14 @@ impl PackedTree {
             && node_seen.iter().skip(1).chain(&leaf_seen).all(|&seen| seen)
     }
 
+    /// What a node calls the leaf of a place among the packed primitives.
+    pub(super) fn leaf(place: u32) -> u32 {
+        place | LEAF
+    }
+
     /// Fills in what follows from the nodes and primitives.
-    fn finish(&mut self, tree: &WrapperTree) {
+    pub(super) fn finish(&mut self, ball: Ball) {
         let root = self.bounding_box(self.root());
-        let ball = tree.wrapper(0);
         let [x, y, _] = root.axes;
         let [center, half] = [root.center, root.half].map(|v| v.map(f64::from));
         let half = Vec3::from(half) * self.scale;
@@ -294,7 +323,7 @@ impl Builder<'_> {
             let target = if let Node::Leaf { primitive } = self.tree.node(node) {
                 let shape = &self.shapes[primitive as usize];
                 self.packed.primitives.push(primitive, shape);
-                (self.packed.primitives.len() - 1) as u32 | LEAF
+                PackedTree::leaf((self.packed.primitives.len() - 1) as u32)
             } else {
                 let below = cuts.below(self.tree, node);
                 let held: Vec<Held> = below.iter().map(|&child| self.held(child)).collect();
@@ -308,7 +337,7 @@ impl Builder<'_> {
         }
     }
 
-    fn held(&self, node: u32) -> Held {
+    fn held(&self, node: u32) -> Held<'static> {
         let wrapper = self.tree.wrapper(node);
         let points: Vec<Vec3> = wrapper
             .corners
@@ -324,7 +353,7 @@ impl Builder<'_> {
         Held {
             axes: fitted_axes(&points, flat),
             excess: wrapper.excess / self.packed.scale,
-            points,
+            points: points.into(),
         }
     }
 }

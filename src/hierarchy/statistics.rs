@@ -1,7 +1,7 @@
 //! What a tree is like: numbers by which hierarchies are compared.
 
 use super::extent::Extent;
-use super::{Node, WrapperTree};
+use super::{Node, SubsetTree, WrapperTree};
 use crate::error::{Error, ErrorKind, Result};
 
 /// Work of one primitive test for one of node test, in the model of the expected cost.
@@ -38,51 +38,60 @@ pub struct LevelStatistics {
     pub surface: f64,
 }
 
-impl WrapperTree {
-    pub fn statistics(&self) -> TreeStatistics {
-        let levels = self.subsets.levels();
-        let extents: Vec<Extent> = (0..levels.len() as u32)
-            .map(|node| self.wrapper(node).extent())
-            .collect();
-        let root = extents[0].half_surface().max(f64::MIN_POSITIVE);
-        let tiny = 1e-9 * extents[0].diameter().max(f64::MIN_POSITIVE);
-        let (mut leaves, mut leaf_levels, mut interior) = (0u64, 0u64, 0u64);
-        let (mut balance, mut fill, mut cost) = (0.0, 0.0, 1.0);
-        for (i, node) in self.subsets.nodes.iter().enumerate() {
-            let reached = extents[i].half_surface() / root;
-            match *node {
-                Node::Leaf { .. } => {
-                    leaves += 1;
-                    leaf_levels += u64::from(levels[i]);
-                    cost += PRIMITIVE_COST * reached;
-                }
-                Node::Interior { children } => {
-                    interior += 1;
-                    cost += 2.0 * reached;
-                    let diameter = |i: usize| extents[i].diameter().max(tiny);
-                    let [a, b] = children.map(|child| diameter(child as usize));
-                    balance += (a / b).max(b / a);
-                    fill += diameter(i) / (a + b);
-                }
+/// What a tree is like, by the boxes around what its nodes hold. Pieces and bytes are the caller's to count.
+pub fn of_extents(subsets: &SubsetTree, extents: &[Extent]) -> TreeStatistics {
+    let levels = subsets.levels();
+    let root = extents[0].half_surface().max(f64::MIN_POSITIVE);
+    let tiny = 1e-9 * extents[0].diameter().max(f64::MIN_POSITIVE);
+    let (mut leaves, mut leaf_levels, mut interior) = (0u64, 0u64, 0u64);
+    let (mut balance, mut fill, mut cost) = (0.0, 0.0, 1.0);
+    for (i, node) in subsets.nodes.iter().enumerate() {
+        let reached = extents[i].half_surface() / root;
+        match *node {
+            Node::Leaf { .. } => {
+                leaves += 1;
+                leaf_levels += u64::from(levels[i]);
+                cost += PRIMITIVE_COST * reached;
+            }
+            Node::Interior { children } => {
+                interior += 1;
+                cost += 2.0 * reached;
+                let diameter = |i: usize| extents[i].diameter().max(tiny);
+                let [a, b] = children.map(|child| diameter(child as usize));
+                balance += (a / b).max(b / a);
+                fill += diameter(i) / (a + b);
             }
         }
-        let mean = |sum: f64| {
-            if interior > 0 {
-                sum / interior as f64
-            } else {
-                1.0
-            }
-        };
+    }
+    let mean = |sum: f64| {
+        if interior > 0 {
+            sum / interior as f64
+        } else {
+            1.0
+        }
+    };
+    TreeStatistics {
+        nodes: levels.len() as u64,
+        leaves,
+        depth: subsets.depth() as u64,
+        mean_leaf_level: leaf_levels as f64 / leaves as f64,
+        balance: mean(balance),
+        fill: mean(fill),
+        expected_cost: cost,
+        pieces: 0,
+        bytes: 0,
+    }
+}
+
+impl WrapperTree {
+    pub fn statistics(&self) -> TreeStatistics {
+        let extents: Vec<Extent> = (0..self.subsets.nodes.len() as u32)
+            .map(|node| self.wrapper(node).extent())
+            .collect();
         TreeStatistics {
-            nodes: levels.len() as u64,
-            leaves,
-            depth: self.subsets.depth() as u64,
-            mean_leaf_level: leaf_levels as f64 / leaves as f64,
-            balance: mean(balance),
-            fill: mean(fill),
-            expected_cost: cost,
             pieces: self.pieces.len() as u64,
             bytes: self.bytes() as u64,
+            ..of_extents(&self.subsets, &extents)
         }
     }
 

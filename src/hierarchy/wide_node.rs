@@ -2,6 +2,8 @@
 //!
 //! Four cache lines hold a node, so that a walk through large trees waits for memory half as often as with single precision.
 
+use std::borrow::Cow;
+
 use super::Extent;
 use super::box_tree::OrientedBox;
 use super::oriented_box::span;
@@ -42,8 +44,8 @@ pub struct WideNode {
 }
 
 /// The points of a child, and how far what it holds may be outside them.
-pub struct Held {
-    pub points: Vec<Vec3>,
+pub struct Held<'a> {
+    pub points: Cow<'a, [Vec3]>,
     pub excess: f64,
     /// Those of a box around them, that of its shortest side last.
     pub axes: Mat3,

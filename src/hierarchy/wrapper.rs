@@ -1,6 +1,6 @@
-//! The convex bound at a node, and the lower bounds of distance it gives.
+//! The convex bound at a node.
 
-use crate::pose::{Pose, Vec3};
+use crate::pose::Vec3;
 
 /// A convex wrapper: the hull of its corners grown by `excess`, and a sphere around it for a first, cheap bound.
 ///
@@ -13,12 +13,4 @@ pub struct Wrapper<'a> {
     pub excess: f64,
     pub center: Vec3,
     pub radius: f64,
-}
-
-impl Wrapper<'_> {
-    /// A lower bound of the distance of the sets two wrappers cover, by their spheres. `pose` places `other`.
-    pub fn sphere_bound(&self, other: &Wrapper, pose: &Pose) -> f64 {
-        let apart = (pose.transform_point(&other.center) - self.center).norm();
-        apart - self.radius - other.radius
-    }
 }

@@ -5,11 +5,9 @@ use std::collections::HashMap;
 use super::cover::{Corners, Cover, by_coordinates, merge_sorted};
 use super::grouping::Groups;
 use super::parallel::{self, Progress};
-use super::parts::Part;
-use super::{Extent, HierarchyOptions, Node, SubsetTree, Wrapper, WrapperKind};
+use super::{Ball, Extent, HierarchyOptions, Node, SubsetTree, Wrapper, WrapperKind};
 use crate::error::Result;
 use crate::pose::Vec3;
-use crate::primitive::Convex;
 
 /// The subset tree with the wrapper of each node, packed.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,18 +75,15 @@ struct Finished {
 }
 
 impl WrapperTree {
-    /// Builds the wrappers from the leaves up, over grouped parts of the primitives.
+    /// Builds the wrappers from the leaves up, over groups. `points_of` tells the points whose hull holds a leaf, and how
+    /// far rounding may have left what the leaf stands for outside that hull.
     pub fn build(
         groups: Groups,
-        primitives: &[Convex],
-        parts: &[Part],
+        points_of: impl Fn(u32) -> (Vec<Vec3>, f64) + Sync,
         options: &HierarchyOptions,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let Groups {
-            mut subsets,
-            pieces,
-        } = groups;
+        let Groups { subsets, pieces } = groups;
         let threads = options.thread_count();
         let sizes = subsets.sizes();
         // Subtrees small enough to be shared out; the nodes above them follow. A node's wrapper depends on its subtree
@@ -113,9 +108,9 @@ impl WrapperTree {
                 options.hull_vertex_limit = u32::MAX;
             }
             match (subsets.nodes[node], children) {
-                (Node::Leaf { primitive: part }, _) => {
-                    let (points, doubt) = parts[part as usize].vertices(primitives);
-                    wrap_leaf(points.to_vec(), doubt, &options, packed)
+                (Node::Leaf { primitive }, _) => {
+                    let (points, doubt) = points_of(primitive);
+                    wrap_leaf(points, doubt, &options, packed)
                 }
                 (_, Some(children)) => wrap_children(children, &options, packed),
                 (_, None) => unreachable!("an interior node has children"),
@@ -164,11 +159,6 @@ impl WrapperTree {
             .reserve_exact(packed.iter().map(|(_, run)| run.corners.len()).sum());
         for (_, run) in packed {
             all.append_backwards(&run);
-        }
-        for node in &mut subsets.nodes {
-            if let Node::Leaf { primitive } = node {
-                *primitive = parts[*primitive as usize].primitive;
-            }
         }
         Ok(Self {
             subsets,
@@ -221,6 +211,15 @@ impl WrapperTree {
             excess: frame.excess,
             center: frame.center,
             radius: frame.radius,
+        }
+    }
+
+    /// The ball around all.
+    pub fn ball(&self) -> Ball {
+        let root = self.wrapper(0);
+        Ball {
+            center: root.center,
+            radius: root.radius,
         }
     }
 

@@ -68,7 +68,11 @@ impl<'a> Pairing<'a> {
     /// A point of the piece that a hit found inside, in the world, for both bodies.
     pub fn points_inside(&self, inner: Inner, hit: &Hit) -> [Vec3; 2] {
         let primitive = hit.key.primitives[inner as usize];
-        let start = self.body(inner).primitives()[primitive as usize].vertices[0];
+        let start = self
+            .body(inner)
+            .primitives()
+            .get(primitive as usize)
+            .vertices[0];
         let at_home = match inner {
             Inner::A => start,
             Inner::B => self.relative.transform_point(&start),
@@ -98,7 +102,7 @@ impl<'a> Pairing<'a> {
                 Inner::A => self.relative.inverse(),
                 Inner::B => self.relative,
             };
-            let ball = self.body(inner).tree().wrapper(0);
+            let ball = self.body(inner).packed().whole().ball();
             let outside = solid
                 .extent()
                 .outside(&into_outer.transform_point(&ball.center));
@@ -107,7 +111,7 @@ impl<'a> Pairing<'a> {
             }
             let near = &mut scratch.rays.near;
             for number in self.pieces_near(inner, solid, &into_outer, near) {
-                let piece = &self.body(inner).pieces().list[number as usize];
+                let piece = &self.body(inner).piece(number);
                 let around = around(outer, piece, &into_outer, &mut scratch.rays);
                 scratch.count_rays();
                 if scratch.meter().is_exceeded() {
@@ -145,8 +149,7 @@ impl Pairing<'_> {
         // So few are looked at one by one.
         const FEW: usize = 8;
         let body = self.body(inner);
-        let pieces = body.pieces();
-        let all = 0..pieces.list.len() as u32;
+        let all = 0..body.piece_count() as u32;
         let tree = body.packed();
         let unit = tree.scale();
         let extent = solid.extent();
@@ -168,8 +171,8 @@ impl Pairing<'_> {
         };
         let error = 2.0 * ROUNDING * size + self.slack() / unit;
         let lowest = near.find(tree, one, error).iter().filter_map(|&primitive| {
-            let piece = pieces.of(primitive);
-            (pieces.list[piece as usize].lowest == primitive).then_some(piece)
+            let piece = body.piece_of(primitive);
+            (body.piece(piece).lowest == primitive).then_some(piece)
         });
         lowest.collect()
     }
@@ -183,7 +186,7 @@ fn around(outer: &Body, piece: &Piece, pose: &Pose, rays: &mut RayScratch) -> Op
     }
     let found = winding(outer, &start, rays);
     let piece = found.piece.filter(|_| found.number != 0)?;
-    Some(outer.pieces().list[piece as usize].lowest)
+    Some(outer.piece(piece).lowest)
 }
 
 impl Candidate {
@@ -221,7 +224,7 @@ impl Visitor for Apart<'_> {
                 let inner = candidate.inner;
                 let [own, other] = [inner, inner.other()].map(|of| met.primitives[of as usize]);
                 let is_boundary = |solid: &Solid| solid.sign(other) != 0;
-                pairing.body(inner).pieces().of(own) != candidate.piece
+                pairing.body(inner).piece_of(own) != candidate.piece
                     || !pairing.body(inner.other()).solid().is_some_and(is_boundary)
             });
         }

@@ -85,8 +85,8 @@ impl<'a> Pairing<'a> {
 
     /// A safe lower bound of the distance, by the spheres around the bodies.
     pub fn sphere_bound(&self) -> f64 {
-        let (wrapper_a, wrapper_b) = (self.a.tree().wrapper(0), self.b.tree().wrapper(0));
-        wrapper_a.sphere_bound(&wrapper_b, &self.relative) - self.slack()
+        let [a, b] = [self.a, self.b].map(|body| body.packed().whole().ball());
+        a.apart(&b, &self.relative) - self.slack()
     }
 
     /// How far A is beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
@@ -252,8 +252,8 @@ impl<'a> Pairing<'a> {
 
     /// Both primitives in A's centred frame.
     fn place<'b>(&'b self, primitives: [u32; 2], buffer: &'b mut PlacedBuffer) -> [Placed<'b>; 2] {
-        let a = &self.a.primitives()[primitives[0] as usize];
-        let b = &self.b.primitives()[primitives[1] as usize];
+        let a = self.a.primitives().get(primitives[0] as usize);
+        let b = self.b.primitives().get(primitives[1] as usize);
         [Placed::at_home(a), buffer.place(b, &self.relative)]
     }
 

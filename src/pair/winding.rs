@@ -64,7 +64,7 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     for &primitive in primitives {
         let sign = solid.sign(primitive);
         if sign != 0 {
-            let ring = &body.primitives()[primitive as usize].vertices;
+            let ring = body.primitives().get(primitive as usize).vertices;
             count(body.pieces().of(primitive), sign * ray.passes(ring));
         }
     }

@@ -55,15 +55,20 @@ impl Convex {
 
     /// The point of the set that is farthest along a direction.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
+        self.farthest_of(&self.vertices, direction)
+    }
+
+    /// The same where the vertices are elsewhere.
+    pub(super) fn farthest_of(&self, vertices: &[Vec3], direction: &Vec3) -> Vec3 {
         let Some(curve) = &self.curve else {
-            return PointCloud(&self.vertices).support(direction);
+            return PointCloud(vertices).support(direction);
         };
         let core = match &curve.smooth {
             Some(smooth) => {
                 let local = smooth.kind.support(&smooth.axes.tr_mul(direction));
-                self.vertices[0] + smooth.axes * local
+                vertices[0] + smooth.axes * local
             }
-            None => PointCloud(&self.vertices).support(direction),
+            None => PointCloud(vertices).support(direction),
         };
         let mut outwards = *direction;
         if curve.planar {
@@ -74,10 +79,15 @@ impl Convex {
 
     /// The lowest and highest coordinates of the set.
     pub fn extent(&self) -> (Vec3, Vec3) {
+        self.extent_of(&self.vertices)
+    }
+
+    /// The same where the vertices are elsewhere.
+    pub(super) fn extent_of(&self, vertices: &[Vec3]) -> (Vec3, Vec3) {
         let along = |axis: usize, sign: f64| {
             let mut direction = Vec3::zeros();
             direction[axis] = sign;
-            self.farthest(&direction)[axis]
+            self.farthest_of(vertices, &direction)[axis]
         };
         let [low, high] = [-1.0, 1.0].map(|s| Vec3::new(along(0, s), along(1, s), along(2, s)));
         (low, high)

@@ -10,7 +10,7 @@ use super::shapes::{add_primitive, add_surface};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{Node, Surface};
-use crate::pose::Pose;
+use crate::pose::{Pose, Vec3};
 use crate::whole_file::write_whole;
 
 /// Colours of neighbouring nodes.
@@ -28,11 +28,11 @@ const COLOURS: [Colour; 8] = [
 /// The wrappers of nodes as meshes in the frame in which the body was given, leaves as their primitives. Fails for a node
 /// the hierarchy does not have.
 pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
-    let count = body.tree().subsets().nodes.len();
+    let count = body.statistics().nodes;
     nodes
         .iter()
         .map(|&node| {
-            if node as usize >= count {
+            if u64::from(node) >= count {
                 return Err(Error::new(
                     ErrorKind::NotFound,
                     format!("node {node} does not exist; the hierarchy has {count}"),
@@ -41,7 +41,8 @@ pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
             let mut surface = match body.tree().node(node) {
                 Node::Interior { .. } => body.tree().wrapper(node).surface(),
                 Node::Leaf { primitive } => {
-                    let primitive = &body.primitives()[primitive as usize];
+                    let primitive = body.primitives().get(primitive as usize);
+                    let primitive = &primitive.moved(&Vec3::zeros());
                     if primitive.curve.is_some() {
                         curved_surface(primitive)
                     } else {
@@ -73,9 +74,8 @@ pub fn show_nodes(body: &Body, nodes: &[u32], path: &Path) -> Result<()> {
         let mut triangles = Triangles::default();
         match body.tree().node(node) {
             Node::Leaf { primitive } => {
-                let primitive = body.primitives()[primitive as usize].clone();
-                let back = -body.center();
-                let primitive = primitive.recentered(&back);
+                let primitive = body.primitives().get(primitive as usize);
+                let primitive = primitive.moved(body.center());
                 add_primitive(&mut triangles, &primitive, 0.004 * body.radius());
             }
             Node::Interior { .. } => add_surface(&mut triangles, surface),

@@ -10,8 +10,9 @@ use crate::primitive::{Convex, plane_axes};
 /// The faces of a body's primitives, in the body's centred frame; points and segments are shown as thin balls and rods.
 pub fn of_body(body: &Body) -> Triangles {
     let mut triangles = Triangles::default();
-    for primitive in body.primitives() {
-        add_primitive(&mut triangles, primitive, 0.004 * body.radius());
+    for primitive in body.primitives().iter() {
+        let primitive = primitive.moved(&Vec3::zeros());
+        add_primitive(&mut triangles, &primitive, 0.004 * body.radius());
     }
     triangles
 }

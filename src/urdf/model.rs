@@ -6,7 +6,7 @@ use crate::error::{ErrorKind, Result};
 use crate::pose::{Pose, Vec3, rotation_about};
 use crate::xml::{child, children, fault, numbers, required, required_child};
 
-/// The largest humanoids have some hundred links. Names are compared with each other.
+/// The largest humanoids have some hundred links. The robot builder compares each name with all before it.
 const MAX_LINKS: usize = 1 << 13;
 
 /// A shape in its own frame.

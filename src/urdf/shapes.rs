@@ -89,7 +89,8 @@ impl<'a> ShapeReader<'a> {
             Shape::Mesh { file, .. } => {
                 let index = self.file(file)?;
                 let is_repeated = matches!(self.files[index].content, Content::Mesh(_));
-                let size = MeshSize::of(&*self.mesh(index)?);
+                let mesh = self.mesh(index)?;
+                let size = MeshSize::of(&mesh);
                 let taken = self.budget.take(size, is_repeated);
                 return taken.map_err(|e| e.within(file));
             }

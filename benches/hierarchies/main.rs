@@ -1,7 +1,10 @@
-//! Building hierarchies, and what they are worth: `scripts/bench.sh hierarchies [--csv FILE] [--quick]`.
+//! Building hierarchies, and what they are worth: `scripts/bench.sh hierarchies [--csv FILE] [--quick] [--clouds]`; with
+//! `--clouds` the point clouds alone.
 //!
 //! Builds run each in a process of its own, so that the memory shown is theirs alone; seconds are medians of several.
 //! Tests per query are counts, the same on every machine.
+
+mod clouds;
 
 use std::fmt::Write as _;
 use std::process::Command;
@@ -118,12 +121,22 @@ fn main() {
         build_and_tell(&request);
         return;
     }
+    if let Some(request) = value("--build-cloud") {
+        clouds::build_and_tell(&request);
+        return;
+    }
     let quick = arguments.iter().any(|a| a == "--quick");
+    if arguments.iter().any(|a| a == "--clouds") {
+        println!("processor: {}\n", processor());
+        clouds::print(quick);
+        return;
+    }
     let mut csv = String::from("body,polygons,builder,wrapper,threads,depth,seconds,bytes\n");
     println!("processor: {}\n", processor());
     print_builds(&mut csv, quick);
     print_wrappers(&mut csv);
     print_hard(&mut csv, quick);
+    clouds::print(quick);
     print_queries();
     if let Some(file) = value("--csv") {
         std::fs::write(&file, csv).unwrap_or_else(|error| panic!("{file}: {error}"));
@@ -458,8 +471,13 @@ fn processor() -> String {
 
 /// The most memory this process had, where /proc tells it.
 fn peak_kibibytes() -> f64 {
+    memory_kibibytes("VmHWM:")
+}
+
+/// A figure of this process's memory, where /proc tells it.
+fn memory_kibibytes(name: &str) -> f64 {
     let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let line = text.lines().find_map(|line| line.strip_prefix(name));
     line.and_then(|rest| rest.split_whitespace().next()?.parse().ok())
         .unwrap_or(0.0)
 }

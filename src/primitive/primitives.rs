@@ -1,0 +1,293 @@
+//! The primitives of a body: shapes one by one, and points by the thousand that share one shape.
+
+use std::borrow::Cow;
+
+use super::Convex;
+use crate::pose::Vec3;
+
+/// A primitive: its shape, and where its vertices are. Points of a cloud have the same shape, a point with a radius at the
+/// origin, and differ by their only vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Primitive<'a> {
+    pub shape: &'a Convex,
+    pub vertices: &'a [Vec3],
+}
+
+impl<'a> From<&'a Convex> for Primitive<'a> {
+    fn from(shape: &'a Convex) -> Self {
+        Self {
+            shape,
+            vertices: &shape.vertices,
+        }
+    }
+}
+
+impl Primitive<'_> {
+    /// The point of the set that is farthest along a direction.
+    pub fn farthest(&self, direction: &Vec3) -> Vec3 {
+        self.shape.farthest_of(self.vertices, direction)
+    }
+
+    /// The lowest and highest coordinates of the set.
+    pub fn extent(&self) -> (Vec3, Vec3) {
+        self.shape.extent_of(self.vertices)
+    }
+
+    /// The primitive as a shape of its own, moved by `offset`.
+    pub fn moved(&self, offset: &Vec3) -> Convex {
+        let mut shape = self.shape.clone();
+        shape.vertices.copy_from_slice(self.vertices);
+        shape.recentered(&-offset)
+    }
+}
+
+/// Primitives by index, with their tags. A point takes no more than its coordinates: its tag is its place among the points
+/// that were added with it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Primitives {
+    /// In the order of their first primitives; the first run begins at 0.
+    runs: Vec<Run>,
+    shapes: Vec<Convex>,
+    /// Of the shapes.
+    tags: Vec<u64>,
+    points: Vec<Vec3>,
+    /// What points are, at the origin: a point, maybe with a radius.
+    point_shapes: Vec<Convex>,
+    len: usize,
+}
+
+/// Primitives of one sort, one after another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Run {
+    first: u32,
+    /// Where its first shape or point is held.
+    place: u32,
+    /// What its points are; `None` for shapes.
+    point_shape: Option<u32>,
+}
+
+/// Primitives as they were added: one shape, or points of one shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PrimitiveGroup<'a> {
+    Shape(&'a Convex, u64),
+    Points(&'a Convex, &'a [Vec3]),
+}
+
+impl Primitives {
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Whether all are points, maybe with radii.
+    pub fn are_points(&self) -> bool {
+        self.shapes.is_empty() && !self.is_empty()
+    }
+
+    /// The centres of all points, in their order; where all primitives are points, by their indices.
+    pub fn points(&self) -> &[Vec3] {
+        &self.points
+    }
+
+    /// The largest radius of a point.
+    pub fn largest_point_radius(&self) -> f64 {
+        let radii = self.point_shapes.iter().map(Convex::radius);
+        radii.fold(0.0, f64::max)
+    }
+
+    /// Whether no two points differ in their radii.
+    pub fn have_one_radius(&self) -> bool {
+        self.point_shapes.len() < 2
+    }
+
+    pub fn push(&mut self, shape: Convex, tag: u64) {
+        if self.runs.last().is_none_or(|run| run.point_shape.is_some()) {
+            self.begin(self.shapes.len(), None);
+        }
+        self.shapes.push(shape);
+        self.tags.push(tag);
+        self.len += 1;
+    }
+
+    /// Adds points, tagged by their indices among these. `shape` is what each is, at the origin.
+    pub fn push_points(&mut self, shape: &Convex, points: &[Vec3]) {
+        if points.is_empty() {
+            return;
+        }
+        // Points often come in parcels of one radius.
+        if self.point_shapes.last() != Some(shape) {
+            self.point_shapes.push(shape.clone());
+        }
+        self.begin(self.points.len(), Some(self.point_shapes.len() as u32 - 1));
+        self.points.extend_from_slice(points);
+        self.len += points.len();
+    }
+
+    fn begin(&mut self, place: usize, point_shape: Option<u32>) {
+        self.runs.push(Run {
+            first: self.len as u32,
+            place: place as u32,
+            point_shape,
+        });
+    }
+
+    /// The run of a primitive, and its place in it. Panics where there is no such primitive, as slices do.
+    #[inline]
+    fn locate(&self, index: usize) -> (&Run, usize) {
+        assert!(
+            index < self.len,
+            "primitive {index} of {} primitives",
+            self.len
+        );
+        let after = self.runs.partition_point(|run| run.first as usize <= index);
+        let run = &self.runs[after - 1];
+        (run, index - run.first as usize)
+    }
+
+    /// A primitive, of which there must be as many; [`Primitives::try_get`] tells.
+    #[inline]
+    pub fn get(&self, index: usize) -> Primitive<'_> {
+        let (run, offset) = self.locate(index);
+        let place = run.place as usize + offset;
+        match run.point_shape {
+            None => Primitive::from(&self.shapes[place]),
+            Some(shape) => Primitive {
+                shape: &self.point_shapes[shape as usize],
+                vertices: &self.points[place..=place],
+            },
+        }
+    }
+
+    pub fn try_get(&self, index: usize) -> Option<Primitive<'_>> {
+        (index < self.len).then(|| self.get(index))
+    }
+
+    pub fn tag(&self, index: usize) -> u64 {
+        let (run, offset) = self.locate(index);
+        match run.point_shape {
+            None => self.tags[run.place as usize + offset],
+            Some(_) => offset as u64,
+        }
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = Primitive<'_>> {
+        (0..self.len).map(move |i| self.get(i))
+    }
+
+    /// The shapes that are no points of clouds, with their indices and tags.
+    pub fn shapes(&self) -> impl Iterator<Item = (u32, &Convex, u64)> {
+        let runs = self
+            .runs
+            .iter()
+            .enumerate()
+            .filter(|(_, run)| run.point_shape.is_none());
+        runs.flat_map(move |(k, run)| {
+            let held = run.place as usize..run.place as usize + self.run_length(k);
+            let of_run = self.shapes[held.clone()].iter().zip(&self.tags[held]);
+            (run.first..)
+                .zip(of_run)
+                .map(|(index, (shape, &tag))| (index, shape, tag))
+        })
+    }
+
+    fn run_length(&self, run: usize) -> usize {
+        let end = self
+            .runs
+            .get(run + 1)
+            .map_or(self.len, |next| next.first as usize);
+        end - self.runs[run].first as usize
+    }
+
+    /// All primitives in their order, points that were added together as one.
+    pub fn groups(&self) -> impl Iterator<Item = PrimitiveGroup<'_>> {
+        (0..self.runs.len()).flat_map(move |k| {
+            let run = self.runs[k];
+            let held = run.place as usize..run.place as usize + self.run_length(k);
+            let (shapes, points) = match run.point_shape {
+                None => (held, None),
+                Some(shape) => {
+                    let shape = &self.point_shapes[shape as usize];
+                    (
+                        0..0,
+                        Some(PrimitiveGroup::Points(shape, &self.points[held])),
+                    )
+                }
+            };
+            let shapes = shapes.map(move |i| PrimitiveGroup::Shape(&self.shapes[i], self.tags[i]));
+            shapes.chain(points)
+        })
+    }
+
+    /// Each as a shape of its own, for what needs them side by side.
+    pub fn as_shapes(&self) -> Cow<'_, [Convex]> {
+        if self.points.is_empty() {
+            return Cow::Borrowed(&self.shapes);
+        }
+        let own = |primitive: Primitive| primitive.moved(&Vec3::zeros());
+        Cow::Owned(self.iter().map(own).collect())
+    }
+
+    /// The same primitives moved by `-center`, in no more memory than they need.
+    pub fn recentered(&self, center: &Vec3) -> Self {
+        let moved = |shape: &Convex| shape.clone().recentered(center);
+        Self {
+            runs: self.runs.as_slice().into(),
+            shapes: self.shapes.iter().map(moved).collect(),
+            tags: self.tags.as_slice().into(),
+            points: self.points.iter().map(|point| point - center).collect(),
+            point_shapes: self.point_shapes.as_slice().into(),
+            len: self.len,
+        }
+    }
+
+    /// The lowest and highest coordinates of all.
+    pub fn extent(&self) -> (Vec3, Vec3) {
+        self.iter()
+            .map(|primitive| primitive.extent())
+            .reduce(|all, one| (all.0.inf(&one.0), all.1.sup(&one.1)))
+            .unwrap_or_default()
+    }
+
+    /// The largest distance of a bounding point from the origin.
+    pub fn radius(&self) -> f64 {
+        let of_shape = |shape: &Convex| {
+            let norms = shape.bounding_points().iter().map(Vec3::norm);
+            norms.fold(0.0, f64::max)
+        };
+        self.groups()
+            .map(|group| match group {
+                PrimitiveGroup::Shape(shape, _) => of_shape(shape),
+                PrimitiveGroup::Points(shape, points) => {
+                    let corners = shape.bounding_points();
+                    let norms = points.iter().map(|p| farthest_corner(p, corners).norm());
+                    norms.fold(0.0, f64::max)
+                }
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// The largest deviation of a primitive.
+    pub fn deviation(&self) -> f64 {
+        let deviations = self.shapes.iter().map(|shape| shape.deviation);
+        deviations.fold(0.0, f64::max)
+    }
+
+    /// Bytes of memory that the points take.
+    pub fn point_bytes(&self) -> usize {
+        size_of_val(&self.points[..])
+    }
+}
+
+/// How far from the origin, by coordinates, the corners of a box around a point are; those around the origin are given.
+fn farthest_corner(point: &Vec3, corners: &[Vec3]) -> Vec3 {
+    let along = |axis: usize| {
+        let places = corners
+            .iter()
+            .map(|corner| (point[axis] + corner[axis]).abs());
+        places.fold(0.0, f64::max)
+    };
+    Vec3::new(along(0), along(1), along(2))
+}
