@@ -168,7 +168,7 @@ static void devices(const fixture *f) {
         CHECK_FAILS(cstk_robot_builder_load_urdf(builder, names[i], NULL, NULL, NULL, NULL),
                     CSTK_IO, names[i]);
         CHECK_REFUSED(body, cstk_body_load(names[i], &body), CSTK_IO, names[i]);
-        CHECK_FAILS(cstk_body_builder_add_mesh_file(f->body_builder, names[i]), CSTK_IO, names[i]);
+        CHECK_FAILS(cstk_body_builder_add_mesh_file(f->body_builder, names[i], NULL, NULL), CSTK_IO, names[i]);
         CHECK_FAILS(cstk_body_save(f->body, names[i]), CSTK_IO, names[i]);
         snprintf(text, sizeof text, robot, names[i]);
         write_file(text);

@@ -10,7 +10,8 @@ foreach(name ${names})
   get_test_property(${name} LABELS labels)
   if("${labels}" STREQUAL "memcheck")
     add_test(NAME ${name}_memcheck COMMAND ${VALGRIND} --quiet --leak-check=full
-      --errors-for-leak-kinds=definite,possible --error-exitcode=9 $<TARGET_FILE:${name}>)
+      --errors-for-leak-kinds=definite,possible --error-exitcode=9
+      --suppressions=${CMAKE_CURRENT_SOURCE_DIR}/memcheck.supp $<TARGET_FILE:${name}>)
     set_tests_properties(${name}_memcheck PROPERTIES TIMEOUT 900)
     # Both write the same files.
     set_tests_properties(${name} ${name}_memcheck PROPERTIES RESOURCE_LOCK ${name})

@@ -12,12 +12,17 @@
  *
  * CALLS. Every call that can fail returns a cstk_status; inputs come first, outputs last, and outputs are written only on
  * CSTK_OK. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library
- * never prints and never exits.
+ * never prints, and ends the process in one case only: an allocation that fails (see MEMORY).
  *
  * OWNERSHIP. _create, _build and _snapshot give one reference, _retain adds one, _release drops one; releasing NULL is a
  * no-op. Objects keep alive what they refer to, so parts may be released as soon as the whole is made. A handle that was
  * released for good, or that is of another kind, is answered with CSTK_WRONG_HANDLE as far as that can be known; do not
  * rely on it. Bodies, robots, spaces and C-objects never change once made. Strings and arrays passed in are copied.
+ *
+ * MEMORY. What a call holds is bounded by what it was given: arrays, files within their stated limits, max_count. Where an array
+ * or a file of the caller's sets the size of one allocation, too little memory is answered with CSTK_OUT_OF_MEMORY. Any
+ * other allocation that fails ends the process (abort), as Rust's standard library has it; it does not unwind. Programs that
+ * must survive that limit what they give. docs/robustness.md lists what is promised, each line with its test.
  *
  * THREADS. All objects may be shared by threads, but for query contexts: a cstk_query (and a builder) serves one call at a
  * time and answers CSTK_BUSY to another. Make one per thread.
@@ -156,6 +161,14 @@ enum cstk_status
    * A body was declared solid whose surface is not closed; the message names open edges.
    */
   CSTK_NOT_CLOSED = 21,
+  /**
+   * The query needs more work than cstk_query_set_limit allows.
+   */
+  CSTK_LIMIT = 22,
+  /**
+   * There is not enough memory for what the input asks for.
+   */
+  CSTK_OUT_OF_MEMORY = 23,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1117,7 +1130,71 @@ typedef struct cstk_urdf_options {
    * How the links' hierarchies are built; NULL for the defaults.
    */
   const struct cstk_hierarchy_options *hierarchy;
+  /**
+   * A folder that keeps the links' bodies, so that the next load builds none of them; made if there is none. NULL, the
+   * default, for none. A body is kept under a digest of its meshes' bytes, its shapes and these options; a file that is
+   * damaged, of other content or of another version of the library is built anew and replaced. Processes may share the
+   * folder. Nothing is ever deleted from it. Who can write to it can change the robot's shapes.
+   */
+  const char *cache_folder;
 } cstk_urdf_options;
+
+/**
+ * What was read from a URDF file, what was built, and what was passed over.
+ */
+typedef struct cstk_urdf_report {
+  /**
+   * The number of the root link in the builder.
+   */
+  uint32_t root;
+  /**
+   * The <link> and <joint> elements.
+   */
+  uint32_t link_count;
+  uint32_t joint_count;
+  /**
+   * Links that have a body. A robot without any meets nothing.
+   */
+  uint32_t links_with_body;
+  /**
+   * Links without a body that have shapes of the kind that was not asked for: <visual> with CSTK_URDF_COLLISION, and so
+   * on. Where it is not 0, ask for that kind, or for both in two robots.
+   */
+  uint32_t links_with_other_shapes;
+  /**
+   * The links' bodies: links of equal shapes share one.
+   */
+  uint32_t body_count;
+  /**
+   * Those of them that were read from the cache folder; the others were built.
+   */
+  uint32_t bodies_from_cache;
+  /**
+   * Built bodies that could not be written to the cache folder.
+   */
+  uint32_t cache_failures;
+  /**
+   * The shapes that the bodies consist of, those of a shared body once for each link.
+   */
+  uint32_t shape_count;
+  uint32_t mesh_file_count;
+  /**
+   * Elements in the robot, its links, joints and shapes that were passed over: inertia, materials, transmissions, shapes
+   * of the other kind.
+   */
+  uint32_t skipped_elements;
+  uint32_t reserved_number;
+  /**
+   * Convex primitives of the bodies, those of a shared body once.
+   */
+  uint64_t primitive_count;
+  /**
+   * Mesh faces that were not convex or not planar and became triangles, and those without area that were left out.
+   */
+  uint64_t faces_split;
+  uint64_t faces_dropped;
+  uint64_t reserved[6];
+} cstk_urdf_report;
 
 /**
  * The range of a coordinate.
@@ -1336,18 +1413,22 @@ typedef struct cstk_pure_options {
  */
 typedef struct cstk_query_statistics {
   /**
-   * Pairs of hierarchy nodes whose wrappers were tested.
+   * Pairs of hierarchy nodes whose wrappers were tested, pairs of bodies with them; of rays into solids, the nodes.
    */
   uint64_t node_pairs;
   /**
-   * Primitive pairs whose distance was computed.
+   * Primitive pairs that were looked at; of rays, the faces.
    */
   uint64_t primitive_pairs;
   /**
    * Witnesses of earlier queries that were evaluated first.
    */
   uint64_t cache_hits;
-  uint64_t reserved[5];
+  /**
+   * Of `primitive_pairs` those whose distance was computed: no separating direction was known yet.
+   */
+  uint64_t primitive_distances;
+  uint64_t reserved[4];
 } cstk_query_statistics;
 
 /**
@@ -1579,7 +1660,8 @@ typedef struct cstk_explanation {
   const struct cstk_verdict *leaves;
   size_t leaf_count;
   /**
-   * Pairs that meet where the leaf's class is CSTK_INSIDE, or are within its contact epsilon where it is CSTK_CONTACT.
+   * Pairs that meet where the leaf's class is CSTK_INSIDE, or are within its contact epsilon where it is CSTK_CONTACT: as
+   * for classes, doubt within rounding counts as within, so that `distance` may be above the epsilon by that.
    */
   struct cstk_witness_list list;
   uint64_t reserved[4];
@@ -1961,7 +2043,8 @@ cstk_status cstk_body_builder_set_solid(struct cstk_body_builder *builder,
  * CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
  *
  * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon, and
- * one a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a file (cstk_body_save).
+ * 1 to 2 a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a
+ * file (cstk_body_save).
  */
 cstk_status cstk_body_build(struct cstk_body_builder *builder,
                             const struct cstk_hierarchy_options *options,
@@ -2123,7 +2206,7 @@ cstk_status cstk_body_builder_add_rounded_polyhedron(struct cstk_body_builder *b
  * of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
  * added then.
  *
- * A body of nothing but points is built in about a microsecond a point, and holds less than 100 bytes of each: points are
+ * A body of nothing but points is built in 1 to 2 microseconds a point, and holds less than 100 bytes of each: points are
  * split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
  * hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
  * primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.
@@ -2391,8 +2474,15 @@ cstk_status cstk_urdf_options_default(struct cstk_urdf_options *out, size_t size
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
  * box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
- * are surfaces: what is wholly inside one does not meet it. Whatever else the file says is passed over. Failures name
- * the file, the line and the element; the builder is then as it was.
+ * are surfaces: what is wholly inside one does not meet it. A mesh file is read once, and links of equal shapes share one
+ * body: cstk_body_set_data then is for all of them. Whatever else the file says is passed over;
+ * cstk_robot_builder_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
+ * then as it was.
+ *
+ * Limits, beyond which a file is CSTK_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
+ * and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
+ * that are made by referring to a mesh or a geometry again; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
+ * namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
  */
 cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
                                          const char *file,
@@ -2400,6 +2490,12 @@ cstk_status cstk_robot_builder_load_urdf(struct cstk_robot_builder *builder,
                                          cstk_progress_fn progress,
                                          void *user,
                                          uint32_t *root);
+
+/**
+ * Writes what became of the URDF file that was last added to the builder. CSTK_EMPTY if there is none.
+ */
+cstk_status cstk_robot_builder_urdf_report(struct cstk_robot_builder *builder,
+                                           struct cstk_urdf_report *out);
 
 /**
  * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
@@ -2897,6 +2993,20 @@ cstk_status cstk_query_get_version(struct cstk_query *query,
                                    uint64_t *out);
 
 /**
+ * Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the
+ * context and answers, or slides, from cstk_pair_within to cstk_link_pairs. A query that needs more returns CSTK_LIMIT and
+ * writes nothing; the context can be asked again at once. 0 stands for no limit, with which a context begins.
+ *
+ * What counts is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10
+ * milliseconds (nodes of meshes) to a second (primitives that are no polygons). Penetrations of polyhedra count each two edges that are compared, too. The work depends on the question
+ * and on what the context remembers of earlier ones, neither on the thread nor on the machine's load: a context asked the
+ * same from its creation on ends at the same call. Not counted is what a call takes whatever it finds: kinematics, pure
+ * sets, functions of the caller.
+ */
+cstk_status cstk_query_set_limit(struct cstk_query *query,
+                                 uint64_t node_and_primitive_pairs);
+
+/**
  * Writes the work done since the context was made, or since the last call with `reset`.
  */
 cstk_status cstk_query_get_statistics(struct cstk_query *query,
@@ -3097,7 +3207,8 @@ cstk_status cstk_pair_witnesses(struct cstk_query *query,
  * Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
  * translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
  * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
- * pair of polyhedra grows with the product of their numbers of edges. CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
+ * pair of polyhedra grows with the number of their edges and with that of the pairs of edges that face each other.
+ * CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
  * or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
  * of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
  * set. The array stays valid until the next call with this query context.

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] | slides | accuracy.
-# kernel and objects also take [--quick] [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for
-# the rows whose scene and name do); slides [--quick] [--seed N]; accuracy [PAIRS [SEED]].
+# hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel and objects [--quick] [--seed N]
+# [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do); slides
+# [--quick] [--seed N]; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
   hierarchies | kernel | instructions | objects | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift

@@ -387,7 +387,7 @@ fn links_of_equal_shapes_share_their_body() {
 fn robots_of_too_many_links_are_refused() {
     let _one = alone();
     let folder = Folder::new("links");
-    let path = folder.write("links.urdf", chain((0..100_000).map(|_| String::new())));
+    let path = folder.write("links.urdf", chain((0..140_000).map(|_| String::new())));
     refused(load(&path), ErrorKind::Unsupported, &["<robot>", "links"]);
 }
 

@@ -44,10 +44,11 @@ fn check(name: &str, ask: &Ask) {
         let error = ask(&mut query).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Limit, "{name}: {error}");
         assert!(error.message.contains(&limit.to_string()), "{error}");
-        // It has stopped soon after: what one node or one ray comes upon is counted at once.
+        // It has stopped soon after: what one node, one ray or one search for pieces comes upon is counted at once. A search
+        // looks at no box of a body twice; here there are fewer than 1,000.
         let done = query.statistics();
         let counted = done.node_pairs + done.primitive_pairs;
-        assert!(counted <= limit + 200, "{name}: {counted} of {limit}");
+        assert!(counted <= limit + 1000, "{name}: {counted} of {limit}");
         // The context serves on.
         query.set_limit(None);
         assert_eq!(ask(&mut query).unwrap(), want, "{name}");

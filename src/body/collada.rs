@@ -319,7 +319,7 @@ fn corners(
     stride: usize,
     vertex_count: usize,
 ) -> Result<Vec<u32>> {
-    if indices.len() % stride != 0 {
+    if !indices.len().is_multiple_of(stride) {
         return Err(fault(
             p,
             ErrorKind::WrongSize,

@@ -55,8 +55,9 @@ struct Reader {
     mesh: Mesh,
     /// The texture vertices and normals so far; only their numbers matter.
     others: [usize; 2],
-    /// The largest index of each part and its line: a face may come before its vertices.
-    largest: [(usize, usize); 3],
+    /// The largest index of a vertex and its line: a face may come before its vertices. Texture vertices and normals may be
+    /// missing: tools that simplify collision meshes leave them out.
+    largest: (usize, usize),
 }
 
 impl Reader {
@@ -94,11 +95,10 @@ impl Reader {
             let index = self
                 .index(part, text)
                 .ok_or_else(|| self.no_index(part, text))?;
-            let (largest, its_line) = &mut self.largest[part];
-            if index as usize >= *largest {
-                (*largest, *its_line) = (index as usize + 1, line);
-            }
             if part == 0 {
+                if index as usize >= self.largest.0 {
+                    self.largest = (index as usize + 1, line);
+                }
                 vertex = Some(index);
             }
         }
@@ -132,15 +132,12 @@ impl Reader {
     }
 
     fn finish(self) -> Result<Mesh> {
-        for (part, &(largest, line)) in self.largest.iter().enumerate() {
-            let count = self.count(part);
-            if largest > count {
-                let message = format!(
-                    "{} {largest} does not exist; there are {count}, counted from 1",
-                    PARTS[part]
-                );
-                return Err(at_line(line, fail(message)));
-            }
+        let (largest, line) = self.largest;
+        let count = self.mesh.vertices.len();
+        if largest > count {
+            let message =
+                format!("vertex {largest} does not exist; there are {count}, counted from 1");
+            return Err(at_line(line, fail(message)));
         }
         Ok(self.mesh)
     }

@@ -8,7 +8,7 @@ use super::boundary::{Failure, guard};
 use super::exclusive::exclusively;
 use super::handle::{self, Noun};
 use super::hierarchy::cstk_hierarchy_options;
-use super::input::{Output, array, options_or_default, path, points, pose, slice};
+use super::input::{Output, array, collected, options_or_default, path, points, pose, slice};
 use super::status::cstk_status;
 use crate::body::{BodyBuilder, Mesh};
 use crate::error::{Error, ErrorKind};
@@ -150,12 +150,13 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
                 vec![3; face_count.min(index_count / 3 + 1)]
             } else {
                 // SAFETY: as above.
-                unsafe { slice(face_sizes, face_count, "face_sizes")? }.to_vec()
+                let sizes = unsafe { slice(face_sizes, face_count, "face_sizes")? };
+                collected(sizes.iter().copied(), "face_sizes")?
             };
             let mesh = Mesh {
                 vertices,
                 face_sizes,
-                indices: indices.to_vec(),
+                indices: collected(indices.iter().copied(), "indices")?,
             };
             // SAFETY: the header states the lengths.
             let (pose, scale) = unsafe { (pose_or_identity(pose)?, scale_or_one(scale)?) };
@@ -235,7 +236,8 @@ pub unsafe extern "C" fn cstk_body_builder_set_solid(
 /// CSTK_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
 ///
 /// The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon, and
-/// one a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a file (cstk_body_save).
+/// 1 to 2 a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a
+/// file (cstk_body_save).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_build(
     builder: *mut cstk_body_builder,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::boundary::{Failure, guard};
 use super::environment::cstk_environment;
 use super::handle::{self, Noun};
-use super::input::{OptionsStruct, Output, options_or_default, slice, write_defaults};
+use super::input::{OptionsStruct, Output, collected, options_or_default, slice, write_defaults};
 use super::space::cstk_space;
 use super::status::cstk_status;
 use crate::cobject::{AllowedPair, CObject, InducedOptions, SObjects};
@@ -89,7 +89,7 @@ unsafe fn induced_options(
         contact_epsilon: options.contact_epsilon,
         margin: options.margin,
     };
-    Ok((measures, allowed.collect()))
+    Ok((measures, collected(allowed, "options->allowed")?))
 }
 
 /// Writes the default options. `size` is sizeof(cstk_cobject_options).
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
                 induced_options(options)?,
             )
         };
-        let links: Vec<usize> = links.iter().map(|&link| link as usize).collect();
+        let links = collected(links.iter().map(|&link| link as usize), "links")?;
         let now = environment.snapshot();
         if let Some(missing) = ids.iter().find(|&&id| now.find(id).is_none()) {
             let message = format!("there is no s-object with id {missing}");
@@ -144,7 +144,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
         let objects = if ids.is_empty() {
             SObjects::All(environment)
         } else {
-            SObjects::Some(environment, ids.to_vec())
+            SObjects::Some(environment, collected(ids.iter().copied(), "ids")?)
         };
         let cobject = CObject::induced(space, &links, objects, &allowed, options)?;
         out.write(handle::create(Arc::new(cobject)));
@@ -175,10 +175,11 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
                 "options->allowed names s-objects, but this set is of links: leave the pairs out";
             return Err(Error::new(ErrorKind::Unsupported, message).into());
         }
-        let pairs: Vec<[usize; 2]> = pairs
-            .chunks_exact(2)
-            .map(|pair| [pair[0] as usize, pair[1] as usize])
-            .collect();
+        let pairs = pairs.chunks_exact(2);
+        let pairs = collected(
+            pairs.map(|pair| [pair[0] as usize, pair[1] as usize]),
+            "pairs",
+        )?;
         let cobject = CObject::induced_links(space, &pairs, options)?;
         out.write(handle::create(Arc::new(cobject)));
         Ok(())

@@ -1,10 +1,11 @@
 //! Checked input: slices, strings, outputs, and options structures.
 
 use std::ffi::{CStr, c_char};
-use std::fmt;
+use std::fmt::{self, Display};
 
 use super::boundary::Failure;
 use super::status::cstk_status;
+use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 
 fn null(argument: &str) -> Failure {
@@ -46,15 +47,28 @@ pub unsafe fn slice<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts(items, count) })
 }
 
+/// What is made of items of the caller's, whose count decides how much memory that takes: where there is not enough, the call
+/// is refused.
+pub fn collected<T>(
+    items: impl ExactSizeIterator<Item = T>,
+    argument: impl Display,
+) -> Result<Vec<T>, Failure> {
+    let mut made = Vec::new();
+    let reserved = made.try_reserve_exact(items.len());
+    reserved.map_err(|e| Error::memory(e).within(argument))?;
+    made.extend(items);
+    Ok(made)
+}
+
 /// `count` points of three numbers each.
 pub unsafe fn points(xyz: *const f64, count: usize, argument: &str) -> Result<Vec<Vec3>, Failure> {
     let numbers = count.saturating_mul(3);
     // SAFETY: as the caller states.
     let numbers = unsafe { slice(xyz, numbers, argument)? };
-    Ok(numbers
-        .chunks_exact(3)
-        .map(Vec3::from_column_slice)
-        .collect())
+    collected(
+        numbers.chunks_exact(3).map(Vec3::from_column_slice),
+        argument,
+    )
 }
 
 /// A pose of 12 numbers.

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::boundary::{Failure, guard};
 use super::cobject::cstk_cobject;
 use super::handle;
-use super::input::{OptionsStruct, Output, options, options_or_default, slice, write_defaults};
+use super::input::{
+    OptionsStruct, Output, collected, options, options_or_default, slice, write_defaults,
+};
 use super::predicate::{Functions, cstk_predicate};
 use super::space::cstk_space;
 use super::status::cstk_status;
@@ -141,7 +143,7 @@ pub unsafe extern "C" fn cstk_cobject_floor(
     guard(|| unsafe {
         make(space, options, out, |space| {
             let links = slice(links, link_count, "links")?;
-            let links: Vec<usize> = links.iter().map(|&link| link as usize).collect();
+            let links = collected(links.iter().map(|&link| link as usize), "links")?;
             let normal = slice(normal, 3, "normal")?;
             let normal = Vec3::new(normal[0], normal[1], normal[2]);
             Ok(PureShape::floor(space, &links, &normal, offset)?)

@@ -186,7 +186,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
 /// of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
 /// added then.
 ///
-/// A body of nothing but points is built in about a microsecond a point, and holds less than 100 bytes of each: points are
+/// A body of nothing but points is built in 1 to 2 microseconds a point, and holds less than 100 bytes of each: points are
 /// split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
 /// hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
 /// primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.

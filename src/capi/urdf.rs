@@ -164,7 +164,7 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 /// cstk_robot_builder_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
 /// then as it was.
 ///
-/// Limits, beyond which a file is CSTK_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^13 links; 2^23 faces
+/// Limits, beyond which a file is CSTK_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
 /// and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
 /// that are made by referring to a mesh or a geometry again; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
 /// namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.

@@ -9,6 +9,7 @@
 use super::closest::{FeatureSet, closest_features};
 use super::curved::is_curved;
 use super::curved_contact::curved_penetration;
+use super::distance::{DistanceScratch, closest_polytopes};
 use super::extreme_vertex::ExtremeVertex;
 use super::gauss_arcs::GaussArcs;
 use super::placed::{Placed, Precision};
@@ -129,7 +130,8 @@ fn offer_edges(r: &Placed, s: &Placed, slack: f64, meter: &mut WorkMeter, shorte
 }
 
 /// Points of both sets that meet when r has moved by `depth` along `direction`, the normal of the planes in which they touch
-/// then: the nearest, with r moved a little farther, of the features in these planes.
+/// then: the nearest, with r moved a little farther, of the features in these planes. Where features are nearly parallel these
+/// may be too few; then more are looked at, and at last all.
 fn brought_together(
     r: &Placed,
     s: &Placed,
@@ -137,18 +139,31 @@ fn brought_together(
     direction: &Vec3,
     precision: &Precision,
 ) -> [Vec3; 2] {
-    let slack = SUPPORT_SLACK * precision.size;
-    let shift = direction * (depth + slack);
-    let vertices: Vec<Vec3> = r.vertices.iter().map(|v| v + shift).collect();
+    let way = direction * depth;
+    let moved_by = |shift: Vec3| -> Vec<Vec3> { r.vertices.iter().map(|v| v + shift).collect() };
+    for slack in [1e-9, 1e-6].map(|part| part * precision.size) {
+        let shift = direction * (depth + slack);
+        let vertices = moved_by(shift);
+        let moved = Placed {
+            vertices: &vertices,
+            ..*r
+        };
+        let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
+        on_r.set_supporting(&moved, &-direction, slack);
+        on_s.set_supporting(s, direction, slack);
+        let met = closest_features(&moved, &on_r, s, &on_s, false);
+        let points = [met.points[0] - shift, met.points[1]];
+        if (points[1] - points[0] - way).norm() <= precision.error {
+            return points;
+        }
+    }
+    let vertices = moved_by(way);
     let moved = Placed {
         vertices: &vertices,
         ..*r
     };
-    let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
-    on_r.set_supporting(&moved, &-direction, slack);
-    on_s.set_supporting(s, direction, slack);
-    let met = closest_features(&moved, &on_r, s, &on_s, false);
-    [met.points[0] - shift, met.points[1]]
+    let met = closest_polytopes(&moved, s, precision, &mut DistanceScratch::default());
+    [met.points[0] - way, met.points[1]]
 }
 
 /// The shortest way out of all lines tried.

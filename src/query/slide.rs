@@ -6,6 +6,7 @@ use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::scene::Configuration;
 use super::segment::{Trust, Way};
+use super::slide_contacts::Detail;
 use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
 use super::step_limits::step_limits;
 use super::world::World;
@@ -119,6 +120,7 @@ struct Asked<'a> {
     options: &'a SlideOptions,
     /// The length of the step asked for.
     length: f64,
+    detail: Detail,
 }
 
 impl QueryContext {
@@ -140,13 +142,14 @@ impl QueryContext {
         let world = &self.look(cobject);
         require_union(cobject)?;
         let distance = self.distance_at(world, cobject, q)?;
-        let here = self.slide_contacts(world, cobject, q, options)?;
+        let here = self.slide_contacts(world, cobject, q, options, Detail::Nearest)?;
+        let contacts = here.contacts.len();
         let ended = |outcome| SlideStep {
             outcome,
             configuration: q.to_vec(),
             distance_before: distance,
             distance_after: distance,
-            contacts: here.contacts.len(),
+            contacts,
         };
         // A touch is no reason to stay; an overlap is, of primitives or of what the margin adds to them.
         if overlaps(&here, options) {
@@ -168,33 +171,50 @@ impl QueryContext {
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
             ));
         }
-        let asked = Asked {
+        let mut asked = Asked {
             world,
             cobject,
             q,
             here: &here,
             options,
             length,
+            detail: Detail::Nearest,
         };
-        let push = Push::of(&asked)?;
+        let mut reached = self.find_step(&asked, step)?;
+        // What the nearest contacts of large meshes leave out may have been in the way.
+        let all;
+        if reached.is_none() {
+            all = self.slide_contacts(world, cobject, q, options, Detail::All)?;
+            (asked.here, asked.detail) = (&all, Detail::All);
+            reached = self.find_step(&asked, step)?;
+        }
+        let Some(reached) = reached else {
+            return Ok(ended(SlideOutcome::Blocked));
+        };
+        Ok(SlideStep {
+            distance_after: self.distance_at(world, cobject, &reached)?,
+            configuration: reached,
+            ..ended(SlideOutcome::Moved)
+        })
+    }
+
+    /// Where the longest part of a step leads that can be taken.
+    fn find_step(&mut self, asked: &Asked, step: &[f64]) -> Result<Option<Vec<f64>>> {
+        let push = Push::of(asked)?;
         let mut share = 1.0;
-        while share >= options.floor {
+        while share >= asked.options.floor {
             let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
             let pushed = push.as_ref().map(|push| push.part(share));
             let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
             for push in wishes {
-                let found = self.try_step(&asked, &wish, push)?;
-                if let Some(reached) = found {
-                    return Ok(SlideStep {
-                        distance_after: self.distance_at(world, cobject, &reached)?,
-                        configuration: reached,
-                        ..ended(SlideOutcome::Moved)
-                    });
+                let found = self.try_step(asked, &wish, push)?;
+                if found.is_some() {
+                    return Ok(found);
                 }
             }
             share *= 0.5;
         }
-        Ok(ended(SlideOutcome::Blocked))
+        Ok(None)
     }
 
     fn distance_at(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<f64> {
@@ -239,7 +259,7 @@ impl QueryContext {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
-            let there = self.slide_contacts(world, cobject, &reached, options)?;
+            let there = self.slide_contacts(world, cobject, &reached, options, asked.detail)?;
             if overlaps(&there, options) {
                 return Ok(None);
             }

@@ -21,6 +21,13 @@ const BAND: f64 = 0.01;
 /// At most this many witnesses of a larger pair are listed.
 const MAX_OF_LARGE_PAIR: usize = 8;
 
+/// Which contacts of a large pair are listed: the nearest say enough for most steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    Nearest,
+    All,
+}
+
 impl QueryContext {
     /// The witnesses that constrain a step, with gradients. Distances and gradients of a leaf with a shell of its own are divided
     /// by that and multiplied by the shell of the options, so that one desired distance serves all.
@@ -30,10 +37,12 @@ impl QueryContext {
         cobject: &CObject,
         q: &[f64],
         options: &SlideOptions,
+        detail: Detail,
     ) -> Result<WitnessList> {
         let scene = &Scene::new(cobject.space(), world, Configuration::Coordinates(q))?;
         let mut search = ContactSearch {
             options,
+            detail,
             scene,
             lists: Vec::new(),
         };
@@ -57,6 +66,7 @@ impl QueryContext {
 
 struct ContactSearch<'a> {
     options: &'a SlideOptions,
+    detail: Detail,
     scene: &'a Scene<'a>,
     lists: Vec<WitnessList>,
 }
@@ -101,7 +111,7 @@ impl ContactSearch<'_> {
     ) -> Result<Option<Listed>> {
         let whole = self.listed(shell);
         let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
-        if a.saturating_mul(b) <= SMALL_PAIR {
+        if self.detail == Detail::All || a.saturating_mul(b) <= SMALL_PAIR {
             return Ok(Some(whole));
         }
         let Some((nearest, _)) = context.nearest(target, shell)?.hit else {

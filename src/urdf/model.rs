@@ -6,8 +6,8 @@ use crate::error::{ErrorKind, Result};
 use crate::pose::{Pose, Vec3, rotation_about};
 use crate::xml::{child, children, fault, numbers, required, required_child};
 
-/// The largest humanoids have some hundred links. The robot builder compares each name with all before it.
-const MAX_LINKS: usize = 1 << 13;
+/// The largest humanoids have some hundred links; generated chains have thousands.
+const MAX_LINKS: usize = 1 << 17;
 
 /// A shape in its own frame.
 #[derive(Debug)]
