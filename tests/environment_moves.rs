@@ -245,3 +245,37 @@ fn what_is_deleted_is_let_go_at_once() {
     }
     assert_eq!(Arc::strong_count(&keeper), 1);
 }
+
+/// Where their sides are less than the spacing of coordinates, boxes have no extent in the world.
+#[test]
+fn objects_that_are_small_for_where_they_stand_are_taken_and_found() {
+    let body = cuboid([1.0; 3]).body;
+    for away in [1e12, 1e14, 1e17, 1e30, 1e49] {
+        for count in [1, 2, 9, 40] {
+            let live = Environment::default();
+            let at =
+                |i: usize| Pose::from_translation(Vec3::repeat(away) * (1.0 + i as f64 * 1e-15));
+            let add = |i: usize| Change::Add {
+                body: body.clone(),
+                pose: at(i),
+                data: None,
+            };
+            let changes: Vec<Change> = (0..count).map(add).collect();
+            let (ids, _) = live.apply(&changes).unwrap();
+            for step in 0..4 {
+                let moves: Vec<Change> = ids
+                    .iter()
+                    .map(|&id| Change::Move { id, pose: at(step) })
+                    .collect();
+                live.apply(&moves).unwrap();
+            }
+            let more: Vec<u64> = (0..20)
+                .map(|i| live.apply(&[add(i)]).unwrap().0[0])
+                .collect();
+            for id in ids.into_iter().chain(more) {
+                live.apply(&[Change::Delete { id }]).unwrap();
+            }
+            assert_eq!(live.snapshot().len(), 0);
+        }
+    }
+}

@@ -171,8 +171,8 @@ impl ObjectTree {
     }
 
     /// Whether the tree is to be built anew: after so many changes that each bears a small part of it. `objects` counts those
-    /// too that are not in the world.
-    pub fn is_worn(&self, objects: usize) -> bool {
+    /// too that are not in the world, `places` also what was deleted since the places were closed up.
+    pub fn is_worn(&self, objects: usize, places: usize) -> bool {
         let Wear {
             changes,
             reshapings,
@@ -192,7 +192,7 @@ impl ObjectTree {
             || is_loose && (changes > self.count || leaving > 0)
             || self.count > 2 * count + 8
             || reshapings > 4 * self.count + 64
-            || self.tree.places() > 2 * objects + 64
+            || places > 2 * objects + 64
     }
 
     fn measure(&mut self, bounds: &Bounds) {

@@ -181,7 +181,9 @@ impl Snapshot {
             changed,
             target,
         });
-        if self.tree.update(changed, &self.places) && !self.tree.is_worn(self.count) {
+        if self.tree.update(changed, &self.places)
+            && !self.tree.is_worn(self.count, self.places.len())
+        {
             return;
         }
         if self.places.len() > self.count {
@@ -274,5 +276,37 @@ impl Place {
     /// Whether the tree holds what is here.
     pub fn is_in_world(&self) -> bool {
         self.object.is_some() && !self.is_attached()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::body::BodyBuilder;
+    use crate::environment::{Change, Environment};
+    use crate::hierarchy::HierarchyOptions;
+    use crate::pose::{Pose, Vec3};
+
+    /// Objects far from all others are beside the tree, which they do not wear.
+    #[test]
+    fn far_objects_that_come_and_go_leave_no_places_behind() {
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder.add_sphere(&Vec3::zeros(), 0.1, 0).unwrap();
+        let options = HierarchyOptions::default();
+        let body = Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap());
+        let live = Environment::default();
+        let add = |x: f64| Change::Add {
+            body: body.clone(),
+            pose: Pose::from_translation(Vec3::new(x, 0.0, 0.0)),
+            data: None,
+        };
+        let near: Vec<Change> = (0..8).map(|i| add(f64::from(i))).collect();
+        live.apply(&near).unwrap();
+        for _ in 0..1000 {
+            let (ids, _) = live.apply(&[add(1e6)]).unwrap();
+            live.apply(&[Change::Delete { id: ids[0] }]).unwrap();
+            assert!(live.snapshot().places.len() <= 2 * 9 + 65);
+        }
     }
 }

@@ -85,9 +85,12 @@ impl BoxTree {
             let all = forest.extents.clone();
             let (tree, at) = forest.into_tree(root);
             let whole = all[root as usize];
+            // Boxes that are small for where they stand may have no extent there, but for their sides.
+            let sides = taken.iter().map(|&place| boxes.oriented(place as usize));
+            let largest = sides.map(|side| side.half.amax()).fold(0.0, f64::max);
             built.frame = BoxFrame {
                 center: whole.center(),
-                scale: power_of_two(0.5 * whole.diameter()),
+                scale: power_of_two(largest.max(0.5 * whole.diameter())),
             };
             let mut builder = Builder {
                 extents: at.iter().map(|&body| all[body as usize]).collect(),
@@ -198,16 +201,25 @@ impl BoxFrame {
         // Boxes that grow a little are to fit too.
         const ROOM: f64 = 1.25;
         let center = (extent.center() - self.center) / self.scale;
-        let mut half = ROOM * 0.5 * extent.size().amax() / self.scale;
+        let boxes = 0..children.len();
+        let largest = boxes
+            .clone()
+            .map(|lane| given(lane).half.amax())
+            .fold(0.0, f64::max);
+        // Sides may be nearly twice as large as what centres are within.
+        let mut half = 0.5 * largest.max(ROOM * extent.size().amax()) / self.scale;
         loop {
             let mut wide = WideNode::around(&center, half);
             wide.children[..children.len()].copy_from_slice(children);
             wide.count = children.len() as u32;
-            if (0..children.len()).all(|lane| self.put(&mut wide, lane, &given(lane))) {
+            if boxes
+                .clone()
+                .all(|lane| self.put(&mut wide, lane, &given(lane)))
+            {
                 return wide;
             }
             // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
-            half *= 2.0;
+            half = (2.0 * half).max(1e-30);
         }
     }
 
