@@ -44,6 +44,9 @@ pub(super) struct Trust {
     pub max_count: usize,
 }
 
+/// A motion towards a plane that is no more than this part of [`Trust::distance`] is the rounding of one along it.
+const LEVEL: f64 = 1e-9;
+
 impl Trust {
     /// How much nearer than a touch a contact may come.
     fn allowed(&self) -> f64 {
@@ -175,9 +178,11 @@ impl QueryContext {
         if lower > 0.0 {
             return self.advances(way, obstacle, rate, STEP_FRACTION * lower / rate);
         }
-        // What stays behind a plane comes nearer along its normal only.
-        let plane = plane.filter(|plane| plane.gap >= -trust.allowed());
-        let nearer = plane.map_or(rate, |plane| plane.rate.min(rate));
+        // What stays behind a plane and does not move towards it cannot come nearer, however far it slides.
+        let is_level = |plane: &Separation| {
+            plane.gap >= -trust.allowed() && plane.rate <= LEVEL * trust.distance
+        };
+        let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
         let share = if nearer > trust.distance {
             trust.distance / nearer
         } else {
@@ -231,7 +236,7 @@ impl QueryContext {
         let list = obstacle.witnesses(self, scene, listed)?;
         let keeps_off =
             |a: &Approach| a.clearance + share * dot(a.gradient, way.v) >= -trust.allowed();
-        let is_known = !list.truncated && list.witnesses.iter().all(|w| !w.overlapping);
+        let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
         Ok(is_known && list.approaches().iter().all(keeps_off))
     }
 }
@@ -250,8 +255,14 @@ impl Obstacle for PairOnWay<'_> {
         scene: &Scene,
         listed: Listed,
     ) -> Result<WitnessList> {
-        let target = self.at(scene);
-        context.list(self.term, scene, target.as_slice(), listed)
+        let Some(target) = self.at(scene) else {
+            // Nothing is known of a pair that is not there.
+            return Ok(WitnessList {
+                truncated: true,
+                ..WitnessList::default()
+            });
+        };
+        context.list(self.term, scene, &[target], listed)
     }
 
     fn separation(
