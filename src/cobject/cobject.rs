@@ -16,7 +16,7 @@ use crate::tolerance;
 use crate::user_data::{UserData, value_of};
 
 /// Sets nested deeper than this are refused; unions in unions, and intersections in intersections, count as one.
-pub const MOST_DEPTH: u32 = 256;
+pub const MAX_DEPTH: u32 = 256;
 
 /// What a C-object is made of.
 #[derive(Clone, Debug)]
@@ -191,10 +191,10 @@ impl CObject {
 
     /// Refuses a set that is nested too deep.
     fn limited(self) -> Result<Self> {
-        if self.depth > MOST_DEPTH {
+        if self.depth > MAX_DEPTH {
             return Err(Error::new(
                 ErrorKind::Unsupported,
-                format!("the C-objects are nested deeper than {MOST_DEPTH}"),
+                format!("the C-objects are nested deeper than {MAX_DEPTH}"),
             ));
         }
         Ok(self)

@@ -13,10 +13,10 @@ use crate::pose::{Mat3, Vec3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
 const AXIS_STEP: f32 = 1.0 / 32768.0;
-const MOST_AXIS: f64 = 32767.0;
-const MOST_PLACE: f64 = 32767.0;
+const MAX_AXIS: f64 = 32767.0;
+const MAX_PLACE: f64 = 32767.0;
 /// Less than fits, for what rounding of the centres adds.
-const MOST_HALF: f64 = 65500.0;
+const MAX_HALF: f64 = 65500.0;
 
 /// Axes, and those dual to them, are no longer.
 const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
@@ -82,8 +82,8 @@ impl WideNode {
         let origin = (low + high) * 0.5;
         let [x, y, z]: [f64; 3] = origin.into();
         let halves = spans.iter().map(|(_, half)| half.amax());
-        let mut step = (0.5 * (high - low).amax() / MOST_PLACE)
-            .max(halves.fold(0.0, f64::max) / MOST_HALF)
+        let mut step = (0.5 * (high - low).amax() / MAX_PLACE)
+            .max(halves.fold(0.0, f64::max) / MAX_HALF)
             .max(1e-30);
         loop {
             node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
@@ -103,7 +103,7 @@ impl WideNode {
     pub fn around(center: &Vec3, half: f64) -> Self {
         let origin = each3(|k| center[k] as f32);
         let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
-        let step = ((half + off.fold(0.0, f64::max)) / MOST_PLACE).max(1e-30) * (1.0 + 1e-6);
+        let step = ((half + off.fold(0.0, f64::max)) / MAX_PLACE).max(1e-30) * (1.0 + 1e-6);
         Self {
             frame: [origin[0], origin[1], origin[2], step as f32],
             ..Self::default()
@@ -118,14 +118,14 @@ impl WideNode {
         let inverse_step = 1.0 / step;
         for k in 0..3 {
             let place = (given.center[k] - f64::from(self.frame[k])) * inverse_step;
-            if place.abs() > MOST_PLACE {
+            if place.abs() > MAX_PLACE {
                 return false;
             }
             // Which of two neighbours a half becomes does not matter: the sides make up for it.
-            self.center[k][lane] = (place + 0.5).floor().min(MOST_PLACE) as i16;
+            self.center[k][lane] = (place + 0.5).floor().min(MAX_PLACE) as i16;
             for i in 0..2 {
                 let component = (given.axes[i][k] * 32768.0 + 0.5).floor();
-                self.axes[i][k][lane] = component.clamp(-MOST_AXIS, MOST_AXIS) as i16;
+                self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
             }
         }
         // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
@@ -209,10 +209,10 @@ impl WideNode {
         for k in 0..3 {
             for i in 0..2 {
                 let component = (axes[(k, i)] * 32768.0).round();
-                self.axes[i][k][lane] = component.clamp(-MOST_AXIS, MOST_AXIS) as i16;
+                self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
             }
             let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
-            self.center[k][lane] = place.round().clamp(-MOST_PLACE, MOST_PLACE) as i16;
+            self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
         }
         // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
         let rounded = self.get(lane);
