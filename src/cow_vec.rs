@@ -1,5 +1,6 @@
 //! Vectors whose clones share what none of them has changed since, and that follow each other's changes.
 
+use std::iter::Peekable;
 use std::ops::Index;
 use std::sync::Arc;
 
@@ -68,33 +69,42 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         indices: impl IntoIterator<Item = usize>,
         mut change: impl FnMut(usize, &mut T),
     ) {
-        let mut indices = indices.into_iter();
-        let mut next = indices.next();
-        while let Some(first) = next {
-            let of_chunk = first / N;
-            let mut index = first;
-            let len = self.len;
-            let mut changed = self.changed.take();
-            let chunk = self.chunk(first);
-            loop {
-                assert!(index < len, "{index} of {len}");
-                if let Some(changed) = &mut changed {
-                    changed.push(index as u32);
-                }
-                change(index, &mut chunk[index % N]);
-                next = indices.next();
-                match next {
-                    Some(other) if other / N == of_chunk => index = other,
-                    _ => break,
-                }
+        let mut indices = indices.into_iter().peekable();
+        while let Some(mut run) = self.next_run(&mut indices) {
+            while let Some((index, item)) = run.next() {
+                change(index, item);
             }
-            self.changed = changed;
         }
+    }
+
+    /// The next items to change that lie in one chunk. Two loops over these do what [`CowVec::update`] does, where a closure
+    /// would not be compiled for the instructions of what is around it.
+    #[inline(always)]
+    pub fn next_run<'a, I: Iterator<Item = usize>>(
+        &'a mut self,
+        indices: &'a mut Peekable<I>,
+    ) -> Option<Run<'a, T, N, I>> {
+        let first = *indices.peek()?;
+        let of_chunk = first / N;
+        let block = &mut Arc::make_mut(&mut self.blocks)[of_chunk / WIDTH];
+        let chunk = &mut Arc::make_mut(block)[of_chunk % WIDTH];
+        Some(Run {
+            indices,
+            of_chunk,
+            chunk: Arc::make_mut(chunk),
+            len: self.len,
+            changed: self.changed.as_mut(),
+        })
     }
 
     /// Becomes equal to a vector that was cloned from this one, or followed it, and was then changed: only what changed is
     /// copied, in place where nobody else has a share in it.
     pub fn follow(&mut self, other: &Self) {
+        self.follow_by(other, |_, own, now| own.clone_from(now));
+    }
+
+    /// The same, where `follow` makes an item equal to another or leaves it, if it will be changed next.
+    pub fn follow_by(&mut self, other: &Self, mut follow: impl FnMut(usize, &mut T, &T)) {
         let Some(changed) = other.changed.as_ref() else {
             *self = other.clone();
             return;
@@ -109,22 +119,39 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         self.update(
             changed.iter().map(|&index| index as usize),
             |index, item| {
-                item.clone_from(&other[index]);
+                follow(index, item, &other[index]);
             },
         );
         self.changed = Some(own);
     }
 
     pub fn push(&mut self, item: T) {
-        if self.len == self.blocks.len() * WIDTH * N {
-            let unused = Arc::new(std::array::from_fn(|_| T::default()));
-            let block = Arc::new(std::array::from_fn(|_| unused.clone()));
-            self.blocks = self.blocks.iter().cloned().chain([block]).collect();
-        }
         let index = self.len;
-        self.len += 1;
+        self.resize(index + 1);
         self.note(index);
         self.chunk(index)[index % N] = item;
+    }
+
+    /// Changes the length. What is at new places is to be written before it is read.
+    pub fn resize(&mut self, len: usize) {
+        let blocks = len.div_ceil(WIDTH * N);
+        if blocks > self.blocks.len() {
+            let unused = Arc::new(std::array::from_fn(|_| T::default()));
+            let block = Arc::new(std::array::from_fn(|_| unused.clone()));
+            let more = (self.blocks.len()..blocks).map(|_| block.clone());
+            self.blocks = self.blocks.iter().cloned().chain(more).collect();
+        }
+        self.len = len;
+    }
+
+    /// Changes all items.
+    pub fn set_all(&mut self, items: impl IntoIterator<Item = T>) {
+        let mut items = items.into_iter();
+        self.update(0..self.len, |_, own| {
+            if let Some(item) = items.next() {
+                *own = item;
+            }
+        });
     }
 
     #[inline]
@@ -139,6 +166,28 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
     fn chunk(&mut self, index: usize) -> &mut Chunk<T, N> {
         let block = &mut Arc::make_mut(&mut self.blocks)[index / N / WIDTH];
         Arc::make_mut(&mut Arc::make_mut(block)[index / N % WIDTH])
+    }
+}
+
+/// Items of one chunk that are to change.
+pub struct Run<'a, T, const N: usize, I: Iterator<Item = usize>> {
+    indices: &'a mut Peekable<I>,
+    of_chunk: usize,
+    chunk: &'a mut Chunk<T, N>,
+    len: usize,
+    changed: Option<&'a mut Vec<u32>>,
+}
+
+impl<T, const N: usize, I: Iterator<Item = usize>> Run<'_, T, N, I> {
+    #[inline(always)]
+    pub fn next(&mut self) -> Option<(usize, &mut T)> {
+        let of_chunk = self.of_chunk;
+        let index = self.indices.next_if(|index| index / N == of_chunk)?;
+        assert!(index < self.len, "{index} of {}", self.len);
+        if let Some(changed) = &mut self.changed {
+            changed.push(index as u32);
+        }
+        Some((index, &mut self.chunk[index % N]))
     }
 }
 

@@ -2,12 +2,15 @@
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-use crate::error::{Error, ErrorKind, Result, require_finite};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::lanes::{F64x4, Instructions, Work, along64, each3, with_widest};
 use crate::tolerance;
 
 pub type Vec3 = Vector3<f64>;
 pub type Mat3 = Matrix3<f64>;
+
+/// What matrices that are told to be rotations may be off orthonormal by rounding.
+const ROTATION_ROUNDING: f64 = 8.0 * tolerance::EPSILON;
 
 /// A rigid motion `x -> rotation x + translation`, from a child frame to its parent frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,22 +36,24 @@ impl Pose {
 
     /// From 12 numbers, row-major `[R | t]`. R may be off orthonormal by [`tolerance::ROTATION`]; it is then replaced by
     /// the nearest rotation. Reflections are refused.
+    #[inline]
     pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
-        require_finite(values, "pose entry")?;
         let v = values;
-        if let Some(i) = v
-            .iter()
-            .position(|x| x.abs() > tolerance::LARGEST_COORDINATE)
-        {
-            return Err(Error::invalid(format!(
-                "pose entry {i} is too large: {}",
-                v[i]
-            )));
-        }
-        let rotation = Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]);
-        Ok(Self {
-            rotation: nearest_rotation(rotation)?,
+        let given = Self {
+            rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
             translation: Vec3::new(v[3], v[7], v[11]),
+        };
+        // Almost all poses are fine as they are; they are told without a branch for each number.
+        let are_coordinates = v.iter().fold(true, |all, x| {
+            all & (x.abs() <= tolerance::LARGEST_COORDINATE)
+        });
+        if are_coordinates && is_rotation(&given.rotation) {
+            return Ok(given);
+        }
+        require_coordinates(values, "pose entry")?;
+        Ok(Self {
+            rotation: nearest_rotation(given.rotation)?,
+            ..given
         })
     }
 
@@ -142,6 +147,29 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     Mat3::identity() + k * s + k * k * (1.0 - c)
 }
 
+/// Whether a matrix is a rotation up to rounding.
+#[inline]
+fn is_rotation(r: &Mat3) -> bool {
+    let row = |i: usize| [r[(i, 0)], r[(i, 1)], r[(i, 2)]];
+    let (x, y, z) = (row(0), row(1), row(2));
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = [
+        x[1] * y[2] - x[2] * y[1],
+        x[2] * y[0] - x[0] * y[2],
+        x[0] * y[1] - x[1] * y[0],
+    ];
+    let off = [
+        dot(&x, &x) - 1.0,
+        dot(&y, &y) - 1.0,
+        dot(&z, &z) - 1.0,
+        dot(&x, &y),
+        dot(&x, &z),
+        dot(&y, &z),
+    ];
+    let is_small = |all, off: &f64| all & (off.abs() <= ROTATION_ROUNDING);
+    off.iter().fold(dot(&cross, &z) > 0.0, is_small)
+}
+
 fn nearest_rotation(given: Mat3) -> Result<Mat3> {
     let error = |r: &Mat3| (r.transpose() * r - Mat3::identity()).amax();
     let off = error(&given);
@@ -158,7 +186,7 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
     // Newton's iteration for the orthogonal polar factor; quadratic, so two steps from 1e-6 reach round-off.
     let (mut r, mut off) = (given, off);
     for _ in 0..3 {
-        if off <= 8.0 * tolerance::EPSILON {
+        if off <= ROTATION_ROUNDING {
             break;
         }
         r = r * (Mat3::identity() * 1.5 - r.transpose() * r * 0.5);

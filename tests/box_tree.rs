@@ -195,7 +195,11 @@ fn boxes_stand_around_all_that_is_below() {
                     changes.refit(&moved);
                 }
             }
-            if step % 7 == 0 {
+            if step % 61 == 60 {
+                let held: Vec<u32> = set.held.iter().map(|&place| place as u32).collect();
+                tree.rebuild_in_haste(&held, set.boxes.len(), &set);
+            }
+            if step % 7 == 0 || step % 61 == 60 {
                 check_all(&tree, &set);
             }
         }
@@ -238,6 +242,10 @@ fn a_tree_that_follows_another_is_equal_to_it() {
         }
         if step % 50 == 49 {
             now = built(&set);
+        }
+        if step % 7 == 3 {
+            let held: Vec<u32> = set.held.iter().map(|&place| place as u32).collect();
+            now.rebuild_in_haste(&held, set.boxes.len(), &set);
         }
         let mut moved = IndexSet::new(set.boxes.len());
         for _ in 0..random.below(30) {

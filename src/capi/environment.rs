@@ -7,7 +7,9 @@ use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::custom_joint::cstk_destroy_fn;
 use super::handle::{self, Noun};
-use super::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
+use super::input::{
+    OptionsStruct, Output, OutputSlice, options_in_place, reserved, slice, write_defaults,
+};
 use super::space::cstk_space;
 use super::status::cstk_status;
 use super::user_data::Kept;
@@ -160,11 +162,11 @@ pub unsafe extern "C" fn cstk_environment_apply(
         let environment = &*handle::share::<Environment>(environment, "environment")?;
         let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
         let version = Output::optional(version, "version")?;
-        let (mut read, mut kept) = (Vec::new(), Vec::new());
+        let (mut read, mut kept) = (reserved(count, "changes")?, Vec::new());
         let mut next = changes;
         for i in 0..count {
             // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
-            let change = unsafe { options(next, format_args!("changes[{i}]"))? };
+            let change = unsafe { options_in_place(next, format_args!("changes[{i}]"))? };
             // SAFETY: checked for NULL; the header states the length.
             read.push(unsafe { change_from(&change, i, &mut kept)? });
             next = next.wrapping_byte_add(change.size as usize);

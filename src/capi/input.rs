@@ -2,6 +2,7 @@
 
 use std::ffi::{CStr, c_char};
 use std::fmt::{self, Display};
+use std::ops::Deref;
 
 use super::boundary::Failure;
 use super::status::cstk_status;
@@ -53,11 +54,17 @@ pub fn collected<T>(
     items: impl ExactSizeIterator<Item = T>,
     argument: impl Display,
 ) -> Result<Vec<T>, Failure> {
-    let mut made = Vec::new();
-    let reserved = made.try_reserve_exact(items.len());
-    reserved.map_err(|e| Error::memory(e).within(argument))?;
+    let mut made = reserved(items.len(), argument)?;
     made.extend(items);
     Ok(made)
+}
+
+/// Room for as many items as the caller has; where there is not enough memory, the call is refused.
+pub fn reserved<T>(count: usize, argument: impl Display) -> Result<Vec<T>, Failure> {
+    let mut room = Vec::new();
+    let done = room.try_reserve_exact(count);
+    done.map_err(|e| Error::memory(e).within(argument))?;
+    Ok(room)
 }
 
 /// `count` points of three numbers each.
@@ -242,11 +249,68 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
     Ok(())
 }
 
+/// A structure of the caller's: as it is where it has this library's layout, else a copy that has.
+pub enum Given<'a, T> {
+    Theirs(&'a T),
+    Ours(T),
+}
+
+impl<T> Deref for Given<'_, T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        match self {
+            Given::Theirs(given) => given,
+            Given::Ours(copy) => copy,
+        }
+    }
+}
+
 /// The caller's structure in this library's layout.
 pub unsafe fn options<T: OptionsStruct>(
     given: *const T,
     argument: impl fmt::Display,
 ) -> Result<T, Failure> {
+    // SAFETY: as the caller states.
+    Ok(match unsafe { options_in_place(given, argument)? } {
+        Given::Theirs(given) => *given,
+        Given::Ours(copy) => copy,
+    })
+}
+
+/// The same, copied only where that must be: for arrays of them.
+pub unsafe fn options_in_place<'a, T: OptionsStruct>(
+    given: *const T,
+    argument: impl fmt::Display,
+) -> Result<Given<'a, T>, Failure> {
+    // SAFETY: as the caller states.
+    let size = unsafe { checked_size(given, &argument)? };
+    if size == size_of::<T>() {
+        // SAFETY: not NULL and aligned; the cookie and size were written together by the _default function, so `size` bytes are
+        // readable, and valid whatever they are.
+        return Ok(Given::Theirs(unsafe { &*given }));
+    }
+    let mut read = T::defaults();
+    let known = size.min(size_of::<T>());
+    // SAFETY: as above.
+    unsafe {
+        std::ptr::copy_nonoverlapping(given.cast::<u8>(), (&raw mut read).cast(), known);
+        let beyond = std::slice::from_raw_parts(given.cast::<u8>().add(known), size - known);
+        if beyond.iter().any(|&byte| byte != 0) {
+            return Err(Failure::new(
+                cstk_status::CSTK_UNSUPPORTED,
+                format!("{argument} sets a field this version of the library does not know"),
+            ));
+        }
+    }
+    Ok(Given::Ours(read))
+}
+
+/// The size of the caller's structure, which was written by its _default function.
+unsafe fn checked_size<T: OptionsStruct>(
+    given: *const T,
+    argument: &impl fmt::Display,
+) -> Result<usize, Failure> {
     if given.is_null() {
         return Err(null(&argument.to_string()));
     }
@@ -273,20 +337,7 @@ pub unsafe fn options<T: OptionsStruct>(
     if !is_version::<T>(size) {
         return Err(not_initialised(format!("its size is {size}")));
     }
-    let mut read = T::defaults();
-    let known = size.min(size_of::<T>());
-    // SAFETY: the cookie and size were written together by the _default function, so `size` bytes are readable.
-    unsafe {
-        std::ptr::copy_nonoverlapping(given.cast::<u8>(), (&raw mut read).cast(), known);
-        let beyond = std::slice::from_raw_parts(given.cast::<u8>().add(known), size - known);
-        if beyond.iter().any(|&byte| byte != 0) {
-            return Err(Failure::new(
-                cstk_status::CSTK_UNSUPPORTED,
-                format!("{argument} sets a field this version of the library does not know"),
-            ));
-        }
-    }
-    Ok(read)
+    Ok(size)
 }
 
 /// The same, where NULL stands for the defaults.

@@ -111,7 +111,7 @@ impl Environment {
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let Writer { spare, latest } = &mut *writer;
         let before = self.snapshot();
-        let mut next = next_state(spare.take(), &before);
+        let mut next = next_state(spare.take(), &before, changes);
         let state = Arc::get_mut(&mut next).expect("nobody else knows it yet");
         let mut ids = Vec::with_capacity(changes.len());
         let mut changed = IndexSet::new(state.place_count() + changes.len());
@@ -151,12 +151,25 @@ impl Change {
     }
 }
 
-/// A state equal to the one before the change: the spare one brought up to date, if nobody else holds it.
-fn next_state(spare: Option<Arc<Snapshot>>, before: &Snapshot) -> Arc<Snapshot> {
+/// A state equal to the one before the changes, but for where objects are that they move: the spare one brought up to date,
+/// if nobody else holds it.
+fn next_state(
+    spare: Option<Arc<Snapshot>>,
+    before: &Snapshot,
+    changes: &[Change],
+) -> Arc<Snapshot> {
     if let Some(mut spare) = spare
         && let Some(state) = Arc::get_mut(&mut spare)
     {
-        state.follow(before);
+        let mut to_move = IndexSet::new(before.place_count());
+        for change in changes {
+            if let Change::Move { id, .. } = change
+                && let Some(place) = before.place_of(*id)
+            {
+                to_move.insert(place);
+            }
+        }
+        state.follow(before, &to_move);
         return spare;
     }
     Arc::new(before.clone())

@@ -10,9 +10,12 @@ use crate::hierarchy::{BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox};
 use crate::index_set::IndexSet;
 use crate::pair::ROUNDING;
 
-/// If one of so many objects, or more, leave their neighbours at once, all are refitted, and the tree is built anew if that left
-/// it loose.
-const LEAVING: usize = 4;
+/// If more than one of so many objects leave their neighbours at once, the tree is made anew in haste: `scripts/bench.sh objects`
+/// took less time than for putting them in one by one.
+const LEAVING: usize = 16;
+
+/// The same for objects that come or go, each of which is put in or taken out once.
+const COMING: usize = 4;
 
 /// Up to one of so many objects are put into the tree anew sooner than many at once: that keeps it tighter, and costs each
 /// some times what a refit does.
@@ -41,8 +44,8 @@ struct Wear {
     changes: usize,
     /// Boxes put in and taken out.
     reshapings: usize,
-    /// Boxes of the last change that left their neighbours and were refitted with all others.
-    leaving: usize,
+    /// Whether it was made in haste.
+    is_hasty: bool,
     /// As they were then.
     count: usize,
     surface: f64,
@@ -61,7 +64,7 @@ impl ObjectTree {
             wear: Wear {
                 changes: 0,
                 reshapings: 0,
-                leaving: 0,
+                is_hasty: false,
                 count: taken.len() + strays.len(),
                 surface: tree.surface(),
                 strays: strays.len(),
@@ -106,8 +109,8 @@ impl ObjectTree {
     }
 
     /// Goes after the objects of some places, which are new, gone, or elsewhere. Boxes that stay about where they were are
-    /// refitted, all in one pass; one that leaves its neighbours is put into the tree anew, unless many do. False where so many
-    /// come and go that the tree is to be built anew, and is left unfinished.
+    /// refitted, all in one pass; one that leaves its neighbours is put into the tree anew, unless many do: then the tree is made
+    /// anew in haste. False where so many come and go that the tree is to be built anew, and is left unfinished.
     pub(super) fn update(&mut self, changed: &IndexSet, places: &Places) -> bool {
         let mut refitted = IndexSet::new(places.len());
         let (mut removed, mut inserted, mut leaving) = (Vec::new(), Vec::new(), Vec::new());
@@ -139,16 +142,16 @@ impl ObjectTree {
         if 2 * (removed.len() + inserted.len()) > self.count {
             return false;
         }
-        self.wear.reshapings += removed.len() + inserted.len();
-        self.wear.leaving = 0;
-        if LEAVING * leaving.len() <= self.count {
-            self.wear.reshapings += 2 * leaving.len();
-            removed.extend(&leaving);
-            inserted.extend(&leaving);
-            leaving.iter().for_each(|&place| refitted.remove(place));
-        } else {
-            self.wear.leaving = leaving.len();
+        let is_many = LEAVING * leaving.len() > self.count
+            || COMING * (removed.len() + inserted.len()) > self.count;
+        if is_many {
+            self.rebuild_in_haste(places);
+            return true;
         }
+        removed.extend(&leaving);
+        inserted.extend(&leaving);
+        leaving.iter().for_each(|&place| refitted.remove(place));
+        self.wear.reshapings += removed.len() + inserted.len();
         let mut changes = BoxTreeChanges {
             tree: &mut self.tree,
             boxes: places,
@@ -157,6 +160,26 @@ impl ObjectTree {
         changes.refit(&refitted);
         inserted.iter().for_each(|&place| changes.insert(place));
         true
+    }
+
+    /// Makes the tree anew over all objects in the world that are no strays, within the limits it had.
+    fn rebuild_in_haste(&mut self, places: &Places) {
+        let is_taken = |&place: &u32| {
+            places[place as usize].is_in_world() && self.strays.binary_search(&place).is_err()
+        };
+        let taken: Vec<u32> = (0..places.len() as u32).filter(is_taken).collect();
+        self.tree.rebuild_in_haste(&taken, places.len(), places);
+        (self.deviation, self.radius, self.reach) = (0.0, 0.0, 0.0);
+        for &place in &taken {
+            self.measure(&places[place as usize].bounds);
+        }
+        self.wear = Wear {
+            is_hasty: true,
+            count: self.count,
+            surface: self.tree.surface(),
+            strays: self.wear.strays,
+            ..Wear::default()
+        };
     }
 
     /// Notes whether the object of a place is a stray; returns whether it was.
@@ -176,7 +199,7 @@ impl ObjectTree {
         let Wear {
             changes,
             reshapings,
-            leaving,
+            is_hasty,
             count,
             surface,
             strays,
@@ -189,7 +212,7 @@ impl ObjectTree {
         let is_loose = self.surface() > 1.3 * more * surface;
         is_blurred && changes > self.count / 16
             || self.strays.len() > strays + self.count / 8
-            || is_loose && (changes > self.count || leaving > 0)
+            || (is_loose || is_hasty) && changes > self.count
             || self.count > 2 * count + 8
             || reshapings > 4 * self.count + 64
             || places > 2 * objects + 64

@@ -202,10 +202,15 @@ impl Snapshot {
         self.attached = Arc::new((0..self.places.len()).filter(is_attached).collect());
     }
 
-    /// Takes over what was changed in a state that was cloned from this one, or followed it.
-    pub(super) fn follow(&mut self, other: &Self) {
+    /// Takes over what was changed in a state that was cloned from this one, or followed it; not where the objects of some
+    /// places were, which will be moved.
+    pub(super) fn follow(&mut self, other: &Self, to_move: &IndexSet) {
         self.version = other.version;
-        self.places.follow(&other.places);
+        self.places.follow_by(&other.places, |index, own, now| {
+            if !to_move.contains(index) || !own.differs_in_pose_alone(now) {
+                own.clone_from(now);
+            }
+        });
         self.ids.follow(&other.ids);
         (self.count, self.first) = (other.count, other.first);
         self.tree.follow(&other.tree);
@@ -229,18 +234,21 @@ where
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) {
         let target = self.target;
-        self.places.update(self.changed.iter(), |index, place| {
-            let Some(object) = &mut place.object else {
-                return;
-            };
-            if let Some((pose, attachment)) = target(index) {
-                object.pose = *pose;
-                if object.attachment.is_some() || attachment.is_some() {
-                    object.attachment = attachment.cloned().map(Arc::new);
+        let mut changed = self.changed.iter().peekable();
+        while let Some(mut run) = self.places.next_run(&mut changed) {
+            while let Some((index, place)) = run.next() {
+                let Some(object) = &mut place.object else {
+                    continue;
+                };
+                if let Some((pose, attachment)) = target(index) {
+                    object.pose = *pose;
+                    if object.attachment.is_some() || attachment.is_some() {
+                        object.attachment = attachment.cloned().map(Arc::new);
+                    }
                 }
+                place.bounds = Bounds::of(&object.body, &object.pose);
             }
-            place.bounds = Bounds::of(&object.body, &object.pose);
-        });
+        }
     }
 }
 
@@ -268,6 +276,15 @@ impl Clone for Place {
 }
 
 impl Place {
+    fn differs_in_pose_alone(&self, other: &Self) -> bool {
+        match (&self.object, &other.object) {
+            (Some(own), Some(now)) => {
+                own.id == now.id && own.attachment.is_none() && now.attachment.is_none()
+            }
+            _ => false,
+        }
+    }
+
     fn is_attached(&self) -> bool {
         let object = self.object.as_ref();
         object.is_some_and(|object| object.attachment.is_some())

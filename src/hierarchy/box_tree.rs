@@ -2,10 +2,12 @@
 //! clones of the tree share the chunks that none of them has changed since.
 
 use super::binned_split::{levels_for, split_within};
+use super::four_boxes::FourBoxes;
 use super::packed_tree::power_of_two;
 use super::wide_node::WideNode;
 use super::{Extent, Forest, Node, SubsetTree};
 use crate::cow_vec::CowVec;
+use crate::lanes::F64x4;
 use crate::pose::Vec3;
 
 /// A box around a body: of its axes the first two, orthonormal to within 2^-12 (see [`PackedBox`]); the third is their cross
@@ -192,6 +194,7 @@ impl BoxFrame {
     }
 
     /// A node with some children, given the box of each and that of all.
+    #[inline(always)]
     pub(super) fn packed(
         &self,
         children: &[u32],
@@ -201,9 +204,7 @@ impl BoxFrame {
         // Boxes that grow a little are to fit too.
         const ROOM: f64 = 1.25;
         let center = (extent.center() - self.center) / self.scale;
-        let boxes = 0..children.len();
-        let largest = boxes
-            .clone()
+        let largest = (0..children.len())
             .map(|lane| given(lane).half.amax())
             .fold(0.0, f64::max);
         // Sides may be nearly twice as large as what centres are within.
@@ -212,10 +213,8 @@ impl BoxFrame {
             let mut wide = WideNode::around(&center, half);
             wide.children[..children.len()].copy_from_slice(children);
             wide.count = children.len() as u32;
-            if boxes
-                .clone()
-                .all(|lane| self.put(&mut wide, lane, &given(lane)))
-            {
+            let all = ((1u16 << children.len()) - 1) as u8;
+            if self.put(&mut wide, all, &given) {
                 return wide;
             }
             // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
@@ -223,17 +222,32 @@ impl BoxFrame {
         }
     }
 
-    /// Sets the box of a child; false if it does not fit.
+    /// Sets the boxes of some children, a bit each, to hold those given; false if one does not fit.
     #[inline(always)]
-    pub(super) fn put(&self, wide: &mut WideNode, lane: usize, given: &OrientedBox) -> bool {
+    pub(super) fn put(
+        &self,
+        wide: &mut WideNode,
+        lanes: u8,
+        given: impl Fn(usize) -> OrientedBox,
+    ) -> bool {
         // A power of two: exact.
         let inverse_scale = 1.0 / self.scale;
-        let local = OrientedBox {
-            center: (given.center - self.center) * inverse_scale,
-            half: given.half * inverse_scale,
-            ..*given
-        };
-        wide.put(lane, &local)
+        for first in [0, 4] {
+            let some = lanes >> first & 15;
+            if some == 0 {
+                continue;
+            }
+            let mut four = FourBoxes::of(some, |lane| given(first + lane));
+            for k in 0..3 {
+                let from_center = four.center[k] - F64x4::splat(self.center[k]);
+                four.center[k] = from_center * inverse_scale;
+                four.half[k] = four.half[k] * inverse_scale;
+            }
+            if !wide.put(first, some, &four) {
+                return false;
+            }
+        }
+        true
     }
 }
 

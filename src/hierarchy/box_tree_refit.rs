@@ -1,7 +1,7 @@
 //! The boxes of nodes after what is below them changed.
 
 use super::box_split::FULL;
-use super::box_tree::{BOX, BoxFrame, BoxNode, BoxTree, Boxes, NOWHERE, OrientedBox};
+use super::box_tree::{BOX, BoxFrame, BoxNode, Boxes, NOWHERE, OrientedBox};
 use super::box_tree_changes::{BoxTreeChanges, Child};
 use crate::index_set::IndexSet;
 use crate::lanes::{Instructions, Work, with_widest};
@@ -18,27 +18,11 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
                 name = tree.parents[name as usize];
             }
         }
-        let tree = &mut *self.tree;
-        let Settled { mut moved, inner } = with_widest(Settling {
-            tree,
-            boxes: self.boxes,
+        with_widest(Settling {
+            changes: self,
             changed,
             touched: &touched,
         });
-        for name in self.bottom_up(&inner) {
-            let node = self.tree.node(name);
-            let children = node.wide.children().iter().enumerate();
-            let lanes = children.fold(0, |lanes, (lane, &child)| {
-                let has_changed = match child & BOX {
-                    0 => moved.contains(child as usize),
-                    _ => changed.contains((child & !BOX) as usize),
-                };
-                lanes | u8::from(has_changed) << lane
-            });
-            if lanes != 0 && self.settle(name, lanes) {
-                moved.insert(name as usize);
-            }
-        }
     }
 
     /// Nodes of a set that holds what is above each, those below others first.
@@ -58,16 +42,11 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
 
     /// Makes a node hold its children, of which those of some lanes have changed. Returns whether its own box changed.
     pub(super) fn settle(&mut self, name: u32, lanes: u8) -> bool {
-        let mut children = [Child::default(); FULL];
-        let node = self.tree.node(name);
-        let before = node.extent;
-        for (lane, &child) in node.wide.children().iter().enumerate() {
-            children[lane] = self.child(child);
-        }
-        let node = self.tree.nodes.get_mut(name as usize);
-        node.settle(&children, lanes, &self.tree.frame, self.boxes);
-        self.tree.surface += node.extent.half_surface() - before.half_surface();
-        node.extent != before
+        with_widest(SettlingOne {
+            changes: self,
+            name,
+            lanes,
+        })
     }
 
     pub(super) fn child(&self, name: u32) -> Child {
@@ -83,60 +62,117 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
     }
 }
 
-/// The nodes above changed boxes, of which those that only hold boxes are brought up to date.
-struct Settling<'a, B> {
-    tree: &'a mut BoxTree,
-    boxes: &'a B,
-    changed: &'a IndexSet,
-    touched: &'a IndexSet,
+/// A node whose children changed in some lanes.
+struct SettlingOne<'c, 'a, B> {
+    changes: &'c mut BoxTreeChanges<'a, B>,
+    name: u32,
+    lanes: u8,
 }
 
-struct Settled {
-    /// The nodes whose own box changed.
-    moved: IndexSet,
-    /// Those that hold nodes, and are left.
-    inner: IndexSet,
-}
-
-impl<B: Boxes> Work for Settling<'_, B> {
-    type Output = Settled;
+impl<B: Boxes> Work for SettlingOne<'_, '_, B> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Settled {
+    fn run<I: Instructions>(self, _: I) -> bool {
         let Self {
-            tree,
-            boxes,
+            changes,
+            name,
+            lanes,
+        } = self;
+        let mut children = [Child::default(); FULL];
+        let node = changes.tree.node(name);
+        let before = node.extent;
+        for (lane, &child) in node.wide.children().iter().enumerate() {
+            children[lane] = changes.child(child);
+        }
+        let tree = &mut *changes.tree;
+        let node = tree.nodes.get_mut(name as usize);
+        node.settle(&children, lanes, &tree.frame, changes.boxes);
+        tree.surface += node.extent.half_surface() - before.half_surface();
+        node.extent != before
+    }
+}
+
+/// The nodes above changed boxes: first those that only hold boxes, in the order they lie in.
+struct Settling<'c, 'a, B> {
+    changes: &'c mut BoxTreeChanges<'a, B>,
+    changed: &'c IndexSet,
+    touched: &'c IndexSet,
+}
+
+impl<B: Boxes> Work for Settling<'_, '_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) {
+        let Self {
+            changes,
             changed,
             touched,
         } = self;
+        let boxes = changes.boxes;
+        let tree = &mut *changes.tree;
+        // The nodes whose own box changed, and those that hold nodes.
         let mut moved = IndexSet::new(tree.nodes.len());
         let mut inner = IndexSet::new(tree.nodes.len());
         let (frame, surface) = (tree.frame, &mut tree.surface);
-        tree.nodes.update(touched.iter(), |name, node| {
-            let mut children = [Child::default(); FULL];
-            let mut lanes = 0;
-            for lane in 0..node.wide.count as usize & 15 {
-                let child = node.wide.children[lane & 7];
-                if child & BOX == 0 {
+        let mut names = touched.iter().peekable();
+        while let Some(mut run) = tree.nodes.next_run(&mut names) {
+            while let Some((name, node)) = run.next() {
+                let Some((children, lanes)) = given_boxes(node, boxes, changed) else {
                     inner.insert(name);
-                    return;
-                }
-                let place = (child & !BOX) as usize;
-                lanes |= u8::from(changed.contains(place)) << lane;
-                children[lane & 7] = Child {
-                    name: child,
-                    extent: boxes.extent(place),
+                    continue;
                 };
+                let before = node.extent;
+                node.settle(&children, lanes, &frame, boxes);
+                if node.extent != before {
+                    *surface += node.extent.half_surface() - before.half_surface();
+                    moved.insert(name);
+                }
             }
-            let before = node.extent;
-            node.settle(&children, lanes, &frame, boxes);
-            if node.extent != before {
-                *surface += node.extent.half_surface() - before.half_surface();
-                moved.insert(name);
+        }
+        for name in changes.bottom_up(&inner) {
+            let node = changes.tree.node(name);
+            let children = node.wide.children().iter().enumerate();
+            let lanes = children.fold(0, |lanes, (lane, &child)| {
+                let has_changed = match child & BOX {
+                    0 => moved.contains(child as usize),
+                    _ => changed.contains((child & !BOX) as usize),
+                };
+                lanes | u8::from(has_changed) << lane
+            });
+            let one = SettlingOne {
+                changes: &mut *changes,
+                name,
+                lanes,
+            };
+            if lanes != 0 && one.run(instructions) {
+                moved.insert(name as usize);
             }
-        });
-        Settled { moved, inner }
+        }
     }
+}
+
+/// The children of a node that only holds boxes, and which of them have changed.
+#[inline(always)]
+fn given_boxes(
+    node: &BoxNode,
+    boxes: &impl Boxes,
+    changed: &IndexSet,
+) -> Option<([Child; FULL], u8)> {
+    let mut children = [Child::default(); FULL];
+    let mut lanes = 0;
+    for lane in 0..node.wide.count as usize & 15 {
+        let name = node.wide.children[lane & 7];
+        if name & BOX == 0 {
+            return None;
+        }
+        let place = (name & !BOX) as usize;
+        lanes |= u8::from(changed.contains(place)) << lane;
+        let extent = boxes.extent(place);
+        children[lane & 7] = Child { name, extent };
+    }
+    Some((children, lanes))
 }
 
 impl Child {
@@ -165,16 +201,11 @@ impl BoxNode {
             whole = whole.union(&child.extent);
         }
         self.extent = whole;
-        for (lane, child) in children.iter().enumerate() {
-            let is_changed = lanes >> lane & 1 == 1;
-            if is_changed && !frame.put(&mut self.wide, lane, &child.oriented(boxes)) {
-                // One that does not fit: all are given room.
-                let names = self.wide.children;
-                let names = &names[..children.len()];
-                let given = |lane: usize| children[lane].oriented(boxes);
-                self.wide = frame.packed(names, &self.extent, given);
-                return;
-            }
+        let given = |lane: usize| children[lane].oriented(boxes);
+        if !frame.put(&mut self.wide, lanes, given) {
+            // One that does not fit: all are given room.
+            let names = self.wide.children;
+            self.wide = frame.packed(&names[..children.len()], &self.extent, given);
         }
     }
 }

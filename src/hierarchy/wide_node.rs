@@ -5,7 +5,6 @@
 use std::borrow::Cow;
 
 use super::Extent;
-use super::box_tree::OrientedBox;
 use super::oriented_box::span;
 use super::packed_box::PackedBox;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
@@ -110,60 +109,6 @@ impl WideNode {
         }
     }
 
-    /// Sets the box of a child, around another box; false if it does not fit the node. Its size code is not set.
-    #[inline(always)]
-    pub fn put(&mut self, lane: usize, given: &OrientedBox) -> bool {
-        let lane = lane & 7;
-        let step = f64::from(self.step());
-        let inverse_step = 1.0 / step;
-        for k in 0..3 {
-            let place = (given.center[k] - f64::from(self.frame[k])) * inverse_step;
-            if place.abs() > MAX_PLACE {
-                return false;
-            }
-            // Which of two neighbours a half becomes does not matter: the sides make up for it.
-            self.center[k][lane] = (place + 0.5).floor().min(MAX_PLACE) as i16;
-            for i in 0..2 {
-                let component = (given.axes[i][k] * 32768.0 + 0.5).floor();
-                self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
-            }
-        }
-        // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
-        let rounded = self.get(lane);
-        let axes = rounded.axes.map(|axis| axis.map(f64::from));
-        let off = each3(|k| given.center[k] - f64::from(rounded.center[k]));
-        let [x, y] = &given.axes;
-        let columns = [x, y, &x.cross(y)].map(|axis| [axis.x, axis.y, axis.z]);
-        let farthest = each3(|i| {
-            dot3(&axes[i], &off).abs()
-                + given.half.x * dot3(&axes[i], &columns[0]).abs()
-                + given.half.y * dot3(&axes[i], &columns[1]).abs()
-                + given.half.z * dot3(&axes[i], &columns[2]).abs()
-        });
-        // So much for the projections. Coefficients are the products of these with the inverse of the axes' Gram matrix,
-        // I + E; the third axis is upright to the others but for its rounding to single precision.
-        let [a, b, c] = &axes;
-        let skew = (dot3(a, a) - 1.0)
-            .abs()
-            .max((dot3(b, b) - 1.0).abs())
-            .max((dot3(c, c) - 1.0).abs())
-            .max(dot3(a, b).abs());
-        let most = farthest[0].max(farthest[1]).max(farthest[2]);
-        let rounding = 1e-6 * most;
-        let skewed = 2.5 * skew * farthest[0].max(farthest[1]);
-        let needed = [
-            farthest[0] + skewed + rounding,
-            farthest[1] + skewed + rounding,
-            farthest[2] * (1.0 + 2.5 * skew) + rounding,
-        ];
-        // A little more, as the product with the step is rounded to single precision.
-        let halves = needed.map(|needed| (needed * (1.0 + 1e-6) * inverse_step).ceil());
-        for (numbers, half) in self.half.iter_mut().zip(halves) {
-            numbers[lane] = half as u16;
-        }
-        halves.iter().all(|&half| half <= f64::from(u16::MAX))
-    }
-
     /// What the children are.
     pub fn children(&self) -> &[u32] {
         &self.children[..self.count as usize]
@@ -243,7 +188,7 @@ impl WideNode {
     }
 
     #[inline(always)]
-    fn step(&self) -> f32 {
+    pub(super) fn step(&self) -> f32 {
         self.frame[3]
     }
 
@@ -330,9 +275,4 @@ impl WideNode {
             half: [half(i), half(j), half(k)],
         }
     }
-}
-
-#[inline(always)]
-fn dot3(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -19,6 +19,7 @@ use crate::environment::{Environment, SObject};
 use crate::error::Result;
 use crate::pair::PrimitiveScratch;
 use crate::pose::Vec3;
+use crate::space::Space;
 
 /// At most this many distances are computed for one pair; a way that needs more counts as not free.
 const MAX_DISTANCES: usize = 400;
@@ -371,7 +372,7 @@ impl<'a> Way<'a> {
         let space = self.cobject.space();
         let fastest = match &term.pairs {
             BodyPairs::Objects { links, objects, .. } => {
-                let held = extents_of_held(world, objects.environment());
+                let held = extents_of_held(world, objects.environment(), space);
                 let of_link = |link: usize| {
                     let held = held.iter().filter(|(holder, _)| *holder == link);
                     let held =
@@ -445,12 +446,13 @@ fn pure_sets(cobject: &CObject) -> impl Iterator<Item = &PureSet> {
         }))
 }
 
-/// The links that hold s-objects of an environment, and how far these reach from the links' origins.
-fn extents_of_held(world: &World, environment: &Environment) -> Vec<(usize, f64)> {
+/// The links of a space that hold s-objects of an environment, and how far these reach from the links' origins.
+fn extents_of_held(world: &World, environment: &Environment, space: &Space) -> Vec<(usize, f64)> {
     let attached = world.snapshot(environment).map(|now| now.attached());
     let extent = |object: &SObject| {
-        let link = object.attachment.as_ref()?.link;
-        Some((link, object.pose.translation.norm() + object.body.reach()))
+        let attachment = object.attachment.as_ref()?;
+        let reach = object.pose.translation.norm() + object.body.reach();
+        (attachment.space == space.serial()).then_some((attachment.link, reach))
     };
     attached.into_iter().flatten().filter_map(extent).collect()
 }
