@@ -4,7 +4,7 @@
 mod common;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::convex::{DistanceScratch, PlacedBuffer, closest_points};
+use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
 use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
 use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, bounds};
@@ -180,12 +180,14 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
             "case {case}: {found}, brute force {truth:?}"
         );
         let (mut buffer_a, mut buffer_b) = (PlacedBuffer::default(), PlacedBuffer::default());
-        let features = closest_points(
+        let features = measure(
             &buffer_a.place(a.primitives().get(0), &Pose::identity()),
             &buffer_b.place(b.primitives().get(0), &pairing.relative),
             &pairing.precision,
+            f64::INFINITY,
             &mut DistanceScratch::default(),
         );
+        let features = features.unwrap().closest;
         let apart = (features.distance - found).abs() / size;
         assert!(
             apart <= 2.0 * DISTANCE_ERROR,
@@ -193,7 +195,7 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
         );
         // The closest points are as far apart as the distance says.
         let hit = pairing.met([0, 0], found).hit(0, found);
-        let closest = pairing.closest(&hit);
+        let closest = pairing.closest(&hit, &mut scratch).closest;
         let between = (closest.points[0] - closest.points[1]).norm();
         assert!(
             (between - found).abs() <= 1e-13 * size,

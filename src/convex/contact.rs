@@ -5,7 +5,8 @@ use nalgebra::Vector2;
 use super::closest::{Closest, Segment, closest_parameters};
 use super::contact_normal::ContactPair;
 use super::curved::is_curved;
-use super::curved_contact::curved_contacts;
+use super::curved_contact::{curved_contacts, first_curved_contact};
+use super::distance::Measured;
 use super::placed::{Placed, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
@@ -40,11 +41,73 @@ pub struct Contact {
 /// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
 ///
 /// Curved primitives have those of their cores: smooth ones one contact only, whatever touches them along a line or a face.
-pub fn contacts(r: &Placed, s: &Placed, closest: &Closest, precision: &Precision) -> Vec<Contact> {
+pub fn contacts(
+    r: &Placed,
+    s: &Placed,
+    measured: &Measured,
+    precision: &Precision,
+) -> Vec<Contact> {
     if is_curved(r, s) {
-        curved_contacts(r, s, precision)
+        curved_contacts(r, s, measured, precision)
     } else {
-        polytope_contacts(r, s, closest, precision)
+        polytope_contacts(r, s, &measured.closest, precision)
+    }
+}
+
+/// The first of these contacts.
+pub fn first_contact(
+    r: &Placed,
+    s: &Placed,
+    measured: &Measured,
+    precision: &Precision,
+) -> Option<Contact> {
+    let first = if is_curved(r, s) {
+        first_curved_contact(r, s, measured, precision)
+    } else {
+        first_polytope_contact(r, s, &measured.closest, precision)
+    };
+    first.or_else(|| contacts(r, s, measured, precision).into_iter().next())
+}
+
+/// The contact at the closest points of two hulls that are apart, if their features say one.
+pub(super) fn first_polytope_contact(
+    r: &Placed,
+    s: &Placed,
+    closest: &Closest,
+    precision: &Precision,
+) -> Option<Contact> {
+    let mode = mode_of(closest.features)?;
+    if precision.planar && mode == ContactMode::EdgeEdge {
+        return None;
+    }
+    let pair = ContactPair {
+        r,
+        s,
+        closest,
+        precision,
+    };
+    let normal = pair.normal_if_apart()?;
+    let contact = contact_between(closest.points, closest.features, normal, mode, precision);
+    // Just inside, the deepest of all comes first.
+    (contact.gap >= 0.0).then_some(contact)
+}
+
+fn contact_between(
+    points: [Vec3; 2],
+    features: [Feature; 2],
+    normal: Vec3,
+    mode: ContactMode,
+    precision: &Precision,
+) -> Contact {
+    let gap = normal.dot(&(points[0] - points[1]));
+    let error = precision.error;
+    Contact {
+        points,
+        normal,
+        distance: if gap > error { gap } else { 0.0 },
+        gap: if gap.abs() > error { gap } else { 0.0 },
+        mode,
+        features,
     }
 }
 
@@ -70,24 +133,12 @@ pub(super) fn polytope_contacts(
     let on_s = Supporting::new(s, &normal, slack);
     let mut found: Vec<Contact> = Vec::new();
     let mut offer = |points: [Vec3; 2], features: [Feature; 2]| {
-        let gap = normal.dot(&(points[0] - points[1]));
         let near = |other: &Contact| {
             (other.points[0] - points[0]).norm() <= 1e-9 * size
                 && (other.points[1] - points[1]).norm() <= 1e-9 * size
         };
         if let (Some(mode), None) = (mode_of(features), found.iter().position(near)) {
-            found.push(Contact {
-                points,
-                normal,
-                distance: if gap > precision.error { gap } else { 0.0 },
-                gap: if gap.abs() > precision.error {
-                    gap
-                } else {
-                    0.0
-                },
-                mode,
-                features,
-            });
+            found.push(contact_between(points, features, normal, mode, precision));
         }
     };
     if let Some(mode) = mode_of(closest.features)

@@ -28,6 +28,15 @@ pub struct ContactPair<'a> {
 }
 
 impl ContactPair<'_> {
+    /// The unit normal from s to r of primitives that are far enough apart for it to be told by their closest points.
+    pub fn normal_if_apart(&self) -> Option<Vec3> {
+        if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
+            self.normal_apart()
+        } else {
+            None
+        }
+    }
+
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
     pub fn normal(&self) -> Option<Vec3> {
         if self.closest.distance > DIRECTION_KNOWN * self.precision.size {

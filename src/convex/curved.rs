@@ -55,37 +55,35 @@ pub fn is_smooth(a: &Placed, b: &Placed) -> bool {
     a.shape.smooth().is_some() || b.shape.smooth().is_some()
 }
 
-/// The closest points of two primitives of which one at least is curved.
-pub fn curved_closest(
-    a: &Placed,
-    b: &Placed,
-    pair: &Precision,
-    scratch: &mut DistanceScratch,
-) -> Closest {
-    let cores = core_closest(a, b, pair, scratch);
-    grown(&cores, [a, b].map(|placed| placed.shape.radius()))
-}
-
-/// The closest points of the cores.
+/// The closest points of the cores, and the unit direction from B to A that bounds their distance where one is smooth and a
+/// direction does; `None` where they are proved to be farther apart than `cutoff`.
 pub fn core_closest(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
+    cutoff: f64,
     scratch: &mut DistanceScratch,
-) -> Closest {
+) -> Option<(Closest, Vec3)> {
     if is_smooth(a, b) {
-        smooth_closest(a, b, pair).0
+        smooth_closest(a, b, pair, cutoff)
     } else {
-        closest_polytopes(a, b, pair, scratch)
+        let found = closest_polytopes(a, b, pair, cutoff, scratch)?;
+        Some((found, Vec3::zeros()))
     }
 }
 
-/// The closest points of cores of which one at least is smooth, and the unit direction from B to A that bounds the distance,
-/// or zero.
-pub fn smooth_closest(a: &Placed, b: &Placed, pair: &Precision) -> (Closest, Vec3) {
+fn smooth_closest(
+    a: &Placed,
+    b: &Placed,
+    pair: &Precision,
+    cutoff: f64,
+) -> Option<(Closest, Vec3)> {
     // A guess that the primitives alone decide, so that the answer depends on nothing else.
     let start = a.middle() - b.middle();
-    let found = refined_cores(a, b, start, Vec3::zeros(), pair);
+    let found = refined(&Core::of(a), &Core::of(b), start, pair.size, cutoff);
+    if found.lower > cutoff {
+        return None;
+    }
     let closest = Closest {
         distance: found.upper,
         points: found.points,
@@ -93,7 +91,7 @@ pub fn smooth_closest(a: &Placed, b: &Placed, pair: &Precision) -> (Closest, Vec
             .map(|(placed, side)| holding_feature(placed, &found.points[side], HOLDS * pair.size)),
         doubt: doubt(&found, pair),
     };
-    (closest, found.direction)
+    Some((closest, found.direction))
 }
 
 /// How much more than the pair's error the upper bound may be above the distance: all of it where no direction proves that
@@ -114,7 +112,14 @@ pub fn refined_cores(
     shift: Vec3,
     pair: &Precision,
 ) -> Refined {
-    refined(&Core::shifted(a, shift), &Core::of(b), start, pair.size)
+    let all = f64::INFINITY;
+    refined(
+        &Core::shifted(a, shift),
+        &Core::of(b),
+        start,
+        pair.size,
+        all,
+    )
 }
 
 /// A point is held by the vertex or edge that is nearer than this, in L: along a surface closest points are known to about
@@ -145,7 +150,7 @@ fn holding_feature(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
 
 /// The closest points of two sets given those of their cores. Of sets that overlap both are one point of the two, between
 /// the cores.
-fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
+pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
     let apart = cores.distance;
     let [on_a, on_b] = cores.points;
     if apart == 0.0 || radii == [0.0; 2] {

@@ -1,9 +1,9 @@
 //! Contacts and penetration of curved primitives: those of their cores, moved outwards by the radii.
 
 use super::closest::Closest;
-use super::contact::{Contact, mode_of, polytope_contacts};
-use super::curved::{Core, core_closest, is_smooth, refined_cores, smooth_closest};
-use super::distance::DistanceScratch;
+use super::contact::{Contact, first_polytope_contact, mode_of, polytope_contacts};
+use super::curved::{Core, is_smooth, refined_cores};
+use super::distance::{DistanceScratch, Measured, measure};
 use super::penetration::{Penetration, polytope_penetration};
 use super::placed::{Placed, Precision};
 use crate::error::{Error, ErrorKind, Result};
@@ -14,27 +14,20 @@ use crate::work_meter::WorkMeter;
 
 /// The contacts of a pair of which one at least is curved. As long as the cores are apart they are exact, however deep the
 /// sets around them are in one another.
-pub fn curved_contacts(r: &Placed, s: &Placed, precision: &Precision) -> Vec<Contact> {
+pub fn curved_contacts(
+    r: &Placed,
+    s: &Placed,
+    measured: &Measured,
+    precision: &Precision,
+) -> Vec<Contact> {
     let mut found: Vec<Contact> = if is_smooth(r, s) {
-        smooth_contact(r, s, precision).into_iter().collect()
+        let contact = smooth_contact(r, s, measured, precision);
+        contact.into_iter().collect()
     } else {
-        let mut cores = core_closest(r, s, precision, &mut DistanceScratch::default());
-        if cores.distance <= precision.error {
-            cores.distance = 0.0;
-        }
-        polytope_contacts(r, s, &cores, precision)
+        polytope_contacts(r, s, &touching(&measured.cores, precision), precision)
     };
-    let [radius_r, radius_s] = [r, s].map(|placed| placed.shape.radius());
     for contact in &mut found {
-        let gap = contact.gap - radius_r - radius_s;
-        contact.gap = if gap.abs() > precision.error {
-            gap
-        } else {
-            0.0
-        };
-        contact.distance = contact.gap.max(0.0);
-        contact.points[0] -= contact.normal * radius_r;
-        contact.points[1] += contact.normal * radius_s;
+        grow(contact, [r, s], precision);
     }
     if found.iter().any(|contact| contact.gap < 0.0) {
         found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
@@ -42,12 +35,58 @@ pub fn curved_contacts(r: &Placed, s: &Placed, precision: &Precision) -> Vec<Con
     found
 }
 
+/// The first of these contacts, where that is told without the others: of cores that are apart.
+pub fn first_curved_contact(
+    r: &Placed,
+    s: &Placed,
+    measured: &Measured,
+    precision: &Precision,
+) -> Option<Contact> {
+    let mut contact = if is_smooth(r, s) {
+        smooth_contact(r, s, measured, precision)?
+    } else {
+        first_polytope_contact(r, s, &touching(&measured.cores, precision), precision)?
+    };
+    grow(&mut contact, [r, s], precision);
+    // Just inside, the deepest of all comes first.
+    (contact.gap >= 0.0 || is_smooth(r, s)).then_some(contact)
+}
+
+/// Cores that are nearer than the pair's error touch.
+fn touching(cores: &Closest, precision: &Precision) -> Closest {
+    let distance = if cores.distance <= precision.error {
+        0.0
+    } else {
+        cores.distance
+    };
+    Closest { distance, ..*cores }
+}
+
+/// Moves a contact of the cores outwards by the radii.
+fn grow(contact: &mut Contact, sides: [&Placed; 2], precision: &Precision) {
+    let [radius_r, radius_s] = sides.map(|placed| placed.shape.radius());
+    let gap = contact.gap - radius_r - radius_s;
+    contact.gap = if gap.abs() > precision.error {
+        gap
+    } else {
+        0.0
+    };
+    contact.distance = contact.gap.max(0.0);
+    contact.points[0] -= contact.normal * radius_r;
+    contact.points[1] += contact.normal * radius_s;
+}
+
 /// Cores that are farther apart than this, in L, have a normal that their closest points tell.
 const APART: f64 = 1e-6;
 
 /// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
-fn smooth_contact(r: &Placed, s: &Placed, precision: &Precision) -> Option<Contact> {
-    let (closest, direction) = smooth_closest(r, s, precision);
+fn smooth_contact(
+    r: &Placed,
+    s: &Placed,
+    measured: &Measured,
+    precision: &Precision,
+) -> Option<Contact> {
+    let (closest, direction) = (measured.cores, measured.direction);
     let is_apart = closest.distance > APART * precision.size && direction != Vec3::zeros();
     let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)
@@ -124,7 +163,14 @@ pub fn curved_penetration(
         ));
     }
     let radii = [r, s].map(|placed| placed.shape.radius());
-    let cores = core_closest(r, s, precision, &mut DistanceScratch::default());
+    let cores = measure(
+        r,
+        s,
+        precision,
+        f64::INFINITY,
+        &mut DistanceScratch::default(),
+    );
+    let cores = cores.expect("nothing is beyond infinity").cores;
     let inner = if cores.distance > precision.error {
         let between = cores.points[0] - cores.points[1];
         Penetration {

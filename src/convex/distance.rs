@@ -1,7 +1,7 @@
 //! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
 
 use super::closest::{Closest, FeatureSet, closest_features};
-use super::curved::{curved_closest, is_curved};
+use super::curved::{core_closest, grown};
 use super::placed::{Placed, Precision};
 use crate::gjk::{PointCloud, gjk};
 use crate::pose::Vec3;
@@ -15,43 +15,70 @@ pub struct DistanceScratch {
     b: FeatureSet,
 }
 
-/// The closest points of two primitives in a common frame. Distances up to the pair's error are returned as 0.
-pub fn closest_points(
+/// The closest points of two primitives, and what tells their contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured {
+    /// Distances up to the pair's error are 0.
+    pub closest: Closest,
+    /// Those of the cores: the same but for what is round.
+    pub cores: Closest,
+    /// The unit direction from B to A that proves smooth cores apart; zero for others.
+    pub direction: Vec3,
+}
+
+impl Measured {
+    /// Of two primitives that are the hulls of their vertices.
+    pub fn of_hulls(closest: Closest) -> Self {
+        Self {
+            closest,
+            cores: closest,
+            direction: Vec3::zeros(),
+        }
+    }
+}
+
+/// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than `cutoff`.
+pub fn measure(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
+    cutoff: f64,
     scratch: &mut DistanceScratch,
-) -> Closest {
-    let mut found = if is_curved(a, b) {
-        curved_closest(a, b, pair, scratch)
-    } else {
-        closest_polytopes(a, b, pair, scratch)
-    };
-    if found.distance <= pair.error {
-        found.distance = 0.0;
+) -> Option<Measured> {
+    let radii = [a, b].map(|placed| placed.shape.radius());
+    let cutoff = cutoff + radii[0] + radii[1];
+    let (cores, direction) = core_closest(a, b, pair, cutoff, scratch)?;
+    let mut closest = grown(&cores, radii);
+    if closest.distance <= pair.error {
+        closest.distance = 0.0;
     }
-    found
+    Some(Measured {
+        closest,
+        cores,
+        direction,
+    })
 }
 
-/// The closest points of the hulls of two primitives' vertices.
+/// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than `cutoff`.
 pub fn closest_polytopes(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
+    cutoff: f64,
     scratch: &mut DistanceScratch,
-) -> Closest {
+) -> Option<Closest> {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
     let mut found = if pair.planar {
         planar_closest(a, b, pair, scratch)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
-        bounded_closest(a, b, pair, scratch)
+        bounded_closest(a, b, pair, cutoff, scratch)?
     } else {
         all_features(a, b, scratch)
     };
     for (placed, side) in [(a, 0), (b, 1)] {
         snap_to_vertex(placed, &mut found, side, pair.error);
     }
-    found
+    Some(found)
 }
 
 /// A point at the end of an edge, but for rounding, is held by the vertex there.
@@ -107,18 +134,23 @@ fn bounded_closest(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
+    cutoff: f64,
     scratch: &mut DistanceScratch,
-) -> Closest {
+) -> Option<Closest> {
     let size = pair.size;
     let bounds = gjk(
         &PointCloud(a.vertices),
         &PointCloud(b.vertices),
         // A guess that the primitives alone decide, so that the answer depends on nothing else.
         a.middle() - b.middle(),
-        f64::INFINITY,
+        cutoff,
     );
+    if bounds.lower > cutoff {
+        return None;
+    }
     if bounds.overlap > tolerance::TOUCH_DEPTH * size {
-        return Closest::meeting_at(bounds.common, [Feature::interior(); 2]);
+        let interior = [Feature::interior(); 2];
+        return Some(Closest::meeting_at(bounds.common, interior));
     }
     if bounds.lower > 0.0 {
         // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets
@@ -127,23 +159,29 @@ fn bounded_closest(
         scratch.a.set_supporting(a, &-bounds.direction, slack);
         scratch.b.set_supporting(b, &bounds.direction, slack);
         let found = closest_features(a, &scratch.a, b, &scratch.b, false);
-        let certified = certificate(a, b, &found, bounds.direction);
-        if found.distance - certified <= tolerance::CERTIFIED_GAP * size {
-            return found;
+        let accepted = tolerance::CERTIFIED_GAP * size;
+        if found.distance - bounds.lower <= accepted
+            || found.distance - certificate(a, b, &found, bounds.direction) <= accepted
+        {
+            return Some(found);
         }
     }
     // Surfaces that touch or cross say more, by their features, than that one set holds a vertex of the other.
     let found = all_features(a, b, scratch);
     if found.distance <= pair.error {
-        return found;
+        return Some(found);
     }
-    if let Some((i, point)) = contained_vertex(a, b) {
-        return Closest::meeting_at(point, [Feature::vertex(i), Feature::interior()]);
+    let contained = |outer: &Placed, inner: &Placed| {
+        let (i, point) = contained_vertex(inner, outer)?;
+        Some((Feature::vertex(i), point))
+    };
+    if let Some((vertex, point)) = contained(b, a) {
+        return Some(Closest::meeting_at(point, [vertex, Feature::interior()]));
     }
-    if let Some((i, point)) = contained_vertex(b, a) {
-        return Closest::meeting_at(point, [Feature::interior(), Feature::vertex(i)]);
+    if let Some((vertex, point)) = contained(a, b) {
+        return Some(Closest::meeting_at(point, [Feature::interior(), vertex]));
     }
-    found
+    Some(found)
 }
 
 /// A vertex of A inside the solid B.

@@ -16,8 +16,8 @@ mod polygon_crossing;
 mod polygon_distance;
 
 pub use closest::Closest;
-pub use contact::{Contact, ContactMode, contacts};
-pub use distance::{DistanceScratch, closest_points};
+pub use contact::{Contact, ContactMode, contacts, first_contact};
+pub use distance::{DistanceScratch, Measured, measure};
 pub use outline::{MOST_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};

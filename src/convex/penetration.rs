@@ -162,7 +162,9 @@ fn brought_together(
         vertices: &vertices,
         ..*r
     };
-    let met = closest_polytopes(&moved, s, precision, &mut DistanceScratch::default());
+    let scratch = &mut DistanceScratch::default();
+    let met = closest_polytopes(&moved, s, precision, f64::INFINITY, scratch);
+    let met = met.expect("nothing is beyond infinity");
     [met.points[0] - way, met.points[1]]
 }
 

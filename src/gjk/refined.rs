@@ -32,16 +32,29 @@ const MOST_IDLE: u32 = 50;
 const MOST_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
-/// them nearer. No coordinate of A and B is larger than `size`. `start` is a guess of the direction from B to A.
-pub fn refined<A: Support, B: Support>(a: &A, b: &B, start: Vec3, size: f64) -> Refined {
-    let mut found = iterate(a, b, start, tolerance::CERTIFIED_GAP * size);
+/// them nearer, or the distance is known to exceed `cutoff`. No coordinate of A and B is larger than `size`. `start` is a
+/// guess of the direction from B to A.
+pub fn refined<A: Support, B: Support>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    size: f64,
+    cutoff: f64,
+) -> Refined {
+    let cutoff = cutoff.max(tolerance::SUPPORT_ERROR * size);
+    let mut found = iterate(a, b, start, [tolerance::CERTIFIED_GAP * size, cutoff]);
     if found.lower <= tolerance::SUPPORT_ERROR * size {
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
     found
 }
 
-fn iterate<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64) -> Refined {
+fn iterate<A: Support, B: Support>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    [accepted, cutoff]: [f64; 2],
+) -> Refined {
     let mut found = Refined {
         lower: 0.0,
         direction: Vec3::zeros(),
@@ -75,7 +88,7 @@ fn iterate<A: Support, B: Support>(a: &A, b: &B, start: Vec3, accepted: f64) -> 
             found.upper = difference.norm();
             found.points = [on_a, on_b];
         }
-        if found.upper - found.lower <= accepted {
+        if found.upper - found.lower <= accepted || found.lower > cutoff {
             break;
         }
         let rounding = 4.0 * tolerance::EPSILON * scale;

@@ -4,9 +4,9 @@ use super::hit::Hit;
 use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MOST_CORNERS, Nearest, Outline, Penetration, Placed,
-    PlacedBuffer, PolygonDistance, Precision, closest_points, contacts, moved, penetration,
-    polygon_closest, polygon_distance,
+    Closest, Contact, DistanceScratch, MOST_CORNERS, Measured, Nearest, Outline, Penetration,
+    Placed, PlacedBuffer, PolygonDistance, Precision, contacts, first_contact, measure, moved,
+    penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
 use crate::hierarchy::PackedPrimitives;
@@ -43,8 +43,8 @@ pub struct Apart {
     pub distance: f64,
     /// Known of polygons that do not cross.
     pub nearest: Option<Nearest>,
-    /// Of others the vector between the closest points, from B to A.
-    pub between: Vec3,
+    /// Known of others.
+    pub measured: Option<Measured>,
     /// How much more than the pair's error the distance may be above the true one.
     pub doubt: f64,
 }
@@ -81,6 +81,15 @@ impl<'a> Pairing<'a> {
     /// and the error of the distances on both sides of the comparison.
     pub fn slack(&self) -> f64 {
         tolerance::BOUND_ERROR * self.precision.size + 2.0 * self.precision.error
+    }
+
+    /// The places of the only primitives, if both bodies have but one.
+    pub fn only_places(&self) -> Option<[u32; 2]> {
+        let [a, b] = [self.a, self.b].map(|body| {
+            let tree = body.packed();
+            tree.root().is_leaf().then(|| tree.place(tree.root()))
+        });
+        Some([a?, b?])
     }
 
     /// A safe lower bound of the distance, by the spheres around the bodies.
@@ -142,7 +151,7 @@ impl<'a> Pairing<'a> {
         let mut apart = Apart {
             distance: 0.0,
             nearest: None,
-            between: Vec3::zeros(),
+            measured: None,
             doubt: 0.0,
         };
         match found {
@@ -152,10 +161,10 @@ impl<'a> Pairing<'a> {
             }
             PolygonDistance::Cross => {}
             PolygonDistance::Doubt => {
-                let closest = self.closest_at(places, scratch);
-                apart.distance = closest.distance;
-                apart.between = closest.points[0] - closest.points[1];
-                apart.doubt = closest.doubt;
+                let measured = self.measure(places, cutoff, scratch)?;
+                apart.distance = measured.closest.distance;
+                apart.doubt = measured.closest.doubt;
+                apart.measured = Some(measured);
             }
         }
         if apart.distance <= self.precision.error {
@@ -164,7 +173,7 @@ impl<'a> Pairing<'a> {
         (apart.distance - apart.doubt <= cutoff).then_some(apart)
     }
 
-    pub fn met(&self, places: [u32; 2], apart: f64) -> Met {
+    pub fn met(&self, places: [u32; 2], apart: f64) -> Met<'static> {
         let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
         let primitives = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
         Met {
@@ -172,27 +181,32 @@ impl<'a> Pairing<'a> {
             places,
             apart,
             error: self.precision.error,
+            measured: None,
         }
     }
 
     #[inline(never)]
-    fn closest_at(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Closest {
+    fn measure(
+        &self,
+        places: [u32; 2],
+        cutoff: f64,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<Measured> {
         let [a, b] = [(self.a, places[0]), (self.b, places[1])]
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let primitives = [a.primitive, b.primitive];
         let [a, b] = self.place(primitives, &mut scratch.buffer);
-        closest_points(&a, &b, &self.precision, &mut scratch.distance)
+        measure(&a, &b, &self.precision, cutoff, &mut scratch.distance)
     }
 
-    /// The closest points of a primitive pair that is `apart`, in the centred frame of A.
-    pub fn closest(&self, hit: &Hit) -> Closest {
-        let found = self.closest_outlines(hit.places);
-        let found =
-            found.unwrap_or_else(|| self.closest_at(hit.places, &mut PrimitiveScratch::default()));
-        Closest {
-            distance: hit.apart,
-            ..found
-        }
+    /// The closest points of a primitive pair that was hit, in the centred frame of A, and what tells its contacts.
+    pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> Measured {
+        let found = self.closest_outlines(hit.places).map(Measured::of_hulls);
+        let mut found = found
+            .or_else(|| self.measure(hit.places, f64::INFINITY, scratch))
+            .expect("nothing is beyond infinity");
+        found.closest.distance = hit.apart;
+        found
     }
 
     /// The same of polygons that do not cross.
@@ -219,18 +233,31 @@ impl<'a> Pairing<'a> {
     pub fn world_contacts(
         &self,
         primitives: [u32; 2],
-        closest: &Closest,
+        measured: &Measured,
         scratch: &mut PrimitiveScratch,
     ) -> Vec<WorldContact> {
         let [a, b] = self.place(primitives, &mut scratch.buffer);
-        contacts(&a, &b, closest, &self.precision)
-            .into_iter()
-            .map(|contact| WorldContact {
-                points: contact.points.map(|p| self.frame.transform_point(&p)),
-                normal: self.frame.rotation * contact.normal,
-                contact,
-            })
-            .collect()
+        let found = contacts(&a, &b, measured, &self.precision);
+        found.into_iter().map(|c| self.in_world(c)).collect()
+    }
+
+    /// The first of these contacts: that at the closest points, if the primitives are apart.
+    pub fn first_world_contact(
+        &self,
+        primitives: [u32; 2],
+        measured: &Measured,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<WorldContact> {
+        let [a, b] = self.place(primitives, &mut scratch.buffer);
+        first_contact(&a, &b, measured, &self.precision).map(|c| self.in_world(c))
+    }
+
+    fn in_world(&self, contact: Contact) -> WorldContact {
+        WorldContact {
+            points: contact.points.map(|p| self.frame.transform_point(&p)),
+            normal: self.frame.rotation * contact.normal,
+            contact,
+        }
     }
 
     /// How deep a primitive pair that meets is in one another, in the world.

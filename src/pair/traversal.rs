@@ -8,6 +8,7 @@ use super::hit::{Hit, HitKey};
 use super::nearest_first::{Entry, Waiting};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use super::winding::RayScratch;
+use crate::convex::Measured;
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
@@ -32,16 +33,18 @@ pub trait Visitor {
 
 /// A primitive pair that the walk came upon.
 #[derive(Clone, Copy, Debug)]
-pub struct Met {
+pub struct Met<'m> {
     pub primitives: [u32; 2],
     /// Where the bodies hold the two.
     pub places: [u32; 2],
     /// Their distance, known to `error`.
     pub apart: f64,
     pub error: f64,
+    /// What else was found out on the way, if it was more.
+    pub measured: Option<&'m Measured>,
 }
 
-impl Met {
+impl Met<'_> {
     pub fn hit(&self, pair: u32, distance: f64) -> Hit {
         Hit {
             distance,
@@ -130,6 +133,9 @@ pub fn traverse(
         ..
     } = scratch;
     let meetings = Meetings::new(pairing, buffer, state, visitor);
+    if let Some(places) = pairing.only_places() {
+        return with_widest(OneMeeting { meetings, places });
+    }
     with_widest(Traversal {
         meetings,
         first,
@@ -184,15 +190,23 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         else {
             return ControlFlow::Continue(());
         };
-        let mut met = self.pairing.met(places, apart.distance);
-        met.error += apart.doubt;
+        let met = self.pairing.met(places, apart.distance);
+        let met = Met {
+            error: met.error + apart.doubt,
+            measured: apart.measured.as_ref(),
+            ..met
+        };
         self.visitor.visit(&met, &mut self.state.meter)?;
         if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
-                let across = match outlines.as_ref().zip(apart.nearest) {
-                    Some(((a, b), nearest)) => nearest.across(a, b),
-                    None => apart.between,
+                let across = match (&outlines, apart.nearest, &apart.measured) {
+                    (Some((a, b)), Some(nearest), _) => nearest.across(a, b),
+                    (_, _, Some(measured)) => {
+                        let [on_a, on_b] = measured.closest.points;
+                        on_a - on_b
+                    }
+                    _ => Vec3::zeros(),
                 };
                 across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
             } else {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::hit::Hit;
 use super::shortlist::{Ranked, Shortlist};
 use super::traversal::{Met, Visitor};
+use crate::convex::Measured;
 use crate::work_meter::WorkMeter;
 
 /// Whether a primitive pair meets, to within the error of its distance.
@@ -27,6 +28,8 @@ pub struct Nearest {
     pub pair: u32,
     pub margin: f64,
     pub best: Option<Hit>,
+    /// What else was found out about the best.
+    pub measured: Option<Measured>,
     /// No primitive pair seen is nearer than this; safe against rounding.
     pub lower: f64,
     limit: f64,
@@ -39,6 +42,7 @@ impl Nearest {
             pair: 0,
             margin: 0.0,
             best: None,
+            measured: None,
             lower: f64::INFINITY,
             limit,
         }
@@ -50,7 +54,7 @@ impl Nearest {
     }
 
     /// Takes a hit, of which the distance is no less than `lower`, if none better is known.
-    pub fn take(&mut self, hit: Hit, lower: f64) {
+    pub fn take(&mut self, hit: Hit, lower: f64, measured: Option<&Measured>) {
         // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
         self.lower = self.lower.min(lower);
         if hit.distance <= self.limit
@@ -61,6 +65,7 @@ impl Nearest {
         {
             self.limit = hit.distance;
             self.best = Some(hit);
+            self.measured = measured.copied();
         }
     }
 }
@@ -78,21 +83,22 @@ impl Visitor for Nearest {
 
     fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
         let (distance, lower) = measured(met, self.margin);
-        self.take(met.hit(self.pair, distance), lower);
+        self.take(met.hit(self.pair, distance), lower, met.measured);
         ControlFlow::Continue(())
     }
 }
 
-/// Whether some primitive pair is within a threshold; stops at the first.
-pub struct Within {
+/// Whether some primitive pair is within a threshold; stops at the first. Sharper bounds (`REFINES`) pay where the threshold is
+/// more than 0.
+pub struct Within<const REFINES: bool> {
     pub margin: f64,
     pub threshold: f64,
     /// The places of the first pair found.
     pub found: Option<[u32; 2]>,
 }
 
-impl Visitor for Within {
-    const REFINES: bool = false;
+impl<const REFINES: bool> Visitor for Within<REFINES> {
+    const REFINES: bool = REFINES;
 
     fn bound(&self) -> f64 {
         self.threshold + self.margin

@@ -5,9 +5,8 @@ use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
 use crate::cobject::{InducedOptions, Leaf};
-use crate::convex::Closest;
 use crate::error::{Error, Result};
-use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch};
+use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact};
 
 /// Two bodies as a target of searches.
 pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
@@ -134,10 +133,12 @@ impl WitnessList {
     ) {
         let first_contact = self.contacts.len();
         if hit.contained.is_none() {
-            let closest = pairing.closest(hit);
+            let measured = pairing.closest(hit, scratch);
+            let found = pairing.world_contacts(hit.key.primitives, &measured, scratch);
+            let records = found.into_iter();
             let margin = target.options.margin;
             self.contacts
-                .extend(contact_records(pairing, hit, &closest, margin, scratch));
+                .extend(records.map(|contact| ContactRecord::new(contact, margin)));
         }
         let contact_count = self.contacts.len() - first_contact;
         self.witnesses.push(Witness {
@@ -155,21 +156,16 @@ impl WitnessList {
     }
 }
 
-/// The contacts of a primitive pair, given its closest points; distances less the margin.
-pub(super) fn contact_records(
-    pairing: &Pairing,
-    hit: &Hit,
-    closest: &Closest,
-    margin: f64,
-    scratch: &mut PrimitiveScratch,
-) -> impl Iterator<Item = ContactRecord> + use<> {
-    let found = pairing.world_contacts(hit.key.primitives, closest, scratch);
-    found.into_iter().map(move |found| ContactRecord {
-        points: found.points,
-        normal: found.normal,
-        distance: (found.contact.distance - margin).max(0.0),
-        clearance: found.contact.gap - margin,
-        mode: found.contact.mode,
-        features: found.contact.features,
-    })
+impl ContactRecord {
+    /// A contact; distances less the margin.
+    pub(super) fn new(found: WorldContact, margin: f64) -> Self {
+        Self {
+            points: found.points,
+            normal: found.normal,
+            distance: (found.contact.distance - margin).max(0.0),
+            clearance: found.contact.gap - margin,
+            mode: found.contact.mode,
+            features: found.contact.features,
+        }
+    }
 }

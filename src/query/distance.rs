@@ -1,7 +1,6 @@
 //! Distances as answers: from what a search found, of nothing, of a pure set.
 
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
-use super::at_poses::contact_records;
 use super::search::Found;
 use crate::cobject::{Leaf, Reach};
 use crate::pair::PrimitiveScratch;
@@ -35,11 +34,13 @@ impl Distance {
         let (points, contact) = match hit.contained {
             Some(inner) => (pairing.points_inside(inner, hit), None),
             None => {
-                let closest = pairing.closest(hit);
-                // The first is that at the closest points.
-                let (margin, scratch) = (target.options.margin, &mut PrimitiveScratch::default());
-                let mut contacts = contact_records(&pairing, hit, &closest, margin, scratch);
-                (pairing.world_points(&closest), contacts.next())
+                let scratch = &mut PrimitiveScratch::default();
+                let measured = found
+                    .measured
+                    .unwrap_or_else(|| pairing.closest(hit, scratch));
+                let contact = pairing.first_world_contact(hit.key.primitives, &measured, scratch);
+                let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
+                (pairing.world_points(&measured.closest), record)
             }
         };
         let witness = Witness {

@@ -4,6 +4,7 @@ use super::context::QueryContext;
 use super::scene::{Group, Scene};
 use super::target::Target;
 use crate::cobject::InducedOptions;
+use crate::convex::Measured;
 use crate::error::Result;
 use crate::pair::{Collect, Hit, Nearest, Pairing, Scratch, Visitor, Within, traverse, visit_pair};
 
@@ -13,6 +14,8 @@ pub(super) struct Found<'t, 'a> {
     pub hit: Option<(Hit, &'t Target<'a>)>,
     /// No primitive pair seen is nearer than this; safe against rounding.
     pub lower: f64,
+    /// What else was found out about the hit.
+    pub measured: Option<Measured>,
 }
 
 impl QueryContext {
@@ -46,7 +49,9 @@ impl QueryContext {
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
                 if pairing.has_solid() && visitor.settled_from() != Some([0, 0]) {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
-                    contained.iter().for_each(|&hit| visitor.take(hit, 0.0));
+                    contained
+                        .iter()
+                        .for_each(|&hit| visitor.take(hit, 0.0, None));
                 }
                 let first = self.remembered(&target.key);
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
@@ -61,7 +66,11 @@ impl QueryContext {
             }
             Some((hit, target))
         });
-        Ok(Found { hit, lower })
+        Ok(Found {
+            hit,
+            lower,
+            measured: visitor.measured,
+        })
     }
 
     /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
@@ -74,7 +83,7 @@ impl QueryContext {
     ) -> Result<bool> {
         let mut is_within = false;
         self.visit_recent(scene, group, |pairing, places, options, scratch| {
-            let mut visitor = Within {
+            let mut visitor = Within::<false> {
                 margin: options.margin,
                 threshold,
                 found: None,
@@ -143,20 +152,36 @@ impl QueryContext {
             if is_one_inside {
                 return Ok(true);
             }
-            let mut visitor = Within {
-                margin: target.options.margin,
-                threshold,
-                found: None,
+            let margin = target.options.margin;
+            let found = if threshold + margin > 0.0 {
+                self.first_within::<true>(&pairing, target, threshold)?
+            } else {
+                self.first_within::<false>(&pairing, target, threshold)?
             };
-            let first = self.remembered(&target.key);
-            let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
-            self.scratch.meter().check()?;
-            if let Some(places) = visitor.found {
+            if let Some(places) = found {
                 self.remember(target.key, places);
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// The places of the first primitive pair that is found within a threshold.
+    fn first_within<const REFINES: bool>(
+        &mut self,
+        pairing: &Pairing,
+        target: &Target,
+        threshold: f64,
+    ) -> Result<Option<[u32; 2]>> {
+        let mut visitor = Within::<REFINES> {
+            margin: target.options.margin,
+            threshold,
+            found: None,
+        };
+        let first = self.remembered(&target.key);
+        let _ = traverse(pairing, first, &mut self.scratch, &mut visitor);
+        self.scratch.meter().check()?;
+        Ok(visitor.found)
     }
 
     /// All pieces inside other bodies and all primitive pairs that the visitor lists, nearest first, and whether there are

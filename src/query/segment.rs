@@ -283,7 +283,7 @@ impl Obstacle for PairOnWay<'_> {
         }
         let pairing = target.pairing();
         let scratch = &mut PrimitiveScratch::default();
-        let closest = pairing.closest(&hit);
+        let closest = pairing.closest(&hit, scratch);
         let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
         let normal = contacts.first()?.normal;
         Some(Separation {
