@@ -44,17 +44,17 @@ impl Pose {
             translation: Vec3::new(v[3], v[7], v[11]),
         };
         // Almost all poses are fine as they are; they are told without a branch for each number.
-        let are_coordinates = v.iter().fold(true, |all, x| {
-            all & (x.abs() <= tolerance::LARGEST_COORDINATE)
-        });
-        if are_coordinates && is_rotation(&given.rotation) {
+        if are_coordinates(values) & is_rotation(&given.rotation) {
             return Ok(given);
         }
+        given.corrected(values)
+    }
+
+    #[cold]
+    fn corrected(mut self, values: &[f64; 12]) -> Result<Self> {
         require_coordinates(values, "pose entry")?;
-        Ok(Self {
-            rotation: nearest_rotation(given.rotation)?,
-            ..given
-        })
+        self.rotation = nearest_rotation(self.rotation)?;
+        Ok(self)
     }
 
     /// From a translation and a unit quaternion x, y, z, w, refused when its norm is off 1 by more than 1e-6.
@@ -147,8 +147,14 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     Mat3::identity() + k * s + k * k * (1.0 - c)
 }
 
+#[inline(always)]
+fn are_coordinates(values: &[f64; 12]) -> bool {
+    let is_one = |x: &f64| x.abs() <= tolerance::LARGEST_COORDINATE;
+    values.iter().fold(true, |all, x| all & is_one(x))
+}
+
 /// Whether a matrix is a rotation up to rounding.
-#[inline]
+#[inline(always)]
 fn is_rotation(r: &Mat3) -> bool {
     let row = |i: usize| [r[(i, 0)], r[(i, 1)], r[(i, 2)]];
     let (x, y, z) = (row(0), row(1), row(2));

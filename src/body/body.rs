@@ -160,6 +160,12 @@ impl Body {
         &self.packed
     }
 
+    /// The place of its primitive, if it has but one.
+    pub fn only_place(&self) -> Option<u32> {
+        let root = self.packed.root();
+        root.is_leaf().then(|| self.packed.place(root))
+    }
+
     /// What its polygons bound, if the body is a solid of space that has some.
     #[inline(always)]
     pub fn solid(&self) -> Option<&Solid> {

@@ -17,6 +17,8 @@ pub struct Closest {
     /// How much more than the pair's error the distance may be above the true one: 0 but for smooth sets whose bounds did
     /// not come together.
     pub doubt: f64,
+    /// Sets that meet are known to be at least this deep in one another.
+    pub depth: f64,
 }
 
 impl Closest {
@@ -26,6 +28,7 @@ impl Closest {
             points,
             features,
             doubt: 0.0,
+            depth: 0.0,
         }
     }
 
@@ -35,6 +38,7 @@ impl Closest {
             points: [point; 2],
             features,
             doubt: 0.0,
+            depth: 0.0,
         }
     }
 
@@ -43,6 +47,21 @@ impl Closest {
             *self = other;
         }
     }
+}
+
+/// The closest points of two hulls of one vertex or two each.
+pub fn closest_segments(a: &Placed, b: &Placed) -> Closest {
+    let segment = |placed: &Placed| match placed.shape.edges.first() {
+        Some(&ends) => (Segment::new(placed.edge_ends(ends)), ends, Some(0)),
+        None => (Segment::point(placed.vertex(0)), [0, 0], None),
+    };
+    let (on_a, ends_a, edge_a) = segment(a);
+    let (on_b, ends_b, edge_b) = segment(b);
+    let (s, t) = closest_parameters(&on_a, &on_b);
+    Closest::between(
+        [on_a.at(s), on_b.at(t)],
+        [on_edge(s, ends_a, edge_a), on_edge(t, ends_b, edge_b)],
+    )
 }
 
 /// Some features of a primitive, by index.
@@ -89,6 +108,9 @@ impl FeatureSet {
         let supports = |&i: &u32| self.heights[i as usize] >= farthest - tolerance;
         let vertices = (0..placed.vertices.len() as u32).filter(supports);
         self.vertices.extend(vertices);
+        if self.vertices.len() == 1 {
+            return;
+        }
         let edges = placed.shape.edges.iter().zip(0..);
         let edges = edges.filter(|(edge, _)| edge.iter().all(supports));
         self.edges.extend(edges.map(|(_, i)| i));
@@ -114,10 +136,10 @@ impl FeatureSet {
         } else {
             &[]
         };
-        edges.chain(lone.iter().map(|&i| {
-            let p = placed.vertex(i);
-            (Segment::new((p, p)), [i, i], None)
-        }))
+        edges.chain(
+            lone.iter()
+                .map(|&i| (Segment::point(placed.vertex(i)), [i, i], None)),
+        )
     }
 }
 
@@ -134,6 +156,7 @@ pub fn closest_features(
         points: [Vec3::zeros(); 2],
         features: [Feature::interior(); 2],
         doubt: 0.0,
+        depth: 0.0,
     };
     if crossings {
         if let Some((point, edge, face)) = crossing(a, features_a, b, features_b) {
@@ -193,6 +216,7 @@ fn vertices_over_faces(
                     points: [point, foot],
                     features: [Feature::vertex(i), Feature::face(f)],
                     doubt: 0.0,
+                    depth: 0.0,
                 });
             }
         }
@@ -239,6 +263,16 @@ impl Segment {
             end,
             along,
             square: along.norm_squared(),
+        }
+    }
+
+    /// Of no length.
+    pub fn point(at: Vec3) -> Self {
+        Self {
+            start: at,
+            end: at,
+            along: Vec3::zeros(),
+            square: 0.0,
         }
     }
 

@@ -66,7 +66,10 @@ pub fn first_contact(
     } else {
         first_polytope_contact(r, s, &measured.closest, precision)
     };
-    first.or_else(|| contacts(r, s, measured, precision).into_iter().next())
+    if first.is_some() || measured.closest.depth > tolerance::JUST_INSIDE * precision.size {
+        return first;
+    }
+    contacts(r, s, measured, precision).into_iter().next()
 }
 
 /// The contact at the closest points of two hulls that are apart, if their features say one.
@@ -87,9 +90,14 @@ pub(super) fn first_polytope_contact(
         precision,
     };
     let normal = pair.normal_if_apart()?;
-    let contact = contact_between(closest.points, closest.features, normal, mode, precision);
-    // Just inside, the deepest of all comes first.
-    (contact.gap >= 0.0).then_some(contact)
+    // Cores that are apart are nearest along their normal there: of what is round around them that is the deepest contact.
+    Some(contact_between(
+        closest.points,
+        closest.features,
+        normal,
+        mode,
+        precision,
+    ))
 }
 
 fn contact_between(

@@ -42,6 +42,9 @@ impl ContactPair<'_> {
         if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
             return self.normal_apart();
         }
+        if self.closest.depth > tolerance::JUST_INSIDE * self.precision.size {
+            return None;
+        }
         let is_within = |f: &Feature| f.kind == FeatureKind::Interior;
         let touching = if self.closest.features.iter().any(is_within) {
             None

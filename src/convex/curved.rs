@@ -90,6 +90,7 @@ fn smooth_closest(
         features: [(a, 0), (b, 1)]
             .map(|(placed, side)| holding_feature(placed, &found.points[side], HOLDS * pair.size)),
         doubt: doubt(&found, pair),
+        depth: found.depth,
     };
     Some((closest, found.direction))
 }
@@ -169,6 +170,7 @@ pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
     let between = 0.5 * ((apart - b).max(0.0) + a.min(apart));
     Closest {
         doubt: cores.doubt,
+        depth: cores.depth,
         ..Closest::meeting_at(on_a - normal * between, cores.features)
     }
 }

@@ -48,8 +48,7 @@ pub fn first_curved_contact(
         first_polytope_contact(r, s, &touching(&measured.cores, precision), precision)?
     };
     grow(&mut contact, [r, s], precision);
-    // Just inside, the deepest of all comes first.
-    (contact.gap >= 0.0 || is_smooth(r, s)).then_some(contact)
+    Some(contact)
 }
 
 /// Cores that are nearer than the pair's error touch.
@@ -87,6 +86,9 @@ fn smooth_contact(
     precision: &Precision,
 ) -> Option<Contact> {
     let (closest, direction) = (measured.cores, measured.direction);
+    if closest.depth > tolerance::JUST_INSIDE * precision.size {
+        return None;
+    }
     let is_apart = closest.distance > APART * precision.size && direction != Vec3::zeros();
     let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)

@@ -1,6 +1,6 @@
 //! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
 
-use super::closest::{Closest, FeatureSet, closest_features};
+use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::curved::{core_closest, grown};
 use super::placed::{Placed, Precision};
 use crate::gjk::{PointCloud, gjk};
@@ -68,7 +68,10 @@ pub fn closest_polytopes(
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
-    let mut found = if pair.planar {
+    let are_segments = a.vertices.len() <= 2 && b.vertices.len() <= 2;
+    let mut found = if are_segments && !pair.planar {
+        closest_segments(a, b)
+    } else if pair.planar {
         planar_closest(a, b, pair, scratch)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
         bounded_closest(a, b, pair, cutoff, scratch)?
@@ -150,7 +153,10 @@ fn bounded_closest(
     }
     if bounds.overlap > tolerance::TOUCH_DEPTH * size {
         let interior = [Feature::interior(); 2];
-        return Some(Closest::meeting_at(bounds.common, interior));
+        return Some(Closest {
+            depth: bounds.overlap,
+            ..Closest::meeting_at(bounds.common, interior)
+        });
     }
     if bounds.lower > 0.0 {
         // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets

@@ -66,6 +66,7 @@ impl NearestEdges {
             points: places.map(|place| place.0),
             features: places.map(|place| place.1),
             doubt: 0.0,
+            depth: 0.0,
         }
     }
 }

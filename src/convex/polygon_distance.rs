@@ -107,6 +107,7 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
         points,
         features,
         doubt: 0.0,
+        depth: 0.0,
     })
 }
 

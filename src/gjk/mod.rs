@@ -21,16 +21,14 @@ pub struct PointCloud<'a>(pub &'a [Vec3]);
 
 impl Support for PointCloud<'_> {
     fn support(&self, direction: &Vec3) -> Vec3 {
-        let mut best = self.0[0];
-        let mut value = direction.dot(&best);
-        for point in &self.0[1..] {
+        let (mut best, mut value) = (0, f64::NEG_INFINITY);
+        for (i, point) in self.0.iter().enumerate() {
             let here = direction.dot(point);
-            if here > value {
-                value = here;
-                best = *point;
-            }
+            // Two selections, which need not be foreseen as a branch would.
+            best = if here > value { i } else { best };
+            value = if here > value { here } else { value };
         }
-        best
+        self.0[best]
     }
 }
 

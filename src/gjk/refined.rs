@@ -17,6 +17,8 @@ pub struct Refined {
     pub direction: Vec3,
     /// The distance is at most this: that of `points`. 0 for sets that overlap.
     pub upper: f64,
+    /// The sets overlap at least this deep: a tetrahedron of the difference holds the origin with this margin.
+    pub depth: f64,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
     pub iterations: u32,
@@ -59,6 +61,7 @@ fn iterate<A: Support, B: Support>(
         lower: 0.0,
         direction: Vec3::zeros(),
         upper: f64::INFINITY,
+        depth: 0.0,
         points: [Vec3::zeros(); 2],
         iterations: 0,
     };
@@ -103,8 +106,8 @@ fn iterate<A: Support, B: Support>(
                 Some(simplex.nearest_apart())
             } else {
                 match simplex.reduce() {
-                    Nearest::Inside { at, .. } if at.difference.norm() <= rounding => {
-                        found.upper = 0.0;
+                    Nearest::Inside { at, margin } if at.difference.norm() <= rounding => {
+                        (found.upper, found.depth) = (0.0, margin);
                         found.points = [at.on_a; 2];
                         break;
                     }

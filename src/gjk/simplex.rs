@@ -1,6 +1,7 @@
 //! The point of a simplex closest to the origin.
 
 use crate::pose::Vec3;
+use crate::tolerance;
 
 /// A point of a Minkowski difference A - B, and the point of A it came from.
 #[derive(Clone, Copy)]
@@ -165,31 +166,39 @@ impl Simplex {
         }
     }
 
+    #[inline]
     fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, Kept) {
         let (a, b, c) = (self.at(i), self.at(j), self.at(k));
         let normal = (b - a).cross(&(c - a));
         let square = normal.norm_squared();
-        if square > 0.0 {
-            // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
-            // By the edge, whose error is small where the corners are near one another.
-            let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
-            if weight(b, c) > 0.0 && weight(c, a) > 0.0 && weight(a, b) > 0.0 {
-                return (normal * (a.dot(&normal) / square), Kept::new([i, j, k]));
+        // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
+        // By the edge, whose error is small where the corners are near one another.
+        let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
+        let weights = [weight(b, c), weight(c, a), weight(a, b)];
+        if square > 0.0 && weights.iter().all(|weight| *weight > 0.0) {
+            return (normal * (a.dot(&normal) / square), Kept::new([i, j, k]));
+        }
+        // The nearest edge is one that the foot is beyond; of a needle, whose normal says nothing, any.
+        let mut best: Option<(Vec3, Kept)> = None;
+        for (weight, (from, to)) in weights.iter().zip([(j, k), (k, i), (i, j)]) {
+            if *weight > 0.0 && square > 0.0 {
+                continue;
+            }
+            let found = self.on_segment(from, to);
+            if best
+                .as_ref()
+                .is_none_or(|(least, _)| found.0.norm_squared() < least.norm_squared())
+            {
+                best = Some(found);
             }
         }
-        let mut best = self.on_segment(i, j);
-        for other in [self.on_segment(j, k), self.on_segment(k, i)] {
-            if other.0.norm_squared() < best.0.norm_squared() {
-                best = other;
-            }
-        }
-        best
+        best.unwrap_or_else(|| self.on_segment(i, j))
     }
 
     /// The nearest face, or `Err` with the standing inside.
     fn on_tetrahedron(&self) -> Result<(Vec3, Kept), Nearest> {
-        let mut margin = f64::INFINITY;
         let mut weights = [0.0; 4];
+        let mut heights = [(0.0, 0.0); 4];
         let mut best: Option<(Vec3, Kept)> = None;
         for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 3, 1, 2), (0, 2, 3, 1), (1, 3, 2, 0)] {
             let a = self.at(i);
@@ -198,7 +207,7 @@ impl Simplex {
             let origin = -normal.dot(&a);
             // A flat tetrahedron has no inside; the origin is then outside of each face.
             if towards * origin > 0.0 {
-                margin = margin.min(origin.abs() / normal.norm());
+                heights[opposite] = (origin, normal.norm_squared());
                 weights[opposite] = origin / towards;
                 continue;
             }
@@ -210,10 +219,11 @@ impl Simplex {
                 best = Some(found);
             }
         }
-        match best {
-            Some(outside) => Ok(outside),
-            None => Err(self.inside(margin, weights)),
-        }
+        best.ok_or_else(|| {
+            let height = |&(origin, square): &(f64, f64)| origin.abs() / square.sqrt();
+            let margin = heights.iter().map(height).fold(f64::INFINITY, f64::min);
+            self.inside(margin, weights)
+        })
     }
 
     /// The standing of an origin that is on the inner side of all four faces, given about what weights the corners combine
@@ -222,9 +232,15 @@ impl Simplex {
     /// A weight is a quotient of volumes: where the corners are far from one another for their height, its rounding moves the
     /// point by more than a distance may be off. Newton's steps with the same volumes take that off.
     fn inside(&self, margin: f64, weights: [f64; 4]) -> Nearest {
-        let normals = self.inner_normals();
-        let mut weights = weights.map(|w| w / weights.iter().sum::<f64>());
+        let total: f64 = weights.iter().sum();
+        let mut weights = weights.map(|w| w / total);
         let mut at = self.combination(&weights);
+        let square = |corner: &Corner| corner.difference.norm_squared();
+        let largest = self.corners.iter().map(square).fold(0.0, f64::max);
+        if square(&at) <= (4.0 * tolerance::EPSILON).powi(2) * largest {
+            return Nearest::Inside { margin, at };
+        }
+        let normals = self.inner_normals();
         for _ in 0..MAX_WEIGHT_STEPS {
             let mut next = weights;
             for (weight, normal) in next.iter_mut().zip(&normals) {

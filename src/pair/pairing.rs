@@ -85,11 +85,7 @@ impl<'a> Pairing<'a> {
 
     /// The places of the only primitives, if both bodies have but one.
     pub fn only_places(&self) -> Option<[u32; 2]> {
-        let [a, b] = [self.a, self.b].map(|body| {
-            let tree = body.packed();
-            tree.root().is_leaf().then(|| tree.place(tree.root()))
-        });
-        Some([a?, b?])
+        Some([self.a.only_place()?, self.b.only_place()?])
     }
 
     /// A safe lower bound of the distance, by the spheres around the bodies.
