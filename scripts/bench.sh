@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] | slides | accuracy.
-# hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel and objects [--quick] [--seed N]
-# [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do); slides
-# [--quick] [--seed N]; accuracy [PAIRS [SEED]].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | shapes [--csv FILE] | slides |
+# accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel, objects and shapes [--quick]
+# [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do; of
+# shapes, for the rows whose group, bodies, poses and query do: "shapes box and box random collide"); slides [--quick] [--seed N];
+# accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | shapes | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | shapes [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -45,11 +46,11 @@ if [ "$name" = objects ]; then
   cmake --build build/objects -j2 >/dev/null
   exec build/objects/objects "${arguments[@]}"
 fi
-if [ "$name" != hierarchies ]; then
+if [ "$name" != hierarchies ] && [ "$name" != shapes ]; then
   # A peer or a model that cannot be had is left out, and named.
   scripts/fetch_puma560.sh >/dev/null || true
 fi
-if [ "$name" = kernel ]; then
+if [ "$name" = kernel ] || [ "$name" = shapes ]; then
   coal=$(scripts/fetch_coal.sh) || coal=
   cmake -S benches/peers -B build/peers ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/peers -j2 >/dev/null

@@ -5,6 +5,8 @@
 //! and medians count. All answers are compared.
 
 mod case;
+#[path = "../peers/library.rs"]
+mod library;
 mod ours;
 mod parry;
 mod peer;

@@ -1,28 +1,10 @@
 //! FCL and Coal, behind benches/peers/peers.h.
 
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_int, c_void};
 
 use super::case::{Case, Mode, Triangles};
+use super::library::{Library, PeerMesh};
 use super::runner::Runner;
-
-#[repr(C)]
-struct PeerMesh {
-    vertices: *const f64,
-    vertex_count: usize,
-    triangles: *const u32,
-    triangle_count: usize,
-}
-
-impl PeerMesh {
-    fn of(mesh: &Triangles) -> Self {
-        Self {
-            vertices: mesh.vertices.as_ptr(),
-            vertex_count: mesh.vertices.len() / 3,
-            triangles: mesh.triangles.as_ptr(),
-            triangle_count: mesh.triangles.len() / 3,
-        }
-    }
-}
 
 /// One of the libraries.
 pub struct Peer {
@@ -36,34 +18,12 @@ pub struct Peer {
     run: unsafe extern "C" fn(*mut c_void, c_int, f64, *const f64, usize, *mut f64) -> f64,
 }
 
-unsafe extern "C" {
-    fn dlopen(file: *const c_char, flags: c_int) -> *mut c_void;
-    fn dlsym(library: *mut c_void, name: *const c_char) -> *mut c_void;
-}
-
 impl Peer {
     // The fields say what the symbols are.
     #[allow(clippy::missing_transmute_annotations)]
-    pub fn open(name: &'static str, prefix: &str) -> Option<Self> {
-        let file = format!(
-            "{}/build/peers/lib{prefix}_peer.so",
-            env!("CARGO_MANIFEST_DIR")
-        );
-        let path = CString::new(file.clone()).expect("a path without NUL");
-        const NOW: c_int = 2;
-        // SAFETY: the library is ours; its constructors are those of C++ libraries.
-        let library = unsafe { dlopen(path.as_ptr(), NOW) };
-        if library.is_null() {
-            eprintln!("LEFT OUT: {name}, for there is no {file}");
-            return None;
-        }
-        let symbol = |suffix: &str| {
-            let name = CString::new(format!("{prefix}_{suffix}")).expect("a name without NUL");
-            // SAFETY: the library stays open.
-            let found = unsafe { dlsym(library, name.as_ptr()) };
-            assert!(!found.is_null(), "{name:?} is missing");
-            found
-        };
+    pub fn open(name: &'static str, prefix: &'static str) -> Option<Self> {
+        let library = Library::open(name, prefix)?;
+        let symbol = |suffix: &str| library.symbol(suffix);
         // SAFETY: the types are those of peers.h.
         unsafe {
             Some(Self {

@@ -1,5 +1,6 @@
 // Coal 3. Its traversals take volumes and triangles through functions of its library, so only the nodes are built here.
-#include <coal/BVH/BVH_model.h>
+#include "coal_bodies.h"
+
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/collision.h>
 #include <coal/distance.h>
@@ -64,38 +65,9 @@ struct CoalPeer {
 
     static bool tests(Method method, bool) { return method == Method::plain || method == Method::overlap; }
 
-    static Pose pose(const double *numbers) {
-        coal::Matrix3s rotation;
-        Vector translation;
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) rotation(row, column) = numbers[4 * row + column];
-            translation[row] = numbers[4 * row + 3];
-        }
-        return Pose(rotation, translation);
-    }
+    static Pose pose(const double *numbers) { return peers::pose(numbers); }
 
-    static ModelPointer model(const peer_mesh *meshes, std::size_t count) {
-        std::vector<Vector> vertices;
-        std::vector<coal::Triangle> triangles;
-        for (std::size_t at = 0; at < count; ++at) {
-            const peer_mesh &mesh = meshes[at];
-            std::size_t first = vertices.size();
-            for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-                const double *numbers = mesh.vertices + 3 * vertex;
-                vertices.emplace_back(numbers[0], numbers[1], numbers[2]);
-            }
-            for (std::size_t triangle = 0; triangle < mesh.triangle_count; ++triangle) {
-                const std::uint32_t *corners = mesh.triangles + 3 * triangle;
-                triangles.emplace_back(first + corners[0], first + corners[1], first + corners[2]);
-            }
-        }
-        auto model = std::make_shared<Model>();
-        model->beginModel(static_cast<unsigned>(triangles.size()), static_cast<unsigned>(vertices.size()));
-        model->addSubModel(vertices, triangles);
-        if (model->endModel() != coal::BVH_OK) throw std::runtime_error("Coal did not build a model");
-        model->computeLocalAABB();
-        return model;
-    }
+    static ModelPointer model(const peer_mesh *meshes, std::size_t count) { return peers::model<BV>(meshes, count); }
 
     class Pair {
     public:

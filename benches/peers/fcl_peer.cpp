@@ -1,5 +1,5 @@
 // FCL 0.7.
-#include "fcl_templates.h"
+#include "fcl_bodies.h"
 #include "scene.h"
 
 namespace {
@@ -59,37 +59,9 @@ struct FclPeer {
 
     static bool tests(Method method, bool collide) { return collide && method != Method::queue; }
 
-    static Pose pose(const double *numbers) {
-        Pose pose = Pose::Identity();
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) pose.linear()(row, column) = numbers[4 * row + column];
-            pose.translation()[row] = numbers[4 * row + 3];
-        }
-        return pose;
-    }
+    static Pose pose(const double *numbers) { return peers::pose(numbers); }
 
-    static ModelPointer model(const peer_mesh *meshes, std::size_t count) {
-        std::vector<Vector> vertices;
-        std::vector<fcl::Triangle> triangles;
-        for (std::size_t at = 0; at < count; ++at) {
-            const peer_mesh &mesh = meshes[at];
-            std::size_t first = vertices.size();
-            for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-                const double *numbers = mesh.vertices + 3 * vertex;
-                vertices.emplace_back(numbers[0], numbers[1], numbers[2]);
-            }
-            for (std::size_t triangle = 0; triangle < mesh.triangle_count; ++triangle) {
-                const std::uint32_t *corners = mesh.triangles + 3 * triangle;
-                triangles.emplace_back(first + corners[0], first + corners[1], first + corners[2]);
-            }
-        }
-        auto model = std::make_shared<Model>();
-        model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-        model->addSubModel(vertices, triangles);
-        if (model->endModel() != fcl::BVH_OK) throw std::runtime_error("FCL did not build a model");
-        model->computeLocalAABB();
-        return model;
-    }
+    static ModelPointer model(const peer_mesh *meshes, std::size_t count) { return peers::model<BV>(meshes, count); }
 
     class Pair {
     public:

@@ -72,6 +72,7 @@ pub use motor::motor;
 pub use nested_shells::nested_shells;
 pub use plate::plate;
 pub use puma_arm::{ArmScene, puma_coherent, puma_random};
+pub use random::Random;
 pub use robot_base::{robot_base, robot_bases};
 pub use scattered::scattered;
 pub use scene::Scene;

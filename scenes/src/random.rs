@@ -6,16 +6,16 @@ use crate::mesh::Point;
 use crate::motion::Pose;
 
 /// The splitmix64 generator: the same seed gives the same numbers everywhere.
-pub(crate) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
     /// The generator that starts from `seed`.
-    pub(crate) fn new(seed: u64) -> Random {
+    pub fn new(seed: u64) -> Random {
         Random(seed)
     }
 
     /// The next 64 bits.
-    pub(crate) fn bits(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -24,18 +24,18 @@ impl Random {
     }
 
     /// A number in `[low, high)`.
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;
         low + (high - low) * unit
     }
 
     /// A point in the cube of side `2 * half` about the origin.
-    pub(crate) fn point(&mut self, half: f64) -> Point {
+    pub fn point(&mut self, half: f64) -> Point {
         std::array::from_fn(|_| self.within(-half, half))
     }
 
     /// A unit vector, uniform on the sphere.
-    pub(crate) fn direction(&mut self) -> Point {
+    pub fn direction(&mut self) -> Point {
         let z = self.within(-1.0, 1.0);
         let angle = self.within(0.0, TAU);
         let r = (1.0 - z * z).sqrt();
@@ -43,7 +43,7 @@ impl Random {
     }
 
     /// A rotation about a random axis by at least an eighth of a turn either way.
-    pub(crate) fn rotation(&mut self) -> Pose {
+    pub fn rotation(&mut self) -> Pose {
         let axis = self.direction();
         Pose::rotation(axis, self.within(TAU / 8.0, TAU * 7.0 / 8.0))
     }

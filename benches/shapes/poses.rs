@@ -1,0 +1,117 @@
+//! Where the bodies are placed.
+
+use std::f64::consts::TAU;
+
+use cstk_scenes::{Point, Pose, Random};
+
+use super::ours::Ours;
+
+/// From a body's middle to its farthest point, at most.
+const REACH: f64 = 0.7;
+
+/// Nearer than this counts as touching when a body comes in.
+const TOUCH: f64 = 1e-9;
+
+/// The poses of both bodies in the world.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct Placed {
+    pub poses: [[f64; 12]; 2],
+}
+
+impl Placed {
+    pub fn pointers(&self) -> [*const f64; 2] {
+        [self.poses[0].as_ptr(), self.poses[1].as_ptr()]
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// Each pose is independent of the one before.
+    Random,
+    /// Once round the other body in small steps, turning once, in and out twice.
+    Coherent,
+}
+
+impl Motion {
+    pub fn name(self) -> &'static str {
+        match self {
+            Motion::Random => "random",
+            Motion::Coherent => "coherent",
+        }
+    }
+}
+
+/// `count` placements, in which the first body was brought in along a line through the other's middle until they touched, and
+/// then moved back, or on, by a number out of `gaps` (those below 0 are depths).
+pub fn placements(
+    ours: &Ours,
+    motion: Motion,
+    gaps: [f64; 2],
+    count: usize,
+    seed: u64,
+) -> Vec<Placed> {
+    let random = &mut Random::new(seed);
+    let first = Approach::drawn(random, gaps);
+    let axes = [random.direction(), random.direction()];
+    (0..count)
+        .map(|k| {
+            let approach = match motion {
+                Motion::Random => Approach::drawn(random, gaps),
+                Motion::Coherent => first.moved_on(k as f64 / count as f64, axes, gaps),
+            };
+            approach.placed(ours)
+        })
+        .collect()
+}
+
+/// How the first body comes to the other.
+struct Approach {
+    /// Of the other body.
+    at: Pose,
+    turn: Pose,
+    direction: Point,
+    gap: f64,
+}
+
+impl Approach {
+    fn drawn(random: &mut Random, gaps: [f64; 2]) -> Self {
+        Self {
+            at: Pose::translation(random.point(1.0)).compose(&random.rotation()),
+            turn: random.rotation(),
+            direction: random.direction(),
+            gap: random.within(gaps[0], gaps[1]),
+        }
+    }
+
+    /// A share of the way round.
+    fn moved_on(&self, share: f64, [round, turned]: [Point; 2], [low, high]: [f64; 2]) -> Self {
+        let wave = (2.0 * TAU * share + 1.0).sin();
+        Self {
+            at: self.at,
+            turn: Pose::rotation(turned, TAU * share).compose(&self.turn),
+            direction: Pose::rotation(round, TAU * share).apply(self.direction),
+            gap: 0.5 * (low + high) + 0.5 * (high - low) * wave,
+        }
+    }
+
+    fn placed(&self, ours: &Ours) -> Placed {
+        let at = |away: f64| {
+            let offset = self.direction.map(|x| away * x);
+            let relative = Pose::translation(offset).compose(&self.turn);
+            Placed {
+                poses: [self.at.compose(&relative).0, self.at.0],
+            }
+        };
+        // It can come in by as much as it is away.
+        let mut away = 2.0 * REACH;
+        loop {
+            let distance = ours.distance(&at(away));
+            away -= distance;
+            if distance < TOUCH || away < 0.0 {
+                break;
+            }
+        }
+        at(away + self.gap)
+    }
+}
