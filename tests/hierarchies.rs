@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 
 use cstk::body::Body;
 use cstk::error::{Error, ErrorKind};
-use cstk::gjk::{PointCloud, gjk};
+use cstk::gjk::{DistanceLimits, PointCloud, gjk};
 use cstk::hierarchy::{Extent, HierarchyOptions, Node, WrapperKind, build_hierarchy};
 use cstk::pose::Vec3;
 use cstk_scenes as scenes;
@@ -116,7 +116,7 @@ fn wrappers_hold_vertices(body: &Body, what: &str) -> usize {
                         &PointCloud(wrapper.corners),
                         &PointCloud(&[*p]),
                         Vec3::zeros(),
-                        f64::INFINITY
+                        DistanceLimits::EXACT
                     )
                     .lower,
                     wrapper.excess

@@ -5,6 +5,7 @@ mod common;
 
 use cstk::body::{Body, BodyBuilder};
 use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
+use cstk::gjk::DistanceLimits;
 use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
 use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, bounds};
@@ -184,7 +185,7 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
             &buffer_a.place(a.primitives().get(0), &Pose::identity()),
             &buffer_b.place(b.primitives().get(0), &pairing.relative),
             &pairing.precision,
-            f64::INFINITY,
+            DistanceLimits::EXACT,
             &mut DistanceScratch::default(),
         );
         let features = features.unwrap().closest;

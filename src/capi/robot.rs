@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle::{self, Noun};
-use super::input::{Output, OutputSlice, array, pose, slice, text};
+use super::input::{Output, OutputSlice, array, reserved, slice, text};
 use super::joint::cstk_joint_kind;
 use super::status::cstk_status;
 use crate::error::{Error, ErrorKind, require_coordinates};
@@ -304,12 +304,11 @@ pub(super) unsafe fn link_poses(
     let numbers = count.saturating_mul(12);
     // SAFETY: as the caller states.
     let numbers = unsafe { slice(values, numbers, argument)? };
-    numbers
-        .chunks_exact(12)
-        .enumerate()
-        .map(|(i, values)| {
-            // SAFETY: a slice of 12 doubles.
-            unsafe { pose(values.as_ptr(), &format!("{argument}[{i}]")) }
-        })
-        .collect()
+    let mut poses = reserved(count, argument)?;
+    let (twelves, _) = numbers.as_chunks::<12>();
+    for (i, values) in twelves.iter().enumerate() {
+        let pose = Pose::from_row_major(values);
+        poses.push(pose.map_err(|e| e.within(format_args!("{argument}[{i}]")))?);
+    }
+    Ok(poses)
 }

@@ -22,7 +22,7 @@ pub struct Closest {
 }
 
 impl Closest {
-    fn between(points: [Vec3; 2], features: [Feature; 2]) -> Self {
+    pub fn between(points: [Vec3; 2], features: [Feature; 2]) -> Self {
         Self {
             distance: (points[0] - points[1]).norm(),
             points,

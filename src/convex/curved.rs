@@ -4,7 +4,7 @@
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{DistanceScratch, closest_polytopes};
 use super::placed::{Placed, Precision};
-use crate::gjk::{PointCloud, Refined, Support, refined};
+use crate::gjk::{DistanceLimits, PointCloud, Refined, Support, refined};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Feature, Smooth};
 use crate::tolerance;
@@ -56,18 +56,18 @@ pub fn is_smooth(a: &Placed, b: &Placed) -> bool {
 }
 
 /// The closest points of the cores, and the unit direction from B to A that bounds their distance where one is smooth and a
-/// direction does; `None` where they are proved to be farther apart than `cutoff`.
+/// direction does; `None` where they are proved to be farther apart than the cutoff.
 pub fn core_closest(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
-    cutoff: f64,
+    limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<(Closest, Vec3)> {
     if is_smooth(a, b) {
-        smooth_closest(a, b, pair, cutoff)
+        smooth_closest(a, b, pair, limits)
     } else {
-        let found = closest_polytopes(a, b, pair, cutoff, scratch)?;
+        let found = closest_polytopes(a, b, pair, limits, scratch)?;
         Some((found, Vec3::zeros()))
     }
 }
@@ -76,13 +76,17 @@ fn smooth_closest(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
-    cutoff: f64,
+    limits: DistanceLimits,
 ) -> Option<(Closest, Vec3)> {
     // A guess that the primitives alone decide, so that the answer depends on nothing else.
     let start = a.middle() - b.middle();
-    let found = refined(&Core::of(a), &Core::of(b), start, pair.size, cutoff);
-    if found.lower > cutoff {
+    let found = refined(&Core::of(a), &Core::of(b), start, pair.size, limits);
+    if found.lower > limits.cutoff {
         return None;
+    }
+    if found.upper <= limits.enough {
+        let interior = [Feature::interior(); 2];
+        return Some((Closest::between(found.points, interior), found.direction));
     }
     let closest = Closest {
         distance: found.upper,
@@ -113,13 +117,12 @@ pub fn refined_cores(
     shift: Vec3,
     pair: &Precision,
 ) -> Refined {
-    let all = f64::INFINITY;
     refined(
         &Core::shifted(a, shift),
         &Core::of(b),
         start,
         pair.size,
-        all,
+        DistanceLimits::EXACT,
     )
 }
 

@@ -7,7 +7,7 @@ use super::distance::{DistanceScratch, Measured, measure};
 use super::penetration::{Penetration, polytope_penetration};
 use super::placed::{Placed, Precision};
 use crate::error::{Error, ErrorKind, Result};
-use crate::gjk::Support;
+use crate::gjk::{DistanceLimits, Support};
 use crate::pose::Vec3;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
@@ -169,7 +169,7 @@ pub fn curved_penetration(
         r,
         s,
         precision,
-        f64::INFINITY,
+        DistanceLimits::EXACT,
         &mut DistanceScratch::default(),
     );
     let cores = cores.expect("nothing is beyond infinity").cores;

@@ -3,7 +3,7 @@
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::curved::{core_closest, grown};
 use super::placed::{Placed, Precision};
-use crate::gjk::{PointCloud, gjk};
+use crate::gjk::{DistanceLimits, PointCloud, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
@@ -37,17 +37,17 @@ impl Measured {
     }
 }
 
-/// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than `cutoff`.
+/// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than the cutoff.
 pub fn measure(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
-    cutoff: f64,
+    limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Measured> {
     let radii = [a, b].map(|placed| placed.shape.radius());
-    let cutoff = cutoff + radii[0] + radii[1];
-    let (cores, direction) = core_closest(a, b, pair, cutoff, scratch)?;
+    let limits = limits.of_cores(radii[0] + radii[1]);
+    let (cores, direction) = core_closest(a, b, pair, limits, scratch)?;
     let mut closest = grown(&cores, radii);
     if closest.distance <= pair.error {
         closest.distance = 0.0;
@@ -59,12 +59,12 @@ pub fn measure(
     })
 }
 
-/// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than `cutoff`.
+/// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than the cutoff.
 pub fn closest_polytopes(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
-    cutoff: f64,
+    limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
@@ -74,7 +74,7 @@ pub fn closest_polytopes(
     } else if pair.planar {
         planar_closest(a, b, pair, scratch)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
-        bounded_closest(a, b, pair, cutoff, scratch)?
+        bounded_closest(a, b, pair, limits, scratch)?
     } else {
         all_features(a, b, scratch)
     };
@@ -137,7 +137,7 @@ fn bounded_closest(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
-    cutoff: f64,
+    limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let size = pair.size;
@@ -146,9 +146,9 @@ fn bounded_closest(
         &PointCloud(b.vertices),
         // A guess that the primitives alone decide, so that the answer depends on nothing else.
         a.middle() - b.middle(),
-        cutoff,
+        limits,
     );
-    if bounds.lower > cutoff {
+    if bounds.lower > limits.cutoff {
         return None;
     }
     if bounds.overlap > tolerance::TOUCH_DEPTH * size {
@@ -157,6 +157,10 @@ fn bounded_closest(
             depth: bounds.overlap,
             ..Closest::meeting_at(bounds.common, interior)
         });
+    }
+    if bounds.upper <= limits.enough {
+        let [on_a, on_b] = bounds.points;
+        return Some(Closest::between([on_a, on_b], [Feature::interior(); 2]));
     }
     if bounds.lower > 0.0 {
         // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets

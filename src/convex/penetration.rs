@@ -14,6 +14,7 @@ use super::extreme_vertex::ExtremeVertex;
 use super::gauss_arcs::GaussArcs;
 use super::placed::{Placed, Precision};
 use crate::error::Result;
+use crate::gjk::DistanceLimits;
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
 
@@ -163,7 +164,7 @@ fn brought_together(
         ..*r
     };
     let scratch = &mut DistanceScratch::default();
-    let met = closest_polytopes(&moved, s, precision, f64::INFINITY, scratch);
+    let met = closest_polytopes(&moved, s, precision, DistanceLimits::EXACT, scratch);
     let met = met.expect("nothing is beyond infinity");
     [met.points[0] - way, met.points[1]]
 }

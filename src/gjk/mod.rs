@@ -45,17 +45,44 @@ pub struct Gjk {
     pub overlap: f64,
     /// A point of both sets, where `overlap` is positive.
     pub common: Vec3,
+    /// A point of A and one of B that are `upper` apart, where that is enough.
+    pub points: [Vec3; 2],
 }
 
-/// Bounds the distance of A and B. Stops as soon as the distance is known to exceed `cutoff`. `start` is a guess of the
-/// direction from B to A, or zero.
-pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, cutoff: f64) -> Gjk {
+/// How well a distance is to be known.
+#[derive(Clone, Copy, Debug)]
+pub struct DistanceLimits {
+    /// A distance that is known to be no larger is known well enough.
+    pub enough: f64,
+    /// One that is known to be larger is, too.
+    pub cutoff: f64,
+}
+
+impl DistanceLimits {
+    pub const EXACT: Self = Self {
+        enough: f64::NEG_INFINITY,
+        cutoff: f64::INFINITY,
+    };
+
+    /// The same of sets that reach so far around those that are asked about.
+    pub fn of_cores(self, reach: f64) -> Self {
+        Self {
+            enough: self.enough + reach,
+            cutoff: self.cutoff + reach,
+        }
+    }
+}
+
+/// Bounds the distance of A and B. Stops as soon as it is known as well as is wanted. `start` is a guess of the direction from B
+/// to A, or zero.
+pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
     let mut found = Gjk {
         lower: 0.0,
         direction: Vec3::zeros(),
         upper: f64::INFINITY,
         overlap: 0.0,
         common: Vec3::zeros(),
+        points: [Vec3::zeros(); 2],
     };
     let mut v = if start == Vec3::zeros() {
         Vec3::x()
@@ -73,7 +100,7 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, cutoff: f64) -> Gj
         if lower > found.lower {
             found.lower = lower;
             found.direction = v / length;
-            if lower > cutoff {
+            if lower > limits.cutoff {
                 return found;
             }
         }
@@ -100,6 +127,11 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, cutoff: f64) -> Gj
                     return found;
                 }
                 found.upper = upper;
+                if upper <= limits.enough {
+                    let nearest = simplex.combined(&point);
+                    found.points = [nearest.on_a, nearest.on_a - nearest.difference];
+                    return found;
+                }
                 if upper <= 4.0 * tolerance::EPSILON * scale {
                     return found;
                 }
@@ -127,7 +159,7 @@ mod tests {
             &PointCloud(&a),
             &PointCloud(&b),
             Vec3::zeros(),
-            f64::INFINITY,
+            DistanceLimits::EXACT,
         );
         assert!((found.lower - 2.0).abs() < 1e-14 && (found.upper - 2.0).abs() < 1e-14);
         assert!((found.direction + Vec3::x()).amax() < 1e-14);
@@ -140,7 +172,7 @@ mod tests {
             &PointCloud(&a),
             &PointCloud(&b),
             Vec3::new(0.3, 0.2, 0.1),
-            f64::INFINITY,
+            DistanceLimits::EXACT,
         );
         assert_eq!(found.upper, 0.0);
         assert_eq!(found.lower, 0.0);

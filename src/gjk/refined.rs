@@ -3,8 +3,8 @@
 //! "Apart" needs a proof: a direction whose support points, evaluated on both sides, leave a gap above rounding. Without one
 //! the lower bound is 0, whatever the points that the iteration reached.
 
-use super::Support;
 use super::simplex::{Corner, Nearest, Simplex};
+use super::{DistanceLimits, Support};
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -34,17 +34,20 @@ const MOST_IDLE: u32 = 50;
 const MOST_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
-/// them nearer, or the distance is known to exceed `cutoff`. No coordinate of A and B is larger than `size`. `start` is a
+/// them nearer, or the distance is known as well as is wanted. No coordinate of A and B is larger than `size`. `start` is a
 /// guess of the direction from B to A.
 pub fn refined<A: Support, B: Support>(
     a: &A,
     b: &B,
     start: Vec3,
     size: f64,
-    cutoff: f64,
+    limits: DistanceLimits,
 ) -> Refined {
-    let cutoff = cutoff.max(tolerance::SUPPORT_ERROR * size);
-    let mut found = iterate(a, b, start, [tolerance::CERTIFIED_GAP * size, cutoff]);
+    let limits = DistanceLimits {
+        cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
+        ..limits
+    };
+    let mut found = iterate(a, b, start, tolerance::CERTIFIED_GAP * size, limits);
     if found.lower <= tolerance::SUPPORT_ERROR * size {
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
@@ -55,7 +58,8 @@ fn iterate<A: Support, B: Support>(
     a: &A,
     b: &B,
     start: Vec3,
-    [accepted, cutoff]: [f64; 2],
+    accepted: f64,
+    limits: DistanceLimits,
 ) -> Refined {
     let mut found = Refined {
         lower: 0.0,
@@ -91,7 +95,8 @@ fn iterate<A: Support, B: Support>(
             found.upper = difference.norm();
             found.points = [on_a, on_b];
         }
-        if found.upper - found.lower <= accepted || found.lower > cutoff {
+        let is_known = found.upper <= limits.enough || found.lower > limits.cutoff;
+        if is_known || found.upper - found.lower <= accepted {
             break;
         }
         let rounding = 4.0 * tolerance::EPSILON * scale;

@@ -55,19 +55,14 @@ impl Simplex {
     /// The closest point to the origin; the simplex shrinks to the face that holds it.
     pub fn reduce(&mut self) -> Nearest {
         let (point, kept) = match self.len {
-            1 => (self.corners[0].difference, Kept::new([0])),
-            2 => self.on_segment(0, 1),
+            1 | 2 => self.on_few(),
             3 => self.on_triangle(0, 1, 2),
             _ => match self.on_tetrahedron() {
                 Ok(found) => found,
                 Err(inside) => return inside,
             },
         };
-        let corners = self.corners;
-        for (to, &from) in kept.corners[..kept.len].iter().enumerate() {
-            self.corners[to] = corners[from];
-        }
-        self.len = kept.len;
+        self.keep(&kept);
         Nearest::Outside(point)
     }
 
@@ -77,33 +72,54 @@ impl Simplex {
     /// With it the foot, whose direction is that of the three's normal, and so better known.
     pub fn nearest_apart(&mut self) -> (Corner, Vec3) {
         let faces: &[[usize; 3]] = match self.len {
-            4 => &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
-            _ => &[[0, 1, 2]],
-        };
-        let mut best: Option<(f64, (Corner, Vec3), Self)> = None;
-        for face in faces {
-            let mut part = *self;
-            if self.len == 4 {
-                part.len = 3;
-                for (to, &from) in face.iter().enumerate() {
-                    part.corners[to] = self.corners[from];
-                }
+            // Those with the newest corner first: the nearest point moves to one of them.
+            4 => &[[0, 3, 1], [0, 2, 3], [1, 3, 2], [0, 1, 2]],
+            3 => &[[0, 1, 2]],
+            _ => {
+                let (foot, kept) = self.on_few();
+                return self.settled((self.combined_of(&kept, &foot), foot, kept));
             }
-            let Nearest::Outside(point) = part.reduce() else {
+        };
+        let mut least = f64::INFINITY;
+        let mut best = None;
+        for &[i, j, k] in faces {
+            let (foot, kept) = self.on_triangle(i, j, k);
+            // No combination comes nearer than the foot does.
+            if foot.norm_squared() > (1.0 + 1e-9) * least {
                 continue;
-            };
-            let corner = part.combined(&point);
+            }
+            let corner = self.combined_of(&kept, &foot);
             let reached = corner.difference.norm_squared();
-            if best.as_ref().is_none_or(|(least, _, _)| reached < *least) {
-                best = Some((reached, (corner, point), part));
+            if best.is_none() || reached < least {
+                least = reached;
+                best = Some((corner, foot, kept));
             }
         }
         match best {
-            Some((_, (corner, foot), part)) => {
-                *self = part;
-                (corner, self.upright(&foot))
-            }
+            Some(best) => self.settled(best),
             None => (self.corners[0], self.corners[0].difference),
+        }
+    }
+
+    /// Keeps the corners of a face, and gives the closest corner and the foot on it.
+    fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, Kept)) -> (Corner, Vec3) {
+        self.keep(&kept);
+        (corner, self.upright(&foot))
+    }
+
+    fn keep(&mut self, kept: &Kept) {
+        let corners = self.corners;
+        for (to, &from) in kept.corners[..kept.len].iter().enumerate() {
+            self.corners[to] = corners[from];
+        }
+        self.len = kept.len;
+    }
+
+    /// The closest point of one or two corners.
+    fn on_few(&self) -> (Vec3, Kept) {
+        match self.len {
+            1 => (self.corners[0].difference, Kept::new([0])),
+            _ => self.on_segment(0, 1),
         }
     }
 
@@ -120,14 +136,22 @@ impl Simplex {
     /// The corner that one to three corners combine to at the closest point, which `reduce` gave last: with weights that are
     /// sure to be none below 0, whatever rounding did to that point.
     pub fn combined(&self, point: &Vec3) -> Corner {
-        let [first, second, third, _] = self.corners;
+        let all = Kept {
+            corners: [0, 1, 2],
+            len: self.len,
+        };
+        self.combined_of(&all, point)
+    }
+
+    fn combined_of(&self, kept: &Kept, point: &Vec3) -> Corner {
+        let [first, second, third] = kept.corners.map(|i| self.corners[i]);
         let towards = |from: Corner, to: Corner, t: f64| Corner {
             difference: from.difference + (to.difference - from.difference) * t,
             on_a: from.on_a + (to.on_a - from.on_a) * t,
         };
         let (a, b, c) = (first.difference, second.difference, third.difference);
         let ab = b - a;
-        match self.len {
+        match kept.len {
             1 => first,
             2 => {
                 let t = (point - a).dot(&ab) / ab.norm_squared();
@@ -166,7 +190,7 @@ impl Simplex {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, Kept) {
         let (a, b, c) = (self.at(i), self.at(j), self.at(k));
         let normal = (b - a).cross(&(c - a));

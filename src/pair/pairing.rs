@@ -9,6 +9,7 @@ use crate::convex::{
     penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
+use crate::gjk::DistanceLimits;
 use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
@@ -47,6 +48,16 @@ pub struct Apart {
     pub measured: Option<Measured>,
     /// How much more than the pair's error the distance may be above the true one.
     pub doubt: f64,
+}
+
+impl Apart {
+    /// Of primitives that meet.
+    const NONE: Self = Self {
+        distance: 0.0,
+        nearest: None,
+        measured: None,
+        doubt: 0.0,
+    };
 }
 
 /// A contact with its points and normal in the world.
@@ -88,6 +99,16 @@ impl<'a> Pairing<'a> {
         Some([self.a.only_place()?, self.b.only_place()?])
     }
 
+    /// Whether both primitives are known by their outlines.
+    pub fn are_outlines(&self, places: [u32; 2]) -> bool {
+        let sides = [(self.a, places[0]), (self.b, places[1])];
+        let corners = sides.map(|(body, place)| {
+            let primitives = body.packed().primitives();
+            primitives.entry(place as usize).corners
+        });
+        !self.precision.planar && corners.iter().all(|count| *count > 0)
+    }
+
     /// A safe lower bound of the distance, by the spheres around the bodies.
     pub fn sphere_bound(&self) -> f64 {
         let [a, b] = [self.a, self.b].map(|body| body.packed().whole().ball());
@@ -114,7 +135,11 @@ impl<'a> Pairing<'a> {
     ) -> Option<f64> {
         let mut buffer = EMPTY;
         let b = self.outline_b(places[1], &mut buffer);
-        let apart = self.distance_to(places, &b, cutoff, scratch)?;
+        let limits = DistanceLimits {
+            cutoff,
+            ..DistanceLimits::EXACT
+        };
+        let apart = self.distance_to(places, &b, limits, scratch)?;
         Some(apart.distance)
     }
 
@@ -136,37 +161,54 @@ impl<'a> Pairing<'a> {
         &self,
         places: [u32; 2],
         outline_b: &Option<Outline>,
-        cutoff: f64,
+        limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Apart> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
         let found = match (&outline_a, outline_b) {
-            (Some(a), Some(b)) => polygon_distance(a, b, cutoff, self.precision.size),
+            (Some(a), Some(b)) => polygon_distance(a, b, limits.cutoff, self.precision.size),
             _ => PolygonDistance::Doubt,
         };
-        let mut apart = Apart {
-            distance: 0.0,
-            nearest: None,
-            measured: None,
-            doubt: 0.0,
-        };
-        match found {
+        let apart = match found {
             PolygonDistance::Beyond => return None,
-            PolygonDistance::Apart(distance, nearest) => {
-                (apart.distance, apart.nearest) = (distance, Some(nearest));
-            }
-            PolygonDistance::Cross => {}
-            PolygonDistance::Doubt => {
-                let measured = self.measure(places, cutoff, scratch)?;
-                apart.distance = measured.closest.distance;
-                apart.doubt = measured.closest.doubt;
-                apart.measured = Some(measured);
-            }
+            PolygonDistance::Apart(distance, nearest) => Apart {
+                distance: self.above_error(distance),
+                nearest: Some(nearest),
+                ..Apart::NONE
+            },
+            PolygonDistance::Cross => Apart::NONE,
+            PolygonDistance::Doubt => return self.measured_apart(places, limits, scratch),
+        };
+        (apart.distance <= limits.cutoff).then_some(apart)
+    }
+
+    /// The same of primitives of which one at least is no polygon.
+    pub fn measured_apart(
+        &self,
+        places: [u32; 2],
+        limits: DistanceLimits,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<Apart> {
+        let measured = self.measure(places, limits, scratch)?;
+        let Closest {
+            distance, doubt, ..
+        } = measured.closest;
+        let distance = self.above_error(distance);
+        (distance - doubt <= limits.cutoff).then_some(Apart {
+            distance,
+            nearest: None,
+            measured: Some(measured),
+            doubt,
+        })
+    }
+
+    #[inline(always)]
+    fn above_error(&self, distance: f64) -> f64 {
+        if distance <= self.precision.error {
+            0.0
+        } else {
+            distance
         }
-        if apart.distance <= self.precision.error {
-            apart.distance = 0.0;
-        }
-        (apart.distance - apart.doubt <= cutoff).then_some(apart)
     }
 
     pub fn met(&self, places: [u32; 2], apart: f64) -> Met<'static> {
@@ -185,21 +227,21 @@ impl<'a> Pairing<'a> {
     fn measure(
         &self,
         places: [u32; 2],
-        cutoff: f64,
+        limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Measured> {
         let [a, b] = [(self.a, places[0]), (self.b, places[1])]
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let primitives = [a.primitive, b.primitive];
         let [a, b] = self.place(primitives, &mut scratch.buffer);
-        measure(&a, &b, &self.precision, cutoff, &mut scratch.distance)
+        measure(&a, &b, &self.precision, limits, &mut scratch.distance)
     }
 
     /// The closest points of a primitive pair that was hit, in the centred frame of A, and what tells its contacts.
     pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> Measured {
         let found = self.closest_outlines(hit.places).map(Measured::of_hulls);
         let mut found = found
-            .or_else(|| self.measure(hit.places, f64::INFINITY, scratch))
+            .or_else(|| self.measure(hit.places, DistanceLimits::EXACT, scratch))
             .expect("nothing is beyond infinity");
         found.closest.distance = hit.apart;
         found

@@ -6,9 +6,10 @@ use std::ops::ControlFlow;
 use super::box_bounds::{self, Motion32, ROUNDING};
 use super::hit::{Hit, HitKey};
 use super::nearest_first::{Entry, Waiting};
-use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::pairing::{Apart, EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use super::winding::RayScratch;
 use crate::convex::Measured;
+use crate::gjk::DistanceLimits;
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
@@ -21,6 +22,11 @@ pub trait Visitor {
 
     /// Pairs that are farther apart than this are skipped; those at exactly this distance are not.
     fn bound(&self) -> f64;
+
+    /// Distances that are no larger need not be known better.
+    fn enough(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
 
     /// Pairs of primitives no lower than these cannot matter any more, however near.
     fn settled_from(&self) -> Option<[u32; 2]> {
@@ -132,8 +138,11 @@ pub fn traverse(
         state,
         ..
     } = scratch;
-    let meetings = Meetings::new(pairing, buffer, state, visitor);
+    let mut meetings = Meetings::new(pairing, buffer, state, visitor);
     if let Some(places) = pairing.only_places() {
+        if !pairing.are_outlines(places) {
+            return meetings.visit_without_outlines(places);
+        }
         return with_widest(OneMeeting { meetings, places });
     }
     with_widest(Traversal {
@@ -184,19 +193,23 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         }
         self.state.meter.done.primitive_distances += 1;
         let primitives = &mut self.state.primitives;
+        let limits = DistanceLimits {
+            enough: self.visitor.enough(),
+            cutoff,
+        };
         let Some(apart) = self
             .pairing
-            .distance_to(places, &outline, cutoff, primitives)
+            .distance_to(places, &outline, limits, primitives)
         else {
             return ControlFlow::Continue(());
         };
-        let met = self.pairing.met(places, apart.distance);
-        let met = Met {
-            error: met.error + apart.doubt,
-            measured: apart.measured.as_ref(),
-            ..met
-        };
-        self.visitor.visit(&met, &mut self.state.meter)?;
+        show(
+            self.pairing,
+            places,
+            &apart,
+            self.visitor,
+            &mut self.state.meter,
+        )?;
         if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
@@ -215,6 +228,44 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         }
         ControlFlow::Continue(())
     }
+}
+
+impl<V: Visitor> Meetings<'_, V> {
+    /// The same as `visit` for primitives of which one at least has no outline.
+    fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
+        let limits = DistanceLimits {
+            enough: self.visitor.enough(),
+            cutoff: self.visitor.bound() + self.pairing.slack(),
+        };
+        self.state.meter.count_primitives(1);
+        self.state.meter.done.primitive_distances += 1;
+        let primitives = &mut self.state.primitives;
+        match self.pairing.measured_apart(places, limits, primitives) {
+            Some(apart) => {
+                let meter = &mut self.state.meter;
+                show(self.pairing, places, &apart, self.visitor, meter)
+            }
+            None => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// Shows the visitor a pair whose distance is known.
+#[inline(always)]
+fn show(
+    pairing: &Pairing,
+    places: [u32; 2],
+    apart: &Apart,
+    visitor: &mut impl Visitor,
+    meter: &mut WorkMeter,
+) -> ControlFlow<()> {
+    let met = pairing.met(places, apart.distance);
+    let met = Met {
+        error: met.error + apart.doubt,
+        measured: apart.measured.as_ref(),
+        ..met
+    };
+    visitor.visit(&met, meter)
 }
 
 struct OneMeeting<'a, V> {

@@ -104,6 +104,10 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
         self.threshold + self.margin
     }
 
+    fn enough(&self) -> f64 {
+        self.threshold + self.margin
+    }
+
     fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
         let (_, lower) = measured(met, self.margin);
         if lower <= self.threshold {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::planar_hull::plane_axes;
 use super::point_tree::PointTree;
-use crate::gjk::{PointCloud, Support, gjk};
+use crate::gjk::{DistanceLimits, PointCloud, Support, gjk};
 use crate::parry_adapter::propose_hull;
 use crate::pose::{Mat3, Vec3, rotation_about};
 
@@ -83,7 +83,12 @@ fn excess_beside(
         if is_corner[i] {
             continue;
         }
-        let outside = gjk(hull, &PointCloud(&[*point]), Vec3::zeros(), f64::INFINITY);
+        let outside = gjk(
+            hull,
+            &PointCloud(&[*point]),
+            Vec3::zeros(),
+            DistanceLimits::EXACT,
+        );
         excess = excess.max(outside.upper);
         if outside.upper > accepted {
             lost.push(i as u32);

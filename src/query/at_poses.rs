@@ -6,7 +6,7 @@ use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
-use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact};
+use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, Within, WorldContact, traverse};
 
 /// Two bodies as a target of searches.
 pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
@@ -68,7 +68,26 @@ impl QueryContext {
         threshold: f64,
     ) -> Result<bool> {
         let target = target(a, b)?;
+        if target.is_of_singles() {
+            return self.singles_within(&target.pairing(), threshold);
+        }
         self.any_within(&[target], |_| threshold)
+    }
+
+    /// The same of bodies of one primitive each, which need no search.
+    fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
+        self.count_body_pair()?;
+        if pairing.sphere_bound() > threshold {
+            return Ok(false);
+        }
+        let mut visitor = Within::<false> {
+            margin: 0.0,
+            threshold,
+            found: None,
+        };
+        let _ = traverse(pairing, None, &mut self.scratch, &mut visitor);
+        self.scratch.meter().check()?;
+        Ok(visitor.found.is_some())
     }
 
     /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
