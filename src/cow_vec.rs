@@ -127,13 +127,22 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
 
     pub fn push(&mut self, item: T) {
         let index = self.len;
-        self.resize(index + 1);
+        self.make_room(index + 1);
+        self.len = index + 1;
         self.note(index);
         self.chunk(index)[index % N] = item;
     }
 
     /// Changes the length. What is at new places is to be written before it is read.
     pub fn resize(&mut self, len: usize) {
+        self.make_room(len);
+        self.len = len;
+        if let Some(changed) = &mut self.changed {
+            changed.retain(|&index| (index as usize) < len);
+        }
+    }
+
+    fn make_room(&mut self, len: usize) {
         let blocks = len.div_ceil(WIDTH * N);
         if blocks > self.blocks.len() {
             let unused = Arc::new(std::array::from_fn(|_| T::default()));
@@ -141,7 +150,6 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
             let more = (self.blocks.len()..blocks).map(|_| block.clone());
             self.blocks = self.blocks.iter().cloned().chain(more).collect();
         }
-        self.len = len;
     }
 
     /// Changes all items.

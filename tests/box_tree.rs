@@ -197,7 +197,8 @@ fn boxes_stand_around_all_that_is_below() {
             }
             if step % 61 == 60 {
                 let held: Vec<u32> = set.held.iter().map(|&place| place as u32).collect();
-                tree.rebuild_in_haste(&held, set.boxes.len(), &set);
+                let ball = (Vec3::zeros(), 100.0 * half);
+                tree.rebuild_in_haste(&held, set.boxes.len(), &set, ball);
             }
             if step % 7 == 0 || step % 61 == 60 {
                 check_all(&tree, &set);
@@ -245,7 +246,7 @@ fn a_tree_that_follows_another_is_equal_to_it() {
         }
         if step % 7 == 3 {
             let held: Vec<u32> = set.held.iter().map(|&place| place as u32).collect();
-            now.rebuild_in_haste(&held, set.boxes.len(), &set);
+            now.rebuild_in_haste(&held, set.boxes.len(), &set, (Vec3::zeros(), 10.0));
         }
         let mut moved = IndexSet::new(set.boxes.len());
         for _ in 0..random.below(30) {

@@ -6,8 +6,9 @@ mod common;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use cstk::body::Body;
+use cstk::body::{Body, BodyBuilder};
 use cstk::environment::{Attachment, Change, Environment, NearScratch, Snapshot};
+use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 use cstk::space::Space;
@@ -276,6 +277,48 @@ fn objects_that_are_small_for_where_they_stand_are_taken_and_found() {
                 live.apply(&[Change::Delete { id }]).unwrap();
             }
             assert_eq!(live.snapshot().len(), 0);
+        }
+    }
+}
+
+/// A tree made anew over points that came together has no size of its own; the next of them may go anywhere within its limits.
+#[test]
+fn points_that_come_together_part_again() {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_sphere(&Vec3::zeros(), 0.0, 0).unwrap();
+    let options = HierarchyOptions::default();
+    let body = Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap());
+    let probe = cuboid([0.4, 0.3, 0.2]).body;
+    let mut random = Random::new(74);
+    for count in [1, 9, 100] {
+        let live = Environment::default();
+        let mut model = Model::new();
+        let go = |ids: &[u64], random: &mut Random, reach: f64, model: &mut Model| {
+            let changes: Vec<Change> = ids
+                .iter()
+                .map(|&id| {
+                    let pose = Pose::from_translation(random.point(reach));
+                    model.insert(id, (body.clone(), pose, false));
+                    Change::Move { id, pose }
+                })
+                .collect();
+            live.apply(&changes).unwrap();
+            check(&live.snapshot(), model, &probe, random);
+        };
+        let add = || Change::Add {
+            body: body.clone(),
+            pose: Pose::from_translation(Vec3::repeat(0.5)),
+            data: None,
+        };
+        let changes: Vec<Change> = (0..count).map(|_| add()).collect();
+        let (ids, _) = live.apply(&changes).unwrap();
+        go(&ids, &mut random, 1.0, &mut model);
+        for _ in 0..3 {
+            go(&ids, &mut random, 0.0, &mut model);
+            go(&ids[..1], &mut random, 1.0, &mut model);
+            go(&ids, &mut random, 1.0, &mut model);
+            go(&ids, &mut random, 1e-200, &mut model);
+            go(&ids[..1], &mut random, 1.0, &mut model);
         }
     }
 }

@@ -162,6 +162,10 @@ pub unsafe extern "C" fn cstk_environment_apply(
         let environment = &*handle::share::<Environment>(environment, "environment")?;
         let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
         let version = Output::optional(version, "version")?;
+        if count > 0 {
+            // SAFETY: as below. Before memory is asked for on the caller's word.
+            let _ = unsafe { options_in_place(changes, "changes[0]")? };
+        }
         let (mut read, mut kept) = (reserved(count, "changes")?, Vec::new());
         let mut next = changes;
         for i in 0..count {

@@ -192,10 +192,7 @@ pub(super) fn polytope_contacts(
             }
         }
     }
-    if found.iter().any(|contact| contact.gap < 0.0) {
-        // Just inside, the closest points say nothing; the deepest contact comes first.
-        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
-    }
+    deepest_first(&mut found, precision);
     // Parallel edges of a planar pair that overlap by less than the slack.
     if found.is_empty()
         && let Some(mode) = mode_of(closest.features)
@@ -210,6 +207,17 @@ pub(super) fn polytope_contacts(
         });
     }
     found
+}
+
+/// Just inside, the closest points say nothing: the deepest contact comes first, unless that at the closest points is as deep.
+pub(super) fn deepest_first(found: &mut [Contact], precision: &Precision) {
+    let Some(first) = found.first().map(|first| first.gap) else {
+        return;
+    };
+    let is_deeper = |c: &Contact| c.gap < 0.0 && c.gap < first - precision.error;
+    if found.iter().any(is_deeper) {
+        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    }
 }
 
 pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {

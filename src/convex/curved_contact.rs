@@ -1,7 +1,7 @@
 //! Contacts and penetration of curved primitives: those of their cores, moved outwards by the radii.
 
 use super::closest::Closest;
-use super::contact::{Contact, first_polytope_contact, mode_of, polytope_contacts};
+use super::contact::{Contact, deepest_first, first_polytope_contact, mode_of, polytope_contacts};
 use super::curved::{Core, is_smooth, refined_cores};
 use super::distance::{DistanceScratch, Measured, measure};
 use super::penetration::{Penetration, polytope_penetration};
@@ -29,9 +29,7 @@ pub fn curved_contacts(
     for contact in &mut found {
         grow(contact, [r, s], precision);
     }
-    if found.iter().any(|contact| contact.gap < 0.0) {
-        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
-    }
+    deepest_first(&mut found, precision);
     found
 }
 

@@ -75,6 +75,8 @@ pub fn closest_polytopes(
         planar_closest(a, b, pair, scratch)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
         bounded_closest(a, b, pair, limits, scratch)?
+    } else if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
+        return None;
     } else {
         all_features(a, b, scratch)
     };
@@ -82,6 +84,15 @@ pub fn closest_polytopes(
         snap_to_vertex(placed, &mut found, side, pair.error);
     }
     Some(found)
+}
+
+/// How far a set is from the plane of a flat polygon, on either side.
+fn plane_gap(flat: &Placed, other: &Placed) -> f64 {
+    if !flat.shape.is_flat() {
+        return f64::NEG_INFINITY;
+    }
+    let normal = flat.normal(0);
+    gap_along(other, flat, &normal).max(gap_along(flat, other, &normal))
 }
 
 /// A point at the end of an edge, but for rounding, is held by the vertex there.
@@ -151,16 +162,19 @@ fn bounded_closest(
     if bounds.lower > limits.cutoff {
         return None;
     }
-    if bounds.overlap > tolerance::TOUCH_DEPTH * size {
+    // A proof that the sets are apart outweighs a tetrahedron.
+    let may_meet = bounds.lower <= tolerance::SUPPORT_ERROR * size;
+    if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
         let interior = [Feature::interior(); 2];
         return Some(Closest {
             depth: bounds.overlap,
             ..Closest::meeting_at(bounds.common, interior)
         });
     }
-    if bounds.upper <= limits.enough {
-        let [on_a, on_b] = bounds.points;
-        return Some(Closest::between([on_a, on_b], [Feature::interior(); 2]));
+    if let Some(points) = bounds.near
+        && bounds.overlap == 0.0
+    {
+        return Some(Closest::between(points, [Feature::interior(); 2]));
     }
     if bounds.lower > 0.0 {
         // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets

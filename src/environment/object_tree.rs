@@ -168,7 +168,8 @@ impl ObjectTree {
             places[place as usize].is_in_world() && self.strays.binary_search(&place).is_err()
         };
         let taken: Vec<u32> = (0..places.len() as u32).filter(is_taken).collect();
-        self.tree.rebuild_in_haste(&taken, places.len(), places);
+        self.tree
+            .rebuild_in_haste(&taken, places.len(), places, self.limits.ball());
         (self.deviation, self.radius, self.reach) = (0.0, 0.0, 0.0);
         for &place in &taken {
             self.measure(&places[place as usize].bounds);

@@ -47,6 +47,11 @@ impl TreeLimits {
         }
     }
 
+    /// What is taken is within a range of a centre.
+    pub fn ball(&self) -> (Vec3, f64) {
+        (self.center, self.range)
+    }
+
     pub fn hold(&self, bounds: &Bounds) -> bool {
         let blur = slack(bounds.reach, bounds.deviation);
         farthest(bounds, &self.center) <= self.range && blur <= self.blur

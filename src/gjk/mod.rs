@@ -45,8 +45,8 @@ pub struct Gjk {
     pub overlap: f64,
     /// A point of both sets, where `overlap` is positive.
     pub common: Vec3,
-    /// A point of A and one of B that are `upper` apart, where that is enough.
-    pub points: [Vec3; 2],
+    /// A point of A and one of B, where they are near enough.
+    pub near: Option<[Vec3; 2]>,
 }
 
 /// How well a distance is to be known.
@@ -82,7 +82,7 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
         upper: f64::INFINITY,
         overlap: 0.0,
         common: Vec3::zeros(),
-        points: [Vec3::zeros(); 2],
+        near: None,
     };
     let mut v = if start == Vec3::zeros() {
         Vec3::x()
@@ -116,9 +116,12 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
         });
         match simplex.reduce() {
             Nearest::Inside { margin, at } => {
-                found.overlap = margin;
-                found.common = at.on_a;
-                found.upper = 0.0;
+                // Where the corners do not combine to the origin, rounding has decided the sides.
+                if at.difference.norm() <= tolerance::CERTIFIED_GAP * scale {
+                    (found.overlap, found.upper) = (margin, 0.0);
+                    found.common = at.on_a;
+                    found.near = Some([at.on_a; 2]);
+                }
                 return found;
             }
             Nearest::Outside(point) => {
@@ -128,9 +131,12 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
                 }
                 found.upper = upper;
                 if upper <= limits.enough {
+                    // The foot on a needle of a triangle may be nearer than any point of it.
                     let nearest = simplex.combined(&point);
-                    found.points = [nearest.on_a, nearest.on_a - nearest.difference];
-                    return found;
+                    if nearest.difference.norm() <= limits.enough {
+                        found.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
+                        return found;
+                    }
                 }
                 if upper <= 4.0 * tolerance::EPSILON * scale {
                     return found;

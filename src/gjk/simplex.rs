@@ -193,8 +193,11 @@ impl Simplex {
     #[inline(always)]
     fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, Kept) {
         let (a, b, c) = (self.at(i), self.at(j), self.at(k));
-        let normal = (b - a).cross(&(c - a));
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(&ac);
         let square = normal.norm_squared();
+        let rounding = (64.0 * tolerance::EPSILON).powi(2);
+        let is_needle = square <= rounding * ab.norm_squared() * ac.norm_squared();
         // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
         // By the edge, whose error is small where the corners are near one another.
         let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
@@ -205,7 +208,7 @@ impl Simplex {
         // The nearest edge is one that the foot is beyond; of a needle, whose normal says nothing, any.
         let mut best: Option<(Vec3, Kept)> = None;
         for (weight, (from, to)) in weights.iter().zip([(j, k), (k, i), (i, j)]) {
-            if *weight > 0.0 && square > 0.0 {
+            if *weight > 0.0 && !is_needle {
                 continue;
             }
             let found = self.on_segment(from, to);

@@ -90,10 +90,7 @@ impl BoxTree {
             // Boxes that are small for where they stand may have no extent there, but for their sides.
             let sides = taken.iter().map(|&place| boxes.oriented(place as usize));
             let largest = sides.map(|side| side.half.amax()).fold(0.0, f64::max);
-            built.frame = BoxFrame {
-                center: whole.center(),
-                scale: power_of_two(largest.max(0.5 * whole.diameter())),
-            };
+            built.frame = BoxFrame::new(whole.center(), largest.max(whole.size().amax()));
             let mut builder = Builder {
                 extents: at.iter().map(|&body| all[body as usize]).collect(),
                 tree,
@@ -186,6 +183,14 @@ impl BoxTree {
 }
 
 impl BoxFrame {
+    /// For boxes about a centre, within some size of it.
+    pub(super) fn new(center: Vec3, size: f64) -> Self {
+        // The squares of smaller lengths are 0, by which what is far would be taken for near.
+        const SMALLEST: f64 = 1e-150;
+        let scale = power_of_two(size.max(SMALLEST));
+        Self { center, scale }
+    }
+
     pub(super) fn local(&self, extent: &Extent) -> Extent {
         Extent {
             low: (extent.low - self.center) / self.scale,
@@ -219,6 +224,7 @@ impl BoxFrame {
             }
             // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
             half = (2.0 * half).max(1e-30);
+            assert!(half < 1e30, "boxes lie within reach of the tree's frame");
         }
     }
 

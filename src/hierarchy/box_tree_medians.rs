@@ -3,14 +3,20 @@
 use super::Extent;
 use super::box_split::FULL;
 use super::box_tree::{BOX, BoxFrame, BoxTree, Boxes, NOWHERE, OrientedBox};
-use super::packed_tree::power_of_two;
 use crate::lanes::{Instructions, Work, with_widest};
+use crate::pose::Vec3;
 
 impl BoxTree {
     /// Makes the tree anew over some of `places` boxes, in the memory it has. Takes about a tenth of the time that
-    /// [`BoxTree::new`] takes; the boxes of nodes overlap more.
-    pub fn rebuild_in_haste(&mut self, taken: &[u32], places: usize, boxes: &impl Boxes) {
-        let (frame, mut centers) = frame_around(taken, boxes);
+    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `reach` of a center.
+    pub fn rebuild_in_haste(
+        &mut self,
+        taken: &[u32],
+        places: usize,
+        boxes: &impl Boxes,
+        (center, reach): (Vec3, f64),
+    ) {
+        let (frame, mut centers) = frame_around(taken, boxes, (center, reach));
         let mut plans = Vec::with_capacity(taken.len() / 4 + 1);
         if !centers.is_empty() {
             plan(&mut centers, NOWHERE, &mut plans);
@@ -40,24 +46,32 @@ struct Plan {
     parent: u32,
 }
 
-fn frame_around(taken: &[u32], boxes: &impl Boxes) -> (BoxFrame, Vec<Center>) {
+/// The frame in which the boxes have a size, and what comes later none that single precision does not hold.
+fn frame_around(
+    taken: &[u32],
+    boxes: &impl Boxes,
+    (center, reach): (Vec3, f64),
+) -> (BoxFrame, Vec<Center>) {
+    const LEAST: f64 = 1.0 / (1u64 << 60) as f64;
     let all = || taken.iter().map(|&place| boxes.oriented(place as usize));
     let point = |given: OrientedBox| Extent {
         low: given.center,
         high: given.center,
     };
     let Some(around) = all().map(point).reduce(|all, own| all.union(&own)) else {
-        return (BoxFrame::default(), Vec::new());
+        return (BoxFrame::new(center, reach), Vec::new());
     };
     let largest = all().map(|given| given.half.amax()).fold(0.0, f64::max);
-    let center = around.center();
-    let scale = power_of_two(0.5 * around.diameter() + 2.0 * largest);
+    let size = around.size().amax().max(largest);
+    let frame = BoxFrame::new(around.center(), size.max(LEAST * reach));
     let local = |(&place, given): (&u32, OrientedBox)| Center {
-        at: ((given.center - center) / scale).map(|x| x as f32).into(),
+        at: ((given.center - frame.center) / frame.scale)
+            .map(|x| x as f32)
+            .into(),
         place,
     };
     let centers = taken.iter().zip(all()).map(local).collect();
-    (BoxFrame { center, scale }, centers)
+    (frame, centers)
 }
 
 /// Plans the node over some boxes and all below it. Returns its name.
@@ -167,7 +181,7 @@ impl<B: Boxes> Work for Filling<'_, '_, B> {
         let parents = (0..plans.len()).map(|name| plans[name].parent);
         tree.parents.set_all(parents);
         tree.above.resize(places);
-        tree.above.set_all(above.into_iter());
+        tree.above.set_all(above);
     }
 }
 
