@@ -154,6 +154,63 @@ fn mixture(random: &mut Random) -> BodyBuilder {
     builder
 }
 
+/// A body of one primitive, of any kind; hulls also with corners so near that their faces are needles.
+fn single(random: &mut Random, kind: usize) -> Arc<Body> {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let size = |random: &mut Random| random.within(0.1, 0.4);
+    let half = Vec3::new(size(random), size(random), 0.3 * size(random));
+    let here = Pose::identity();
+    let added = match kind {
+        0 => builder.add_sphere(&Vec3::zeros(), size(random), 0),
+        1 => builder.add_capsule(&random.point(0.4), &random.point(0.4), size(random), 0),
+        2 => builder.add_box(&here, &half, 0),
+        3 => builder.add_cylinder(&here, half.x, half.y, 0),
+        4 => builder.add_cone(&here, half.x, half.y, 0),
+        5 => builder.add_ellipsoid(&here, &half, 0),
+        6 => builder.add_polyhedron(&random.points(12, 0.5), 0),
+        7 => builder.add_polygon(&random.points(3, 0.5), 0),
+        _ => {
+            let corners = random.points(5, 0.5);
+            let mut beside = |p: &Vec3| p + random.point(1e-4);
+            let others: Vec<Vec3> = corners.iter().map(&mut beside).collect();
+            builder.add_polyhedron(&[corners, others].concat(), 0)
+        }
+    };
+    added.unwrap();
+    body(&builder)
+}
+
+/// Searches for anything within a threshold stop as soon as they may; they say what the distance says.
+#[test]
+fn thresholds_of_single_shapes_agree_with_distances() {
+    let mut random = Random::new(45);
+    let mut touching = 0;
+    for case in 0..9 * 9 * 40 {
+        let (a, b) = (
+            single(&mut random, case % 9),
+            single(&mut random, case / 9 % 9),
+        );
+        let (here, pose) = (Pose::identity(), random.pose(0.9));
+        let mut query = QueryContext::new();
+        let found = query
+            .pair_distance((&a, &here), (&b, &pose), f64::INFINITY)
+            .unwrap();
+        touching += usize::from(found.distance == 0.0);
+        let Distance { lower, upper, .. } = found;
+        let thresholds = [0.0, 0.5 * lower, 0.99 * lower, lower, upper, 1.01 * upper];
+        for threshold in thresholds.into_iter().chain([f64::INFINITY]) {
+            let within = query.pair_within((&a, &here), (&b, &pose), threshold);
+            let is_near = lower <= threshold;
+            assert_eq!(
+                within.unwrap(),
+                is_near,
+                "case {case} {threshold} {found:?}"
+            );
+        }
+    }
+    assert!(touching > 500, "{touching}");
+}
+
 /// The whole is as far away as the nearest of its parts, each a body of its own: pruning loses nothing.
 #[test]
 fn a_mixture_is_as_near_as_its_nearest_part() {

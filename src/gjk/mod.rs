@@ -117,11 +117,13 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
         match simplex.reduce() {
             Nearest::Inside { margin, at } => {
                 // Where the corners do not combine to the origin, rounding has decided the sides.
-                if at.difference.norm() <= tolerance::CERTIFIED_GAP * scale {
+                let off = at.difference.norm();
+                if off <= tolerance::CERTIFIED_GAP * scale {
                     (found.overlap, found.upper) = (margin, 0.0);
                     found.common = at.on_a;
                     found.near = Some([at.on_a; 2]);
                 }
+                found.upper = found.upper.min(off);
                 return found;
             }
             Nearest::Outside(point) => {
