@@ -190,7 +190,7 @@ fn thresholds_of_single_shapes_agree_with_distances() {
             single(&mut random, case % 9),
             single(&mut random, case / 9 % 9),
         );
-        let (here, pose) = (Pose::identity(), random.pose(0.9));
+        let (here, pose) = (Pose::identity(), random.pose(0.7));
         let mut query = QueryContext::new();
         let found = query
             .pair_distance((&a, &here), (&b, &pose), f64::INFINITY)
