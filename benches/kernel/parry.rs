@@ -11,7 +11,7 @@ use parry3d_f64::shape::TriMesh;
 use super::case::{Case, Mode, Triangles, merged};
 
 /// A pass that takes longer is given up.
-const MOST_SECONDS: f64 = 5.0;
+const MAX_SECONDS: f64 = 5.0;
 
 pub struct Parry {
     moving: Vec<TriMesh>,
@@ -37,7 +37,7 @@ impl Parry {
         let start = Instant::now();
         for poses in &self.poses {
             answers.push(self.answer(poses, mode)?);
-            if start.elapsed().as_secs_f64() > MOST_SECONDS {
+            if start.elapsed().as_secs_f64() > MAX_SECONDS {
                 return None;
             }
         }

@@ -15,7 +15,7 @@ use super::question::{Query, Question};
 use super::shape::{Kind, Shape};
 
 /// A pass that takes longer is given up.
-const MOST_SECONDS: f64 = 2.0;
+const MAX_SECONDS: f64 = 2.0;
 
 pub struct Parry {
     shapes: [SharedShape; 2],
@@ -42,7 +42,7 @@ impl Parry {
         let start = Instant::now();
         for (poses, threshold) in self.poses.iter().zip(&question.thresholds) {
             answers.push(self.answer(poses, question.query, *threshold)?);
-            if answers.len() % 16 == 0 && start.elapsed().as_secs_f64() > MOST_SECONDS {
+            if answers.len() % 16 == 0 && start.elapsed().as_secs_f64() > MAX_SECONDS {
                 return None;
             }
         }

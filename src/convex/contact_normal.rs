@@ -16,7 +16,7 @@ const DIRECTION_KNOWN: f64 = 1e-12;
 const PARALLEL_SEEN: f64 = 1e-12;
 
 /// Of fans of very many edges that meet at two touching vertices, so many pairs are tried.
-const MOST_EDGE_PAIRS: usize = 4096;
+const MAX_EDGE_PAIRS: usize = 4096;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
@@ -30,16 +30,16 @@ pub struct ContactPair<'a> {
 impl ContactPair<'_> {
     /// The unit normal from s to r of primitives that are far enough apart for it to be told by their closest points.
     pub fn normal_if_apart(&self) -> Option<Vec3> {
-        if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
-            self.normal_apart()
-        } else {
-            None
-        }
+        self.is_apart().then(|| self.normal_apart()).flatten()
+    }
+
+    fn is_apart(&self) -> bool {
+        self.closest.distance > DIRECTION_KNOWN * self.precision.size
     }
 
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
     pub fn normal(&self) -> Option<Vec3> {
-        if self.closest.distance > DIRECTION_KNOWN * self.precision.size {
+        if self.is_apart() {
             return self.normal_apart();
         }
         if self.closest.depth > tolerance::JUST_INSIDE * self.precision.size {
@@ -124,7 +124,7 @@ impl ContactPair<'_> {
             return None;
         }
         // Round bodies of very many edges would take longer than the answer is worth.
-        if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MOST_EDGE_PAIRS {
+        if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MAX_EDGE_PAIRS {
             return None;
         }
         let meter = &mut WorkMeter::default();
@@ -156,7 +156,7 @@ impl ContactPair<'_> {
                 .iter()
                 .map(|along_s| along_r.cross(along_s))
         });
-        pairs.take(MOST_EDGE_PAIRS).for_each(&mut offer);
+        pairs.take(MAX_EDGE_PAIRS).for_each(&mut offer);
         for local in [&local_r, &local_s] {
             if local.is_flat {
                 for along in &local.directions {

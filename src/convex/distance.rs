@@ -67,7 +67,7 @@ pub fn closest_polytopes(
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
-    let is_large = |placed: &Placed| placed.shape.edges.len() > MOST_EDGES_ENUMERATED;
+    let is_large = |placed: &Placed| placed.shape.edges.len() > MAX_EDGES_ENUMERATED;
     let are_segments = a.vertices.len() <= 2 && b.vertices.len() <= 2;
     let mut found = if are_segments && !pair.planar {
         closest_segments(a, b)
@@ -108,7 +108,7 @@ fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64)
 }
 
 /// Polygons with at most so many edges are compared edge by edge.
-const MOST_EDGES_ENUMERATED: usize = 32;
+const MAX_EDGES_ENUMERATED: usize = 32;
 
 fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
     scratch.a.set_all(a);

@@ -18,7 +18,7 @@ mod polygon_distance;
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};
 pub use distance::{DistanceScratch, Measured, measure};
-pub use outline::{MOST_CORNERS, Outline, moved};
+pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};
 pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};

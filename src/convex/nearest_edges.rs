@@ -1,11 +1,11 @@
 //! The nearest edges of two polygons, four pairs at a time.
 
 use super::closest::Closest;
-use super::outline::{MOST_CORNERS, Outline, Side};
+use super::outline::{MAX_CORNERS, Outline, Side};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3, sub64};
 use crate::tolerance;
 
-/// The best of four pairs of edges, by the squares of their distances. A pair is called `MOST_CORNERS` * the block of the
+/// The best of four pairs of edges, by the squares of their distances. A pair is called `MAX_CORNERS` * the block of the
 /// second's edges + the first's edge; the lane is the second's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestEdges {
@@ -23,7 +23,7 @@ impl NearestEdges {
             let starts = &b.blocks[block];
             let along = sub64(&b.following(block), starts);
             let (_, _, squares) = edge_places(&start, &edge, inverse_square, starts, &along);
-            let pair = F64x4::splat((MOST_CORNERS * block + i) as f64);
+            let pair = F64x4::splat((MAX_CORNERS * block + i) as f64);
             for lane in 0..4 {
                 let is_less = squares.0[lane] < self.squares.0[lane];
                 self.pairs.0[lane] = if is_less {
@@ -51,7 +51,7 @@ impl NearestEdges {
             }
         }
         let pair = self.pairs.0[lane] as usize;
-        let (block, i) = (pair / MOST_CORNERS, pair % MOST_CORNERS);
+        let (block, i) = (pair / MAX_CORNERS, pair % MAX_CORNERS);
         let starts = &b.blocks[block];
         let along = sub64(&b.following(block), starts);
         let (start, edge) = a.edge(i);

@@ -5,7 +5,7 @@ use crate::pose::{Pose, Vec3};
 use crate::primitive::Feature;
 
 /// Polygons of up to so many corners are measured four edges at a time.
-pub const MOST_CORNERS: usize = 64;
+pub const MAX_CORNERS: usize = 64;
 
 /// A convex polygon in space: its corners in cyclic order, four at a time, the last four filled up with the first corner.
 #[derive(Clone, Copy)]

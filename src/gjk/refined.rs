@@ -25,13 +25,13 @@ pub struct Refined {
 }
 
 /// More steps than this bring nothing.
-const MOST_STEPS: u32 = 400;
+const MAX_STEPS: u32 = 400;
 
 /// So many steps in a row may bring nothing.
-const MOST_IDLE: u32 = 50;
+const MAX_IDLE: u32 = 50;
 
 /// A search begins anew so often where it got stuck.
-const MOST_RESTARTS: u32 = 8;
+const MAX_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
 /// them nearer, or the distance is known as well as is wanted. No coordinate of A and B is larger than `size`. `start` is a
@@ -79,7 +79,7 @@ fn iterate<A: Support, B: Support>(
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let mut restarts = 0;
     let mut is_apart = false;
-    while found.iterations < MOST_STEPS {
+    while found.iterations < MAX_STEPS {
         found.iterations += 1;
         let length = v.norm();
         let on_a = a.support(&-v);
@@ -103,7 +103,7 @@ fn iterate<A: Support, B: Support>(
         let gap = found.upper - found.lower;
         idle = if gap < least { 0 } else { idle + 1 };
         least = least.min(gap);
-        let next = if idle > MOST_IDLE || simplex.contains(&difference) || simplex.is_full() {
+        let next = if idle > MAX_IDLE || simplex.contains(&difference) || simplex.is_full() {
             None
         } else {
             simplex.push(Corner { difference, on_a });
@@ -130,7 +130,7 @@ fn iterate<A: Support, B: Support>(
             // Where rounding has spoilt the corners, others are begun with from the best direction known.
             restarts += 1;
             let is_known = found.direction != Vec3::zeros();
-            if restarts > MOST_RESTARTS || !is_known && is_apart {
+            if restarts > MAX_RESTARTS || !is_known && is_apart {
                 break;
             }
             idle = 0;

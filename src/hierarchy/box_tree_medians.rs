@@ -7,8 +7,8 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 
 impl BoxTree {
-    /// Makes the tree anew over some of `places` boxes, in the memory it has. Takes about a tenth of the time that
-    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `reach` of a center.
+    /// Makes the tree anew over some of `places` boxes, in the memory it has. Takes a small part of the time that
+    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `reach` of a centre.
     pub fn rebuild_in_haste(
         &mut self,
         taken: &[u32],

@@ -11,7 +11,7 @@ use crate::primitive::{Convex, convex_polyhedron};
 use crate::tolerance;
 
 /// A patch has at most so many faces: each new one is compared with all, and its hull with all it might swallow.
-const MOST_FACES: usize = 512;
+const MAX_FACES: usize = 512;
 
 /// A polygon reaches into a hull if some of it lies deeper than this times the body's diameter.
 const DEPTH: f64 = 1e-9;
@@ -129,7 +129,7 @@ impl<'a> Surface<'a> {
         // A piece that does not fit now never will: a larger patch asks more.
         let mut met = std::collections::HashSet::from([seed]);
         let mut next = 0;
-        while next < patch.len() && patch.len() < MOST_FACES {
+        while next < patch.len() && patch.len() < MAX_FACES {
             let members = &self.pieces[patch[next] as usize].members;
             next += 1;
             let around = members
@@ -137,7 +137,7 @@ impl<'a> Surface<'a> {
                 .flat_map(|&i| &self.edges.neighbours[i as usize]);
             for neighbour in around {
                 let other = self.piece_of[neighbour.polygon as usize];
-                if patch.len() >= MOST_FACES || !met.insert(other) || taken[other as usize] {
+                if patch.len() >= MAX_FACES || !met.insert(other) || taken[other as usize] {
                     continue;
                 }
                 let plane = self.plane(other);

@@ -1,13 +1,11 @@
 //! Oriented boxes four at a time, as nodes take them.
 
 use super::box_tree::OrientedBox;
-use super::wide_node::WideNode;
+use super::wide_node::{MAX_AXIS, MAX_PLACE, WideNode};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
 const AXIS_UNITS: f64 = 32768.0;
-const MAX_AXIS: f64 = 32767.0;
-const MAX_PLACE: f64 = 32767.0;
 
 /// Up to four boxes, coordinates apart.
 pub struct FourBoxes {

@@ -1,6 +1,6 @@
 //! The primitives in the order of the leaves, as the kernel's first tests read them.
 
-use crate::convex::MOST_CORNERS;
+use crate::convex::MAX_CORNERS;
 use crate::lanes::{F64x4, Points64};
 use crate::pose::Vec3;
 use crate::primitive::Convex;
@@ -41,7 +41,7 @@ impl PackedPrimitives {
         };
         if shape.is_flat()
             && let [face] = &shape.faces[..]
-            && face.vertices.len() <= MOST_CORNERS
+            && face.vertices.len() <= MAX_CORNERS
         {
             let ring = &face.vertices;
             let corner = |i: usize| {

@@ -6,10 +6,10 @@ use crate::primitive::Convex;
 use crate::tolerance;
 
 /// A primitive gets at most so many leaves.
-const MOST_SLABS: usize = 64;
+const MAX_SLABS: usize = 64;
 
 /// All primitives together get at most so many times their number, where each is slender.
-const MOST_PARTS: usize = 8;
+const MAX_PARTS: usize = 8;
 
 /// A primitive, or the part of it between two planes. Queries ask the whole primitive, the part only bounds it.
 #[derive(Clone, Debug)]
@@ -66,13 +66,13 @@ pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     } else {
         vec![None; primitives.len()]
     };
-    let mut most = MOST_SLABS;
+    let mut most = MAX_SLABS;
     let count = |aspect: f64, most: usize| aspect.min(most as f64).ceil() as usize;
     let total = |most: usize| -> usize {
         let slender = extents.iter().flatten();
         slender.map(|&(_, aspect)| count(aspect, most)).sum()
     };
-    while most > 2 && total(most) > MOST_PARTS * primitives.len() + MOST_SLABS {
+    while most > 2 && total(most) > MAX_PARTS * primitives.len() + MAX_SLABS {
         most /= 2;
     }
     let mut parts = Vec::with_capacity(primitives.len());

@@ -12,8 +12,8 @@ use crate::pose::{Mat3, Vec3};
 
 /// The components of an axis are whole numbers in units of 2^-15.
 const AXIS_STEP: f32 = 1.0 / 32768.0;
-const MAX_AXIS: f64 = 32767.0;
-const MAX_PLACE: f64 = 32767.0;
+pub(super) const MAX_AXIS: f64 = 32767.0;
+pub(super) const MAX_PLACE: f64 = 32767.0;
 /// Less than fits, for what rounding of the centres adds.
 const MAX_HALF: f64 = 65500.0;
 

@@ -4,7 +4,7 @@ use super::hit::Hit;
 use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MOST_CORNERS, Measured, Nearest, Outline, Penetration,
+    Closest, Contact, DistanceScratch, MAX_CORNERS, Measured, Nearest, Outline, Penetration,
     Placed, PlacedBuffer, PolygonDistance, Precision, contacts, first_contact, measure, moved,
     penetration, polygon_closest, polygon_distance,
 };
@@ -28,9 +28,9 @@ pub struct Pairing<'a> {
 }
 
 /// Room for the corners of a polygon.
-pub type MovedOutline = [Points64; MOST_CORNERS / 4];
+pub type MovedOutline = [Points64; MAX_CORNERS / 4];
 
-pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MOST_CORNERS / 4];
+pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MAX_CORNERS / 4];
 
 /// Memory of the distances of primitives, reused from pair to pair.
 #[derive(Default)]

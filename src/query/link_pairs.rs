@@ -74,9 +74,9 @@ impl LinkPairOptions {
                 self.always
             )));
         }
-        if self.samples == 0 || self.samples > MOST_SAMPLES {
+        if self.samples == 0 || self.samples > MAX_SAMPLES {
             return Err(Error::invalid(format!(
-                "samples is {}, not from 1 to {MOST_SAMPLES}",
+                "samples is {}, not from 1 to {MAX_SAMPLES}",
                 self.samples
             )));
         }
@@ -84,7 +84,7 @@ impl LinkPairOptions {
     }
 }
 
-const MOST_SAMPLES: usize = 1 << 30;
+const MAX_SAMPLES: usize = 1 << 30;
 
 impl QueryContext {
     /// Judges all pairs of links that have bodies, in order of their numbers. Coordinates without bounds stay at rest.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::custom_joint::{Checked, MOST_COORDINATES};
+use super::custom_joint::{Checked, MAX_COORDINATES};
 use super::robot::{Coordinates, Links};
 use super::{Block, BlockKind, Coordinate, Joint, JointKind, Link, Robot};
 use crate::body::Body;
@@ -185,9 +185,9 @@ impl RobotBuilder {
             JointKind::Prismatic => axis.z != 0.0,
             JointKind::Spherical | JointKind::Free | JointKind::FreeEuler => true,
             JointKind::Custom(custom) => {
-                if !(1..=MOST_COORDINATES).contains(&custom.coordinates()) {
+                if !(1..=MAX_COORDINATES).contains(&custom.coordinates()) {
                     return Err(Error::invalid(format!(
-                        "the joint has {} coordinates; 1 to {MOST_COORDINATES} are possible",
+                        "the joint has {} coordinates; 1 to {MAX_COORDINATES} are possible",
                         custom.coordinates()
                     )));
                 }

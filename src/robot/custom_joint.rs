@@ -23,7 +23,7 @@ pub struct Speeds {
 
 /// A joint with kinematics of its own. Both maps must be pure; threads may call them at once.
 pub trait CustomJoint: Send + Sync {
-    /// How many coordinates it has; at most [`MOST_COORDINATES`].
+    /// How many coordinates it has; at most [`MAX_COORDINATES`].
     fn coordinates(&self) -> usize;
 
     /// The link's pose in the joint's frame.
@@ -38,7 +38,7 @@ pub trait CustomJoint: Send + Sync {
 }
 
 /// More coordinates than this are taken for a mistake.
-pub const MOST_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 64;
 
 /// A custom joint whose answers are checked.
 pub(super) struct Checked(pub Arc<dyn CustomJoint>);

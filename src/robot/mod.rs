@@ -13,7 +13,7 @@ mod robot;
 
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
-pub use custom_joint::{CustomJoint, MOST_COORDINATES, Speeds, Twist};
+pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, Posture};
 pub use joint::{Joint, JointKind};
 pub use robot::{Link, Robot, check_configuration};

@@ -16,7 +16,7 @@ use crate::robot::Posture;
 use crate::whole_file::write_whole;
 
 /// At most so many witnesses are drawn.
-const MOST_WITNESSES: usize = 64;
+const MAX_WITNESSES: usize = 64;
 
 /// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
 pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
@@ -25,7 +25,7 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     let epsilons = epsilons.map(|term| term.options.contact_epsilon);
     let shell = Shell {
         max_shell: epsilons.fold(0.0, f64::max),
-        max_count: MOST_WITNESSES,
+        max_count: MAX_WITNESSES,
         normalize: false,
     };
     // One state of the world for the whole picture.
