@@ -230,9 +230,16 @@ impl Work for Relative<'_> {
         let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
         let mut sum = TwoFold::new(row(&b.translation));
         sum.add(-row(&a.translation));
-        for j in 0..3 {
-            sum.add_product(lanes, column(b, j), self.centers[1][j]);
-            sum.add_product(lanes, column(a, j), -self.centers[0][j]);
+        // Centres at the bodies' origins, as those of most single shapes are, add nothing.
+        if *self.centers[1] != Vec3::zeros() {
+            for j in 0..3 {
+                sum.add_product(lanes, column(b, j), self.centers[1][j]);
+            }
+        }
+        if *self.centers[0] != Vec3::zeros() {
+            for j in 0..3 {
+                sum.add_product(lanes, column(a, j), -self.centers[0][j]);
+            }
         }
         let apart = sum.value().0;
         // The axes of B and the vector between the centres side by side, turned back by A.
@@ -252,10 +259,17 @@ impl Work for Relative<'_> {
 }
 
 /// matrix * v, written out: the general product of small matrices takes several times as long.
-#[inline]
-fn turned(matrix: &Mat3, v: &Vec3) -> Vec3 {
+#[inline(always)]
+pub fn turned(matrix: &Mat3, v: &Vec3) -> Vec3 {
     let row = |i: usize| matrix[(i, 0)] * v.x + matrix[(i, 1)] * v.y + matrix[(i, 2)] * v.z;
     Vec3::new(row(0), row(1), row(2))
+}
+
+/// The transpose of a matrix times v, written out.
+#[inline(always)]
+pub fn turned_back(matrix: &Mat3, v: &Vec3) -> Vec3 {
+    let column = |j: usize| matrix[(0, j)] * v.x + matrix[(1, j)] * v.y + matrix[(2, j)] * v.z;
+    Vec3::new(column(0), column(1), column(2))
 }
 
 /// matrix * axes, written out.

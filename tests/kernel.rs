@@ -182,8 +182,8 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
         );
         let (mut buffer_a, mut buffer_b) = (PlacedBuffer::default(), PlacedBuffer::default());
         let features = measure(
-            &buffer_a.place(a.primitives().get(0), &Pose::identity()),
-            &buffer_b.place(b.primitives().get(0), &pairing.relative),
+            &buffer_a.place(a.primitives().get(0), None, &Pose::identity()),
+            &buffer_b.place(b.primitives().get(0), None, &pairing.relative),
             &pairing.precision,
             DistanceLimits::EXACT,
             &mut DistanceScratch::default(),

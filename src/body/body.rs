@@ -21,6 +21,7 @@ pub struct Body {
     pub(super) center: Vec3,
     pub(super) radius: f64,
     pub(super) deviation: f64,
+    has_functions: bool,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
@@ -65,6 +66,7 @@ impl Body {
             center,
             radius: primitives.radius(),
             deviation: primitives.deviation(),
+            has_functions: primitives.have_functions(),
             packed,
             primitives,
             wrappers,
@@ -112,6 +114,11 @@ impl Body {
     /// The largest deviation of a primitive from its faces (see [`Convex`]).
     pub fn deviation(&self) -> f64 {
         self.deviation
+    }
+
+    /// Whether queries run support functions of the caller's.
+    pub fn has_functions(&self) -> bool {
+        self.has_functions
     }
 
     /// The primitives, in the body's own (centred) frame.

@@ -100,6 +100,14 @@ pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>
     }
 }
 
+/// The object behind a handle, for the time of a call that runs no function of the caller's: only that could release the
+/// handle meanwhile.
+pub fn borrowed<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a T, Failure> {
+    let slot = slot_of::<T>(handle, argument)?;
+    // SAFETY: a slot of this kind holds a pointer from Arc::into_raw, and the caller holds a reference for the time of the call.
+    Ok(unsafe { &*slot.value.load(Ordering::Relaxed).cast::<T>() })
+}
+
 /// One more reference.
 pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), Failure> {
     let references = &slot_of::<T>(handle, argument)?.references;

@@ -5,7 +5,7 @@ use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle;
 use super::input::{Output, pose};
-use super::query::{State, cstk_query, with_query};
+use super::query::{State, cstk_query, with_borrowed_query, with_query};
 use super::status::cstk_status;
 use crate::body::Body;
 use crate::pose::Pose;
@@ -23,15 +23,22 @@ unsafe fn run<T>(
     ask: impl FnOnce(&mut State, Placement, Placement) -> Result<T, Failure>,
 ) -> cstk_status {
     guard(|| {
-        with_query(query, |state| {
-            let a = &*handle::share::<Body>(body_a, "body_a")?;
-            let b = &*handle::share::<Body>(body_b, "body_b")?;
+        let a = handle::borrowed::<Body>(body_a, "body_a")?;
+        let b = handle::borrowed::<Body>(body_b, "body_b")?;
+        let answer = |state: &mut State| {
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for NULL; the header states the lengths.
             let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };
             out.write(ask(state, (a, &pose_a), (b, &pose_b))?);
             Ok(())
-        })
+        };
+        if a.has_functions() || b.has_functions() {
+            // Functions of the caller's may release what is asked.
+            let _kept = handle::share::<Body>(body_a, "body_a")?;
+            let _kept_too = handle::share::<Body>(body_b, "body_b")?;
+            return with_query(query, answer);
+        }
+        with_borrowed_query(query, answer)
     })
 }
 

@@ -112,7 +112,21 @@ pub(super) fn with_query(
     query: *mut cstk_query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let query = handle::share::<Query>(query, "query")?;
+    exclusively_with(&*handle::share::<Query>(query, "query")?, action)
+}
+
+/// The same for an action that runs no function of the caller's.
+pub(super) fn with_borrowed_query(
+    query: *mut cstk_query,
+    action: impl FnOnce(&mut State) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    exclusively_with(handle::borrowed::<Query>(query, "query")?, action)
+}
+
+fn exclusively_with(
+    query: &Query,
+    action: impl FnOnce(&mut State) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     // Caches are dispensable, and scratch memory is only as good as the call that left it. What the caller has set stays.
     let renew = |state: &mut State| {
         let limit = state.context.limit();

@@ -42,6 +42,16 @@ impl Closest {
         }
     }
 
+    /// The same with the sides changed.
+    pub fn swapped(self) -> Self {
+        let ([on_a, on_b], [of_a, of_b]) = (self.points, self.features);
+        Self {
+            points: [on_b, on_a],
+            features: [of_b, of_a],
+            ..self
+        }
+    }
+
     fn offer(&mut self, other: Closest) {
         if other.distance < self.distance {
             *self = other;
@@ -83,7 +93,7 @@ impl FeatureSet {
 
     pub fn set_all(&mut self, placed: &Placed) {
         self.clear();
-        self.vertices.extend(0..placed.vertices.len() as u32);
+        self.vertices.extend(0..placed.vertex_count() as u32);
         self.edges.extend(0..placed.shape.edges.len() as u32);
         self.faces.extend(0..placed.shape.faces.len() as u32);
     }
@@ -98,7 +108,7 @@ impl FeatureSet {
     pub fn set_supporting(&mut self, placed: &Placed, direction: &Vec3, tolerance: f64) {
         self.clear();
         self.heights.clear();
-        let heights = placed.vertices.iter().map(|v| direction.dot(v));
+        let heights = placed.vertices().iter().map(|v| direction.dot(v));
         self.heights.extend(heights);
         let farthest = self
             .heights
@@ -106,7 +116,7 @@ impl FeatureSet {
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
         let supports = |&i: &u32| self.heights[i as usize] >= farthest - tolerance;
-        let vertices = (0..placed.vertices.len() as u32).filter(supports);
+        let vertices = (0..placed.vertex_count() as u32).filter(supports);
         self.vertices.extend(vertices);
         if self.vertices.len() == 1 {
             return;
@@ -180,11 +190,7 @@ pub fn closest_features(
     }
     vertices_over_faces(a, features_a, b, features_b, |closest| best.offer(closest));
     vertices_over_faces(b, features_b, a, features_a, |closest| {
-        best.offer(Closest {
-            points: [closest.points[1], closest.points[0]],
-            features: [closest.features[1], closest.features[0]],
-            ..closest
-        });
+        best.offer(closest.swapped());
     });
     best
 }

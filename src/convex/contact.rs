@@ -245,7 +245,7 @@ struct Supporting<'a> {
 impl<'a> Supporting<'a> {
     fn new(placed: &Placed<'a>, direction: &Vec3, slack: f64) -> Self {
         let (_, farthest) = placed.extent_along(direction);
-        let level: Vec<u32> = (0..placed.vertices.len() as u32)
+        let level: Vec<u32> = (0..placed.vertex_count() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
             .collect();
         // Mostly it is a lone corner.

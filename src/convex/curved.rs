@@ -3,9 +3,10 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{DistanceScratch, closest_polytopes};
+use super::nearest_parts::NearestParts;
 use super::placed::{Placed, Precision};
-use crate::gjk::{DistanceLimits, PointCloud, Refined, Support, refined};
-use crate::pose::{Mat3, Vec3};
+use crate::gjk::{DistanceLimits, Extreme, Refined, Support, refined};
+use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{Feature, Smooth};
 use crate::tolerance;
 
@@ -22,7 +23,7 @@ impl<'a> Core<'a> {
         let smooth = placed.shape.smooth();
         Self {
             placed,
-            smooth: smooth.map(|smooth| (smooth, placed.turned(&smooth.axes))),
+            smooth: smooth.map(|smooth| (smooth, placed.turned_axes(&smooth.axes))),
             shift,
         }
     }
@@ -30,18 +31,36 @@ impl<'a> Core<'a> {
     pub fn of(placed: &'a Placed<'a>) -> Self {
         Self::shifted(placed, Vec3::zeros())
     }
+
+    /// The smooth set that it is, with the directions of its axes in the frame.
+    pub fn smooth(&self) -> Option<(&Smooth, &Mat3)> {
+        let (smooth, axes) = self.smooth.as_ref()?;
+        Some((smooth, axes))
+    }
+
+    /// A vertex; the first is where a smooth set is.
+    pub fn vertex(&self, index: u32) -> Vec3 {
+        self.placed.vertex(index) + self.shift
+    }
 }
 
 impl Support for Core<'_> {
-    fn support(&self, direction: &Vec3) -> Vec3 {
-        let point = match &self.smooth {
-            None => PointCloud(self.placed.vertices).support(direction),
+    #[inline(always)]
+    fn extreme(&self, direction: &Vec3) -> Extreme {
+        let found = match &self.smooth {
+            None => self.placed.extreme(direction),
             Some((smooth, axes)) => {
-                let point = smooth.kind.support(&axes.tr_mul(direction));
-                self.placed.vertex(0) + axes * point
+                let found = smooth.kind.extreme(&turned_back(axes, direction));
+                Extreme {
+                    point: self.placed.vertex(0) + turned(axes, &found.point),
+                    ..found
+                }
             }
         };
-        point + self.shift
+        Extreme {
+            point: found.point + self.shift,
+            ..found
+        }
     }
 }
 
@@ -80,7 +99,7 @@ fn smooth_closest(
 ) -> Option<(Closest, Vec3)> {
     // A guess that the primitives alone decide, so that the answer depends on nothing else.
     let start = a.middle() - b.middle();
-    let found = refined(&Core::of(a), &Core::of(b), start, pair.size, limits);
+    let found = refined_pair(&Core::of(a), &Core::of(b), start, pair, limits);
     if found.lower > limits.cutoff {
         return None;
     }
@@ -91,8 +110,14 @@ fn smooth_closest(
     let closest = Closest {
         distance: found.upper,
         points: found.points,
-        features: [(a, 0), (b, 1)]
-            .map(|(placed, side)| holding_feature(placed, &found.points[side], HOLDS * pair.size)),
+        features: [(a, 0), (b, 1)].map(|(placed, side)| {
+            let (point, slack) = (&found.points[side], HOLDS * pair.size);
+            let known = found.names.and_then(|names| {
+                let (names, len) = names.of(side);
+                named_feature(placed, &names[..len], point, slack)
+            });
+            known.unwrap_or_else(|| holding_feature(placed, point, slack))
+        }),
         doubt: doubt(&found, pair),
         depth: found.depth,
     };
@@ -117,13 +142,35 @@ pub fn refined_cores(
     shift: Vec3,
     pair: &Precision,
 ) -> Refined {
-    refined(
-        &Core::shifted(a, shift),
-        &Core::of(b),
-        start,
-        pair.size,
-        DistanceLimits::EXACT,
-    )
+    let (a, b) = (Core::shifted(a, shift), Core::of(b));
+    refined_pair(&a, &b, start, pair, DistanceLimits::EXACT)
+}
+
+fn refined_pair(
+    a: &Core,
+    b: &Core,
+    start: Vec3,
+    pair: &Precision,
+    limits: DistanceLimits,
+) -> Refined {
+    let accepted = tolerance::CERTIFIED_GAP * pair.size;
+    refined(a, b, start, pair.size, limits, |names, direction| {
+        let [(on_a, len_a), (on_b, len_b)] = [names.of(0), names.of(1)];
+        let names = [&on_a[..len_a], &on_b[..len_b]];
+        NearestParts::new([a, b], names, accepted)?.solve(direction)
+    })
+}
+
+/// The feature of a core that holds a point between vertices, where it is easily found.
+fn named_feature(placed: &Placed, names: &[u32], point: &Vec3, slack: f64) -> Option<Feature> {
+    if placed.shape.smooth().is_some() {
+        return Some(Feature::surface());
+    }
+    let near = |&&i: &&u32| (placed.vertex(i) - point).norm() <= slack;
+    match names.iter().find(near) {
+        Some(vertex) => Some(Feature::vertex(*vertex)),
+        None => placed.feature_of(names),
+    }
 }
 
 /// A point is held by the vertex or edge that is nearer than this, in L: along a surface closest points are known to about
@@ -136,7 +183,7 @@ fn holding_feature(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
         return Feature::surface();
     }
     let near = |v: &Vec3| (v - point).norm() <= slack;
-    if let Some(i) = placed.vertices.iter().position(near) {
+    if let Some(i) = placed.vertices().iter().position(near) {
         return Feature::vertex(i as u32);
     }
     let here = Segment::new((*point, *point));
@@ -244,7 +291,7 @@ mod tests {
                 let reach = random.within(0.3, 3.0);
                 let pose = random.pose(reach);
                 let mut buffer = crate::convex::PlacedBuffer::default();
-                let (a, b) = (Placed::at_home(&a), buffer.place(&b, &pose));
+                let (a, b) = (Placed::at_home(&a, None), buffer.place(&b, None, &pose));
                 let pair = Precision {
                     size: 1.0 + pose.translation.norm(),
                     error: 0.0,

@@ -1,11 +1,12 @@
 //! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
 
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
+use super::cuboid_distance::segment_to_cuboid;
 use super::curved::{core_closest, grown};
 use super::placed::{Placed, Precision};
-use crate::gjk::{DistanceLimits, PointCloud, gjk};
+use crate::gjk::{DistanceLimits, NearestCorners, gjk};
 use crate::pose::Vec3;
-use crate::primitive::{Feature, FeatureKind};
+use crate::primitive::{Cuboid, Feature, FeatureKind};
 use crate::tolerance;
 
 /// Memory of the distance computation, reused from pair to pair.
@@ -68,9 +69,11 @@ pub fn closest_polytopes(
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MAX_EDGES_ENUMERATED;
-    let are_segments = a.vertices.len() <= 2 && b.vertices.len() <= 2;
+    let are_segments = a.vertex_count() <= 2 && b.vertex_count() <= 2;
     let mut found = if are_segments && !pair.planar {
         closest_segments(a, b)
+    } else if let Some(found) = closest_to_cuboid(a, b, pair.error) {
+        found
     } else if pair.planar {
         planar_closest(a, b, pair, scratch)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
@@ -84,6 +87,25 @@ pub fn closest_polytopes(
         snap_to_vertex(placed, &mut found, side, pair.error);
     }
     Some(found)
+}
+
+/// The closest points of a point or a segment and a box that are more than `error` apart.
+fn closest_to_cuboid(a: &Placed, b: &Placed, error: f64) -> Option<Closest> {
+    fn cuboid<'a>(placed: &Placed<'a>) -> Option<&'a Cuboid> {
+        placed.form()?.cuboid()
+    }
+    let found = if let Some(cuboid) = cuboid(b)
+        && a.vertex_count() <= 2
+    {
+        segment_to_cuboid(a, b, cuboid)?
+    } else if let Some(cuboid) = cuboid(a)
+        && b.vertex_count() <= 2
+    {
+        segment_to_cuboid(b, a, cuboid)?.swapped()
+    } else {
+        return None;
+    };
+    (found.distance > error).then_some(found)
 }
 
 /// How far a set is from the plane of a flat polygon, on either side.
@@ -153,8 +175,8 @@ fn bounded_closest(
 ) -> Option<Closest> {
     let size = pair.size;
     let bounds = gjk(
-        &PointCloud(a.vertices),
-        &PointCloud(b.vertices),
+        a,
+        b,
         // A guess that the primitives alone decide, so that the answer depends on nothing else.
         a.middle() - b.middle(),
         limits,
@@ -175,6 +197,13 @@ fn bounded_closest(
         && bounds.overlap == 0.0
     {
         return Some(Closest::between(points, [Feature::interior(); 2]));
+    }
+    if let Some(nearest) = &bounds.nearest
+        && bounds.lower > 0.0
+        && nearest.difference.norm() - bounds.lower <= tolerance::CERTIFIED_GAP * size
+        && let Some(found) = between_corners(a, b, nearest)
+    {
+        return Some(found);
     }
     if bounds.lower > 0.0 {
         // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets
@@ -208,9 +237,21 @@ fn bounded_closest(
     Some(found)
 }
 
+/// The nearest points between corners that the search found, if they are of a feature each.
+fn between_corners(a: &Placed, b: &Placed, nearest: &NearestCorners) -> Option<Closest> {
+    let feature = |placed: &Placed, side: usize| {
+        let (names, len) = nearest.names.of(side);
+        placed.feature_of(&names[..len])
+    };
+    Some(Closest::between(
+        nearest.points,
+        [feature(a, 0)?, feature(b, 1)?],
+    ))
+}
+
 /// A vertex of A inside the solid B.
 fn contained_vertex(a: &Placed, b: &Placed) -> Option<(u32, Vec3)> {
-    let vertices = a.vertices.iter().enumerate();
+    let vertices = a.vertices().iter().enumerate();
     vertices
         .filter(|(_, point)| b.contains(point))
         .map(|(i, point)| (i as u32, *point))

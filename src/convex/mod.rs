@@ -3,17 +3,20 @@
 mod closest;
 mod contact;
 mod contact_normal;
+mod cuboid_distance;
 mod curved;
 mod curved_contact;
 mod distance;
 mod extreme_vertex;
 mod gauss_arcs;
 mod nearest_edges;
+mod nearest_parts;
 mod outline;
 mod penetration;
 mod placed;
 mod polygon_crossing;
 mod polygon_distance;
+mod surface_part;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};

@@ -141,14 +141,11 @@ fn brought_together(
     precision: &Precision,
 ) -> [Vec3; 2] {
     let way = direction * depth;
-    let moved_by = |shift: Vec3| -> Vec<Vec3> { r.vertices.iter().map(|v| v + shift).collect() };
+    let moved_by = |shift: Vec3| -> Vec<Vec3> { r.vertices().iter().map(|v| v + shift).collect() };
     for slack in [1e-9, 1e-6].map(|part| part * precision.size) {
         let shift = direction * (depth + slack);
         let vertices = moved_by(shift);
-        let moved = Placed {
-            vertices: &vertices,
-            ..*r
-        };
+        let moved = r.shifted(&vertices);
         let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
         on_r.set_supporting(&moved, &-direction, slack);
         on_s.set_supporting(s, direction, slack);
@@ -159,10 +156,7 @@ fn brought_together(
         }
     }
     let vertices = moved_by(way);
-    let moved = Placed {
-        vertices: &vertices,
-        ..*r
-    };
+    let moved = r.shifted(&vertices);
     let scratch = &mut DistanceScratch::default();
     let met = closest_polytopes(&moved, s, precision, DistanceLimits::EXACT, scratch);
     let met = met.expect("nothing is beyond infinity");
@@ -197,7 +191,8 @@ impl<'a> Shortest<'a> {
     fn new(r: &'a Placed<'a>, s: &'a Placed<'a>) -> Self {
         Self {
             sets: [r, s],
-            extremes: [r, s].map(|placed| ExtremeVertex::new(placed.vertices, &placed.shape.edges)),
+            extremes: [r, s]
+                .map(|placed| ExtremeVertex::new(placed.vertices(), &placed.shape.edges)),
             depth: f64::INFINITY,
             direction: Vec3::x(),
             rank: (u64::MAX, true),

@@ -1,7 +1,10 @@
 //! A primitive's coordinates in the frame in which a pair is examined.
 
-use crate::pose::{Mat3, Pose, Vec3};
-use crate::primitive::{Convex, Primitive};
+use std::cell::{Cell, OnceCell};
+
+use crate::gjk::{Extreme, PointCloud, Support};
+use crate::pose::{Mat3, Pose, Vec3, turned, turned_back};
+use crate::primitive::{Convex, Face, Feature, Form, Primitive};
 
 /// The lengths that decide about a pair of bodies, their dimension with them.
 #[derive(Clone, Copy, Debug)]
@@ -14,67 +17,206 @@ pub struct Precision {
     pub planar: bool,
 }
 
-/// A primitive with its vertices and face normals expressed in some common frame.
+/// A primitive as it stands in some common frame. Its vertices are moved one by one, or all at once when all are asked for.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
     pub shape: &'a Convex,
-    pub vertices: &'a [Vec3],
-    /// Turns the shape's directions into the frame, unless the frame is its own.
-    pub(super) rotation: Option<&'a Mat3>,
+    vertices: Vertices<'a>,
+    /// Where it is known: of the shape, and so of its vertices at home.
+    form: Option<&'a Form>,
+}
+
+#[derive(Clone, Copy)]
+enum Vertices<'a> {
+    /// As they are in the common frame, which turns them no more.
+    Here(&'a [Vec3]),
+    Moved {
+        home: &'a [Vec3],
+        pose: &'a Pose,
+        buffer: &'a PlacedBuffer,
+    },
+    /// The same, moved on by a translation.
+    Shifted {
+        vertices: &'a [Vec3],
+        rotation: Option<&'a Mat3>,
+    },
 }
 
 /// Memory for one moved primitive, reused from pair to pair.
 #[derive(Default)]
-pub struct PlacedBuffer(Vec<Vec3>);
+pub struct PlacedBuffer {
+    moved: OnceCell<Vec<Vec3>>,
+    spare: Cell<Vec<Vec3>>,
+}
 
 impl PlacedBuffer {
     /// A primitive moved by `pose`.
     pub fn place<'a>(
         &'a mut self,
         primitive: impl Into<Primitive<'a>>,
+        form: Option<&'a Form>,
         pose: &'a Pose,
     ) -> Placed<'a> {
         let primitive = primitive.into();
-        self.0.clear();
-        let moved = primitive.vertices.iter().map(|v| pose.transform_point(v));
-        self.0.extend(moved);
+        if let Some(mut used) = self.moved.take() {
+            used.clear();
+            self.spare.set(used);
+        }
         Placed {
             shape: primitive.shape,
-            vertices: &self.0,
-            rotation: Some(&pose.rotation),
+            vertices: Vertices::Moved {
+                home: primitive.vertices,
+                pose,
+                buffer: self,
+            },
+            form,
         }
+    }
+
+    /// All vertices, moved.
+    fn all(&self, home: &[Vec3], pose: &Pose) -> &[Vec3] {
+        self.moved.get_or_init(|| {
+            let mut moved = self.spare.take();
+            moved.extend(home.iter().map(|v| pose.transform_point(v)));
+            moved
+        })
     }
 }
 
 impl<'a> Placed<'a> {
     /// A primitive in its own frame.
-    pub fn at_home(primitive: impl Into<Primitive<'a>>) -> Self {
+    pub fn at_home(primitive: impl Into<Primitive<'a>>, form: Option<&'a Form>) -> Self {
         let primitive = primitive.into();
         Self {
             shape: primitive.shape,
-            vertices: primitive.vertices,
-            rotation: None,
+            vertices: Vertices::Here(primitive.vertices),
+            form,
+        }
+    }
+
+    /// The same primitive with its vertices elsewhere, and turned as it was.
+    pub fn shifted<'b>(&'b self, vertices: &'b [Vec3]) -> Placed<'b> {
+        Placed {
+            shape: self.shape,
+            vertices: Vertices::Shifted {
+                vertices,
+                rotation: self.rotation(),
+            },
+            form: None,
+        }
+    }
+
+    fn rotation(&self) -> Option<&'a Mat3> {
+        match self.vertices {
+            Vertices::Here(_) => None,
+            Vertices::Moved { pose, .. } => Some(&pose.rotation),
+            Vertices::Shifted { rotation, .. } => rotation,
+        }
+    }
+
+    /// A direction of the shape, in the frame.
+    #[inline(always)]
+    pub fn turned(&self, direction: &Vec3) -> Vec3 {
+        self.rotation()
+            .map_or(*direction, |rotation| turned(rotation, direction))
+    }
+
+    /// A direction of the frame, as the shape sees it.
+    #[inline(always)]
+    pub fn turned_back(&self, direction: &Vec3) -> Vec3 {
+        self.rotation()
+            .map_or(*direction, |rotation| turned_back(rotation, direction))
+    }
+
+    /// A point of the frame as the shape sees it, which its form or its smooth core tell about.
+    #[inline(always)]
+    pub fn seen(&self, point: &Vec3) -> Vec3 {
+        match self.vertices {
+            Vertices::Moved { pose, .. } => {
+                turned_back(&pose.rotation, &(point - pose.translation))
+            }
+            _ => *point,
+        }
+    }
+
+    /// A point of the shape, in the frame.
+    #[inline(always)]
+    pub fn moved(&self, point: &Vec3) -> Vec3 {
+        match self.vertices {
+            Vertices::Moved { pose, .. } => pose.transform_point(point),
+            _ => *point,
         }
     }
 
     /// The outward unit normal of a face.
     pub fn normal(&self, face: usize) -> Vec3 {
-        let normal = self.shape.faces[face].normal;
-        self.rotation.map_or(normal, |rotation| rotation * normal)
+        self.turned(&self.shape.faces[face].normal)
     }
 
     /// Directions of the shape, as columns, in the frame.
-    pub fn turned(&self, axes: &Mat3) -> Mat3 {
-        self.rotation.map_or(*axes, |rotation| rotation * axes)
+    pub fn turned_axes(&self, axes: &Mat3) -> Mat3 {
+        self.rotation().map_or(*axes, |rotation| rotation * axes)
     }
 
-    /// The mean of the vertices.
+    /// The form of the core, where the primitive has one and is not shifted.
+    #[inline(always)]
+    pub fn form(&self) -> Option<&'a Form> {
+        self.form
+    }
+
+    /// The least feature that holds some vertices, where it is easily found.
+    pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
+        match (self.form, vertices) {
+            (Some(form), _) => form.feature_of(self.shape, vertices),
+            (None, [vertex]) => Some(Feature::vertex(*vertex)),
+            (None, [_, _]) => {
+                let is_between = |edge: &[u32; 2]| edge.iter().all(|end| vertices.contains(end));
+                let edge = self.shape.edges.iter().position(is_between);
+                edge.map(|edge| Feature::edge(edge as u32))
+            }
+            (None, _) => {
+                let holds = |face: &Face| vertices.iter().all(|v| face.vertices.contains(v));
+                let face = self.shape.faces.iter().position(holds);
+                face.map(|face| Feature::face(face as u32))
+            }
+        }
+    }
+
+    /// About the mean of the vertices.
     pub fn middle(&self) -> Vec3 {
-        self.vertices.iter().sum::<Vec3>() / self.vertices.len() as f64
+        match self.form {
+            Some(form) => self.moved(&form.middle(self.shape)),
+            None => {
+                let vertices = (0..self.vertex_count() as u32).map(|i| self.vertex(i));
+                vertices.sum::<Vec3>() / self.vertex_count() as f64
+            }
+        }
     }
 
+    /// All vertices in the frame.
+    pub fn vertices(&self) -> &'a [Vec3] {
+        match self.vertices {
+            Vertices::Here(vertices) | Vertices::Shifted { vertices, .. } => vertices,
+            Vertices::Moved { home, pose, buffer } => buffer.all(home, pose),
+        }
+    }
+
+    #[inline(always)]
+    pub fn vertex_count(&self) -> usize {
+        match self.vertices {
+            Vertices::Here(vertices) | Vertices::Shifted { vertices, .. } => vertices.len(),
+            Vertices::Moved { home, .. } => home.len(),
+        }
+    }
+
+    #[inline(always)]
     pub fn vertex(&self, index: u32) -> Vec3 {
-        self.vertices[index as usize]
+        match self.vertices {
+            Vertices::Here(vertices) | Vertices::Shifted { vertices, .. } => {
+                vertices[index as usize]
+            }
+            Vertices::Moved { home, pose, .. } => pose.transform_point(&home[index as usize]),
+        }
     }
 
     pub fn edge_ends(&self, edge: [u32; 2]) -> (Vec3, Vec3) {
@@ -103,13 +245,37 @@ impl<'a> Placed<'a> {
             })
     }
 
-    /// The extremes of `direction . x` over the primitive.
+    /// The extremes of `direction . x` over the primitive's vertices.
     pub fn extent_along(&self, direction: &Vec3) -> (f64, f64) {
-        self.vertices
+        if self.form.is_some() {
+            let [low, high] = [-direction, *direction].map(|d| self.extreme(&d).point);
+            return (direction.dot(&low), direction.dot(&high));
+        }
+        self.vertices()
             .iter()
             .map(|v| direction.dot(v))
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
                 (low.min(x), high.max(x))
             })
+    }
+}
+
+/// Of the hull of the vertices, each named by its number.
+impl Support for Placed<'_> {
+    #[inline(always)]
+    fn extreme(&self, direction: &Vec3) -> Extreme {
+        let vertex = match (self.form, self.vertices) {
+            (Some(form), _) => form.farthest(self.shape, &self.turned_back(direction)),
+            (None, Vertices::Moved { home, .. }) => {
+                PointCloud(home).extreme(&self.turned_back(direction)).name
+            }
+            (None, Vertices::Here(vertices) | Vertices::Shifted { vertices, .. }) => {
+                PointCloud(vertices).extreme(direction).name
+            }
+        };
+        Extreme {
+            point: self.vertex(vertex),
+            name: vertex,
+        }
     }
 }

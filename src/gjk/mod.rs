@@ -6,21 +6,35 @@
 mod refined;
 mod simplex;
 
-pub use self::refined::{Refined, refined};
+pub use self::refined::{Nearby, Refined, refined};
 use self::simplex::{Corner, Nearest, Simplex};
+pub use self::simplex::{CornerNames, NearestCorners};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A convex set that can name its point farthest along a direction.
+/// A convex set that can tell its point farthest along a direction.
 pub trait Support {
-    fn support(&self, direction: &Vec3) -> Vec3;
+    fn extreme(&self, direction: &Vec3) -> Extreme;
+
+    fn support(&self, direction: &Vec3) -> Vec3 {
+        self.extreme(direction).point
+    }
+}
+
+/// The point farthest along a direction, and the name by which the set knows it: the number of a vertex, or of a part of a
+/// smooth surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Extreme {
+    pub point: Vec3,
+    pub name: u32,
 }
 
 /// The hull of points.
 pub struct PointCloud<'a>(pub &'a [Vec3]);
 
 impl Support for PointCloud<'_> {
-    fn support(&self, direction: &Vec3) -> Vec3 {
+    #[inline]
+    fn extreme(&self, direction: &Vec3) -> Extreme {
         let (mut best, mut value) = (0, f64::NEG_INFINITY);
         for (i, point) in self.0.iter().enumerate() {
             let here = direction.dot(point);
@@ -28,7 +42,10 @@ impl Support for PointCloud<'_> {
             best = if here > value { i } else { best };
             value = if here > value { here } else { value };
         }
-        self.0[best]
+        Extreme {
+            point: self.0[best],
+            name: best as u32,
+        }
     }
 }
 
@@ -47,6 +64,8 @@ pub struct Gjk {
     pub common: Vec3,
     /// A point of A and one of B, where they are near enough.
     pub near: Option<[Vec3; 2]>,
+    /// The nearest points that were found, and between which corners; none of sets that overlap.
+    pub nearest: Option<NearestCorners>,
 }
 
 /// How well a distance is to be known.
@@ -83,6 +102,7 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
         overlap: 0.0,
         common: Vec3::zeros(),
         near: None,
+        nearest: None,
     };
     let mut v = if start == Vec3::zeros() {
         Vec3::x()
@@ -92,33 +112,30 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
     let mut simplex = Simplex::empty();
     let mut scale = 0.0f64;
     for _ in 0..128 {
-        let length = v.norm();
-        let on_a = a.support(&-v);
-        let w = on_a - b.support(&v);
-        scale = scale.max(w.norm());
-        let lower = v.dot(&w) / length;
+        let inverse_length = 1.0 / v.norm();
+        let on_a = a.extreme(&-v);
+        let on_b = b.extreme(&v);
+        let corner = Corner::between(on_a, on_b);
+        let w = corner.difference;
+        scale = scale.max(w.norm_squared());
+        let lower = v.dot(&w) * inverse_length;
         if lower > found.lower {
             found.lower = lower;
-            found.direction = v / length;
+            found.direction = v * inverse_length;
             if lower > limits.cutoff {
                 return found;
             }
         }
-        if found.upper - found.lower <= 4.0 * tolerance::EPSILON * scale || simplex.contains(&w) {
-            return found;
+        let rounding = 4.0 * tolerance::EPSILON * scale.sqrt();
+        if found.upper - found.lower <= rounding || simplex.contains(&w) || simplex.is_full() {
+            break;
         }
-        if simplex.is_full() {
-            return found;
-        }
-        simplex.push(Corner {
-            difference: w,
-            on_a,
-        });
+        simplex.push(corner);
         match simplex.reduce() {
             Nearest::Inside { margin, at } => {
                 // Where the corners do not combine to the origin, rounding has decided the sides.
                 let off = at.difference.norm();
-                if off <= tolerance::CERTIFIED_GAP * scale {
+                if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
                     (found.overlap, found.upper) = (margin, 0.0);
                     found.common = at.on_a;
                     found.near = Some([at.on_a; 2]);
@@ -128,8 +145,9 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
             }
             Nearest::Outside(point) => {
                 let upper = point.norm();
+                v = point;
                 if upper >= found.upper {
-                    return found;
+                    break;
                 }
                 found.upper = upper;
                 if upper <= limits.enough {
@@ -140,13 +158,13 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
                         return found;
                     }
                 }
-                if upper <= 4.0 * tolerance::EPSILON * scale {
-                    return found;
+                if upper <= rounding {
+                    break;
                 }
-                v = point;
             }
         }
     }
+    found.nearest = simplex.nearest(&v);
     found
 }
 

@@ -3,7 +3,7 @@
 //! "Apart" needs a proof: a direction whose support points, evaluated on both sides, leave a gap above rounding. Without one
 //! the lower bound is 0, whatever the points that the iteration reached.
 
-use super::simplex::{Corner, Nearest, Simplex};
+use super::simplex::{Corner, CornerNames, Nearest, Simplex};
 use super::{DistanceLimits, Support};
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -21,7 +21,19 @@ pub struct Refined {
     pub depth: f64,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
+    /// Between what the points are, where that told their distance.
+    pub names: Option<CornerNames>,
     pub iterations: u32,
+}
+
+/// Points of two sets that are nearest, but for what a caller accepts.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearby {
+    /// What a direction proves the distance to be at least, and that unit direction, from B to A.
+    pub lower: f64,
+    pub direction: Vec3,
+    /// A point of A and one of B.
+    pub points: [Vec3; 2],
 }
 
 /// More steps than this bring nothing.
@@ -30,28 +42,61 @@ const MAX_STEPS: u32 = 400;
 /// So many steps in a row may bring nothing.
 const MAX_IDLE: u32 = 50;
 
+/// What tells the distance at once is tried when the bounds are this near one another, in the upper one, and then whenever
+/// they have come nearer by as much.
+const FIRST_FINISH: f64 = 0.3;
+
+/// And so often at most.
+const MAX_FINISHES: u32 = 12;
+
 /// A search begins anew so often where it got stuck.
 const MAX_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
 /// them nearer, or the distance is known as well as is wanted. No coordinate of A and B is larger than `size`. `start` is a
-/// guess of the direction from B to A.
+/// guess of the direction from B to A. Once the bounds are near one another, `finish` is given that direction and between what
+/// the nearest points are, and may tell them to the same accuracy.
 pub fn refined<A: Support, B: Support>(
     a: &A,
     b: &B,
     start: Vec3,
     size: f64,
     limits: DistanceLimits,
+    finish: impl Fn(&CornerNames, &Vec3) -> Option<Nearby>,
 ) -> Refined {
     let limits = DistanceLimits {
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
         ..limits
     };
-    let mut found = iterate(a, b, start, tolerance::CERTIFIED_GAP * size, limits);
+    let accepted = tolerance::CERTIFIED_GAP * size;
+    let mut found = iterate(a, b, start, accepted, limits, finish);
     if found.lower <= tolerance::SUPPORT_ERROR * size {
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
     found
+}
+
+impl Refined {
+    /// Whether the distance is told by what the corners of a simplex are between.
+    fn finish(
+        &mut self,
+        simplex: &Simplex,
+        direction: &Vec3,
+        finish: impl Fn(&CornerNames, &Vec3) -> Option<Nearby>,
+    ) -> bool {
+        let Some(names) = simplex.names() else {
+            return false;
+        };
+        let Some(near) = finish(&names, direction) else {
+            return false;
+        };
+        self.lower = near.lower;
+        self.direction = near.direction;
+        self.upper = (near.points[0] - near.points[1]).norm();
+        self.points = near.points;
+        self.names = Some(names);
+        true
+    }
 }
 
 fn iterate<A: Support, B: Support>(
@@ -60,6 +105,7 @@ fn iterate<A: Support, B: Support>(
     start: Vec3,
     accepted: f64,
     limits: DistanceLimits,
+    finish: impl Fn(&CornerNames, &Vec3) -> Option<Nearby>,
 ) -> Refined {
     let mut found = Refined {
         lower: 0.0,
@@ -67,6 +113,7 @@ fn iterate<A: Support, B: Support>(
         upper: f64::INFINITY,
         depth: 0.0,
         points: [Vec3::zeros(); 2],
+        names: None,
         iterations: 0,
     };
     let mut v = if start == Vec3::zeros() {
@@ -79,12 +126,13 @@ fn iterate<A: Support, B: Support>(
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let mut restarts = 0;
     let mut is_apart = false;
+    let (mut finishes, mut finish_at) = (0, FIRST_FINISH);
     while found.iterations < MAX_STEPS {
         found.iterations += 1;
         let length = v.norm();
-        let on_a = a.support(&-v);
-        let on_b = b.support(&v);
-        let difference = on_a - on_b;
+        let (on_a, on_b) = (a.extreme(&-v), b.extreme(&v));
+        let corner = Corner::between(on_a, on_b);
+        let difference = corner.difference;
         scale = scale.max(difference.norm());
         let lower = v.dot(&difference) / length;
         if lower > found.lower {
@@ -93,7 +141,7 @@ fn iterate<A: Support, B: Support>(
         }
         if difference.norm() < found.upper {
             found.upper = difference.norm();
-            found.points = [on_a, on_b];
+            found.points = [on_a.point, on_b.point];
         }
         let is_known = found.upper <= limits.enough || found.lower > limits.cutoff;
         if is_known || found.upper - found.lower <= accepted {
@@ -101,12 +149,19 @@ fn iterate<A: Support, B: Support>(
         }
         let rounding = 4.0 * tolerance::EPSILON * scale;
         let gap = found.upper - found.lower;
+        if found.lower > rounding && gap <= finish_at * found.upper && finishes < MAX_FINISHES {
+            finishes += 1;
+            finish_at = FIRST_FINISH * gap / found.upper;
+            if found.finish(&simplex, &(v / length), &finish) {
+                break;
+            }
+        }
         idle = if gap < least { 0 } else { idle + 1 };
         least = least.min(gap);
         let next = if idle > MAX_IDLE || simplex.contains(&difference) || simplex.is_full() {
             None
         } else {
-            simplex.push(Corner { difference, on_a });
+            simplex.push(corner);
             if is_apart || found.lower > rounding {
                 Some(simplex.nearest_apart())
             } else {
@@ -127,6 +182,10 @@ fn iterate<A: Support, B: Support>(
             }
         };
         let Some((nearest, foot)) = next else {
+            let direction = found.direction;
+            if found.lower > rounding && found.finish(&simplex, &direction, &finish) {
+                break;
+            }
             // Where rounding has spoilt the corners, others are begun with from the best direction known.
             restarts += 1;
             let is_known = found.direction != Vec3::zeros();

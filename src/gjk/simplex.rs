@@ -1,5 +1,6 @@
 //! The point of a simplex closest to the origin.
 
+use super::Extreme;
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -8,6 +9,57 @@ use crate::tolerance;
 pub struct Corner {
     pub difference: Vec3,
     pub on_a: Vec3,
+    /// What A and B call the points that it is between.
+    pub names: [u32; 2],
+}
+
+impl Corner {
+    const ORIGIN: Self = Self {
+        difference: Vec3::new(0.0, 0.0, 0.0),
+        on_a: Vec3::new(0.0, 0.0, 0.0),
+        names: [0; 2],
+    };
+
+    #[inline(always)]
+    pub fn between(on_a: Extreme, on_b: Extreme) -> Self {
+        Self {
+            difference: on_a.point - on_b.point,
+            on_a: on_a.point,
+            names: [on_a.name, on_b.name],
+        }
+    }
+}
+
+/// The nearest points that were found of two sets, and between which of their points they are.
+#[derive(Clone, Copy, Debug)]
+pub struct NearestCorners {
+    /// A point of A and one of B.
+    pub points: [Vec3; 2],
+    /// From B's to A's.
+    pub difference: Vec3,
+    pub names: CornerNames,
+}
+
+/// Between which extreme points of two sets the nearest ones are.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerNames {
+    names: [[u32; 3]; 2],
+    len: usize,
+}
+
+impl CornerNames {
+    /// The points of A, or B: one to three by name, none twice.
+    pub fn of(&self, side: usize) -> ([u32; 3], usize) {
+        let mut names = self.names[side];
+        let mut len = 1;
+        for i in 1..self.len {
+            if !names[..len].contains(&names[i]) {
+                names[len] = names[i];
+                len += 1;
+            }
+        }
+        (names, len)
+    }
 }
 
 /// Up to four corners, reduced in step with the search.
@@ -29,10 +81,7 @@ pub enum Nearest {
 impl Simplex {
     pub fn empty() -> Self {
         Self {
-            corners: [Corner {
-                difference: Vec3::zeros(),
-                on_a: Vec3::zeros(),
-            }; 4],
+            corners: [Corner::ORIGIN; 4],
             len: 0,
         }
     }
@@ -143,11 +192,32 @@ impl Simplex {
         self.combined_of(&all, point)
     }
 
+    /// The same with the names of the corners; none where there are no corners, or four.
+    pub fn nearest(&self, point: &Vec3) -> Option<NearestCorners> {
+        let names = self.names()?;
+        let corner = self.combined(point);
+        Some(NearestCorners {
+            points: [corner.on_a, corner.on_a - corner.difference],
+            difference: corner.difference,
+            names,
+        })
+    }
+
+    /// The names of one to three corners.
+    pub fn names(&self) -> Option<CornerNames> {
+        let names = |side: usize| [0, 1, 2].map(|i| self.corners[i].names[side]);
+        (1..=3).contains(&self.len).then(|| CornerNames {
+            names: [names(0), names(1)],
+            len: self.len,
+        })
+    }
+
     fn combined_of(&self, kept: &Kept, point: &Vec3) -> Corner {
         let [first, second, third] = kept.corners.map(|i| self.corners[i]);
         let towards = |from: Corner, to: Corner, t: f64| Corner {
             difference: from.difference + (to.difference - from.difference) * t,
             on_a: from.on_a + (to.on_a - from.on_a) * t,
+            names: from.names,
         };
         let (a, b, c) = (first.difference, second.difference, third.difference);
         let ab = b - a;
@@ -303,6 +373,7 @@ impl Simplex {
                 .map(|(corner, weight)| corner.difference * *weight)
                 .sum(),
             on_a: all().map(|(corner, weight)| corner.on_a * *weight).sum(),
+            names: [0; 2],
         }
     }
 }

@@ -3,12 +3,13 @@
 use crate::convex::MAX_CORNERS;
 use crate::lanes::{F64x4, Points64};
 use crate::pose::Vec3;
-use crate::primitive::Convex;
+use crate::primitive::{Convex, Form};
 
-/// A primitive, and where its outline is if it is a flat polygon of few corners.
+/// A primitive, and where its outline is if it is a flat polygon of few corners, or its form if it has one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedPrimitive {
     pub primitive: u32,
+    /// Where its outline or its form is.
     first: u32,
     /// 0 for what is no such polygon.
     pub corners: u8,
@@ -22,7 +23,12 @@ pub struct PackedPrimitives {
     /// Of each polygon the plane normal . x = offset, then its corners four at a time, coordinates apart: a triangle or a
     /// quadrangle takes two cache lines.
     data: Vec<F64x4>,
+    /// Of what is no such polygon, and has many vertices or is a box.
+    forms: Vec<Form>,
 }
+
+/// Stands for no form.
+const NONE: u32 = u32::MAX;
 
 /// The plane of a polygon, and its corners four at a time; the last four are filled up with the first corner.
 pub struct PackedOutline<'a> {
@@ -35,7 +41,7 @@ impl PackedPrimitives {
     pub fn push(&mut self, primitive: u32, shape: &Convex) {
         let mut entry = PackedPrimitive {
             primitive,
-            first: self.data.len() as u32,
+            first: NONE,
             corners: 0,
             is_plain: false,
         };
@@ -48,6 +54,7 @@ impl PackedPrimitives {
                 let i = if i < ring.len() { i } else { 0 };
                 shape.vertices[ring[i] as usize]
             };
+            entry.first = self.data.len() as u32;
             entry.corners = ring.len() as u8;
             let vertices = 0..shape.vertices.len() as u32;
             entry.is_plain = ring.iter().copied().eq(vertices);
@@ -59,6 +66,9 @@ impl PackedPrimitives {
                 let four = |axis: usize| std::array::from_fn(|i| corner(4 * block + i)[axis]);
                 self.data.extend([0, 1, 2].map(|axis| F64x4(four(axis))));
             }
+        } else if let Some(form) = Form::of(shape) {
+            entry.first = self.forms.len() as u32;
+            self.forms.push(form);
         }
         self.entries.push(entry);
     }
@@ -98,7 +108,17 @@ impl PackedPrimitives {
         }
     }
 
+    /// What the vertices of an entry's core are asked by, if they are many or a box's.
+    #[inline(always)]
+    pub fn form(&self, entry: &PackedPrimitive) -> Option<&Form> {
+        match entry.corners {
+            0 => self.forms.get(entry.first as usize),
+            _ => None,
+        }
+    }
+
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.entries[..]) + size_of_val(&self.data[..])
+        let forms: usize = self.forms.iter().map(Form::bytes).sum();
+        size_of_val(&self.entries[..]) + size_of_val(&self.data[..]) + forms
     }
 }

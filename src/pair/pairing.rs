@@ -13,6 +13,7 @@ use crate::gjk::DistanceLimits;
 use crate::hierarchy::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
+use crate::primitive::Form;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
@@ -233,7 +234,9 @@ impl<'a> Pairing<'a> {
         let [a, b] = [(self.a, places[0]), (self.b, places[1])]
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let primitives = [a.primitive, b.primitive];
-        let [a, b] = self.place(primitives, &mut scratch.buffer);
+        let forms =
+            [(self.a, a), (self.b, b)].map(|(body, entry)| body.packed().primitives().form(entry));
+        let [a, b] = self.place(primitives, forms, &mut scratch.buffer);
         measure(&a, &b, &self.precision, limits, &mut scratch.distance)
     }
 
@@ -274,7 +277,7 @@ impl<'a> Pairing<'a> {
         measured: &Measured,
         scratch: &mut PrimitiveScratch,
     ) -> Vec<WorldContact> {
-        let [a, b] = self.place(primitives, &mut scratch.buffer);
+        let [a, b] = self.place(primitives, [None; 2], &mut scratch.buffer);
         let found = contacts(&a, &b, measured, &self.precision);
         found.into_iter().map(|c| self.in_world(c)).collect()
     }
@@ -286,7 +289,7 @@ impl<'a> Pairing<'a> {
         measured: &Measured,
         scratch: &mut PrimitiveScratch,
     ) -> Option<WorldContact> {
-        let [a, b] = self.place(primitives, &mut scratch.buffer);
+        let [a, b] = self.place(primitives, [None; 2], &mut scratch.buffer);
         first_contact(&a, &b, measured, &self.precision).map(|c| self.in_world(c))
     }
 
@@ -306,7 +309,7 @@ impl<'a> Pairing<'a> {
         meter: &mut WorkMeter,
     ) -> Result<Penetration> {
         let mut buffer = PlacedBuffer::default();
-        let [a, b] = self.place(primitives, &mut buffer);
+        let [a, b] = self.place(primitives, [None; 2], &mut buffer);
         let found = penetration(&a, &b, &self.precision, meter)?;
         Ok(Penetration {
             depth: found.depth,
@@ -315,11 +318,19 @@ impl<'a> Pairing<'a> {
         })
     }
 
-    /// Both primitives in A's centred frame.
-    fn place<'b>(&'b self, primitives: [u32; 2], buffer: &'b mut PlacedBuffer) -> [Placed<'b>; 2] {
+    /// Both primitives in A's centred frame, with their forms where these are at hand.
+    fn place<'b>(
+        &'b self,
+        primitives: [u32; 2],
+        forms: [Option<&'b Form>; 2],
+        buffer: &'b mut PlacedBuffer,
+    ) -> [Placed<'b>; 2] {
         let a = self.a.primitives().get(primitives[0] as usize);
         let b = self.b.primitives().get(primitives[1] as usize);
-        [Placed::at_home(a), buffer.place(b, &self.relative)]
+        [
+            Placed::at_home(a, forms[0]),
+            buffer.place(b, forms[1], &self.relative),
+        ]
     }
 
     /// The closest points in the world.

@@ -1,10 +1,14 @@
 //! Primitives: convex polygons, convex hulls of points, round and smooth sets. The leaves of every hierarchy.
 
 mod convex;
+mod cuboid;
 mod curve;
+mod direction_cells;
 mod faces;
 mod feature;
+mod form;
 mod hull;
+mod incidence;
 mod kind;
 mod planar_hull;
 mod point_tree;
@@ -16,9 +20,11 @@ mod smooth;
 mod support_function;
 
 pub use convex::{Convex, Face};
+pub use cuboid::Cuboid;
 pub use curve::Curve;
 pub use faces::{FaceSplit, split_face};
 pub use feature::{Feature, FeatureKind};
+pub use form::Form;
 pub use hull::{CheckedHull, checked_hull, excess_over, frame_of};
 pub use kind::PrimitiveKind;
 pub use planar_hull::{convex_hull_2d, monotone_chain, plane_axes};
@@ -26,5 +32,5 @@ pub use polygon::convex_polygon;
 pub use polyhedron::convex_polyhedron;
 pub use primitives::{Primitive, PrimitiveGroup, Primitives};
 pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
-pub use smooth::{Smooth, SmoothKind};
+pub use smooth::{HIGH_END, LOW_END, Smooth, SmoothKind};
 pub use support_function::{SupportFunction, WatchedSupport};

@@ -1,6 +1,6 @@
 //! A tree over points, for supports of hulls of thousands of vertices: what is asked of all points costs a logarithm each.
 
-use crate::gjk::Support;
+use crate::gjk::{Extreme, Support};
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
 
@@ -149,9 +149,12 @@ impl<'a> PointTree<'a> {
 }
 
 impl Support for PointTree<'_> {
-    fn support(&self, direction: &Vec3) -> Vec3 {
+    fn extreme(&self, direction: &Vec3) -> Extreme {
         let (_, point) = self.farthest(direction, &Vec3::zeros());
-        self.points[point as usize]
+        Extreme {
+            point: self.points[point as usize],
+            name: point,
+        }
     }
 }
 

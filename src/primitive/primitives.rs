@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::Convex;
+use super::{Convex, PrimitiveKind};
 use crate::pose::Vec3;
 
 /// A primitive: its shape, and where its vertices are. Points of a cloud have the same shape, a point with a radius at the
@@ -273,6 +273,12 @@ impl Primitives {
     pub fn deviation(&self) -> f64 {
         let deviations = self.shapes.iter().map(|shape| shape.deviation);
         deviations.fold(0.0, f64::max)
+    }
+
+    /// Whether a set is known by a function of the caller's.
+    pub fn have_functions(&self) -> bool {
+        let is_one = |shape: &Convex| shape.kind() == PrimitiveKind::SupportFunction;
+        self.shapes.iter().any(is_one)
     }
 
     /// Bytes of memory that the points take.

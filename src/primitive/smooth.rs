@@ -1,6 +1,7 @@
 //! Smooth convex sets, each by its support function around its own origin.
 
 use super::support_function::WatchedSupport;
+use crate::gjk::Extreme;
 use crate::pose::{Mat3, Vec3};
 
 /// A smooth set in its local frame, whose origin is a point of it.
@@ -30,14 +31,39 @@ pub struct Smooth {
     pub axes: Mat3,
 }
 
+/// The names of a cylinder's points at its ends, and of a cone's at its apex and at its base.
+pub const HIGH_END: u32 = 1;
+pub const LOW_END: u32 = 2;
+
+/// The name of all other points.
+const BETWEEN: u32 = 0;
+
 impl SmoothKind {
     /// The point farthest along a direction of any length, in the local frame.
     pub fn support(&self, direction: &Vec3) -> Vec3 {
+        self.extreme(direction).point
+    }
+
+    /// The same with the name of the end that it is on.
+    #[inline]
+    pub fn extreme(&self, direction: &Vec3) -> Extreme {
         let along = direction.z;
         let across = (direction.x * direction.x + direction.y * direction.y).sqrt();
         let on_circle = |radius: f64, z: f64| {
             let scale = if across > 0.0 { radius / across } else { 0.0 };
             Vec3::new(direction.x * scale, direction.y * scale, z)
+        };
+        let named = |point: Vec3| Extreme {
+            point,
+            name: match point.z {
+                z if z > 0.0 => HIGH_END,
+                z if z < 0.0 => LOW_END,
+                _ => BETWEEN,
+            },
+        };
+        let unnamed = |point: Vec3| Extreme {
+            point,
+            name: BETWEEN,
         };
         match self {
             Self::Cylinder {
@@ -49,26 +75,26 @@ impl SmoothKind {
                 } else {
                     half_length.copysign(along)
                 };
-                on_circle(*radius, z)
+                named(on_circle(*radius, z))
             }
             Self::Cone { radius, height } => {
                 let half = 0.5 * height;
-                if along * height >= radius * across {
+                named(if along * height >= radius * across {
                     Vec3::new(0.0, 0.0, half)
                 } else {
                     on_circle(*radius, -half)
-                }
+                })
             }
             Self::Ellipsoid { semi_axes } => {
                 let scaled = semi_axes.component_mul(direction);
                 let length = scaled.norm();
-                if length > 0.0 {
+                unnamed(if length > 0.0 {
                     semi_axes.component_mul(&scaled) / length
                 } else {
                     Vec3::zeros()
-                }
+                })
             }
-            Self::Function(function) => function.support(direction),
+            Self::Function(function) => unnamed(function.support(direction)),
         }
     }
 

@@ -6,7 +6,9 @@ use super::context::{CacheKey, QueryContext};
 use super::target::{Placement, Target};
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
-use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, Within, WorldContact, traverse};
+use crate::pair::{
+    Collect, Hit, Nearest, Pairing, PrimitiveScratch, Within, WorldContact, traverse,
+};
 
 /// Two bodies as a target of searches.
 pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
@@ -45,12 +47,40 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        let targets = [target(a, b)?];
+        let target = target(a, b)?;
         self.scratch.meter_mut().start_call();
+        if target.is_of_singles() {
+            return self.singles_distance(&target, max_distance);
+        }
+        let targets = [target];
         let found = self.nearest(&targets, max_distance)?;
         Ok(Distance::from_found(&found, max_distance, |_| {
             Leaf::default()
         }))
+    }
+
+    /// The same of bodies of one primitive each, which need no search.
+    fn singles_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
+        self.count_body_pair()?;
+        let pairing = target.pairing();
+        let mut visitor = Nearest::up_to(max_distance);
+        if pairing.sphere_bound() <= max_distance {
+            let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
+            self.scratch.meter().check()?;
+        }
+        let Some(hit) = &visitor.best else {
+            return Ok(Distance::beyond(max_distance, visitor.lower));
+        };
+        let measured = visitor.measured.as_ref();
+        let leaf = Leaf::default();
+        Ok(Distance::of_hit(
+            hit,
+            visitor.lower,
+            measured,
+            target,
+            &pairing,
+            leaf,
+        ))
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.

@@ -2,8 +2,10 @@
 
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
 use super::search::Found;
+use super::target::Target;
 use crate::cobject::{Leaf, Reach};
-use crate::pair::PrimitiveScratch;
+use crate::convex::Measured;
+use crate::pair::{Hit, Pairing, PrimitiveScratch};
 
 impl Distance {
     pub(super) fn empty(version: u64) -> Self {
@@ -19,26 +21,49 @@ impl Distance {
         }
     }
 
+    /// Nothing is within `max_distance`, and nothing that was seen within `lower`.
+    pub(super) fn beyond(max_distance: f64, lower: f64) -> Self {
+        Self {
+            kind: DistanceKind::BeyondMax,
+            // Pairs that were not looked at are farther, whatever the error of their distance.
+            lower: max_distance.min(lower),
+            ..Self::empty(0)
+        }
+    }
+
     /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
     pub(super) fn from_found(found: &Found, max_distance: f64, leaf: impl Fn(u32) -> Leaf) -> Self {
         let Some((hit, target)) = &found.hit else {
-            // Pairs that were not looked at are farther, whatever the error of their distance.
-            return Self {
-                kind: DistanceKind::BeyondMax,
-                lower: max_distance.min(found.lower),
-                ..Self::empty(0)
-            };
+            return Self::beyond(max_distance, found.lower);
         };
-        let pairing = target.pairing();
+        let measured = found.measured.as_ref();
+        let leaf = leaf(target.term);
+        Self::of_hit(hit, found.lower, measured, target, &target.pairing(), leaf)
+    }
+
+    /// That of the nearest primitive pair, and of what else is known of it.
+    pub(super) fn of_hit(
+        hit: &Hit,
+        lower: f64,
+        measured: Option<&Measured>,
+        target: &Target,
+        pairing: &Pairing,
+        leaf: Leaf,
+    ) -> Self {
         let error = pairing.precision.error;
         let (points, contact) = match hit.contained {
             Some(inner) => (pairing.points_inside(inner, hit), None),
             None => {
                 let scratch = &mut PrimitiveScratch::default();
-                let measured = found
-                    .measured
-                    .unwrap_or_else(|| pairing.closest(hit, scratch));
-                let contact = pairing.first_world_contact(hit.key.primitives, &measured, scratch);
+                let again;
+                let measured = match measured {
+                    Some(measured) => measured,
+                    None => {
+                        again = pairing.closest(hit, scratch);
+                        &again
+                    }
+                };
+                let contact = pairing.first_world_contact(hit.key.primitives, measured, scratch);
                 let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
                 (pairing.world_points(&measured.closest), record)
             }
@@ -46,12 +71,12 @@ impl Distance {
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.distance == 0.0,
-            ..Witness::of(target, hit, leaf(target.term))
+            ..Witness::of(target, hit, leaf)
         };
         Self {
             kind: DistanceKind::Exact,
             distance: hit.distance,
-            lower: found.lower,
+            lower,
             // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
             // doubt where that was not found exactly.
             upper: if hit.distance == 0.0 {
@@ -80,11 +105,7 @@ impl Distance {
             return Self::empty(0);
         }
         if reach.distance > max_distance {
-            return Self {
-                kind: DistanceKind::BeyondMax,
-                lower: max_distance.min(reach.lower),
-                ..Self::empty(0)
-            };
+            return Self::beyond(max_distance, reach.lower);
         }
         Self {
             kind: if reach.is_exact {

@@ -1,0 +1,98 @@
+//! The distance of a point or a segment from a box, in closed form.
+
+use super::closest::Closest;
+use super::placed::Placed;
+use crate::pose::Vec3;
+use crate::primitive::{Cuboid, Feature};
+
+/// The closest points of a hull of one or two vertices and a box; `None` where they meet.
+pub fn segment_to_cuboid(segment: &Placed, other: &Placed, cuboid: &Cuboid) -> Option<Closest> {
+    let start = segment.vertex(0);
+    let from = cuboid.seen(&other.seen(&start));
+    let (point, seen, feature) = if segment.vertex_count() == 1 {
+        (start, from, Feature::vertex(0))
+    } else {
+        let end = segment.vertex(1);
+        let along = other.turned_back(&(end - start));
+        let along = cuboid.axes.tr_mul(&along);
+        let t = nearest_parameter(&from, &along, &cuboid.half);
+        let feature = match t {
+            0.0 => Feature::vertex(0),
+            1.0 => Feature::vertex(1),
+            _ => Feature::edge(0),
+        };
+        let point = if t == 1.0 {
+            end
+        } else {
+            start + (end - start) * t
+        };
+        (point, from + along * t, feature)
+    };
+    let nearest = seen.zip_map(&cuboid.half, |x, half| x.clamp(-half, half));
+    let across = seen - nearest;
+    if across == Vec3::zeros() {
+        return None;
+    }
+    let on_other = other.moved(&(cuboid.center + cuboid.axes * nearest));
+    let features = [feature, cuboid.feature_towards(&seen)];
+    Some(Closest {
+        distance: across.norm(),
+        ..Closest::between([point, on_other], features)
+    })
+}
+
+/// Where the segment start + t along, t from 0 to 1, is nearest to the box of these half extents around the origin.
+///
+/// The square of the distance is convex in t; its derivative rises from piece to piece, linear between the places where the
+/// segment's line crosses the planes of the box's faces. It is found at all of these at once, and solved in the piece in which
+/// it is 0.
+fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
+    let crossing = |k: usize, bound: f64| {
+        let t = (bound - start[k]) / along[k];
+        // Parallel to the faces there is none.
+        if along[k] == 0.0 {
+            0.0
+        } else {
+            t.clamp(0.0, 1.0)
+        }
+    };
+    let places = [
+        0.0,
+        1.0,
+        crossing(0, -half[0]),
+        crossing(0, half[0]),
+        crossing(1, -half[1]),
+        crossing(1, half[1]),
+        crossing(2, -half[2]),
+        crossing(2, half[2]),
+    ];
+    let mut rises = [0.0; 8];
+    for k in 0..3 {
+        for (rise, t) in rises.iter_mut().zip(&places) {
+            let x = start[k] + along[k] * t;
+            *rise += (x - x.clamp(-half[k], half[k])) * along[k];
+        }
+    }
+    // The last place up to which it falls, and the first from which it rises.
+    let (mut low, mut high) = (0.0f64, 1.0f64);
+    for (rise, t) in rises.iter().zip(places) {
+        low = if *rise <= 0.0 { low.max(t) } else { low };
+        high = if *rise >= 0.0 { high.min(t) } else { high };
+    }
+    let high = high.max(low);
+    let middle = 0.5 * (low + high);
+    let (mut part, mut whole) = (0.0, 0.0);
+    for k in 0..3 {
+        let x = start[k] + along[k] * middle;
+        let bound = x.clamp(-half[k], half[k]);
+        if x != bound {
+            part += (bound - start[k]) * along[k];
+            whole += along[k] * along[k];
+        }
+    }
+    if whole > 0.0 {
+        (part / whole).clamp(low, high)
+    } else {
+        middle
+    }
+}

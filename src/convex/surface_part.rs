@@ -1,0 +1,264 @@
+//! The parts of convex surfaces between which two sets are nearest: vertices, edges, rims, rulings, ellipsoids, faces.
+
+use super::curved::Core;
+use crate::pose::{Mat3, Vec3};
+use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
+
+/// A part of a surface on which the set's point farthest along a direction stays while the direction turns a little; in the
+/// common frame.
+#[derive(Clone, Copy, Debug)]
+pub enum SurfacePart {
+    Vertex(Vec3),
+    Edge {
+        middle: Vec3,
+        along: Vec3,
+        half: f64,
+    },
+    Facet([Vec3; 3]),
+    /// The edge of a disc, which is a face of the set; the axis points out of it.
+    Rim {
+        center: Vec3,
+        axis: Vec3,
+        radius: f64,
+    },
+    /// The rulings of a cylinder.
+    Tube {
+        center: Vec3,
+        axis: Vec3,
+        radius: f64,
+        half: f64,
+    },
+    /// The rulings of a cone whose axis goes from the base to the apex.
+    Cone {
+        center: Vec3,
+        axis: Vec3,
+        radius: f64,
+        height: f64,
+    },
+    Ellipsoid {
+        center: Vec3,
+        axes: Mat3,
+        squares: Vec3,
+    },
+}
+
+impl SurfacePart {
+    /// The part of a core between extreme points of these names; `None` for what is known by a function alone.
+    pub fn between(core: &Core, names: &[u32]) -> Option<Self> {
+        let Some((smooth, axes)) = core.smooth() else {
+            return Some(match *names {
+                [a] => Self::Vertex(core.vertex(a)),
+                [a, b] => {
+                    let (a, b) = (core.vertex(a), core.vertex(b));
+                    let between = b - a;
+                    let length = between.norm();
+                    Self::Edge {
+                        middle: (a + b) * 0.5,
+                        along: between / length,
+                        half: 0.5 * length,
+                    }
+                }
+                [a, b, c] => Self::Facet([a, b, c].map(|i| core.vertex(i))),
+                _ => return None,
+            });
+        };
+        let (center, axis) = (core.vertex(0), Vec3::from(axes.column(2)));
+        let all_are = |name: u32| names.iter().all(|other| *other == name);
+        Some(match smooth.kind {
+            SmoothKind::Cylinder {
+                radius,
+                half_length,
+            } => {
+                let rim = |axis: Vec3| Self::Rim {
+                    center: center + axis * half_length,
+                    axis,
+                    radius,
+                };
+                if all_are(HIGH_END) {
+                    rim(axis)
+                } else if all_are(LOW_END) {
+                    rim(-axis)
+                } else {
+                    Self::Tube {
+                        center,
+                        axis,
+                        radius,
+                        half: half_length,
+                    }
+                }
+            }
+            SmoothKind::Cone { radius, height } => {
+                if all_are(HIGH_END) {
+                    Self::Vertex(center + axis * (0.5 * height))
+                } else if all_are(LOW_END) {
+                    Self::Rim {
+                        center: center - axis * (0.5 * height),
+                        axis: -axis,
+                        radius,
+                    }
+                } else {
+                    Self::Cone {
+                        center,
+                        axis,
+                        radius,
+                        height,
+                    }
+                }
+            }
+            SmoothKind::Ellipsoid { semi_axes } => Self::Ellipsoid {
+                center,
+                axes: *axes,
+                squares: semi_axes.component_mul(&semi_axes),
+            },
+            SmoothKind::Function(_) => return None,
+        })
+    }
+
+    /// The point farthest along a direction; the middle of those that are.
+    pub fn point(&self, direction: &Vec3) -> Vec3 {
+        match self {
+            Self::Vertex(point) => *point,
+            Self::Edge { middle, .. } => *middle,
+            Self::Facet([a, ..]) => *a,
+            Self::Rim {
+                center,
+                axis,
+                radius,
+            }
+            | Self::Tube {
+                center,
+                axis,
+                radius,
+                ..
+            } => center + across(direction, axis).0 * *radius,
+            Self::Cone {
+                center,
+                axis,
+                radius,
+                ..
+            } => center + across(direction, axis).0 * (0.5 * radius),
+            Self::Ellipsoid {
+                center,
+                axes,
+                squares,
+            } => {
+                let local = axes.tr_mul(direction);
+                let stretched = squares.component_mul(&local);
+                center + axes * (stretched / local.dot(&stretched).sqrt())
+            }
+        }
+    }
+
+    /// The straight line of points that are farthest along a direction: its unit direction, and half its length.
+    pub fn line(&self, direction: &Vec3) -> Option<(Vec3, f64)> {
+        match *self {
+            Self::Edge { along, half, .. } => Some((along, half)),
+            Self::Tube { axis, half, .. } => Some((axis, half)),
+            Self::Cone {
+                axis,
+                radius,
+                height,
+                ..
+            } => {
+                let length = radius.hypot(height);
+                let outwards = across(direction, &axis).0;
+                Some(((outwards * radius - axis * height) / length, 0.5 * length))
+            }
+            _ => None,
+        }
+    }
+
+    /// Directions along which such a line is farthest: those whose product with a unit vector is a number.
+    pub fn constraint(&self) -> Option<(Vec3, f64)> {
+        match *self {
+            Self::Edge { along, .. } => Some((along, 0.0)),
+            Self::Tube { axis, .. } => Some((axis, 0.0)),
+            Self::Cone {
+                axis,
+                radius,
+                height,
+                ..
+            } => Some((axis, radius / radius.hypot(height))),
+            _ => None,
+        }
+    }
+
+    /// How the farthest point moves as the direction, a unit vector, turns by `by`: of a line that at a place along it.
+    pub fn bend(&self, direction: &Vec3, by: &Vec3, place: f64) -> Vec3 {
+        let around = |axis: &Vec3, radius: f64| {
+            let (outwards, length) = across(direction, axis);
+            let tangent = axis.cross(&outwards);
+            tangent * (radius / length * tangent.dot(by))
+        };
+        match self {
+            Self::Vertex(_) | Self::Edge { .. } | Self::Facet(_) => Vec3::zeros(),
+            Self::Rim { axis, radius, .. } | Self::Tube { axis, radius, .. } => {
+                around(axis, *radius)
+            }
+            Self::Cone {
+                axis,
+                radius,
+                height,
+                ..
+            } => {
+                let there = 0.5 * radius + place * radius / radius.hypot(*height);
+                around(axis, there.max(0.0))
+            }
+            Self::Ellipsoid { axes, squares, .. } => {
+                let local = axes.tr_mul(direction);
+                let stretched = squares.component_mul(&local);
+                let length = local.dot(&stretched).sqrt();
+                let by = axes.tr_mul(by);
+                let point = stretched / length;
+                axes * ((squares.component_mul(&by) - point * point.dot(&by)) / length)
+            }
+        }
+    }
+
+    /// The outward normal of the face that the part is, or is the edge of, if that looks about along a direction.
+    pub fn face_normal(&self, direction: &Vec3) -> Option<Vec3> {
+        match self {
+            Self::Facet([a, b, c]) => {
+                let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+                Some(if normal.dot(direction) < 0.0 {
+                    -normal
+                } else {
+                    normal
+                })
+            }
+            Self::Rim { axis, .. } => (axis.dot(direction) > LOOKS_ALONG).then_some(*axis),
+            _ => None,
+        }
+    }
+
+    /// The foot of a point on that face, if it is in it.
+    pub fn foot(&self, normal: &Vec3, point: &Vec3) -> Option<Vec3> {
+        match self {
+            Self::Facet([a, b, c]) => {
+                let up = (b - a).cross(&(c - a));
+                let part = |from: &Vec3, to: &Vec3| up.dot(&(to - from).cross(&(point - from)));
+                let [of_a, of_b, of_c] = [part(b, c), part(c, a), part(a, b)];
+                // Of the corners, so that it is a point of the set however narrow they are.
+                let foot = (a * of_a + b * of_b + c * of_c) / (of_a + of_b + of_c);
+                (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0).then_some(foot)
+            }
+            Self::Rim { center, radius, .. } => {
+                let foot = point - normal * normal.dot(&(point - center));
+                ((foot - center).norm() <= *radius).then_some(foot)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The cosine of the angle at which a direction is looked upon as one of a disc's, and not of its rim only.
+const LOOKS_ALONG: f64 = 0.999;
+
+/// The unit direction away from an axis that is nearest to a direction, and how long that part of the direction is.
+fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {
+    let away = direction - axis * axis.dot(direction);
+    // Near the axis what rounding left along it is more than a little of what is left.
+    let away = away - axis * axis.dot(&away);
+    let length = away.norm();
+    (away / length, length)
+}

@@ -1,0 +1,225 @@
+//! Boxes among polyhedra: found by their vertices, and asked by their axes.
+
+use super::{Convex, Feature};
+use crate::pose::{Mat3, Vec3};
+use crate::tolerance;
+
+/// A polyhedron whose eight vertices are, but for rounding, the corners of a box.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cuboid {
+    pub center: Vec3,
+    /// The directions of the edges, as columns: a rotation.
+    pub axes: Mat3,
+    pub half: Vec3,
+    /// The vertex at each corner: bit k of a corner's number is set where it is high along axis k.
+    corners: [u8; 8],
+    /// The edge along each axis from each corner that is low there.
+    edges: [[u8; 8]; 3],
+    /// The face across each axis, low and high.
+    faces: [[u8; 2]; 3],
+}
+
+/// What a vertex may be off its corner, in the largest coordinate: what turning and moving a box's corners leaves.
+const CORNER_ERROR: f64 = 4.0 * tolerance::EPSILON;
+
+impl Cuboid {
+    /// The box that a polyhedron is, if it is one.
+    pub fn of(shape: &Convex) -> Option<Self> {
+        if [shape.vertices.len(), shape.edges.len(), shape.faces.len()] != [8, 12, 6] {
+            return None;
+        }
+        let first = shape.vertices[0];
+        let of_first = shape.edges.iter().filter(|ends| ends.contains(&0));
+        let mut sides: Vec<Vec3> = of_first
+            .map(|ends| shape.vertices[(ends[0] + ends[1]) as usize] - first)
+            .collect();
+        if sides.len() != 3 {
+            return None;
+        }
+        // The longest are known best, and tell the third.
+        sides.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
+        let x = sides[0].try_normalize(0.0)?;
+        let y = (sides[1] - x * x.dot(&sides[1])).try_normalize(0.0)?;
+        let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
+        let center = shape.vertices.iter().sum::<Vec3>() / 8.0;
+        let seen: Vec<Vec3> = shape
+            .vertices
+            .iter()
+            .map(|v| axes.tr_mul(&(v - center)))
+            .collect();
+        let half = seen.iter().fold(Vec3::zeros(), |half, v| half + v.abs()) / 8.0;
+        let number = |v: &Vec3| (0..3).fold(0, |bits, k| bits | usize::from(v[k] > 0.0) << k);
+        let mut corners = [u8::MAX; 8];
+        for (i, v) in (0..).zip(&seen) {
+            corners[number(v)] = i;
+        }
+        let largest = shape
+            .vertices
+            .iter()
+            .fold(0.0, |most, v| v.amax().max(most));
+        let is_at_corner = |v: &Vec3| (v.abs() - half).amax() <= CORNER_ERROR * largest;
+        if corners.contains(&u8::MAX) || !seen.iter().all(is_at_corner) {
+            return None;
+        }
+        let mut cuboid = Self {
+            center,
+            axes,
+            half,
+            corners,
+            edges: [[0; 8]; 3],
+            faces: [[0; 2]; 3],
+        };
+        cuboid.number_features(shape)?;
+        Some(cuboid)
+    }
+
+    fn number_features(&mut self, shape: &Convex) -> Option<()> {
+        for axis in 0..3 {
+            for corner in (0..8).filter(|corner| corner >> axis & 1 == 0) {
+                let ends = [corner, corner | 1 << axis].map(|c| u32::from(self.corners[c]));
+                let is_between = |edge: &[u32; 2]| edge.iter().all(|end| ends.contains(end));
+                self.edges[axis][corner] = shape.edges.iter().position(is_between)? as u8;
+            }
+            for side in 0..2 {
+                let on_side = |vertex: &u32| {
+                    let corner = self.corners.iter().position(|c| u32::from(*c) == *vertex);
+                    corner.is_some_and(|corner| corner >> axis & 1 == side)
+                };
+                let mut faces = shape.faces.iter();
+                let face = faces.position(|face| face.vertices.iter().all(on_side))?;
+                self.faces[axis][side] = face as u8;
+            }
+        }
+        Some(())
+    }
+
+    /// A point of the frame as seen from the box.
+    #[inline(always)]
+    pub fn seen(&self, point: &Vec3) -> Vec3 {
+        self.axes.tr_mul(&(point - self.center))
+    }
+
+    /// The vertex that is farthest along a direction.
+    #[inline(always)]
+    pub fn farthest(&self, direction: &Vec3) -> u32 {
+        let along = self.axes.tr_mul(direction);
+        let bit = |k: usize| usize::from(along[k] > 0.0) << k;
+        u32::from(self.corners[bit(0) | bit(1) | bit(2)])
+    }
+
+    /// The feature of which the box's nearest point is, to a point outside as seen from the box.
+    pub fn feature_towards(&self, seen: &Vec3) -> Feature {
+        let beyond = |k: usize| seen[k].abs() > self.half[k];
+        let high = |k: usize| usize::from(seen[k] > 0.0);
+        let corner = high(0) | high(1) << 1 | high(2) << 2;
+        let outside = [beyond(0), beyond(1), beyond(2)];
+        match outside.iter().filter(|is_outside| **is_outside).count() {
+            3 => Feature::vertex(self.corners[corner].into()),
+            2 => {
+                let along = (0..3).find(|&k| !outside[k]).unwrap_or(0);
+                Feature::edge(self.edges[along][corner & !(1 << along)].into())
+            }
+            1 => {
+                let across = (0..3).find(|&k| outside[k]).unwrap_or(0);
+                Feature::face(self.faces[across][high(across)].into())
+            }
+            _ => Feature::interior(),
+        }
+    }
+
+    /// The least feature that holds vertices, of which there is one at least.
+    pub fn feature_of(&self, vertices: &[u32]) -> Feature {
+        let mut all = [0, 7];
+        for vertex in vertices {
+            let corner = self.corners.iter().position(|c| u32::from(*c) == *vertex);
+            let corner = corner.unwrap_or(0);
+            all = [all[0] | corner, all[1] & corner];
+        }
+        let (differ, corner) = (all[0] & !all[1], all[1]);
+        let axis = |bits: usize| (bits.trailing_zeros() as usize).min(2);
+        match differ.count_ones() {
+            0 => Feature::vertex(self.corners[corner].into()),
+            1 => Feature::edge(self.edges[axis(differ)][corner].into()),
+            2 => {
+                let across = axis(7 & !differ);
+                Feature::face(self.faces[across][corner >> across & 1].into())
+            }
+            _ => Feature::interior(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pose::{Pose, rotation_about};
+    use crate::primitive::{FeatureKind, block, convex_polyhedron};
+
+    #[test]
+    fn boxes_are_found_and_numbered() {
+        let pose = Pose {
+            rotation: rotation_about(&Vec3::new(0.36, 0.48, 0.8), 0.9),
+            translation: Vec3::new(3.0, -2.0, 0.5),
+        };
+        for half in [
+            Vec3::new(0.4, 0.3, 0.1),
+            Vec3::new(1.0, 1.0, 1.0),
+            Vec3::new(5.0, 1e-3, 2.0),
+        ] {
+            let shape = block(&pose, &half).unwrap();
+            let cuboid = Cuboid::of(&shape).unwrap();
+            for (e, ends) in (0..).zip(&shape.edges) {
+                assert_eq!(cuboid.feature_of(ends), Feature::edge(e));
+            }
+            for (f, face) in (0..).zip(&shape.faces) {
+                assert_eq!(cuboid.feature_of(&face.vertices[..3]), Feature::face(f));
+                assert_eq!(
+                    cuboid.feature_of(&[face.vertices[0], face.vertices[2]]),
+                    Feature::face(f)
+                );
+                let above = cuboid.seen(&(shape.vertices[face.vertices[0] as usize] + face.normal));
+                assert_eq!(
+                    cuboid.feature_towards(
+                        &(above * 0.5
+                            + cuboid
+                                .seen(&(shape.vertices[face.vertices[2] as usize] + face.normal))
+                                * 0.5)
+                    ),
+                    Feature::face(f)
+                );
+            }
+            for (i, vertex) in (0..).zip(&shape.vertices) {
+                let outwards = vertex - cuboid.center;
+                assert_eq!(cuboid.farthest(&outwards), i);
+                assert_eq!(cuboid.feature_of(&[i]), Feature::vertex(i));
+                assert_eq!(
+                    cuboid.feature_towards(&cuboid.seen(&(vertex + outwards))),
+                    Feature::vertex(i)
+                );
+            }
+            assert_eq!(
+                cuboid.feature_of(&[0, 1, 2, 3, 4, 5, 6]).kind,
+                FeatureKind::Interior
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_nearly_a_box_is_none() {
+        let corner = |i: u32| Vec3::from([0, 1, 2].map(|k| f64::from(i >> k & 1)));
+        let mut corners: Vec<Vec3> = (0..8).map(corner).collect();
+        corners[7] += Vec3::new(1e-12, 0.0, 0.0);
+        assert!(Cuboid::of(&convex_polyhedron(&corners).unwrap()).is_none());
+        // A frustum.
+        let frustum: Vec<Vec3> = (0..8)
+            .map(|i| {
+                corner(i).component_mul(&if i > 3 {
+                    Vec3::new(0.5, 0.5, 1.0)
+                } else {
+                    Vec3::repeat(1.0)
+                })
+            })
+            .collect();
+        assert!(Cuboid::of(&convex_polyhedron(&frustum).unwrap()).is_none());
+    }
+}

@@ -1,0 +1,227 @@
+//! For each cell of directions the vertices that may be the farthest along one of them: a support in constant time, whatever
+//! the number of vertices, as the report wishes (§2.3.4).
+
+use crate::pose::Vec3;
+use crate::tolerance;
+
+/// The sphere of directions, cut by the sides of a cube into squares, and these into cells; each with its vertices. There are
+/// from half as many cells as vertices to twice as many, and no more than a few vertices in most.
+#[derive(Clone, Debug)]
+pub struct DirectionCells {
+    /// Cells along a side of the cube.
+    side: usize,
+    /// The vertices of cell i are `vertices[starts[i]..starts[i + 1]]`.
+    starts: Vec<u32>,
+    vertices: Vec<u32>,
+}
+
+/// The directions of a square on a side of the cube, in cells.
+#[derive(Clone, Copy)]
+struct Square {
+    face: usize,
+    u: usize,
+    v: usize,
+    width: usize,
+}
+
+impl DirectionCells {
+    pub fn new(points: &[Vec3]) -> Self {
+        let side = 1 << (points.len() / 3).max(1).isqrt().ilog2();
+        let mut cells = vec![Vec::new(); 6 * side * side];
+        let all: Vec<u32> = (0..points.len() as u32).collect();
+        let size = points.iter().fold(0.0, |most, p| p.norm().max(most));
+        for face in 0..6 {
+            let whole = Square {
+                face,
+                u: 0,
+                v: 0,
+                width: side,
+            };
+            sort_into(&mut cells, points, size, side, whole, &all);
+        }
+        let mut made = Self {
+            side,
+            starts: Vec::with_capacity(cells.len() + 1),
+            vertices: Vec::new(),
+        };
+        for cell in cells {
+            made.starts.push(made.vertices.len() as u32);
+            made.vertices.extend(cell);
+        }
+        made.starts.push(made.vertices.len() as u32);
+        made
+    }
+
+    /// The point that is farthest along a direction, of those that the cells were made for.
+    #[inline(always)]
+    pub fn farthest(&self, points: &[Vec3], direction: &Vec3) -> u32 {
+        let cell = self.cell(direction);
+        let [start, end] = [cell, cell + 1].map(|i| self.starts[i] as usize);
+        let (mut best, mut value) = (0, f64::NEG_INFINITY);
+        for &i in &self.vertices[start..end] {
+            let here = direction.dot(&points[i as usize]);
+            best = if here > value { i } else { best };
+            value = if here > value { here } else { value };
+        }
+        best
+    }
+
+    /// The cell of a direction, or one beside it where rounding decides.
+    #[inline(always)]
+    fn cell(&self, direction: &Vec3) -> usize {
+        let [x, y, z] = [direction.x, direction.y, direction.z];
+        let (face, most, u, v) = if x.abs() >= y.abs() && x.abs() >= z.abs() {
+            (usize::from(x < 0.0), x.abs(), y, z)
+        } else if y.abs() >= z.abs() {
+            (2 + usize::from(y < 0.0), y.abs(), x, z)
+        } else {
+            (4 + usize::from(z < 0.0), z.abs(), x, y)
+        };
+        // Of no direction at all the quotient is no number, which is 0 as an integer.
+        let scale = 0.5 * self.side as f64;
+        let place = |part: f64| ((part / most + 1.0) * scale) as usize;
+        let [u, v] = [u, v].map(|part| place(part).min(self.side - 1));
+        (face * self.side + u) * self.side + v
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.starts[..]) + size_of_val(&self.vertices[..])
+    }
+}
+
+/// The direction to a place on a side of the cube, which goes from -1 to 1 both ways.
+fn direction(face: usize, u: f64, v: f64) -> Vec3 {
+    let sign = if face % 2 == 0 { 1.0 } else { -1.0 };
+    match face / 2 {
+        0 => Vec3::new(sign, u, v),
+        1 => Vec3::new(u, sign, v),
+        _ => Vec3::new(u, v, sign),
+    }
+}
+
+/// Cells overlap by this part of a cell, so that rounding may name the one beside.
+const OVERLAP: f64 = 1e-6;
+
+/// Gives each cell of a square those of some points that may be farthest along one of its directions.
+fn sort_into(
+    cells: &mut [Vec<u32>],
+    points: &[Vec3],
+    size: f64,
+    side: usize,
+    square: Square,
+    candidates: &[u32],
+) {
+    let Square { face, u, v, width } = square;
+    let place = |cell: usize, end: usize| {
+        let end = end as f64 * width as f64;
+        let overlap = if end > 0.0 { OVERLAP } else { -OVERLAP };
+        2.0 * (cell as f64 + end + overlap) / side as f64 - 1.0
+    };
+    let corners =
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| direction(face, place(u, i), place(v, j)));
+    let kept = undominated(points, size, &corners, candidates);
+    if width == 1 {
+        cells[(face * side + u) * side + v] = kept;
+        return;
+    }
+    let width = width / 2;
+    for (u, v) in [
+        (u, v),
+        (u, v + width),
+        (u + width, v),
+        (u + width, v + width),
+    ] {
+        sort_into(
+            cells,
+            points,
+            size,
+            side,
+            Square { face, u, v, width },
+            &kept,
+        );
+    }
+}
+
+/// Leaves out what another point is farther than along all four corners of a square of directions: it is so along all between
+/// them, too.
+fn undominated(points: &[Vec3], size: f64, corners: &[Vec3; 4], candidates: &[u32]) -> Vec<u32> {
+    let heights = |i: &u32| corners.map(|corner| corner.dot(&points[*i as usize]));
+    let all: Vec<[f64; 4]> = candidates.iter().map(heights).collect();
+    let mean = |h: &[f64; 4]| h[0] + h[1] + h[2] + h[3];
+    // Those farthest along a corner, and along the middle, leave out most of the others.
+    let farthest = |value: &dyn Fn(&[f64; 4]) -> f64| {
+        all.iter()
+            .max_by(|a, b| value(a).total_cmp(&value(b)))
+            .copied()
+    };
+    let best = [
+        farthest(&|h| h[0]),
+        farthest(&|h| h[1]),
+        farthest(&|h| h[2]),
+        farthest(&|h| h[3]),
+        farthest(&mean),
+        farthest(&|h| h.iter().copied().fold(f64::INFINITY, f64::min)),
+    ];
+    // Directions to the corners are up to the root of 3 long.
+    let rounding = 8.0 * tolerance::EPSILON * size;
+    let is_beaten = |h: &[f64; 4]| {
+        let mut by = best.iter().flatten();
+        by.any(|other| (0..4).all(|k| other[k] - h[k] > rounding))
+    };
+    let kept = candidates.iter().zip(&all).filter(|(_, h)| !is_beaten(h));
+    kept.map(|(i, _)| *i).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gjk::{PointCloud, Support};
+
+    #[test]
+    fn cells_know_the_farthest() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for count in [1, 2, 3, 20, 50, 500, 3000] {
+            let flat = if count == 20 { 0.0 } else { 1.0 };
+            let points: Vec<Vec3> = (0..count)
+                .map(|_| {
+                    Vec3::new(random(), random(), random())
+                        .normalize()
+                        .component_mul(&Vec3::new(1.0, 0.3, 2.0 * flat))
+                })
+                .collect();
+            let cells = DirectionCells::new(&points);
+            let mut directions: Vec<Vec3> = (0..5000)
+                .map(|_| Vec3::new(random(), random(), random()))
+                .collect();
+            // On the borders of cells, and along the axes.
+            for i in 0..64 {
+                let at = |n: i32| f64::from(n) / 4.0 - 1.0;
+                directions.push(Vec3::new(at(i % 9), 1.0, at(i / 9 + 1)));
+                directions.push(-Vec3::new(at(i % 9), at(i / 9 + 1), 1.0));
+            }
+            directions.extend([
+                Vec3::x(),
+                -Vec3::y(),
+                Vec3::z(),
+                Vec3::new(0.0, -0.0, -1.0),
+                Vec3::zeros(),
+            ]);
+            for direction in directions {
+                let found = points[cells.farthest(&points, &direction) as usize];
+                let truth = PointCloud(&points).support(&direction);
+                assert!(direction.dot(&found) >= direction.dot(&truth) - 1e-15 * direction.norm());
+            }
+            assert!(
+                cells.bytes() < 200 + 80 * count,
+                "{count}: {}",
+                cells.bytes()
+            );
+        }
+    }
+}
