@@ -44,7 +44,10 @@ impl Pose {
             translation: Vec3::new(v[3], v[7], v[11]),
         };
         // Almost all poses are fine as they are; they are told without a branch for each number.
-        if are_coordinates(values) & is_rotation(&given.rotation) {
+        let (rows, _) = values.as_chunks::<4>();
+        let rows = [rows[0], rows[1], rows[2]];
+        let is_one = |all, row: &[f64; 4]| all & (row[3].abs() <= tolerance::LARGEST_COORDINATE);
+        if rows.iter().fold(are_rotation(&rows), is_one) {
             return Ok(given);
         }
         given.corrected(values)
@@ -147,33 +150,21 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     Mat3::identity() + k * s + k * k * (1.0 - c)
 }
 
+/// Whether the first three columns of three rows are a rotation up to rounding: of unit length, and upright to one another. Then
+/// no number in them is large.
 #[inline(always)]
-fn are_coordinates(values: &[f64; 12]) -> bool {
-    let is_one = |x: &f64| x.abs() <= tolerance::LARGEST_COORDINATE;
-    values.iter().fold(true, |all, x| all & is_one(x))
-}
-
-/// Whether a matrix is a rotation up to rounding.
-#[inline(always)]
-fn is_rotation(r: &Mat3) -> bool {
-    let row = |i: usize| [r[(i, 0)], r[(i, 1)], r[(i, 2)]];
-    let (x, y, z) = (row(0), row(1), row(2));
-    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let cross = [
-        x[1] * y[2] - x[2] * y[1],
-        x[2] * y[0] - x[0] * y[2],
-        x[0] * y[1] - x[1] * y[0],
-    ];
-    let off = [
-        dot(&x, &x) - 1.0,
-        dot(&y, &y) - 1.0,
-        dot(&z, &z) - 1.0,
-        dot(&x, &y),
-        dot(&x, &z),
-        dot(&y, &z),
-    ];
-    let is_small = |all, off: &f64| all & (off.abs() <= ROTATION_ROUNDING);
-    off.iter().fold(dot(&cross, &z) > 0.0, is_small)
+fn are_rotation(rows: &[[f64; 4]; 3]) -> bool {
+    let [x, y, z] = rows.map(F64x4);
+    let [u, v, w] = rows.map(|[a, b, c, d]| F64x4([b, c, a, d]));
+    let squares = x * x + y * y + z * z;
+    let products = x * u + y * v + z * w;
+    let is_small = |off: f64| off.abs() <= ROTATION_ROUNDING;
+    let [x, y, z] = rows;
+    let determinant = (x[1] * y[2] - x[2] * y[1]) * z[0]
+        + (x[2] * y[0] - x[0] * y[2]) * z[1]
+        + (x[0] * y[1] - x[1] * y[0]) * z[2];
+    let all = |all, k: usize| all & is_small(squares.0[k] - 1.0) & is_small(products.0[k]);
+    (0..3).fold(determinant > 0.0, all)
 }
 
 fn nearest_rotation(given: Mat3) -> Result<Mat3> {

@@ -61,6 +61,10 @@ impl Closest {
 
 /// The closest points of two hulls of one vertex or two each.
 pub fn closest_segments(a: &Placed, b: &Placed) -> Closest {
+    if a.vertex_count() == 1 && b.vertex_count() == 1 {
+        let points = [a.vertex(0), b.vertex(0)];
+        return Closest::between(points, [Feature::vertex(0); 2]);
+    }
     let segment = |placed: &Placed| match placed.shape.edges.first() {
         Some(&ends) => (Segment::new(placed.edge_ends(ends)), ends, Some(0)),
         None => (Segment::point(placed.vertex(0)), [0, 0], None),
@@ -290,7 +294,7 @@ impl Segment {
         }
     }
 
-    fn nearest_parameter(&self, point: &Vec3) -> f64 {
+    pub fn nearest_parameter(&self, point: &Vec3) -> f64 {
         if self.square > 0.0 {
             (self.along.dot(&(point - self.start)) / self.square).clamp(0.0, 1.0)
         } else {

@@ -2,7 +2,7 @@
 
 use super::closest::Closest;
 use super::placed::Placed;
-use crate::pose::Vec3;
+use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};
 
 /// The closest points of a hull of one or two vertices and a box; `None` where they meet.
@@ -14,7 +14,7 @@ pub fn segment_to_cuboid(segment: &Placed, other: &Placed, cuboid: &Cuboid) -> O
     } else {
         let end = segment.vertex(1);
         let along = other.turned_back(&(end - start));
-        let along = cuboid.axes.tr_mul(&along);
+        let along = turned_back(&cuboid.axes, &along);
         let t = nearest_parameter(&from, &along, &cuboid.half);
         let feature = match t {
             0.0 => Feature::vertex(0),
@@ -33,7 +33,7 @@ pub fn segment_to_cuboid(segment: &Placed, other: &Placed, cuboid: &Cuboid) -> O
     if across == Vec3::zeros() {
         return None;
     }
-    let on_other = other.moved(&(cuboid.center + cuboid.axes * nearest));
+    let on_other = point - other.turned(&turned(&cuboid.axes, &across));
     let features = [feature, cuboid.feature_towards(&seen)];
     Some(Closest {
         distance: across.norm(),

@@ -5,6 +5,7 @@ use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{DistanceScratch, closest_polytopes};
 use super::nearest_parts::NearestParts;
 use super::placed::{Placed, Precision};
+use super::point_to_smooth::point_to_smooth;
 use crate::gjk::{DistanceLimits, Extreme, Refined, Support, refined};
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{Feature, Smooth};
@@ -97,9 +98,17 @@ fn smooth_closest(
     pair: &Precision,
     limits: DistanceLimits,
 ) -> Option<(Closest, Vec3)> {
+    let (core_a, core_b) = (Core::of(a), Core::of(b));
+    if let Some(found) = from_point(a, &core_b, pair).or_else(|| {
+        let found = from_point(b, &core_a, pair)?;
+        Some(found.swapped())
+    }) {
+        let direction = (found.points[0] - found.points[1]) / found.distance;
+        return Some((found, direction));
+    }
     // A guess that the primitives alone decide, so that the answer depends on nothing else.
     let start = a.middle() - b.middle();
-    let found = refined_pair(&Core::of(a), &Core::of(b), start, pair, limits);
+    let found = refined_pair(&core_a, &core_b, start, pair, limits);
     if found.lower > limits.cutoff {
         return None;
     }
@@ -107,22 +116,36 @@ fn smooth_closest(
         let interior = [Feature::interior(); 2];
         return Some((Closest::between(found.points, interior), found.direction));
     }
+    let slack = HOLDS * pair.size;
     let closest = Closest {
         distance: found.upper,
         points: found.points,
         features: [(a, 0), (b, 1)].map(|(placed, side)| {
-            let (point, slack) = (&found.points[side], HOLDS * pair.size);
-            let known = found.names.and_then(|names| {
-                let (names, len) = names.of(side);
-                named_feature(placed, &names[..len], point, slack)
-            });
-            known.unwrap_or_else(|| holding_feature(placed, point, slack))
+            if placed.shape.smooth().is_some() {
+                Feature::surface()
+            } else if found.depth > tolerance::JUST_INSIDE * pair.size {
+                Feature::interior()
+            } else {
+                holding_feature(placed, &found, side, slack)
+            }
         }),
         doubt: doubt(&found, pair),
         depth: found.depth,
     };
     Some((closest, found.direction))
 }
+
+/// The closest points of a lone point and a smooth core in closed form, where these are far enough apart to tell a direction.
+fn from_point(point: &Placed, core: &Core, pair: &Precision) -> Option<Closest> {
+    let is_point = point.vertex_count() == 1 && point.shape.smooth().is_none();
+    if !is_point {
+        return None;
+    }
+    point_to_smooth(&point.vertex(0), core, APART * pair.size)
+}
+
+/// Cores that are farther apart than this, in L, have a normal that their closest points tell.
+pub const APART: f64 = 1e-6;
 
 /// How much more than the pair's error the upper bound may be above the distance: all of it where no direction proves that
 /// the sets are apart, so that everything reads a lower bound of 0.
@@ -161,32 +184,34 @@ fn refined_pair(
     })
 }
 
-/// The feature of a core that holds a point between vertices, where it is easily found.
-fn named_feature(placed: &Placed, names: &[u32], point: &Vec3, slack: f64) -> Option<Feature> {
-    if placed.shape.smooth().is_some() {
-        return Some(Feature::surface());
-    }
-    let near = |&&i: &&u32| (placed.vertex(i) - point).norm() <= slack;
-    match names.iter().find(near) {
-        Some(vertex) => Some(Feature::vertex(*vertex)),
-        None => placed.feature_of(names),
-    }
-}
-
 /// A point is held by the vertex or edge that is nearer than this, in L: along a surface closest points are known to about
 /// the root of their distance's error.
 const HOLDS: f64 = 1e-7;
 
-/// The feature of a core that holds a point of it.
-fn holding_feature(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
-    if placed.shape.smooth().is_some() {
-        return Feature::surface();
+/// The feature of a polytope that holds the point found on it.
+fn holding_feature(placed: &Placed, found: &Refined, side: usize, slack: f64) -> Feature {
+    let point = &found.points[side];
+    if let Some(names) = &found.names {
+        let (names, len) = names.of(side);
+        let near = |&&i: &&u32| (placed.vertex(i) - point).norm() <= slack;
+        let vertex = names[..len].iter().find(near).copied();
+        let known = vertex
+            .map(Feature::vertex)
+            .or_else(|| placed.feature_of(&names[..len]));
+        if let Some(known) = known {
+            return known;
+        }
     }
+    feature_at(placed, point, slack)
+}
+
+/// The first feature of a polytope that is near a point of it, least ones first.
+fn feature_at(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
     let near = |v: &Vec3| (v - point).norm() <= slack;
     if let Some(i) = placed.vertices().iter().position(near) {
         return Feature::vertex(i as u32);
     }
-    let here = Segment::new((*point, *point));
+    let here = Segment::point(*point);
     let on_edge = placed.shape.edges.iter().position(|&ends| {
         let segment = Segment::new(placed.edge_ends(ends));
         near(&segment.at(closest_parameters(&here, &segment).1))

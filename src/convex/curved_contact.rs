@@ -2,7 +2,7 @@
 
 use super::closest::Closest;
 use super::contact::{Contact, deepest_first, first_polytope_contact, mode_of, polytope_contacts};
-use super::curved::{Core, is_smooth, refined_cores};
+use super::curved::{APART, Core, is_smooth, refined_cores};
 use super::distance::{DistanceScratch, Measured, measure};
 use super::penetration::{Penetration, polytope_penetration};
 use super::placed::{Placed, Precision};
@@ -72,9 +72,6 @@ fn grow(contact: &mut Contact, sides: [&Placed; 2], precision: &Precision) {
     contact.points[0] -= contact.normal * radius_r;
     contact.points[1] += contact.normal * radius_s;
 }
-
-/// Cores that are farther apart than this, in L, have a normal that their closest points tell.
-const APART: f64 = 1e-6;
 
 /// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
 fn smooth_contact(

@@ -4,6 +4,7 @@ use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::curved::{core_closest, grown};
 use super::placed::{Placed, Precision};
+use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
 use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind};
@@ -69,6 +70,7 @@ pub fn closest_polytopes(
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let is_large = |placed: &Placed| placed.shape.edges.len() > MAX_EDGES_ENUMERATED;
+    let is_flat = |placed: &Placed| placed.shape.faces.len() == 1;
     let are_segments = a.vertex_count() <= 2 && b.vertex_count() <= 2;
     let mut found = if are_segments && !pair.planar {
         closest_segments(a, b)
@@ -76,6 +78,10 @@ pub fn closest_polytopes(
         found
     } else if pair.planar {
         planar_closest(a, b, pair, scratch)
+    } else if b.vertex_count() == 1 && is_flat(a) && !is_large(a) {
+        point_to_polygon(&b.vertex(0), a).swapped()
+    } else if a.vertex_count() == 1 && is_flat(b) && !is_large(b) {
+        point_to_polygon(&a.vertex(0), b)
     } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
         bounded_closest(a, b, pair, limits, scratch)?
     } else if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
@@ -243,10 +249,28 @@ fn between_corners(a: &Placed, b: &Placed, nearest: &NearestCorners) -> Option<C
         let (names, len) = nearest.names.of(side);
         placed.feature_of(&names[..len])
     };
-    Some(Closest::between(
-        nearest.points,
-        [feature(a, 0)?, feature(b, 1)?],
-    ))
+    let features = [feature(a, 0)?, feature(b, 1)?];
+    let found = Closest::between(nearest.points, features);
+    // A foot under a vertex is known better than what corners combine to.
+    let [on_a, on_b] = found.points;
+    Some(match (features[0].kind, features[1].kind) {
+        (FeatureKind::Vertex, FeatureKind::Face) => Closest {
+            points: [on_a, foot_on(b, features[1], &on_a)],
+            ..found
+        },
+        (FeatureKind::Face, FeatureKind::Vertex) => Closest {
+            points: [foot_on(a, features[0], &on_b), on_b],
+            ..found
+        },
+        _ => found,
+    })
+}
+
+/// The foot of a point on a face.
+fn foot_on(placed: &Placed, face: Feature, point: &Vec3) -> Vec3 {
+    let normal = placed.normal(face.index as usize);
+    let corner = placed.vertex(placed.shape.faces[face.index as usize].vertices[0]);
+    point - normal * normal.dot(&(point - corner))
 }
 
 /// A vertex of A inside the solid B.

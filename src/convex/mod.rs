@@ -14,6 +14,8 @@ mod nearest_parts;
 mod outline;
 mod penetration;
 mod placed;
+mod point_to_polygon;
+mod point_to_smooth;
 mod polygon_crossing;
 mod polygon_distance;
 mod surface_part;

@@ -155,7 +155,8 @@ impl<'a> Placed<'a> {
 
     /// Directions of the shape, as columns, in the frame.
     pub fn turned_axes(&self, axes: &Mat3) -> Mat3 {
-        self.rotation().map_or(*axes, |rotation| rotation * axes)
+        self.rotation()
+            .map_or(*axes, |rotation| crate::pose::turned_axes(rotation, axes))
     }
 
     /// The form of the core, where the primitive has one and is not shifted.
@@ -225,13 +226,23 @@ impl<'a> Placed<'a> {
 
     /// The height of `point` over face `face`, and whether its foot lies inside the face.
     pub fn over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
+        self.over(face, point, |side| side >= 0.0)
+    }
+
+    /// The same where the edges do not count as inside.
+    pub fn strictly_over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
+        self.over(face, point, |side| side > 0.0)
+    }
+
+    #[inline(always)]
+    fn over(&self, face: usize, point: &Vec3, is_inside: impl Fn(f64) -> bool) -> (f64, bool) {
         let normal = &self.normal(face);
         let ring = &self.shape.faces[face].vertices;
         let height = normal.dot(&(point - self.vertex(ring[0])));
         let inside = (0..ring.len()).all(|i| {
             let a = self.vertex(ring[i]);
             let b = self.vertex(ring[(i + 1) % ring.len()]);
-            (b - a).cross(&(point - a)).dot(normal) >= 0.0
+            is_inside((b - a).cross(&(point - a)).dot(normal))
         });
         (height, inside)
     }

@@ -1,7 +1,7 @@
 //! The parts of convex surfaces between which two sets are nearest: vertices, edges, rims, rulings, ellipsoids, faces.
 
 use super::curved::Core;
-use crate::pose::{Mat3, Vec3};
+use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
 
 /// A part of a surface on which the set's point farthest along a direction stays while the direction turns a little; in the
@@ -142,9 +142,9 @@ impl SurfacePart {
                 axes,
                 squares,
             } => {
-                let local = axes.tr_mul(direction);
+                let local = turned_back(axes, direction);
                 let stretched = squares.component_mul(&local);
-                center + axes * (stretched / local.dot(&stretched).sqrt())
+                center + turned(axes, &(stretched / local.dot(&stretched).sqrt()))
             }
         }
     }
@@ -205,12 +205,15 @@ impl SurfacePart {
                 around(axis, there.max(0.0))
             }
             Self::Ellipsoid { axes, squares, .. } => {
-                let local = axes.tr_mul(direction);
+                let local = turned_back(axes, direction);
                 let stretched = squares.component_mul(&local);
                 let length = local.dot(&stretched).sqrt();
-                let by = axes.tr_mul(by);
+                let by = turned_back(axes, by);
                 let point = stretched / length;
-                axes * ((squares.component_mul(&by) - point * point.dot(&by)) / length)
+                turned(
+                    axes,
+                    &((squares.component_mul(&by) - point * point.dot(&by)) / length),
+                )
             }
         }
     }

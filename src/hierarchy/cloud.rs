@@ -163,7 +163,7 @@ fn pack(
     })?;
     packed.nodes = Vec::with_capacity(plans.len());
     packed.nodes.extend(made.into_iter().flatten());
-    packed.finish(ball_of(primitives));
+    packed.finish(ball_of(primitives), primitives.only());
     Ok(packed)
 }
 

@@ -8,7 +8,7 @@ use super::wide_node::{Held, WideNode};
 use super::{Node, WrapperTree};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
 use crate::pose::{Pose, Vec3};
-use crate::primitive::{Convex, Primitives};
+use crate::primitive::{Convex, Primitive, Primitives};
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +63,36 @@ pub struct PackedTree {
     pub(super) primitives: PackedPrimitives,
     scale: f64,
     whole: Whole,
+    /// Of a tree of one primitive that is round.
+    core: Option<Box<RoundCore>>,
+}
+
+/// A primitive within a radius of its core, which a box holds much better than the whole.
+#[derive(Clone, Debug, PartialEq)]
+struct RoundCore {
+    /// The only box of it.
+    node: WideNode,
+    radius: f64,
+}
+
+impl RoundCore {
+    /// That of a primitive of space, if it is round, in a tree whose unit is `scale`.
+    fn of(only: &Primitive, scale: f64) -> Option<Self> {
+        let curve = only.shape.curve.as_deref()?;
+        if curve.smooth.is_some() || curve.planar {
+            return None;
+        }
+        let points: Vec<Vec3> = only.vertices.iter().map(|v| v / scale).collect();
+        let held = Held {
+            axes: fitted_axes(&points, None),
+            excess: only.shape.deviation / scale,
+            points: points.into(),
+        };
+        Some(Self {
+            node: WideNode::new(&[held]),
+            radius: curve.radius,
+        })
+    }
 }
 
 /// The box and the ball of all, in double precision and in the body's units: the box in both meanings of a [`PackedBox`].
@@ -109,7 +139,11 @@ impl PackedTree {
             packed: Self::empty(tree.ball()),
         };
         builder.build();
-        builder.packed.finish(tree.ball());
+        let only = match primitives {
+            [only] => Some(only.into()),
+            _ => None,
+        };
+        builder.packed.finish(tree.ball(), only);
         builder.packed
     }
 
@@ -129,7 +163,7 @@ impl PackedTree {
         }
         packed.nodes = nodes;
         packed.is_sound().then(|| {
-            packed.finish(ball);
+            packed.finish(ball, primitives.only());
             packed
         })
     }
@@ -146,6 +180,7 @@ impl PackedTree {
                 radius: 0.0,
                 ball_radius: 0.0,
             },
+            core: None,
         }
     }
 
@@ -175,8 +210,8 @@ impl PackedTree {
         place | LEAF
     }
 
-    /// Fills in what follows from the nodes and primitives.
-    pub(super) fn finish(&mut self, ball: Ball) {
+    /// Fills in what follows from the nodes and primitives, of which there may be but one.
+    pub(super) fn finish(&mut self, ball: Ball, only: Option<Primitive>) {
         let root = self.bounding_box(self.root());
         let [x, y, _] = root.axes;
         let [center, half] = [root.center, root.half].map(|v| v.map(f64::from));
@@ -191,6 +226,7 @@ impl PackedTree {
             radius: half.norm() * 1.001,
             ball_radius: ball.radius,
         };
+        self.core = only.and_then(|only| RoundCore::of(&only, self.scale).map(Box::new));
         self.find_lowest();
     }
 
@@ -234,6 +270,21 @@ impl PackedTree {
     #[inline(always)]
     pub fn box_in_lanes<I: Instructions>(&self, lanes: I, unit: Unit) -> [Lanes8<I>; 2] {
         self.nodes[unit.above()].in_lanes(lanes, unit.lane())
+    }
+
+    /// That of a unit's core, where the tree has one (see [`PackedTree::reach`]).
+    #[inline(always)]
+    pub fn core_in_lanes<I: Instructions>(&self, lanes: I, unit: Unit) -> [Lanes8<I>; 2] {
+        match &self.core {
+            Some(core) => core.node.in_lanes(lanes, 0),
+            None => self.box_in_lanes(lanes, unit),
+        }
+    }
+
+    /// How far around its core the only primitive reaches, where the core has a box of its own; else 0.
+    #[inline(always)]
+    pub fn reach(&self) -> f64 {
+        self.core.as_ref().map_or(0.0, |core| core.radius)
     }
 
     /// About the logarithm of a unit's size: `SIZE_STEPS` more for twice the size.

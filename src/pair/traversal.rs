@@ -313,7 +313,7 @@ struct Walk<'a, V> {
     inverse_scale: f64,
     /// In which the bodies were last seen nearest, from A in its frame and from B in its: unit vectors, or zero.
     directions: [[f32; 3]; 2],
-    /// Bounds are lowered by this.
+    /// Bounds are lowered by this: those of cores by what is around them, too.
     slack: f64,
     stack: &'a mut Waiting,
 }
@@ -335,7 +335,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             size_offset: SIZE_STEPS * (exponent(b) - exponent(a)),
             inverse_scale,
             directions: [[0.0; 3]; 2],
-            slack: pairing.slack() + ROUNDING * size,
+            slack: pairing.slack() + ROUNDING * size + a.reach() + b.reach(),
             meetings,
             trees: [a, b],
             stack,
@@ -445,7 +445,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let other_tree = self.trees[1 - opened];
         let index = tree.index(unit);
         let node = tree.node(index);
-        let one = self.motions[opened].apply(lanes, other_tree.box_in_lanes(lanes, other));
+        let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let mut bounds = box_bounds::bounds(lanes, &eight, &one, V::REFINES);
         if self.meetings.state.direction != Vec3::zeros() {

@@ -1,7 +1,7 @@
 //! Boxes among polyhedra: found by their vertices, and asked by their axes.
 
 use super::{Convex, Feature};
-use crate::pose::{Mat3, Vec3};
+use crate::pose::{Mat3, Vec3, turned_back};
 use crate::tolerance;
 
 /// A polyhedron whose eight vertices are, but for rounding, the corners of a box.
@@ -45,7 +45,7 @@ impl Cuboid {
         let seen: Vec<Vec3> = shape
             .vertices
             .iter()
-            .map(|v| axes.tr_mul(&(v - center)))
+            .map(|v| turned_back(&axes, &(v - center)))
             .collect();
         let half = seen.iter().fold(Vec3::zeros(), |half, v| half + v.abs()) / 8.0;
         let number = |v: &Vec3| (0..3).fold(0, |bits, k| bits | usize::from(v[k] > 0.0) << k);
@@ -96,13 +96,13 @@ impl Cuboid {
     /// A point of the frame as seen from the box.
     #[inline(always)]
     pub fn seen(&self, point: &Vec3) -> Vec3 {
-        self.axes.tr_mul(&(point - self.center))
+        turned_back(&self.axes, &(point - self.center))
     }
 
     /// The vertex that is farthest along a direction.
     #[inline(always)]
     pub fn farthest(&self, direction: &Vec3) -> u32 {
-        let along = self.axes.tr_mul(direction);
+        let along = turned_back(&self.axes, direction);
         let bit = |k: usize| usize::from(along[k] > 0.0) << k;
         u32::from(self.corners[bit(0) | bit(1) | bit(2)])
     }

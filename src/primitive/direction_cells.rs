@@ -91,7 +91,7 @@ impl DirectionCells {
 
 /// The direction to a place on a side of the cube, which goes from -1 to 1 both ways.
 fn direction(face: usize, u: f64, v: f64) -> Vec3 {
-    let sign = if face % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
     match face / 2 {
         0 => Vec3::new(sign, u, v),
         1 => Vec3::new(u, sign, v),

@@ -165,6 +165,11 @@ impl Primitives {
         (index < self.len).then(|| self.get(index))
     }
 
+    /// The only one, if there are no others.
+    pub fn only(&self) -> Option<Primitive<'_>> {
+        (self.len == 1).then(|| self.get(0))
+    }
+
     pub fn tag(&self, index: usize) -> u64 {
         let (run, offset) = self.locate(index);
         match run.point_shape {

@@ -1,0 +1,54 @@
+//! The distance of a point from a cylinder or a cone, in closed form: both are what a flat profile sweeps around an axis.
+
+use super::closest::Closest;
+use super::curved::Core;
+use crate::pose::{Vec3, turned, turned_back};
+use crate::primitive::{Feature, SmoothKind};
+
+/// The closest points of a point and such a core that are more than `least` apart; `None` for others.
+pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest> {
+    let (smooth, axes) = core.smooth()?;
+    let center = core.vertex(0);
+    let local = turned_back(axes, &(point - center));
+    let away = (local.x * local.x + local.y * local.y).sqrt();
+    let (away_there, along_there) = match smooth.kind {
+        SmoothKind::Cylinder {
+            radius,
+            half_length,
+        } => (away.min(radius), local.z.clamp(-half_length, half_length)),
+        SmoothKind::Cone { radius, height } => on_cone(away, local.z, radius, height)?,
+        SmoothKind::Ellipsoid { .. } | SmoothKind::Function(_) => return None,
+    };
+    let part = if away > away_there {
+        away_there / away
+    } else {
+        1.0
+    };
+    let there = Vec3::new(local.x * part, local.y * part, along_there);
+    let way = local - there;
+    let distance = way.norm();
+    (distance > least).then(|| Closest {
+        distance,
+        ..Closest::between(
+            [*point, point - turned(axes, &way)],
+            [Feature::vertex(0), Feature::surface()],
+        )
+    })
+}
+
+/// The point of a cone's profile that is nearest to one outside, by how far from the axis and how high; `None` for one inside.
+fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
+    let half = 0.5 * height;
+    if along <= -half && away <= radius {
+        return Some((away, -half));
+    }
+    // From the rim to the apex.
+    let (from_rim, above_rim) = (away - radius, along + half);
+    let outside = from_rim * height + above_rim * radius;
+    if outside <= 0.0 && along > -half {
+        return None;
+    }
+    let part = (above_rim * height - from_rim * radius) / (radius * radius + height * height);
+    let part = part.clamp(0.0, 1.0);
+    Some((radius * (1.0 - part), part * height - half))
+}
