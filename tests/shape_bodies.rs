@@ -330,3 +330,40 @@ fn pictures_of_round_bodies() {
     assert!(std::fs::metadata(&file).unwrap().len() > 100_000);
     std::fs::remove_file(&file).unwrap();
 }
+
+/// A side of a polygon so short that its ends become one where the polygon is far from the other body's middle: a ball in the
+/// polygon's middle meets it all the same.
+#[test]
+fn balls_meet_polygons_whose_short_sides_vanish() {
+    let (half, short) = (0.5, 1e-11);
+    let corners = [
+        (-half, -half),
+        (half, -half),
+        (half, half - short),
+        (half - short, half),
+        (-half, half),
+    ];
+    let corners = corners.map(|(x, y)| Vec3::new(x, y, 0.0));
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_polygon(&corners, 0).unwrap();
+    let polygon = body(&builder);
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let far = Vec3::new(2e6, 2e6, 0.0);
+    for at in [Vec3::zeros(), far] {
+        builder.add_sphere(&at, 0.1, 0).unwrap();
+    }
+    let balls = body(&builder);
+    let here = Pose::identity();
+    let mut query = QueryContext::new();
+    for height in [0.0, 0.05] {
+        let there = Pose::from_translation(Vec3::new(0.0, 0.0, height));
+        for (a, b) in [
+            ((&*balls, &here), (&*polygon, &there)),
+            ((&*polygon, &there), (&*balls, &here)),
+        ] {
+            assert!(query.pair_within(a, b, 0.0).unwrap());
+            let found = query.pair_distance(a, b, f64::INFINITY).unwrap();
+            assert_eq!((found.distance, found.lower), (0.0, 0.0));
+        }
+    }
+}

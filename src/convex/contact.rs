@@ -137,6 +137,15 @@ pub(super) fn polytope_contacts(
         return Vec::new();
     };
     let slack = tolerance::PARALLEL * size;
+    let mode = mode_of(closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge));
+    // Where a lone corner is nearest, mostly so, there is no other contact.
+    if let Some(mode) = mode
+        && closest.distance > precision.error
+        && (has_lone_extreme(r, &-normal, slack) || has_lone_extreme(s, &normal, slack))
+    {
+        let (points, features) = (closest.points, closest.features);
+        return vec![contact_between(points, features, normal, mode, precision)];
+    }
     let on_r = Supporting::new(r, &-normal, slack);
     let on_s = Supporting::new(s, &normal, slack);
     let mut found: Vec<Contact> = Vec::new();
@@ -149,9 +158,7 @@ pub(super) fn polytope_contacts(
             found.push(contact_between(points, features, normal, mode, precision));
         }
     };
-    if let Some(mode) = mode_of(closest.features)
-        && !(planar && mode == ContactMode::EdgeEdge)
-    {
+    if mode.is_some() {
         offer(closest.points, closest.features);
     }
     // A corner of one supporting feature over the other one.
@@ -207,6 +214,13 @@ pub(super) fn polytope_contacts(
         });
     }
     found
+}
+
+/// Whether only one vertex is within `slack` of the farthest along a direction.
+fn has_lone_extreme(placed: &Placed, direction: &Vec3, slack: f64) -> bool {
+    let (_, farthest) = placed.extent_along(direction);
+    let heights = placed.vertices().iter().map(|v| direction.dot(v));
+    heights.filter(|height| *height >= farthest - slack).count() == 1
 }
 
 /// Just inside, the closest points say nothing: the deepest contact comes first, unless that at the closest points is as deep.

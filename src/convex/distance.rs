@@ -255,22 +255,22 @@ fn between_corners(a: &Placed, b: &Placed, nearest: &NearestCorners) -> Option<C
     let [on_a, on_b] = found.points;
     Some(match (features[0].kind, features[1].kind) {
         (FeatureKind::Vertex, FeatureKind::Face) => Closest {
-            points: [on_a, foot_on(b, features[1], &on_a)],
+            points: [on_a, foot_in(b, features[1], &on_a).unwrap_or(on_b)],
             ..found
         },
         (FeatureKind::Face, FeatureKind::Vertex) => Closest {
-            points: [foot_on(a, features[0], &on_b), on_b],
+            points: [foot_in(a, features[0], &on_b).unwrap_or(on_a), on_b],
             ..found
         },
         _ => found,
     })
 }
 
-/// The foot of a point on a face.
-fn foot_on(placed: &Placed, face: Feature, point: &Vec3) -> Vec3 {
-    let normal = placed.normal(face.index as usize);
-    let corner = placed.vertex(placed.shape.faces[face.index as usize].vertices[0]);
-    point - normal * normal.dot(&(point - corner))
+/// The foot of a point in a face, if it is there.
+fn foot_in(placed: &Placed, face: Feature, point: &Vec3) -> Option<Vec3> {
+    let face = face.index as usize;
+    let (height, is_over) = placed.over_face(face, point);
+    is_over.then(|| point - placed.normal(face) * height)
 }
 
 /// A vertex of A inside the solid B.

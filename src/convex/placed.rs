@@ -106,6 +106,7 @@ impl<'a> Placed<'a> {
         }
     }
 
+    #[inline(always)]
     fn rotation(&self) -> Option<&'a Mat3> {
         match self.vertices {
             Vertices::Here(_) => None,
@@ -216,7 +217,10 @@ impl<'a> Placed<'a> {
             Vertices::Here(vertices) | Vertices::Shifted { vertices, .. } => {
                 vertices[index as usize]
             }
-            Vertices::Moved { home, pose, .. } => pose.transform_point(&home[index as usize]),
+            Vertices::Moved { home, pose, buffer } => match buffer.moved.get() {
+                Some(all) => all[index as usize],
+                None => pose.transform_point(&home[index as usize]),
+            },
         }
     }
 

@@ -8,13 +8,16 @@ use crate::primitive::Feature;
 /// The closest points of a lone point and a polygon, which is flat.
 pub fn point_to_polygon(point: &Vec3, polygon: &Placed) -> Closest {
     let vertex = Feature::vertex(0);
-    let (height, is_inside) = polygon.strictly_over_face(0, point);
-    if is_inside {
-        let foot = point - polygon.normal(0) * height;
-        return Closest {
-            distance: height.abs(),
-            ..Closest::between([*point, foot], [vertex, Feature::face(0)])
-        };
+    let (height, is_over) = polygon.over_face(0, point);
+    let on_face = || Closest {
+        distance: height.abs(),
+        ..Closest::between(
+            [*point, point - polygon.normal(0) * height],
+            [vertex, Feature::face(0)],
+        )
+    };
+    if is_over && polygon.strictly_over_face(0, point).1 {
+        return on_face();
     }
     let mut best = Closest {
         distance: f64::INFINITY,
@@ -36,6 +39,10 @@ pub fn point_to_polygon(point: &Vec3, polygon: &Placed) -> Closest {
                 ..Closest::between([*point, foot], [vertex, feature])
             };
         }
+    }
+    // Over an edge, or one that rounding left no length.
+    if is_over && height.abs() < best.distance {
+        best = on_face();
     }
     best
 }

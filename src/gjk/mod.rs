@@ -9,6 +9,7 @@ mod simplex;
 pub use self::refined::{Nearby, Refined, refined};
 use self::simplex::{Corner, Nearest, Simplex};
 pub use self::simplex::{CornerNames, NearestCorners};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -33,7 +34,7 @@ pub struct Extreme {
 pub struct PointCloud<'a>(pub &'a [Vec3]);
 
 impl Support for PointCloud<'_> {
-    #[inline]
+    #[inline(always)]
     fn extreme(&self, direction: &Vec3) -> Extreme {
         let (mut best, mut value) = (0, f64::NEG_INFINITY);
         for (i, point) in self.0.iter().enumerate() {
@@ -95,77 +96,104 @@ impl DistanceLimits {
 /// Bounds the distance of A and B. Stops as soon as it is known as well as is wanted. `start` is a guess of the direction from B
 /// to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
-    let mut found = Gjk {
-        lower: 0.0,
-        direction: Vec3::zeros(),
-        upper: f64::INFINITY,
-        overlap: 0.0,
-        common: Vec3::zeros(),
-        near: None,
-        nearest: None,
-    };
-    let mut v = if start == Vec3::zeros() {
-        Vec3::x()
-    } else {
-        start
-    };
-    let mut simplex = Simplex::empty();
-    let mut scale = 0.0f64;
-    for _ in 0..128 {
-        let inverse_length = 1.0 / v.norm();
-        let on_a = a.extreme(&-v);
-        let on_b = b.extreme(&v);
-        let corner = Corner::between(on_a, on_b);
-        let w = corner.difference;
-        scale = scale.max(w.norm_squared());
-        let lower = v.dot(&w) * inverse_length;
-        if lower > found.lower {
-            found.lower = lower;
-            found.direction = v * inverse_length;
-            if lower > limits.cutoff {
-                return found;
-            }
-        }
-        let rounding = 4.0 * tolerance::EPSILON * scale.sqrt();
-        if found.upper - found.lower <= rounding || simplex.contains(&w) || simplex.is_full() {
-            break;
-        }
-        simplex.push(corner);
-        match simplex.reduce() {
-            Nearest::Inside { margin, at } => {
-                // Where the corners do not combine to the origin, rounding has decided the sides.
-                let off = at.difference.norm();
-                if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
-                    (found.overlap, found.upper) = (margin, 0.0);
-                    found.common = at.on_a;
-                    found.near = Some([at.on_a; 2]);
+    with_widest(Search {
+        a,
+        b,
+        start,
+        limits,
+    })
+}
+
+struct Search<'a, A, B> {
+    a: &'a A,
+    b: &'a B,
+    start: Vec3,
+    limits: DistanceLimits,
+}
+
+impl<A: Support, B: Support> Work for Search<'_, A, B> {
+    type Output = Gjk;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Gjk {
+        let Self {
+            a,
+            b,
+            start,
+            limits,
+        } = self;
+        let mut found = Gjk {
+            lower: 0.0,
+            direction: Vec3::zeros(),
+            upper: f64::INFINITY,
+            overlap: 0.0,
+            common: Vec3::zeros(),
+            near: None,
+            nearest: None,
+        };
+        let mut v = if start == Vec3::zeros() {
+            Vec3::x()
+        } else {
+            start
+        };
+        let mut simplex = Simplex::empty();
+        let mut scale = 0.0f64;
+        for _ in 0..128 {
+            let inverse_length = 1.0 / v.norm();
+            let on_a = a.extreme(&-v);
+            let on_b = b.extreme(&v);
+            let corner = Corner::between(on_a, on_b);
+            let w = corner.difference;
+            scale = scale.max(w.norm_squared());
+            let lower = v.dot(&w) * inverse_length;
+            if lower > found.lower {
+                found.lower = lower;
+                found.direction = v * inverse_length;
+                if lower > limits.cutoff {
+                    return found;
                 }
-                found.upper = found.upper.min(off);
-                return found;
             }
-            Nearest::Outside(point) => {
-                let upper = point.norm();
-                v = point;
-                if upper >= found.upper {
-                    break;
+            let rounding = 4.0 * tolerance::EPSILON * scale.sqrt();
+            if found.upper - found.lower <= rounding || simplex.contains(&w) || simplex.is_full() {
+                break;
+            }
+            simplex.push(corner);
+            match simplex.reduce() {
+                Nearest::Inside { margin, at } => {
+                    // Where the corners do not combine to the origin, rounding has decided the sides.
+                    let off = at.difference.norm();
+                    if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
+                        (found.overlap, found.upper) = (margin, 0.0);
+                        found.common = at.on_a;
+                        found.near = Some([at.on_a; 2]);
+                    }
+                    found.upper = found.upper.min(off);
+                    return found;
                 }
-                found.upper = upper;
-                if upper <= limits.enough {
-                    // The foot on a needle of a triangle may be nearer than any point of it.
-                    let nearest = simplex.combined(&point);
-                    if nearest.difference.norm() <= limits.enough {
-                        found.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
-                        return found;
+                Nearest::Outside(point) => {
+                    let upper = point.norm();
+                    v = point;
+                    if upper >= found.upper {
+                        break;
+                    }
+                    found.upper = upper;
+                    if upper <= limits.enough {
+                        // The foot on a needle of a triangle may be nearer than any point of it.
+                        let nearest = simplex.combined(&point);
+                        if nearest.difference.norm() <= limits.enough {
+                            found.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
+                            return found;
+                        }
+                    }
+                    if upper <= rounding {
+                        break;
                     }
                 }
-                if upper <= rounding {
-                    break;
-                }
             }
         }
+        found.nearest = simplex.nearest(&v);
+        found
     }
-    found.nearest = simplex.nearest(&v);
-    found
 }
 
 #[cfg(test)]

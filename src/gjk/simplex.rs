@@ -79,6 +79,7 @@ pub enum Nearest {
 }
 
 impl Simplex {
+    #[inline(always)]
     pub fn empty() -> Self {
         Self {
             corners: [Corner::ORIGIN; 4],
@@ -86,22 +87,26 @@ impl Simplex {
         }
     }
 
+    #[inline(always)]
     pub fn contains(&self, difference: &Vec3) -> bool {
         self.corners[..self.len]
             .iter()
             .any(|corner| corner.difference == *difference)
     }
 
+    #[inline(always)]
     pub fn push(&mut self, corner: Corner) {
         self.corners[self.len] = corner;
         self.len += 1;
     }
 
+    #[inline(always)]
     pub fn is_full(&self) -> bool {
         self.len == 4
     }
 
     /// The closest point to the origin; the simplex shrinks to the face that holds it.
+    #[inline(always)]
     pub fn reduce(&mut self) -> Nearest {
         let (point, kept) = match self.len {
             1 | 2 => self.on_few(),
@@ -119,6 +124,7 @@ impl Simplex {
     /// what is reached and not by sides, which rounding decides where the four are nearly in a plane.
     ///
     /// With it the foot, whose direction is that of the three's normal, and so better known.
+    #[inline(always)]
     pub fn nearest_apart(&mut self) -> (Corner, Vec3) {
         let faces: &[[usize; 3]] = match self.len {
             // Those with the newest corner first: the nearest point moves to one of them.
@@ -151,11 +157,13 @@ impl Simplex {
     }
 
     /// Keeps the corners of a face, and gives the closest corner and the foot on it.
+    #[inline(always)]
     fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, Kept)) -> (Corner, Vec3) {
         self.keep(&kept);
         (corner, self.upright(&foot))
     }
 
+    #[inline(always)]
     fn keep(&mut self, kept: &Kept) {
         let corners = self.corners;
         for (to, &from) in kept.corners[..kept.len].iter().enumerate() {
@@ -165,6 +173,7 @@ impl Simplex {
     }
 
     /// The closest point of one or two corners.
+    #[inline(always)]
     fn on_few(&self) -> (Vec3, Kept) {
         match self.len {
             1 => (self.corners[0].difference, Kept::new([0])),
@@ -212,6 +221,7 @@ impl Simplex {
         })
     }
 
+    #[inline(always)]
     fn combined_of(&self, kept: &Kept, point: &Vec3) -> Corner {
         let [first, second, third] = kept.corners.map(|i| self.corners[i]);
         let towards = |from: Corner, to: Corner, t: f64| Corner {
@@ -242,10 +252,12 @@ impl Simplex {
         }
     }
 
+    #[inline(always)]
     fn at(&self, i: usize) -> Vec3 {
         self.corners[i].difference
     }
 
+    #[inline(always)]
     fn on_segment(&self, i: usize, j: usize) -> (Vec3, Kept) {
         let (a, b) = (self.at(i), self.at(j));
         let ab = b - a;
@@ -293,6 +305,7 @@ impl Simplex {
     }
 
     /// The nearest face, or `Err` with the standing inside.
+    #[inline(always)]
     fn on_tetrahedron(&self) -> Result<(Vec3, Kept), Nearest> {
         let mut weights = [0.0; 4];
         let mut heights = [(0.0, 0.0); 4];
@@ -328,6 +341,7 @@ impl Simplex {
     ///
     /// A weight is a quotient of volumes: where the corners are far from one another for their height, its rounding moves the
     /// point by more than a distance may be off. Newton's steps with the same volumes take that off.
+    #[inline(never)]
     fn inside(&self, margin: f64, weights: [f64; 4]) -> Nearest {
         let total: f64 = weights.iter().sum();
         let mut weights = weights.map(|w| w / total);

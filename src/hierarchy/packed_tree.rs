@@ -347,7 +347,8 @@ impl PackedTree {
 
     /// Bytes of memory it takes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..]) + self.primitives.bytes()
+        let core = self.core.as_ref().map_or(0, |_| size_of::<RoundCore>());
+        size_of_val(&self.nodes[..]) + self.primitives.bytes() + core
     }
 }
 

@@ -1,6 +1,7 @@
 //! Boxes among polyhedra: found by their vertices, and asked by their axes.
 
 use super::{Convex, Feature};
+use crate::gjk::{PointCloud, Support};
 use crate::pose::{Mat3, Vec3, turned_back};
 use crate::tolerance;
 
@@ -11,6 +12,8 @@ pub struct Cuboid {
     /// The directions of the edges, as columns: a rotation.
     pub axes: Mat3,
     pub half: Vec3,
+    /// What the vertices and the axes may be off, as a length.
+    doubt: f64,
     /// The vertex at each corner: bit k of a corner's number is set where it is high along axis k.
     corners: [u8; 8],
     /// The edge along each axis from each corner that is low there.
@@ -40,6 +43,8 @@ impl Cuboid {
         sides.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
         let x = sides[0].try_normalize(0.0)?;
         let y = (sides[1] - x * x.dot(&sides[1])).try_normalize(0.0)?;
+        // Made upright once more: what is left of a small remainder leans.
+        let y = (y - x * x.dot(&y)).normalize();
         let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
         let center = shape.vertices.iter().sum::<Vec3>() / 8.0;
         let seen: Vec<Vec3> = shape
@@ -58,13 +63,17 @@ impl Cuboid {
             .iter()
             .fold(0.0, |most, v| v.amax().max(most));
         let is_at_corner = |v: &Vec3| (v.abs() - half).amax() <= CORNER_ERROR * largest;
-        if corners.contains(&u8::MAX) || !seen.iter().all(is_at_corner) {
+        let doubt = CORNER_ERROR * largest;
+        // A box that is hardly thicker than what rounding moved its corners by could be any polyhedron.
+        let is_thick = half.min() > 16.0 * doubt;
+        if !is_thick || corners.contains(&u8::MAX) || !seen.iter().all(is_at_corner) {
             return None;
         }
         let mut cuboid = Self {
             center,
             axes,
             half,
+            doubt,
             corners,
             edges: [[0; 8]; 3],
             faces: [[0; 2]; 3],
@@ -99,12 +108,19 @@ impl Cuboid {
         turned_back(&self.axes, &(point - self.center))
     }
 
-    /// The vertex that is farthest along a direction.
+    /// The vertex that is farthest along a direction, of those that the box was found by.
     #[inline(always)]
-    pub fn farthest(&self, direction: &Vec3) -> u32 {
+    pub fn farthest(&self, vertices: &[Vec3], direction: &Vec3) -> u32 {
         let along = turned_back(&self.axes, direction);
         let bit = |k: usize| usize::from(along[k] > 0.0) << k;
-        u32::from(self.corners[bit(0) | bit(1) | bit(2)])
+        // Where the two ends of an edge are about level, its vertices decide, and not what they are off their corners.
+        let level = 4.0 * self.doubt * (along.x.abs() + along.y.abs() + along.z.abs());
+        let is_clear = |k: usize| along[k].abs() * self.half[k] > level;
+        if is_clear(0) & is_clear(1) & is_clear(2) {
+            u32::from(self.corners[bit(0) | bit(1) | bit(2)])
+        } else {
+            PointCloud(vertices).extreme(direction).name
+        }
     }
 
     /// The feature of which the box's nearest point is, to a point outside as seen from the box.
@@ -127,8 +143,8 @@ impl Cuboid {
         }
     }
 
-    /// The least feature that holds vertices, of which there is one at least.
-    pub fn feature_of(&self, vertices: &[u32]) -> Feature {
+    /// The least feature that holds vertices, of which there is one at least; `None` where only the inside does.
+    pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
         let mut all = [0, 7];
         for vertex in vertices {
             let corner = self.corners.iter().position(|c| u32::from(*c) == *vertex);
@@ -137,15 +153,15 @@ impl Cuboid {
         }
         let (differ, corner) = (all[0] & !all[1], all[1]);
         let axis = |bits: usize| (bits.trailing_zeros() as usize).min(2);
-        match differ.count_ones() {
+        Some(match differ.count_ones() {
             0 => Feature::vertex(self.corners[corner].into()),
             1 => Feature::edge(self.edges[axis(differ)][corner].into()),
             2 => {
                 let across = axis(7 & !differ);
                 Feature::face(self.faces[across][corner >> across & 1].into())
             }
-            _ => Feature::interior(),
-        }
+            _ => return None,
+        })
     }
 }
 
@@ -153,7 +169,7 @@ impl Cuboid {
 mod tests {
     use super::*;
     use crate::pose::{Pose, rotation_about};
-    use crate::primitive::{FeatureKind, block, convex_polyhedron};
+    use crate::primitive::{block, convex_polyhedron};
 
     #[test]
     fn boxes_are_found_and_numbered() {
@@ -169,38 +185,31 @@ mod tests {
             let shape = block(&pose, &half).unwrap();
             let cuboid = Cuboid::of(&shape).unwrap();
             for (e, ends) in (0..).zip(&shape.edges) {
-                assert_eq!(cuboid.feature_of(ends), Feature::edge(e));
+                assert_eq!(cuboid.feature_of(ends), Some(Feature::edge(e)));
             }
             for (f, face) in (0..).zip(&shape.faces) {
-                assert_eq!(cuboid.feature_of(&face.vertices[..3]), Feature::face(f));
-                assert_eq!(
-                    cuboid.feature_of(&[face.vertices[0], face.vertices[2]]),
-                    Feature::face(f)
-                );
-                let above = cuboid.seen(&(shape.vertices[face.vertices[0] as usize] + face.normal));
-                assert_eq!(
-                    cuboid.feature_towards(
-                        &(above * 0.5
-                            + cuboid
-                                .seen(&(shape.vertices[face.vertices[2] as usize] + face.normal))
-                                * 0.5)
-                    ),
-                    Feature::face(f)
-                );
+                let [a, b, c] = [0, 1, 2].map(|i| face.vertices[i]);
+                for some in [&[a, b, c][..], &[a, c]] {
+                    assert_eq!(cuboid.feature_of(some), Some(Feature::face(f)));
+                }
+                let middle = (shape.vertices[a as usize] + shape.vertices[c as usize]) * 0.5;
+                let above = cuboid.seen(&(middle + face.normal));
+                assert_eq!(cuboid.feature_towards(&above), Feature::face(f));
             }
             for (i, vertex) in (0..).zip(&shape.vertices) {
                 let outwards = vertex - cuboid.center;
-                assert_eq!(cuboid.farthest(&outwards), i);
-                assert_eq!(cuboid.feature_of(&[i]), Feature::vertex(i));
-                assert_eq!(
-                    cuboid.feature_towards(&cuboid.seen(&(vertex + outwards))),
-                    Feature::vertex(i)
-                );
+                assert_eq!(cuboid.farthest(&shape.vertices, &outwards), i);
+                assert_eq!(cuboid.feature_of(&[i]), Some(Feature::vertex(i)));
+                let beyond = cuboid.seen(&(vertex + outwards));
+                assert_eq!(cuboid.feature_towards(&beyond), Feature::vertex(i));
             }
-            assert_eq!(
-                cuboid.feature_of(&[0, 1, 2, 3, 4, 5, 6]).kind,
-                FeatureKind::Interior
-            );
+            assert_eq!(cuboid.feature_of(&[0, 1, 2, 3, 4, 5, 6]), None);
+            // Upright to an edge or a face, where rounding decides.
+            for along in [shape.vertices[1] - shape.vertices[0], shape.faces[0].normal] {
+                let found = shape.vertices[cuboid.farthest(&shape.vertices, &along) as usize];
+                let heights = shape.vertices.iter().map(|v| along.dot(v));
+                assert_eq!(along.dot(&found), heights.fold(f64::NEG_INFINITY, f64::max));
+            }
         }
     }
 

@@ -27,9 +27,24 @@ struct Square {
 impl DirectionCells {
     pub fn new(points: &[Vec3]) -> Self {
         let side = 1 << (points.len() / 3).max(1).isqrt().ilog2();
+        Self::with_side(points, side)
+    }
+
+    /// The cells of so many along a side of the cube, or of fewer where they would have very many vertices in all: of discs and
+    /// thin prisms, and of points that are one but for rounding.
+    fn with_side(points: &[Vec3], side: usize) -> Self {
+        let middle = points.iter().sum::<Vec3>() / points.len() as f64;
+        let sorter = Sorter {
+            points,
+            middle,
+            size: points
+                .iter()
+                .fold(0.0, |most, p| (p - middle).norm().max(most)),
+            side,
+        };
         let mut cells = vec![Vec::new(); 6 * side * side];
+        let mut left = MAX_PLACES * points.len();
         let all: Vec<u32> = (0..points.len() as u32).collect();
-        let size = points.iter().fold(0.0, |most, p| p.norm().max(most));
         for face in 0..6 {
             let whole = Square {
                 face,
@@ -37,7 +52,10 @@ impl DirectionCells {
                 v: 0,
                 width: side,
             };
-            sort_into(&mut cells, points, size, side, whole, &all);
+            let fits = sorter.sort_into(&mut cells, whole, &all, &mut left);
+            if !fits && side > 1 {
+                return Self::with_side(points, side / 2);
+            }
         }
         let mut made = Self {
             side,
@@ -102,80 +120,113 @@ fn direction(face: usize, u: f64, v: f64) -> Vec3 {
 /// Cells overlap by this part of a cell, so that rounding may name the one beside.
 const OVERLAP: f64 = 1e-6;
 
-/// Gives each cell of a square those of some points that may be farthest along one of its directions.
-fn sort_into(
-    cells: &mut [Vec<u32>],
-    points: &[Vec3],
+/// All cells together have no more than so many vertices for each of the polytope, but where there are but six.
+const MAX_PLACES: usize = 16;
+
+/// Points on their way into cells.
+struct Sorter<'a> {
+    points: &'a [Vec3],
+    middle: Vec3,
+    /// No point is farther from the middle.
     size: f64,
+    /// Cells along a side of the cube.
     side: usize,
-    square: Square,
-    candidates: &[u32],
-) {
-    let Square { face, u, v, width } = square;
-    let place = |cell: usize, end: usize| {
-        let end = end as f64 * width as f64;
-        let overlap = if end > 0.0 { OVERLAP } else { -OVERLAP };
-        2.0 * (cell as f64 + end + overlap) / side as f64 - 1.0
-    };
-    let corners =
-        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| direction(face, place(u, i), place(v, j)));
-    let kept = undominated(points, size, &corners, candidates);
-    if width == 1 {
-        cells[(face * side + u) * side + v] = kept;
-        return;
-    }
-    let width = width / 2;
-    for (u, v) in [
-        (u, v),
-        (u, v + width),
-        (u + width, v),
-        (u + width, v + width),
-    ] {
-        sort_into(
-            cells,
-            points,
-            size,
-            side,
-            Square { face, u, v, width },
-            &kept,
-        );
-    }
 }
 
-/// Leaves out what another point is farther than along all four corners of a square of directions: it is so along all between
-/// them, too.
-fn undominated(points: &[Vec3], size: f64, corners: &[Vec3; 4], candidates: &[u32]) -> Vec<u32> {
-    let heights = |i: &u32| corners.map(|corner| corner.dot(&points[*i as usize]));
-    let all: Vec<[f64; 4]> = candidates.iter().map(heights).collect();
-    let mean = |h: &[f64; 4]| h[0] + h[1] + h[2] + h[3];
-    // Those farthest along a corner, and along the middle, leave out most of the others.
-    let farthest = |value: &dyn Fn(&[f64; 4]) -> f64| {
-        all.iter()
-            .max_by(|a, b| value(a).total_cmp(&value(b)))
-            .copied()
-    };
-    let best = [
-        farthest(&|h| h[0]),
-        farthest(&|h| h[1]),
-        farthest(&|h| h[2]),
-        farthest(&|h| h[3]),
-        farthest(&mean),
-        farthest(&|h| h.iter().copied().fold(f64::INFINITY, f64::min)),
-    ];
-    // Directions to the corners are up to the root of 3 long.
-    let rounding = 8.0 * tolerance::EPSILON * size;
-    let is_beaten = |h: &[f64; 4]| {
-        let mut by = best.iter().flatten();
-        by.any(|other| (0..4).all(|k| other[k] - h[k] > rounding))
-    };
-    let kept = candidates.iter().zip(&all).filter(|(_, h)| !is_beaten(h));
-    kept.map(|(i, _)| *i).collect()
+impl Sorter<'_> {
+    /// Gives each cell of a square those of some points that may be farthest along one of its directions; as long as no more than
+    /// `left` are given in all, else it says no.
+    fn sort_into(
+        &self,
+        cells: &mut [Vec<u32>],
+        square: Square,
+        candidates: &[u32],
+        left: &mut usize,
+    ) -> bool {
+        let Square { face, u, v, width } = square;
+        let side = self.side;
+        let place = |cell: usize, end: usize| {
+            let end = end as f64 * width as f64;
+            let overlap = if end > 0.0 { OVERLAP } else { -OVERLAP };
+            2.0 * (cell as f64 + end + overlap) / side as f64 - 1.0
+        };
+        let corners = [(0, 0), (0, 1), (1, 0), (1, 1)]
+            .map(|(i, j)| direction(face, place(u, i), place(v, j)));
+        let kept = self.undominated(&corners, candidates);
+        if width == 1 {
+            let fits = kept.len() <= *left;
+            *left = left.saturating_sub(kept.len());
+            cells[(face * side + u) * side + v] = kept;
+            return fits || side == 1;
+        }
+        let width = width / 2;
+        let quarters = [
+            (u, v),
+            (u, v + width),
+            (u + width, v),
+            (u + width, v + width),
+        ];
+        quarters.into_iter().all(|(u, v)| {
+            let quarter = Square { face, u, v, width };
+            self.sort_into(cells, quarter, &kept, left)
+        })
+    }
+
+    /// Leaves out what another point is farther than along all four corners of a square of directions: it is so along all between
+    /// them, too.
+    fn undominated(&self, corners: &[Vec3; 4], candidates: &[u32]) -> Vec<u32> {
+        let heights = |i: &u32| {
+            let offset = self.points[*i as usize] - self.middle;
+            corners.map(|corner| corner.dot(&offset))
+        };
+        let all: Vec<[f64; 4]> = candidates.iter().map(heights).collect();
+        let mean = |h: &[f64; 4]| h[0] + h[1] + h[2] + h[3];
+        // Those farthest along a corner, and along the middle, leave out most of the others.
+        let farthest = |value: &dyn Fn(&[f64; 4]) -> f64| {
+            all.iter()
+                .max_by(|a, b| value(a).total_cmp(&value(b)))
+                .copied()
+        };
+        let best = [
+            farthest(&|h| h[0]),
+            farthest(&|h| h[1]),
+            farthest(&|h| h[2]),
+            farthest(&|h| h[3]),
+            farthest(&mean),
+            farthest(&|h| h.iter().copied().fold(f64::INFINITY, f64::min)),
+        ];
+        // Directions to the corners are up to the root of 3 long.
+        let rounding = 8.0 * tolerance::EPSILON * self.size;
+        let is_beaten = |h: &[f64; 4]| {
+            let mut by = best.iter().flatten();
+            by.any(|other| (0..4).all(|k| other[k] - h[k] > rounding))
+        };
+        let kept = candidates.iter().zip(&all).filter(|(_, h)| !is_beaten(h));
+        kept.map(|(i, _)| *i).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::gjk::{PointCloud, Support};
+
+    /// Points that are one but for rounding, and discs, of which each vertex may be farthest along directions of many cells.
+    #[test]
+    fn cells_have_few_vertices() {
+        for (count, flat, far) in [(20_000, 0.0, 0.0), (5000, 1e-3, 0.0), (4000, 1.0, 1e20)] {
+            let on_circle = |i: usize| {
+                let (sin, cos) = (i as f64).sin_cos();
+                Vec3::new(cos + far, sin + far, flat * ((i % 2) as f64) + far)
+            };
+            let points: Vec<Vec3> = (0..count).map(on_circle).collect();
+            let cells = DirectionCells::new(&points);
+            assert!(cells.bytes() <= 80 * count, "{}", cells.bytes());
+            let found = cells.farthest(&points, &Vec3::x());
+            let truth = PointCloud(&points).support(&Vec3::x());
+            assert_eq!(points[found as usize].x, truth.x);
+        }
+    }
 
     #[test]
     fn cells_know_the_farthest() {

@@ -53,7 +53,7 @@ impl Form {
     #[inline(always)]
     pub fn farthest(&self, shape: &Convex, direction: &Vec3) -> u32 {
         match self {
-            Self::Cuboid(cuboid) => cuboid.farthest(direction),
+            Self::Cuboid(cuboid) => cuboid.farthest(&shape.vertices, direction),
             Self::Hull(made) => {
                 let cells = &self.hull(made, shape).cells;
                 cells.farthest(&shape.vertices, direction)
@@ -73,7 +73,7 @@ impl Form {
     /// The least feature that holds some vertices.
     pub fn feature_of(&self, shape: &Convex, vertices: &[u32]) -> Option<Feature> {
         match self {
-            Self::Cuboid(cuboid) => Some(cuboid.feature_of(vertices)),
+            Self::Cuboid(cuboid) => cuboid.feature_of(vertices),
             Self::Hull(made) => self.hull(made, shape).incidence.feature_of(vertices),
         }
     }

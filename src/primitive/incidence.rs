@@ -43,9 +43,13 @@ impl Lists {
 
     /// The lowest item that the lists of all given vertices hold.
     fn common(&self, vertices: &[u32]) -> Option<u32> {
-        let (first, rest) = vertices.split_first()?;
-        let is_common = |item: &&u32| rest.iter().all(|vertex| self.of(*vertex).contains(item));
-        self.of(*first).iter().find(is_common).copied()
+        let fewest = vertices
+            .iter()
+            .min_by_key(|vertex| self.of(**vertex).len())?;
+        // Lists rise.
+        let has = |vertex: &u32, item: &u32| self.of(*vertex).binary_search(item).is_ok();
+        let is_common = |item: &&u32| vertices.iter().all(|vertex| has(vertex, item));
+        self.of(*fewest).iter().find(is_common).copied()
     }
 }
 

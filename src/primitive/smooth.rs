@@ -45,7 +45,7 @@ impl SmoothKind {
     }
 
     /// The same with the name of the end that it is on.
-    #[inline]
+    #[inline(always)]
     pub fn extreme(&self, direction: &Vec3) -> Extreme {
         let along = direction.z;
         let across = (direction.x * direction.x + direction.y * direction.y).sqrt();
