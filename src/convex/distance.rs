@@ -69,30 +69,33 @@ pub fn closest_polytopes(
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
-    let is_large = |placed: &Placed| placed.shape.edges.len() > MAX_EDGES_ENUMERATED;
-    let is_flat = |placed: &Placed| placed.shape.faces.len() == 1;
-    let are_segments = a.vertex_count() <= 2 && b.vertex_count() <= 2;
-    let mut found = if are_segments && !pair.planar {
-        closest_segments(a, b)
-    } else if let Some(found) = closest_to_cuboid(a, b, pair.error) {
-        found
-    } else if pair.planar {
-        planar_closest(a, b, pair, scratch)
-    } else if b.vertex_count() == 1 && is_flat(a) && !is_large(a) {
-        point_to_polygon(&b.vertex(0), a).swapped()
-    } else if a.vertex_count() == 1 && is_flat(b) && !is_large(b) {
-        point_to_polygon(&a.vertex(0), b)
-    } else if [a, b].iter().any(|p| p.shape.is_solid() || is_large(p)) {
-        bounded_closest(a, b, pair, limits, scratch)?
-    } else if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
-        return None;
-    } else {
-        all_features(a, b, scratch)
+    let needs_bounds = |placed: &Placed| placed.shape.is_solid() || is_large(placed);
+    let mut found = match closed_form(a, b, pair) {
+        Some(found) => found,
+        None if pair.planar => planar_closest(a, b, pair, scratch),
+        None if needs_bounds(a) || needs_bounds(b) => bounded_closest(a, b, pair, limits, scratch)?,
+        None if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff => return None,
+        None => all_features(a, b, scratch),
     };
     for (placed, side) in [(a, 0), (b, 1)] {
         snap_to_vertex(placed, &mut found, side, pair.error);
     }
     Some(found)
+}
+
+/// Those of a point or a segment and another, a box, or of a point and a small polygon, in space.
+fn closed_form(a: &Placed, b: &Placed, pair: &Precision) -> Option<Closest> {
+    if pair.planar {
+        return None;
+    }
+    let is_small_polygon = |placed: &Placed| placed.shape.faces.len() == 1 && !is_large(placed);
+    match (a.vertex_count(), b.vertex_count()) {
+        (1 | 2, 1 | 2) => Some(closest_segments(a, b)),
+        (1, _) if is_small_polygon(b) => Some(point_to_polygon(&a.vertex(0), b)),
+        (_, 1) if is_small_polygon(a) => Some(point_to_polygon(&b.vertex(0), a).swapped()),
+        (1 | 2, _) | (_, 1 | 2) => closest_to_cuboid(a, b, pair.error),
+        _ => None,
+    }
 }
 
 /// The closest points of a point or a segment and a box that are more than `error` apart.
@@ -137,6 +140,10 @@ fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64)
 
 /// Polygons with at most so many edges are compared edge by edge.
 const MAX_EDGES_ENUMERATED: usize = 32;
+
+fn is_large(placed: &Placed) -> bool {
+    placed.shape.edges.len() > MAX_EDGES_ENUMERATED
+}
 
 fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
     scratch.a.set_all(a);
