@@ -129,7 +129,7 @@ impl<'a> Placed<'a> {
             .map_or(*direction, |rotation| turned_back(rotation, direction))
     }
 
-    /// A point of the frame as the shape sees it, which its form or its smooth core tell about.
+    /// A point of the frame as the shape sees it, which its form or its smooth core tell about: of a shape that is not shifted.
     #[inline(always)]
     pub fn seen(&self, point: &Vec3) -> Vec3 {
         match self.vertices {

@@ -1,7 +1,8 @@
 //! The distance of two convex sets given by support points, after Gilbert, Johnson and Keerthi (1988), §2.3.4.
 //!
-//! Used for bounds only: whatever the iteration does, `lower` comes from a direction whose support was evaluated, so it
-//! is safe; exact distances are finished on features (see `convex`).
+//! Whatever the iteration does, `lower` comes from a direction whose support was evaluated, so it is safe. Where the bounds have
+//! come together, the corners between which it ended tell the nearest points and their features; elsewhere distances are
+//! finished on features (see `convex`).
 
 mod refined;
 mod simplex;

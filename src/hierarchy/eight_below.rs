@@ -3,26 +3,26 @@
 
 use super::{Node, WrapperTree};
 
-const MOST: usize = 8;
+const MAX_BELOW: usize = 8;
 
 /// For each node and each count up to eight, how the subtree is best cut into at most so many wide nodes and leaves.
 pub struct Cuts {
     /// How many of them the first child gets; 0 where the subtree stands whole, as one wide node.
-    first: Vec<[u8; MOST + 1]>,
+    first: Vec<[u8; MAX_BELOW + 1]>,
 }
 
 impl Cuts {
     pub fn of(tree: &WrapperTree) -> Self {
         let count = tree.subsets().nodes.len();
-        let mut first = vec![[0; MOST + 1]; count];
-        let mut costs = vec![[0.0f32; MOST + 1]; count];
+        let mut first = vec![[0; MAX_BELOW + 1]; count];
+        let mut costs = vec![[0.0f32; MAX_BELOW + 1]; count];
         for node in (0..count).rev() {
             let Node::Interior { children: [a, b] } = tree.node(node as u32) else {
                 continue;
             };
             let (a, b) = (costs[a as usize], costs[b as usize]);
-            let mut own = [f32::INFINITY; MOST + 1];
-            for total in 2..=MOST {
+            let mut own = [f32::INFINITY; MAX_BELOW + 1];
+            for total in 2..=MAX_BELOW {
                 for part in 1..total {
                     let cost = a[part] + b[total - part];
                     if cost < own[total] {
@@ -33,10 +33,10 @@ impl Cuts {
             }
             // A wide node is visited about as often as its surface is large, and takes memory at any size.
             let radius = (tree.radius(node as u32) / tree.radius(0).max(f64::MIN_POSITIVE)) as f32;
-            let whole = radius * radius + 1e-6 + own[MOST];
+            let whole = radius * radius + 1e-6 + own[MAX_BELOW];
             costs[node] = own.map(|cost| cost.min(whole));
             costs[node][0] = f32::INFINITY;
-            for total in 1..MOST {
+            for total in 1..MAX_BELOW {
                 if own[total] >= whole {
                     first[node][total] = 0;
                 }
@@ -47,11 +47,11 @@ impl Cuts {
 
     /// The nodes that become the children of a wide node, in the order of the tree.
     pub fn below(&self, tree: &WrapperTree, node: u32) -> Vec<u32> {
-        let mut below = Vec::with_capacity(MOST);
-        let mut open = Vec::with_capacity(MOST);
+        let mut below = Vec::with_capacity(MAX_BELOW);
+        let mut open = Vec::with_capacity(MAX_BELOW);
         if let Node::Interior { children: [a, b] } = tree.node(node) {
-            let part = self.first[node as usize][MOST];
-            open.extend([(b, MOST as u8 - part), (a, part)]);
+            let part = self.first[node as usize][MAX_BELOW];
+            open.extend([(b, MAX_BELOW as u8 - part), (a, part)]);
         }
         while let Some((node, total)) = open.pop() {
             match (tree.node(node), self.first[node as usize][total as usize]) {

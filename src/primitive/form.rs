@@ -44,18 +44,13 @@ impl Form {
         }
     }
 
-    #[inline(always)]
-    fn hull<'a>(&self, made: &'a OnceLock<Box<HullForm>>, shape: &Convex) -> &'a HullForm {
-        made.get_or_init(|| Box::new(HullForm::new(shape)))
-    }
-
     /// The vertex that is farthest along a direction; of the shape that the form was made of.
     #[inline(always)]
     pub fn farthest(&self, shape: &Convex, direction: &Vec3) -> u32 {
         match self {
             Self::Cuboid(cuboid) => cuboid.farthest(&shape.vertices, direction),
             Self::Hull(made) => {
-                let cells = &self.hull(made, shape).cells;
+                let cells = &HullForm::made(made, shape).cells;
                 cells.farthest(&shape.vertices, direction)
             }
         }
@@ -66,7 +61,7 @@ impl Form {
     pub fn middle(&self, shape: &Convex) -> Vec3 {
         match self {
             Self::Cuboid(cuboid) => cuboid.center,
-            Self::Hull(made) => self.hull(made, shape).middle,
+            Self::Hull(made) => HullForm::made(made, shape).middle,
         }
     }
 
@@ -74,7 +69,7 @@ impl Form {
     pub fn feature_of(&self, shape: &Convex, vertices: &[u32]) -> Option<Feature> {
         match self {
             Self::Cuboid(cuboid) => cuboid.feature_of(vertices),
-            Self::Hull(made) => self.hull(made, shape).incidence.feature_of(vertices),
+            Self::Hull(made) => HullForm::made(made, shape).incidence.feature_of(vertices),
         }
     }
 
@@ -91,6 +86,11 @@ impl Form {
 }
 
 impl HullForm {
+    #[inline(always)]
+    fn made<'a>(cell: &'a OnceLock<Box<Self>>, shape: &Convex) -> &'a Self {
+        cell.get_or_init(|| Box::new(Self::new(shape)))
+    }
+
     fn new(shape: &Convex) -> Self {
         Self {
             cells: DirectionCells::new(&shape.vertices),
