@@ -6,10 +6,10 @@ use super::surface_part::SurfacePart;
 use crate::gjk::{Nearby, Support};
 use crate::pose::Vec3;
 
-/// So many steps that bring nothing are enough.
+/// At most 10 Newton steps; then the search goes on by itself.
 const MAX_STEPS: usize = 10;
 
-/// No step turns the direction by more than this.
+/// At most this turn in one step, in radians.
 const MAX_TURN: f64 = 0.7;
 
 /// Lines whose directions have a smaller sine between them count as parallel.

@@ -43,11 +43,11 @@ const MAX_STEPS: u32 = 400;
 /// So many steps in a row may bring nothing.
 const MAX_IDLE: u32 = 50;
 
-/// What tells the distance at once is tried when the bounds are this near one another, in the upper one, and then whenever
-/// they have come nearer by as much.
+/// `finish` is first tried when `upper - lower` is at most 0.3 `upper`, and again each time that the quotient has shrunk by the
+/// same factor.
 const FIRST_FINISH: f64 = 0.3;
 
-/// And so often at most.
+/// At most 12 tries of `finish`.
 const MAX_FINISHES: u32 = 12;
 
 /// A search begins anew so often where it got stuck.

@@ -120,7 +120,7 @@ fn direction(face: usize, u: f64, v: f64) -> Vec3 {
 /// Cells overlap by this part of a cell, so that rounding may name the one beside.
 const OVERLAP: f64 = 1e-6;
 
-/// All cells together have no more than so many vertices for each of the polytope, but where there are but six.
+/// At most 16 entries per vertex in all cells together, unless there are only six cells, each of which may list all vertices.
 const MAX_PLACES: usize = 16;
 
 /// Points on their way into cells.

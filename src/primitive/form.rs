@@ -25,7 +25,7 @@ pub struct HullForm {
     middle: Vec3,
 }
 
-/// Up to so many vertices are asked one after another.
+/// At most 8 vertices are compared one by one; more get cells.
 const FEW: usize = 8;
 
 impl Form {
