@@ -36,24 +36,22 @@ impl Pose {
 
     /// From 12 numbers, row-major `[R | t]`. R may be off orthonormal by [`tolerance::ROTATION`]; it is then replaced by
     /// the nearest rotation. Reflections are refused.
-    #[inline]
+    #[inline(always)]
     pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
         let v = values;
         let given = Self {
             rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
             translation: Vec3::new(v[3], v[7], v[11]),
         };
-        // Almost all poses are fine as they are; they are told without a branch for each number.
-        let (rows, _) = values.as_chunks::<4>();
-        let rows = [rows[0], rows[1], rows[2]];
-        let is_one = |all, row: &[f64; 4]| all & (row[3].abs() <= tolerance::LARGEST_COORDINATE);
-        if rows.iter().fold(are_rotation(&rows), is_one) {
+        // Almost all poses are fine as they are.
+        if with_widest(IsPose(values)) {
             return Ok(given);
         }
         given.corrected(values)
     }
 
     #[cold]
+    #[inline(never)]
     fn corrected(mut self, values: &[f64; 12]) -> Result<Self> {
         require_coordinates(values, "pose entry")?;
         self.rotation = nearest_rotation(self.rotation)?;
@@ -150,21 +148,33 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     Mat3::identity() + k * s + k * k * (1.0 - c)
 }
 
-/// Whether the first three columns of three rows are a rotation up to rounding: of unit length, and upright to one another. Then
-/// no number in them is large.
-#[inline(always)]
-fn are_rotation(rows: &[[f64; 4]; 3]) -> bool {
-    let [x, y, z] = rows.map(F64x4);
-    let [u, v, w] = rows.map(|[a, b, c, d]| F64x4([b, c, a, d]));
-    let squares = x * x + y * y + z * z;
-    let products = x * u + y * v + z * w;
-    let is_small = |off: f64| off.abs() <= ROTATION_ROUNDING;
-    let [x, y, z] = rows;
-    let determinant = (x[1] * y[2] - x[2] * y[1]) * z[0]
-        + (x[2] * y[0] - x[0] * y[2]) * z[1]
-        + (x[0] * y[1] - x[1] * y[0]) * z[2];
-    let all = |all, k: usize| all & is_small(squares.0[k] - 1.0) & is_small(products.0[k]);
-    (0..3).fold(determinant > 0.0, all)
+/// Whether 12 numbers are a pose, up to rounding: the columns of unit length and upright to one another, and no coordinate too
+/// large. Told without a branch for each number, and of few poses wrongly that they are none.
+struct IsPose<'a>(&'a [f64; 12]);
+
+impl Work for IsPose<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> bool {
+        let (rows, _) = self.0.as_chunks::<4>();
+        let rows = [rows[0], rows[1], rows[2]];
+        let [x, y, z] = rows.map(F64x4);
+        let [u, v, w] = rows.map(|[a, b, c, d]| F64x4([b, c, a, d]));
+        let squares = x * x + y * y + z * z;
+        let products = x * u + y * v + z * w;
+        let off = (squares - F64x4::splat(1.0)).abs() + products.abs();
+        let across = x * v - y * u;
+        let z = rows[2];
+        let determinant = across.0[0] * z[2] + across.0[1] * z[0] + across.0[2] * z[1];
+        let far = rows[0][3].abs() + rows[1][3].abs() + rows[2][3].abs();
+        let is_small = |k: usize| off.0[k] <= ROTATION_ROUNDING;
+        is_small(0)
+            & is_small(1)
+            & is_small(2)
+            & (determinant > 0.0)
+            & (far <= tolerance::LARGEST_COORDINATE)
+    }
 }
 
 fn nearest_rotation(given: Mat3) -> Result<Mat3> {

@@ -173,6 +173,11 @@ impl Body {
         root.is_leaf().then(|| self.packed.place(root))
     }
 
+    /// Whether it is one primitive, and no more than that.
+    pub fn is_single(&self) -> bool {
+        self.only_place().is_some() && self.solid.is_none()
+    }
+
     /// What its polygons bound, if the body is a solid of space that has some.
     #[inline(always)]
     pub fn solid(&self) -> Option<&Solid> {

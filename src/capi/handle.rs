@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::boundary::Failure;
+use super::input::null;
 use super::status::cstk_status;
 
 /// A type that C holds by handle.
@@ -62,30 +63,30 @@ pub fn create<T: Noun>(value: Arc<T>) -> *mut T::Handle {
     slot.cast()
 }
 
+#[inline(always)]
 fn slot_of<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a Slot, Failure> {
     let slot: *const Slot = handle.cast();
     if slot.is_null() {
-        return Err(Failure::new(
-            cstk_status::CSTK_NULL_ARGUMENT,
-            format!("{argument} is NULL"),
-        ));
+        return Err(null(argument));
     }
-    let wrong = |what: &str| {
-        Failure::new(
-            cstk_status::CSTK_WRONG_HANDLE,
-            format!("{argument} is not a {}: {what}", T::NAME),
-        )
-    };
     if !slot.is_aligned() {
-        return Err(wrong("not a handle of this library"));
+        return Err(wrong::<T>(argument, "not a handle of this library"));
     }
     // SAFETY: the caller passes a handle of this library; slots are never freed.
     let slot = unsafe { &*slot };
     match slot.kind.load(Ordering::Acquire) {
         kind if kind == KIND_BASE + T::KIND => Ok(slot),
-        RELEASED => Err(wrong("it was released")),
-        _ => Err(wrong("a handle of another kind")),
+        RELEASED => Err(wrong::<T>(argument, "it was released")),
+        _ => Err(wrong::<T>(argument, "a handle of another kind")),
     }
+}
+
+#[cold]
+fn wrong<T: Noun>(argument: &str, what: &str) -> Failure {
+    Failure::new(
+        cstk_status::CSTK_WRONG_HANDLE,
+        format!("{argument} is not a {}: {what}", T::NAME),
+    )
 }
 
 /// A share of the object behind a handle, to be kept, or for the time of a call: functions of the caller that it calls may

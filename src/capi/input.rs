@@ -9,13 +9,16 @@ use super::status::cstk_status;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 
-fn null(argument: &str) -> Failure {
+/// What is said of a NULL that is not welcome.
+#[cold]
+pub fn null(argument: &str) -> Failure {
     Failure::new(
         cstk_status::CSTK_NULL_ARGUMENT,
         format!("{argument} is NULL"),
     )
 }
 
+#[cold]
 fn misaligned(argument: &str) -> Failure {
     Failure::new(
         cstk_status::CSTK_INVALID_ARGUMENT,
@@ -79,6 +82,7 @@ pub unsafe fn points(xyz: *const f64, count: usize, argument: &str) -> Result<Ve
 }
 
 /// A pose of 12 numbers.
+#[inline(always)]
 pub unsafe fn pose(values: *const f64, argument: &str) -> Result<Pose, Failure> {
     // SAFETY: as the caller states.
     let values = unsafe { array::<12>(values, argument)? };

@@ -20,7 +20,7 @@ unsafe fn run<T>(
     body_b: *const cstk_body,
     pose_b: *const f64,
     out: *mut T,
-    ask: impl FnOnce(&mut State, Placement, Placement) -> Result<T, Failure>,
+    ask: impl FnOnce(&mut State, Placement, Placement, Output<T>) -> Result<(), Failure>,
 ) -> cstk_status {
     guard(|| {
         let a = handle::borrowed::<Body>(body_a, "body_a")?;
@@ -29,8 +29,7 @@ unsafe fn run<T>(
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for NULL; the header states the lengths.
             let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };
-            out.write(ask(state, (a, &pose_a), (b, &pose_b))?);
-            Ok(())
+            ask(state, (a, &pose_a), (b, &pose_b), out)
         };
         if a.has_functions() || b.has_functions() {
             // Functions of the caller's may release what is asked.
@@ -57,9 +56,18 @@ pub unsafe extern "C" fn cstk_pair_distance(
 ) -> cstk_status {
     // SAFETY: the caller states the lengths.
     unsafe {
-        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
-            Ok((&state.context.pair_distance(a, b, max_distance)?).into())
-        })
+        run(
+            query,
+            body_a,
+            pose_a,
+            body_b,
+            pose_b,
+            out,
+            |state, a, b, out| {
+                out.write((&state.context.pair_distance(a, b, max_distance)?).into());
+                Ok(())
+            },
+        )
     }
 }
 
@@ -77,9 +85,18 @@ pub unsafe extern "C" fn cstk_pair_within(
 ) -> cstk_status {
     // SAFETY: the caller states the lengths.
     unsafe {
-        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
-            Ok(state.context.pair_within(a, b, threshold)?)
-        })
+        run(
+            query,
+            body_a,
+            pose_a,
+            body_b,
+            pose_b,
+            out,
+            |state, a, b, out| {
+                out.write(state.context.pair_within(a, b, threshold)?);
+                Ok(())
+            },
+        )
     }
 }
 
@@ -99,10 +116,19 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
 ) -> cstk_status {
     // SAFETY: the caller states the lengths.
     unsafe {
-        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
-            let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
-            Ok(state.keep(list))
-        })
+        run(
+            query,
+            body_a,
+            pose_a,
+            body_b,
+            pose_b,
+            out,
+            |state, a, b, out| {
+                let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
+                out.write(state.keep(list));
+                Ok(())
+            },
+        )
     }
 }
 
@@ -126,9 +152,18 @@ pub unsafe extern "C" fn cstk_pair_penetration(
 ) -> cstk_status {
     // SAFETY: the caller states the lengths.
     unsafe {
-        run(query, body_a, pose_a, body_b, pose_b, out, |state, a, b| {
-            let list = state.context.pair_penetration(a, b, max_count)?;
-            Ok(state.keep_penetrations(&list))
-        })
+        run(
+            query,
+            body_a,
+            pose_a,
+            body_b,
+            pose_b,
+            out,
+            |state, a, b, out| {
+                let list = state.context.pair_penetration(a, b, max_count)?;
+                out.write(state.keep_penetrations(&list));
+                Ok(())
+            },
+        )
     }
 }

@@ -224,6 +224,12 @@ fn feature_at(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
     face.map_or(Feature::interior(), |f| Feature::face(f as u32))
 }
 
+/// The distance of two sets given that of their cores.
+#[inline(always)]
+pub fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
+    if cores >= a + b { cores - a - b } else { 0.0 }
+}
+
 /// The closest points of two sets given those of their cores. Of sets that overlap both are one point of the two, between
 /// the cores.
 pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
@@ -236,7 +242,7 @@ pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
     let [a, b] = radii;
     if apart >= a + b {
         return Closest {
-            distance: apart - a - b,
+            distance: beyond_radii(apart, radii),
             points: [on_a - normal * a, on_b + normal * b],
             ..*cores
         };

@@ -2,7 +2,8 @@
 
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
-use super::curved::{core_closest, grown};
+use super::cuboids_within::cuboids_within;
+use super::curved::{beyond_radii, core_closest, grown, is_smooth};
 use super::placed::{Placed, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
@@ -61,6 +62,28 @@ pub fn measure(
     })
 }
 
+/// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
+pub fn are_within(
+    a: &Placed,
+    b: &Placed,
+    pair: &Precision,
+    limits: DistanceLimits,
+) -> Option<bool> {
+    let radii = [a, b].map(|placed| placed.shape.radius());
+    if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
+        let limits = limits.of_cores(radii[0] + radii[1]);
+        return cuboids_within([a, b], [on_a, on_b], pair.size, limits);
+    }
+    if is_smooth(a, b) {
+        return None;
+    }
+    let cores = closed_form(a, b, pair)?.distance;
+    let distance = beyond_radii(cores, radii);
+    let is_apart = distance > pair.error;
+    let lower = if is_apart { distance - pair.error } else { 0.0 };
+    Some(lower <= limits.enough)
+}
+
 /// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than the cutoff.
 pub fn closest_polytopes(
     a: &Placed,
@@ -100,9 +123,6 @@ fn closed_form(a: &Placed, b: &Placed, pair: &Precision) -> Option<Closest> {
 
 /// The closest points of a point or a segment and a box that are more than `error` apart.
 fn closest_to_cuboid(a: &Placed, b: &Placed, error: f64) -> Option<Closest> {
-    fn cuboid<'a>(placed: &Placed<'a>) -> Option<&'a Cuboid> {
-        placed.form()?.cuboid()
-    }
     let found = if let Some(cuboid) = cuboid(b)
         && a.vertex_count() <= 2
     {
@@ -115,6 +135,10 @@ fn closest_to_cuboid(a: &Placed, b: &Placed, error: f64) -> Option<Closest> {
         return None;
     };
     (found.distance > error).then_some(found)
+}
+
+fn cuboid<'a>(placed: &Placed<'a>) -> Option<&'a Cuboid> {
+    placed.form()?.cuboid()
 }
 
 /// How far a set is from the plane of a flat polygon, on either side.

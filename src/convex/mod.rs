@@ -4,6 +4,7 @@ mod closest;
 mod contact;
 mod contact_normal;
 mod cuboid_distance;
+mod cuboids_within;
 mod curved;
 mod curved_contact;
 mod distance;
@@ -22,7 +23,7 @@ mod surface_part;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};
-pub use distance::{DistanceScratch, Measured, measure};
+pub use distance::{DistanceScratch, Measured, are_within, measure};
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};

@@ -21,6 +21,41 @@ pub trait Work {
     fn run<I: Instructions>(self, instructions: I) -> Self::Output;
 }
 
+/// What this processor has, of the instruction sets that work is compiled for.
+#[cfg(target_arch = "x86_64")]
+mod widest {
+    use std::arch::is_x86_feature_detected as has;
+    use std::sync::atomic::{AtomicU8, Ordering};
+
+    pub const PLAIN: u8 = 1;
+    pub const AVX2: u8 = 2;
+    pub const AVX512: u8 = 3;
+
+    /// Found out once: 0 until then.
+    #[inline(always)]
+    pub fn get() -> u8 {
+        static KNOWN: AtomicU8 = AtomicU8::new(0);
+        match KNOWN.load(Ordering::Relaxed) {
+            0 => {
+                let found = find();
+                KNOWN.store(found, Ordering::Relaxed);
+                found
+            }
+            known => known,
+        }
+    }
+
+    #[cold]
+    fn find() -> u8 {
+        if !(has!("avx2") && has!("fma")) {
+            return PLAIN;
+        }
+        let has_avx512 =
+            has!("avx512f") && has!("avx512vl") && has!("avx512dq") && has!("avx512bw");
+        if has_avx512 { AVX512 } else { AVX2 }
+    }
+}
+
 /// Runs work with the widest instructions this processor has.
 #[inline]
 pub fn with_widest<W: Work>(work: W) -> W::Output {
@@ -35,19 +70,13 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
         fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }
-        if let Some(avx2) = Avx2::detected() {
-            let has_avx512 = std::arch::is_x86_feature_detected!("avx512f")
-                && std::arch::is_x86_feature_detected!("avx512vl")
-                && std::arch::is_x86_feature_detected!("avx512dq")
-                && std::arch::is_x86_feature_detected!("avx512bw");
-            // SAFETY: the processor was just found to have what either takes.
-            return unsafe {
-                if has_avx512 {
-                    with_avx512(work, avx2)
-                } else {
-                    with_avx2(work, avx2)
-                }
-            };
+        // SAFETY: the processor was found to have what either takes.
+        unsafe {
+            match widest::get() {
+                widest::AVX512 => return with_avx512(work, Avx2::assumed()),
+                widest::AVX2 => return with_avx2(work, Avx2::assumed()),
+                _ => (),
+            }
         }
     }
     work.run(Plain)

@@ -5,8 +5,8 @@ use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
     Closest, Contact, DistanceScratch, MAX_CORNERS, Measured, Nearest, Outline, Penetration,
-    Placed, PlacedBuffer, PolygonDistance, Precision, contacts, first_contact, measure, moved,
-    penetration, polygon_closest, polygon_distance,
+    Placed, PlacedBuffer, PolygonDistance, Precision, are_within, contacts, first_contact, measure,
+    moved, penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -36,8 +36,8 @@ pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MAX_CORNERS / 4];
 /// Memory of the distances of primitives, reused from pair to pair.
 #[derive(Default)]
 pub struct PrimitiveScratch {
-    buffer: PlacedBuffer,
-    distance: DistanceScratch,
+    pub(super) buffer: PlacedBuffer,
+    pub(super) distance: DistanceScratch,
 }
 
 /// How far two primitives are apart, and where.
@@ -190,6 +190,12 @@ impl<'a> Pairing<'a> {
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Apart> {
+        // Of a pair that is only to be within a distance.
+        if limits.enough >= 0.0
+            && let Some(meet) = self.are_within(places, limits, scratch)
+        {
+            return meet.then_some(Apart::NONE);
+        }
         let measured = self.measure(places, limits, scratch)?;
         let Closest {
             distance, doubt, ..
@@ -204,7 +210,7 @@ impl<'a> Pairing<'a> {
     }
 
     #[inline(always)]
-    fn above_error(&self, distance: f64) -> f64 {
+    pub(super) fn above_error(&self, distance: f64) -> f64 {
         if distance <= self.precision.error {
             0.0
         } else {
@@ -224,6 +230,25 @@ impl<'a> Pairing<'a> {
         }
     }
 
+    /// Whether two boxes meet, where that is told at less than the price of a distance.
+    fn are_within(
+        &self,
+        places: [u32; 2],
+        limits: DistanceLimits,
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<bool> {
+        let is_box = |(body, place): (&Body, u32)| {
+            let primitives = body.packed().primitives();
+            let form = primitives.form(primitives.entry(place as usize));
+            form.is_some_and(|form| form.cuboid().is_some())
+        };
+        if !is_box((self.a, places[0])) || !is_box((self.b, places[1])) {
+            return None;
+        }
+        let [a, b] = self.placed(places, &mut scratch.buffer);
+        are_within(&a, &b, &self.precision, limits)
+    }
+
     #[inline(never)]
     fn measure(
         &self,
@@ -231,12 +256,7 @@ impl<'a> Pairing<'a> {
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Measured> {
-        let [a, b] = [(self.a, places[0]), (self.b, places[1])]
-            .map(|(body, place)| body.packed().primitives().entry(place as usize));
-        let primitives = [a.primitive, b.primitive];
-        let forms =
-            [(self.a, a), (self.b, b)].map(|(body, entry)| body.packed().primitives().form(entry));
-        let [a, b] = self.place(primitives, forms, &mut scratch.buffer);
+        let [a, b] = self.placed(places, &mut scratch.buffer);
         measure(&a, &b, &self.precision, limits, &mut scratch.distance)
     }
 
@@ -293,7 +313,7 @@ impl<'a> Pairing<'a> {
         first_contact(&a, &b, measured, &self.precision).map(|c| self.in_world(c))
     }
 
-    fn in_world(&self, contact: Contact) -> WorldContact {
+    pub(super) fn in_world(&self, contact: Contact) -> WorldContact {
         WorldContact {
             points: contact.points.map(|p| self.frame.transform_point(&p)),
             normal: self.frame.rotation * contact.normal,
@@ -316,6 +336,18 @@ impl<'a> Pairing<'a> {
             direction: self.frame.rotation * found.direction,
             points: found.points.map(|p| self.frame.transform_point(&p)),
         })
+    }
+
+    /// The primitives at two places in A's centred frame.
+    pub(super) fn placed<'b>(
+        &'b self,
+        places: [u32; 2],
+        buffer: &'b mut PlacedBuffer,
+    ) -> [Placed<'b>; 2] {
+        let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
+        let entries = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
+        let forms = [a.form(entries[0]), b.form(entries[1])];
+        self.place(entries.map(|entry| entry.primitive), forms, buffer)
     }
 
     /// Both primitives in A's centred frame, with their forms where these are at hand.

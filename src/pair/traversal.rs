@@ -9,6 +9,7 @@ use super::nearest_first::{Entry, Waiting};
 use super::pairing::{Apart, EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use super::winding::RayScratch;
 use crate::convex::Measured;
+use crate::error::Result;
 use crate::gjk::DistanceLimits;
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
@@ -92,6 +93,15 @@ impl Scratch {
 
     pub fn meter_mut(&mut self) -> &mut WorkMeter {
         &mut self.state.meter
+    }
+
+    /// Counts a pair of primitives whose distance is to be computed, and lends the memory for it.
+    pub fn for_one_pair(&mut self) -> Result<&mut PrimitiveScratch> {
+        let meter = &mut self.state.meter;
+        meter.count_primitives(1);
+        meter.done.primitive_distances += 1;
+        meter.check()?;
+        Ok(&mut self.state.primitives)
     }
 
     /// Counts a ray, and what it came upon.

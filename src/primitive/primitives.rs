@@ -142,8 +142,10 @@ impl Primitives {
             "primitive {index} of {} primitives",
             self.len
         );
-        let after = self.runs.partition_point(|run| run.first as usize <= index);
-        let run = &self.runs[after - 1];
+        let run = match &self.runs[..] {
+            [only] => only,
+            runs => &runs[runs.partition_point(|run| run.first as usize <= index) - 1],
+        };
         (run, index - run.first as usize)
     }
 

@@ -3,15 +3,21 @@
 use super::answer::{ContactRecord, Distance, Witness, WitnessList};
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
+use super::distance::NearestPair;
 use super::target::{Placement, Target};
+use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
+use crate::gjk::DistanceLimits;
 use crate::pair::{
-    Collect, Hit, Nearest, Pairing, PrimitiveScratch, Within, WorldContact, traverse,
+    Collect, Hit, Nearest, Pairing, PrimitiveScratch, Singles, Within, WorldContact, traverse,
 };
 
-/// Two bodies as a target of searches.
-pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
+/// Refuses two bodies of which one is of planar worlds, unless both are and stay there.
+fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
+    if a.0.dimension() == 3 && b.0.dimension() == 3 {
+        return Ok(());
+    }
     if a.0.dimension() != b.0.dimension() {
         return Err(Error::invalid(format!(
             "the bodies differ in dimension: {} and {}",
@@ -19,13 +25,19 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
             b.0.dimension()
         )));
     }
-    for ((body, pose), name) in [(a, "pose_a"), (b, "pose_b")] {
-        if body.dimension() == 2 && !pose.is_planar() {
+    for ((_, pose), name) in [(a, "pose_a"), (b, "pose_b")] {
+        if !pose.is_planar() {
             return Err(Error::invalid(format!(
                 "{name} leaves the plane z = 0 of its body"
             )));
         }
     }
+    Ok(())
+}
+
+/// Two bodies as a target of searches.
+pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
+    check_dimensions(a, b)?;
     Ok(Target {
         sides: [a, b],
         key: CacheKey::Bodies(a.0.serial(), b.0.serial()),
@@ -36,6 +48,11 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
         rank: 0,
         bound: f64::NEG_INFINITY,
     })
+}
+
+/// Whether two bodies are one primitive each, and no more than it.
+fn are_singles(a: &Body, b: &Body) -> bool {
+    a.is_single() && b.is_single()
 }
 
 impl QueryContext {
@@ -49,7 +66,7 @@ impl QueryContext {
         check_threshold(max_distance, "max_distance")?;
         let target = target(a, b)?;
         self.scratch.meter_mut().start_call();
-        if target.is_of_singles() {
+        if are_singles(a.0, b.0) {
             return self.singles_distance(&target, max_distance);
         }
         let targets = [target];
@@ -63,23 +80,52 @@ impl QueryContext {
     fn singles_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
         self.count_body_pair()?;
         let pairing = target.pairing();
-        let mut visitor = Nearest::up_to(max_distance);
-        if pairing.sphere_bound() <= max_distance {
+        if pairing.sphere_bound() > max_distance {
+            return Ok(Distance::beyond(max_distance, f64::INFINITY));
+        }
+        if pairing.are_outlines([0, 0]) {
+            let mut visitor = Nearest::up_to(max_distance);
             let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
             self.scratch.meter().check()?;
+            let (hit, measured) = (visitor.best.as_ref(), visitor.measured.as_ref());
+            let of_hit = |hit| {
+                Distance::of_hit(
+                    hit,
+                    visitor.lower,
+                    measured,
+                    target,
+                    &pairing,
+                    Leaf::default(),
+                )
+            };
+            let beyond = || Distance::beyond(max_distance, visitor.lower);
+            return Ok(hit.map_or_else(beyond, of_hit));
         }
-        let Some(hit) = &visitor.best else {
-            return Ok(Distance::beyond(max_distance, visitor.lower));
+        let mut singles = Singles::new(&pairing, self.scratch.for_one_pair()?);
+        let limits = DistanceLimits {
+            cutoff: max_distance + pairing.slack(),
+            ..DistanceLimits::EXACT
         };
-        let measured = visitor.measured.as_ref();
-        let leaf = Leaf::default();
-        Ok(Distance::of_hit(
-            hit,
-            visitor.lower,
-            measured,
+        let Some((hit, measured)) = singles.measure(limits) else {
+            return Ok(Distance::beyond(max_distance, f64::INFINITY));
+        };
+        let lower = singles.lower(&hit, &measured);
+        if hit.distance > max_distance {
+            return Ok(Distance::beyond(max_distance, lower));
+        }
+        let contact = singles.first_contact(&measured);
+        let found = NearestPair {
+            hit: &hit,
+            points: pairing.world_points(&measured.closest),
+            contact: contact.map(|contact| ContactRecord::new(contact, 0.0)),
+        };
+        let error = pairing.precision.error;
+        Ok(Distance::of_pair(
+            &found,
+            lower,
             target,
-            &pairing,
-            leaf,
+            error,
+            Leaf::default(),
         ))
     }
 
@@ -97,11 +143,11 @@ impl QueryContext {
         b: Placement,
         threshold: f64,
     ) -> Result<bool> {
-        let target = target(a, b)?;
-        if target.is_of_singles() {
-            return self.singles_within(&target.pairing(), threshold);
+        if are_singles(a.0, b.0) {
+            check_dimensions(a, b)?;
+            return self.singles_within(&Pairing::new(a.0, a.1, b.0, b.1), threshold);
         }
-        self.any_within(&[target], |_| threshold)
+        self.any_within(&[target(a, b)?], |_| threshold)
     }
 
     /// The same of bodies of one primitive each, which need no search.
@@ -110,14 +156,18 @@ impl QueryContext {
         if pairing.sphere_bound() > threshold {
             return Ok(false);
         }
-        let mut visitor = Within::<false> {
-            margin: 0.0,
-            threshold,
-            found: None,
-        };
-        let _ = traverse(pairing, None, &mut self.scratch, &mut visitor);
-        self.scratch.meter().check()?;
-        Ok(visitor.found.is_some())
+        if pairing.are_outlines([0, 0]) {
+            let mut visitor = Within::<false> {
+                margin: 0.0,
+                threshold,
+                found: None,
+            };
+            let _ = traverse(pairing, None, &mut self.scratch, &mut visitor);
+            self.scratch.meter().check()?;
+            return Ok(visitor.found.is_some());
+        }
+        let scratch = self.scratch.for_one_pair()?;
+        Ok(Singles::new(pairing, scratch).are_within(threshold))
     }
 
     /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.

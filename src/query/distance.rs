@@ -6,6 +6,14 @@ use super::target::Target;
 use crate::cobject::{Leaf, Reach};
 use crate::convex::Measured;
 use crate::pair::{Hit, Pairing, PrimitiveScratch};
+use crate::pose::Vec3;
+
+/// The nearest pair of primitives: in the world its closest points, and its contact there if it has one.
+pub(super) struct NearestPair<'a> {
+    pub hit: &'a Hit,
+    pub points: [Vec3; 2],
+    pub contact: Option<ContactRecord>,
+}
 
 impl Distance {
     pub(super) fn empty(version: u64) -> Self {
@@ -68,6 +76,28 @@ impl Distance {
                 (pairing.world_points(&measured.closest), record)
             }
         };
+        let found = NearestPair {
+            hit,
+            points,
+            contact,
+        };
+        Self::of_pair(&found, lower, target, error, leaf)
+    }
+
+    /// The same with the closest points and the contact.
+    #[inline]
+    pub(super) fn of_pair(
+        found: &NearestPair,
+        lower: f64,
+        target: &Target,
+        error: f64,
+        leaf: Leaf,
+    ) -> Self {
+        let &NearestPair {
+            hit,
+            points,
+            contact,
+        } = found;
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.distance == 0.0,

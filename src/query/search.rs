@@ -53,7 +53,7 @@ impl QueryContext {
                         .iter()
                         .for_each(|&hit| visitor.take(hit, 0.0, None));
                 }
-                let first = self.remembered_of(target);
+                let first = self.remembered(&target.key);
                 let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }
@@ -61,7 +61,7 @@ impl QueryContext {
         let lower = visitor.lower;
         let hit = visitor.best.and_then(|hit| {
             let target = targets.iter().find(|target| target.rank == hit.key.pair)?;
-            if hit.contained.is_none() && !target.is_of_singles() {
+            if hit.contained.is_none() {
                 self.remember(target.key, hit.places);
             }
             Some((hit, target))
@@ -159,21 +159,11 @@ impl QueryContext {
                 self.first_within::<false>(&pairing, target, threshold)?
             };
             if let Some(places) = found {
-                if !target.is_of_singles() {
-                    self.remember(target.key, places);
-                }
+                self.remember(target.key, places);
                 return Ok(true);
             }
         }
         Ok(false)
-    }
-
-    /// The primitives that were last found nearest, unless the bodies have no others.
-    fn remembered_of(&self, target: &Target) -> Option<[u32; 2]> {
-        if target.is_of_singles() {
-            return None;
-        }
-        self.remembered(&target.key)
     }
 
     /// The places of the first primitive pair that is found within a threshold.
@@ -188,7 +178,7 @@ impl QueryContext {
             threshold,
             found: None,
         };
-        let first = self.remembered_of(target);
+        let first = self.remembered(&target.key);
         let _ = traverse(pairing, first, &mut self.scratch, &mut visitor);
         self.scratch.meter().check()?;
         Ok(visitor.found)

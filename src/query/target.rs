@@ -52,14 +52,6 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Whether two bodies of one primitive each, and no more than their primitives, are asked about by themselves: nothing need be
-    /// remembered of them.
-    pub fn is_of_singles(&self) -> bool {
-        let is_single =
-            |(body, _): &Placement| body.only_place().is_some() && body.solid().is_none();
-        matches!(self.key, CacheKey::Bodies(..)) && self.sides.iter().all(is_single)
-    }
-
     /// The tags of a primitive of each.
     pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
         let [(a, _), (b, _)] = self.sides;

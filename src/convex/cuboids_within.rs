@@ -1,0 +1,99 @@
+//! Whether two boxes are within a distance of one another, told by the directions that can part them: those of their edges, and
+//! the common perpendiculars of two.
+
+use super::placed::Placed;
+use crate::gjk::DistanceLimits;
+use crate::lanes::{Instructions, Work, each3, with_widest};
+use crate::pose::{turned, turned_axes, turned_back};
+use crate::primitive::Cuboid;
+use crate::tolerance;
+
+/// What rounding may hide of a gap, in L: of two centres, of a box's vertices beside its corners, of six half extents turned and
+/// added.
+const GAP_ERROR: f64 = 64.0 * tolerance::EPSILON;
+
+/// Edges whose directions differ by less than this, as a sine, have no common perpendicular worth computing.
+const NEARLY_PARALLEL: f64 = 1e-6;
+
+/// Whether two boxes meet, or are farther apart than the cutoff; `None` of others. `size` is no less than any coordinate of
+/// the two.
+pub fn cuboids_within(
+    placed: [&Placed; 2],
+    cuboids: [&Cuboid; 2],
+    size: f64,
+    limits: DistanceLimits,
+) -> Option<bool> {
+    with_widest(Axes {
+        placed,
+        cuboids,
+        error: GAP_ERROR * size,
+        size,
+        cutoff: limits.cutoff,
+    })
+}
+
+struct Axes<'a> {
+    placed: [&'a Placed<'a>; 2],
+    cuboids: [&'a Cuboid; 2],
+    size: f64,
+    error: f64,
+    cutoff: f64,
+}
+
+impl Work for Axes<'_> {
+    type Output = Option<bool>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<bool> {
+        let [a, b] = self.placed;
+        let [on_a, on_b] = self.cuboids;
+        // All as A's box sees it.
+        let axes = a.turned_axes(&on_a.axes).transpose();
+        let between = b.moved(&on_b.center) - a.moved(&on_a.center);
+        let between = turned(&axes, &between);
+        let turn = turned_axes(&axes, &b.turned_axes(&on_b.axes));
+        let (half_a, half_b) = (on_a.half, on_b.half);
+        let reach_of_b = each3(|i| {
+            let part = |j: usize| turn[(i, j)].abs() * half_b[j];
+            part(0) + part(1) + part(2)
+        });
+        let reach_of_a = each3(|j| {
+            let part = |i: usize| turn[(i, j)].abs() * half_a[i];
+            part(0) + part(1) + part(2)
+        });
+        let seen_by_b = turned_back(&turn, &between);
+        let across_a = each3(|k| between[k].abs() - half_a[k] - reach_of_b[k]);
+        let across_b = each3(|k| seen_by_b[k].abs() - half_b[k] - reach_of_a[k]);
+        let most = |gaps: [f64; 3]| gaps[0].max(gaps[1]).max(gaps[2]);
+        let across = most(across_a).max(most(across_b));
+        if across > self.cutoff + self.error {
+            return Some(false);
+        }
+        let mut meet = across < -self.error;
+        for i in 0..3 {
+            let (next, last) = ((i + 1) % 3, (i + 2) % 3);
+            for j in 0..3 {
+                let (up, down) = (turn[(next, j)], turn[(last, j)]);
+                let length = (up * up + down * down).sqrt();
+                if length < NEARLY_PARALLEL {
+                    // Turned by so little that the two edges are parallel, the boxes would be parted by a face if by their
+                    // perpendicular.
+                    meet &= across < -(8.0 * length * self.size + self.error);
+                    continue;
+                }
+                let apart = (between[last] * up - between[next] * down).abs();
+                let (next_b, last_b) = ((j + 1) % 3, (j + 2) % 3);
+                let reach = half_a[next] * down.abs()
+                    + half_a[last] * up.abs()
+                    + half_b[next_b] * turn[(i, last_b)].abs()
+                    + half_b[last_b] * turn[(i, next_b)].abs();
+                let gap = apart - reach;
+                if gap > length * self.cutoff + self.error {
+                    return Some(false);
+                }
+                meet &= gap < -self.error;
+            }
+        }
+        meet.then_some(true)
+    }
+}

@@ -1,0 +1,77 @@
+//! Two bodies of one primitive each: measured without a walk.
+
+use super::hit::{Hit, HitKey};
+use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
+use crate::convex::{DistanceScratch, Measured, Placed, are_within, first_contact, measure};
+use crate::gjk::DistanceLimits;
+
+/// The only primitives of two bodies, in the centred frame of A.
+pub struct Singles<'a> {
+    pairing: &'a Pairing<'a>,
+    a: Placed<'a>,
+    b: Placed<'a>,
+    scratch: &'a mut DistanceScratch,
+}
+
+impl<'a> Singles<'a> {
+    /// Of bodies that have but one each.
+    pub fn new(pairing: &'a Pairing<'a>, scratch: &'a mut PrimitiveScratch) -> Self {
+        let PrimitiveScratch { buffer, distance } = scratch;
+        let [a, b] = pairing.placed([0, 0], buffer);
+        Self {
+            pairing,
+            a,
+            b,
+            scratch: distance,
+        }
+    }
+
+    /// Whether their distance may be at most `threshold`: doubt counts.
+    pub fn are_within(&mut self, threshold: f64) -> bool {
+        let limits = DistanceLimits {
+            enough: threshold,
+            cutoff: threshold + self.pairing.slack(),
+        };
+        if let Some(answer) = are_within(&self.a, &self.b, &self.pairing.precision, limits) {
+            return answer;
+        }
+        self.measure(limits)
+            .is_some_and(|(hit, measured)| self.lower(&hit, &measured) <= threshold)
+    }
+
+    /// Their distance and what tells it, unless they are known to be farther apart than the limits say.
+    pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, Measured)> {
+        let precision = &self.pairing.precision;
+        let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
+        let apart = self.pairing.above_error(measured.closest.distance);
+        if apart - measured.closest.doubt > limits.cutoff {
+            return None;
+        }
+        let is_apart = apart > precision.error + measured.closest.doubt;
+        let hit = Hit {
+            distance: if is_apart { apart } else { 0.0 },
+            apart,
+            key: HitKey {
+                pair: 0,
+                primitives: [0; 2],
+            },
+            places: [0; 2],
+            contained: None,
+        };
+        Some((hit, measured))
+    }
+
+    /// A safe lower bound of a distance that was measured.
+    pub fn lower(&self, hit: &Hit, measured: &Measured) -> f64 {
+        if hit.distance == 0.0 {
+            return 0.0;
+        }
+        hit.distance - (self.pairing.precision.error + measured.closest.doubt)
+    }
+
+    /// The contact at the closest points, if the two are apart.
+    pub fn first_contact(&self, measured: &Measured) -> Option<WorldContact> {
+        let found = first_contact(&self.a, &self.b, measured, &self.pairing.precision)?;
+        Some(self.pairing.in_world(found))
+    }
+}
