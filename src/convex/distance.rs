@@ -3,10 +3,10 @@
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_within::cuboids_within;
-use super::curved::{beyond_radii, core_closest, grown, is_smooth};
+use super::curved::{Core, beyond_radii, core_closest, grown, is_smooth};
 use super::placed::{Placed, Precision};
 use super::point_to_polygon::point_to_polygon;
-use crate::gjk::{DistanceLimits, NearestCorners, gjk};
+use crate::gjk::{DistanceLimits, NearestCorners, Support, gjk, meeting};
 use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind};
 use crate::tolerance;
@@ -62,6 +62,19 @@ pub fn measure(
     })
 }
 
+/// Whether a unit direction from B to A proves two primitives to be farther apart than the cutoff.
+pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, cutoff: f64) -> bool {
+    let cutoff = cutoff + a.shape.radius() + b.shape.radius();
+    let [a, b] = [(a, -direction), (b, *direction)].map(|(placed, direction)| {
+        if placed.shape.smooth().is_some() {
+            Core::of(placed).support(&direction)
+        } else {
+            placed.support(&direction)
+        }
+    });
+    direction.dot(&(a - b)) > cutoff
+}
+
 /// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
 pub fn are_within(
     a: &Placed,
@@ -74,10 +87,25 @@ pub fn are_within(
         let limits = limits.of_cores(radii[0] + radii[1]);
         return cuboids_within([a, b], [on_a, on_b], pair.size, limits);
     }
-    if is_smooth(a, b) {
-        return None;
-    }
-    let cores = closed_form(a, b, pair)?.distance;
+    let is_smooth = is_smooth(a, b);
+    let known = if is_smooth {
+        None
+    } else {
+        closed_form(a, b, pair)
+    };
+    let Some(cores) = known.map(|found| found.distance) else {
+        // Round ones may be within without meeting.
+        if pair.planar || limits.enough > 0.0 || radii != [0.0; 2] {
+            return None;
+        }
+        let (size, cutoff) = (pair.size, limits.cutoff);
+        let start = a.middle() - b.middle();
+        return if is_smooth {
+            meeting(&Core::of(a), &Core::of(b), start, size, cutoff)
+        } else {
+            meeting(a, b, start, size, cutoff)
+        };
+    };
     let distance = beyond_radii(cores, radii);
     let is_apart = distance > pair.error;
     let lower = if is_apart { distance - pair.error } else { 0.0 };

@@ -4,9 +4,11 @@
 //! come together, the corners between which it ended tell the nearest points and their features; elsewhere distances are
 //! finished on features (see `convex`).
 
+mod meeting;
 mod refined;
 mod simplex;
 
+pub use self::meeting::meeting;
 pub use self::refined::{Nearby, Refined, refined};
 use self::simplex::{Corner, Nearest, Simplex};
 pub use self::simplex::{CornerNames, NearestCorners};

@@ -6,7 +6,7 @@ use crate::body::Body;
 use crate::convex::{
     Closest, Contact, DistanceScratch, MAX_CORNERS, Measured, Nearest, Outline, Penetration,
     Placed, PlacedBuffer, PolygonDistance, Precision, are_within, contacts, first_contact, measure,
-    moved, penetration, polygon_closest, polygon_distance,
+    moved, parts, penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -52,7 +52,7 @@ pub struct Apart {
 }
 
 impl Apart {
-    /// Of primitives that meet.
+    /// Of primitives that meet, or are as near to one another as is enough.
     const NONE: Self = Self {
         distance: 0.0,
         nearest: None,
@@ -140,7 +140,7 @@ impl<'a> Pairing<'a> {
             cutoff,
             ..DistanceLimits::EXACT
         };
-        let apart = self.distance_to(places, &b, limits, scratch)?;
+        let apart = self.distance_to(places, &b, &Vec3::zeros(), limits, scratch)?;
         Some(apart.distance)
     }
 
@@ -162,6 +162,7 @@ impl<'a> Pairing<'a> {
         &self,
         places: [u32; 2],
         outline_b: &Option<Outline>,
+        direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Apart> {
@@ -178,25 +179,34 @@ impl<'a> Pairing<'a> {
                 ..Apart::NONE
             },
             PolygonDistance::Cross => Apart::NONE,
-            PolygonDistance::Doubt => return self.measured_apart(places, limits, scratch),
+            PolygonDistance::Doubt => {
+                return self.measured_apart(places, direction, limits, scratch);
+            }
         };
         (apart.distance <= limits.cutoff).then_some(apart)
     }
 
-    /// The same of primitives of which one at least is no polygon.
+    /// The same of primitives of which one at least is no polygon. `direction` may part them, a unit vector from B to A, or is
+    /// zero.
     pub fn measured_apart(
         &self,
         places: [u32; 2],
+        direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> Option<Apart> {
-        // Of a pair that is only to be within a distance.
-        if limits.enough >= 0.0
-            && let Some(meet) = self.are_within(places, limits, scratch)
-        {
-            return meet.then_some(Apart::NONE);
+        let PrimitiveScratch { buffer, distance } = scratch;
+        let [a, b] = &self.placed(places, buffer);
+        let is_aimed = *direction != Vec3::zeros();
+        if is_aimed && parts(a, b, direction, limits.cutoff) {
+            return None;
         }
-        let measured = self.measure(places, limits, scratch)?;
+        if limits.enough >= 0.0
+            && let Some(is_within) = are_within(a, b, &self.precision, limits)
+        {
+            return is_within.then_some(Apart::NONE);
+        }
+        let measured = measure(a, b, &self.precision, limits, distance)?;
         let Closest {
             distance, doubt, ..
         } = measured.closest;
@@ -228,25 +238,6 @@ impl<'a> Pairing<'a> {
             error: self.precision.error,
             measured: None,
         }
-    }
-
-    /// Whether two boxes meet, where that is told at less than the price of a distance.
-    fn are_within(
-        &self,
-        places: [u32; 2],
-        limits: DistanceLimits,
-        scratch: &mut PrimitiveScratch,
-    ) -> Option<bool> {
-        let is_box = |(body, place): (&Body, u32)| {
-            let primitives = body.packed().primitives();
-            let form = primitives.form(primitives.entry(place as usize));
-            form.is_some_and(|form| form.cuboid().is_some())
-        };
-        if !is_box((self.a, places[0])) || !is_box((self.b, places[1])) {
-            return None;
-        }
-        let [a, b] = self.placed(places, &mut scratch.buffer);
-        are_within(&a, &b, &self.precision, limits)
     }
 
     #[inline(never)]

@@ -207,9 +207,10 @@ impl<'a, V: Visitor> Meetings<'a, V> {
             enough: self.visitor.enough(),
             cutoff,
         };
+        let direction = self.state.direction;
         let Some(apart) = self
             .pairing
-            .distance_to(places, &outline, limits, primitives)
+            .distance_to(places, &outline, &direction, limits, primitives)
         else {
             return ControlFlow::Continue(());
         };
@@ -250,7 +251,11 @@ impl<V: Visitor> Meetings<'_, V> {
         self.state.meter.count_primitives(1);
         self.state.meter.done.primitive_distances += 1;
         let primitives = &mut self.state.primitives;
-        match self.pairing.measured_apart(places, limits, primitives) {
+        let nowhere = Vec3::zeros();
+        match self
+            .pairing
+            .measured_apart(places, &nowhere, limits, primitives)
+        {
             Some(apart) => {
                 let meter = &mut self.state.meter;
                 show(self.pairing, places, &apart, self.visitor, meter)

@@ -1,0 +1,158 @@
+//! Whether two sets meet: the same iteration with no more of each simplex than on which side of it the origin is.
+
+use super::Support;
+use super::simplex::Corner;
+use crate::lanes::{Instructions, Work, with_widest};
+use crate::pose::Vec3;
+use crate::tolerance;
+
+/// Sets that need more steps than this are near to touching.
+const MAX_STEPS: usize = 16;
+
+/// Whether A and B meet, or are proved to be farther apart than `cutoff`; `None` where neither is soon told. No coordinate of A
+/// and B is larger than `size`. `start` is a guess of the direction from B to A, or zero.
+pub fn meeting<A: Support, B: Support>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    size: f64,
+    cutoff: f64,
+) -> Option<bool> {
+    with_widest(Search {
+        a,
+        b,
+        start,
+        depth: tolerance::TOUCH_DEPTH * size,
+        cutoff,
+    })
+}
+
+struct Search<'a, A, B> {
+    a: &'a A,
+    b: &'a B,
+    start: Vec3,
+    /// The origin is inside a tetrahedron if it is so deep in it.
+    depth: f64,
+    cutoff: f64,
+}
+
+impl<A: Support, B: Support> Work for Search<'_, A, B> {
+    type Output = Option<bool>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<bool> {
+        let mut v = if self.start == Vec3::zeros() {
+            Vec3::x()
+        } else {
+            self.start
+        };
+        let mut sides = Sides::Nothing;
+        for _ in 0..MAX_STEPS {
+            let square = v.norm_squared();
+            if square == 0.0 {
+                return None;
+            }
+            let corner = Corner::between(self.a.extreme(&-v), self.b.extreme(&v));
+            let newest = corner.difference;
+            let along = v.dot(&newest);
+            if along > 0.0 {
+                // The origin is beyond the newest corner: a proof, or else doubt.
+                let is_apart = along * along > self.cutoff * self.cutoff * square;
+                return is_apart.then_some(false);
+            }
+            (sides, v) = match sides.with(newest) {
+                Next::Beyond(sides, towards) => (sides, -towards),
+                Next::Inside(corners) => {
+                    return is_deep_inside(&corners, self.depth).then_some(true);
+                }
+            };
+        }
+        None
+    }
+}
+
+/// Corners of the difference A - B, the newest first, between which the origin is seen.
+#[derive(Clone, Copy)]
+enum Sides {
+    Nothing,
+    Point(Vec3),
+    Segment(Vec3, Vec3),
+    /// Counter-clockwise as seen from the origin.
+    Triangle(Vec3, Vec3, Vec3),
+}
+
+enum Next {
+    /// The part of the simplex that the origin is beyond, and the direction to it from there.
+    Beyond(Sides, Vec3),
+    /// The origin is inside of the three new faces.
+    Inside([Vec3; 4]),
+}
+
+impl Sides {
+    #[inline(always)]
+    fn with(self, a: Vec3) -> Next {
+        match self {
+            Self::Nothing => Next::Beyond(Self::Point(a), -a),
+            Self::Point(b) => beyond_segment(a, b),
+            Self::Segment(b, c) => beyond_triangle(a, b, c),
+            Self::Triangle(b, c, d) => {
+                let (ab, ac, ad) = (b - a, c - a, d - a);
+                // Their normals point out of the tetrahedron: the origin was seen from the side that the newest corner is on.
+                let outside = |normal: Vec3| normal.dot(&a) < 0.0;
+                if outside(ab.cross(&ac)) {
+                    beyond_triangle(a, b, c)
+                } else if outside(ac.cross(&ad)) {
+                    beyond_triangle(a, c, d)
+                } else if outside(ad.cross(&ab)) {
+                    beyond_triangle(a, d, b)
+                } else {
+                    Next::Inside([a, b, c, d])
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn beyond_segment(a: Vec3, b: Vec3) -> Next {
+    let ab = b - a;
+    if ab.dot(&a) < 0.0 {
+        Next::Beyond(Sides::Segment(a, b), ab.cross(&ab.cross(&a)))
+    } else {
+        Next::Beyond(Sides::Point(a), -a)
+    }
+}
+
+#[inline(always)]
+fn beyond_triangle(a: Vec3, b: Vec3, c: Vec3) -> Next {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(&ac);
+    if normal.cross(&ac).dot(&a) < 0.0 {
+        if ac.dot(&a) < 0.0 {
+            return Next::Beyond(Sides::Segment(a, c), ac.cross(&ac.cross(&a)));
+        }
+        return beyond_segment(a, b);
+    }
+    if ab.cross(&normal).dot(&a) < 0.0 {
+        return beyond_segment(a, b);
+    }
+    if normal.dot(&a) < 0.0 {
+        Next::Beyond(Sides::Triangle(a, b, c), normal)
+    } else {
+        Next::Beyond(Sides::Triangle(a, c, b), -normal)
+    }
+}
+
+/// Whether the origin is inside a tetrahedron, farther than `depth` from its faces.
+#[inline(always)]
+fn is_deep_inside(corners: &[Vec3; 4], depth: f64) -> bool {
+    let is_inside = |i: usize, j: usize, k: usize, opposite: usize| {
+        let a = corners[i];
+        let normal = (corners[j] - a).cross(&(corners[k] - a));
+        let towards = normal.dot(&(corners[opposite] - a));
+        let height = -normal.dot(&a);
+        let is_deep = height * height > depth * depth * normal.norm_squared();
+        (towards * height > 0.0) & is_deep
+    };
+    is_inside(0, 1, 2, 3) & is_inside(0, 2, 3, 1) & is_inside(0, 3, 1, 2) & is_inside(1, 2, 3, 0)
+}
