@@ -12,6 +12,7 @@ pub mod work_meter;
 mod cow_vec;
 pub mod index_set;
 pub mod lanes;
+mod reused;
 mod whole_file;
 mod xml;
 

@@ -6,36 +6,33 @@ use super::cobject::cstk_cobject;
 use super::handle;
 use super::input::{Output, slice};
 use super::query::{State, cstk_query, with_query};
-use super::robot::link_poses;
+use super::robot::read_poses;
 use super::status::cstk_status;
 use crate::cobject::CObject;
+use crate::pose::Pose;
 use crate::query::{Configuration, Shell};
 
-/// Where the robot is, as C gave it.
-enum Given<'a> {
-    Coordinates(&'a [f64]),
-    LinkPoses(Vec<crate::pose::Pose>),
+/// Where the robot is, as C gave it: `count` numbers or poses.
+#[derive(Clone, Copy)]
+enum Given {
+    Coordinates(*const f64, usize),
+    LinkPoses(*const f64, usize),
 }
 
-impl Given<'_> {
-    fn configuration(&self) -> Configuration<'_> {
-        match self {
-            Given::Coordinates(q) => Configuration::Coordinates(q),
-            Given::LinkPoses(poses) => Configuration::LinkPoses(poses),
+impl Given {
+    /// What is given, checked; poses in memory that is used again.
+    unsafe fn read<'a>(self, memory: &'a mut Vec<Pose>) -> Result<Configuration<'a>, Failure> {
+        // SAFETY: as the caller states.
+        unsafe {
+            Ok(match self {
+                Self::Coordinates(q, count) => Configuration::Coordinates(slice(q, count, "q")?),
+                Self::LinkPoses(values, count) => {
+                    read_poses(values, count, "link_poses", memory)?;
+                    Configuration::LinkPoses(memory)
+                }
+            })
         }
     }
-}
-
-unsafe fn coordinates<'a>(q: *const f64, nq: usize) -> Result<Given<'a>, Failure> {
-    // SAFETY: as the caller states.
-    Ok(Given::Coordinates(unsafe { slice(q, nq, "q")? }))
-}
-
-unsafe fn poses<'a>(values: *const f64, count: usize) -> Result<Given<'a>, Failure> {
-    // SAFETY: as the caller states.
-    Ok(Given::LinkPoses(unsafe {
-        link_poses(values, count, "link_poses")?
-    }))
 }
 
 /// Checks the arguments all queries share, and runs one; `at` reads where the robot is.
@@ -58,8 +55,31 @@ fn run<At, T>(
     })
 }
 
-fn classify(state: &mut State, cobject: &CObject, at: &Given) -> Result<cstk_class, Failure> {
-    Ok(state.context.classify(cobject, at.configuration())?.into())
+/// The same for queries that take link poses too.
+unsafe fn run_at<T>(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    given: Given,
+    out: *mut T,
+    ask: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
+) -> cstk_status {
+    let ask = |state: &mut State, cobject: &CObject, (): &()| {
+        let mut memory = std::mem::take(&mut state.poses);
+        // SAFETY: the caller states the lengths.
+        let at = unsafe { given.read(&mut memory)? };
+        let answer = ask(state, cobject, at);
+        state.poses = memory;
+        answer
+    };
+    run(query, cobject, || Ok(()), out, ask)
+}
+
+fn classify(
+    state: &mut State,
+    cobject: &CObject,
+    at: Configuration,
+) -> Result<cstk_class, Failure> {
+    Ok(state.context.classify(cobject, at)?.into())
 }
 
 /// Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
@@ -73,13 +93,7 @@ pub unsafe extern "C" fn cstk_classify(
     out: *mut cstk_class,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { coordinates(q, nq) },
-        out,
-        classify,
-    )
+    unsafe { run_at(query, cobject, Given::Coordinates(q, nq), out, classify) }
 }
 
 /// cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
@@ -94,13 +108,15 @@ pub unsafe extern "C" fn cstk_classify_at(
     out: *mut cstk_class,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { poses(link_poses, link_count) },
-        out,
-        classify,
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::LinkPoses(link_poses, link_count),
+            out,
+            classify,
+        )
+    }
 }
 
 /// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
@@ -118,17 +134,15 @@ pub unsafe extern "C" fn cstk_within(
     out: *mut bool,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { coordinates(q, nq) },
-        out,
-        |state, cobject, at| {
-            Ok(state
-                .context
-                .within(cobject, at.configuration(), threshold)?)
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::Coordinates(q, nq),
+            out,
+            |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        )
+    }
 }
 
 /// cstk_within with the pose of every link, as in cstk_classify_at.
@@ -142,17 +156,15 @@ pub unsafe extern "C" fn cstk_within_at(
     out: *mut bool,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { poses(link_poses, link_count) },
-        out,
-        |state, cobject, at| {
-            Ok(state
-                .context
-                .within(cobject, at.configuration(), threshold)?)
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        )
+    }
 }
 
 /// Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
@@ -167,18 +179,15 @@ pub unsafe extern "C" fn cstk_distance(
     out: *mut cstk_distance_result,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { coordinates(q, nq) },
-        out,
-        |state, cobject, at| {
-            Ok((&state
-                .context
-                .distance(cobject, at.configuration(), max_distance)?)
-                .into())
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::Coordinates(q, nq),
+            out,
+            |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        )
+    }
 }
 
 /// cstk_distance with the pose of every link, as in cstk_classify_at.
@@ -192,18 +201,15 @@ pub unsafe extern "C" fn cstk_distance_at(
     out: *mut cstk_distance_result,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { poses(link_poses, link_count) },
-        out,
-        |state, cobject, at| {
-            Ok((&state
-                .context
-                .distance(cobject, at.configuration(), max_distance)?)
-                .into())
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        )
+    }
 }
 
 /// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
@@ -222,18 +228,18 @@ pub unsafe extern "C" fn cstk_witnesses(
     out: *mut cstk_witness_list,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { coordinates(q, nq) },
-        out,
-        |state, cobject, at| {
-            let list = state
-                .context
-                .witnesses(cobject, at.configuration(), epsilon, max_count)?;
-            Ok(state.keep(list))
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::Coordinates(q, nq),
+            out,
+            |state, cobject, at| {
+                let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+                Ok(state.keep(list))
+            },
+        )
+    }
 }
 
 /// cstk_witnesses with the pose of every link, as in cstk_classify_at.
@@ -248,18 +254,18 @@ pub unsafe extern "C" fn cstk_witnesses_at(
     out: *mut cstk_witness_list,
 ) -> cstk_status {
     // SAFETY: checked for NULL; the caller states the length.
-    run(
-        query,
-        cobject,
-        || unsafe { poses(link_poses, link_count) },
-        out,
-        |state, cobject, at| {
-            let list = state
-                .context
-                .witnesses(cobject, at.configuration(), epsilon, max_count)?;
-            Ok(state.keep(list))
-        },
-    )
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            Given::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| {
+                let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+                Ok(state.keep(list))
+            },
+        )
+    }
 }
 
 /// cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows

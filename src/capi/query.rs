@@ -15,6 +15,7 @@ use super::link_pairs::cstk_link_pair;
 use super::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
+use crate::pose::Pose;
 use crate::query::{LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList};
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
@@ -34,6 +35,8 @@ pub(super) struct State {
     pub verdicts: Vec<cstk_verdict>,
     pub pairs: Vec<cstk_link_pair>,
     pub tested: Vec<u32>,
+    /// Memory for the link poses that a call is given.
+    pub poses: Vec<Pose>,
 }
 
 pub(super) struct Query(Mutex<State>);

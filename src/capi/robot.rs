@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle::{self, Noun};
-use super::input::{Output, OutputSlice, array, reserved, slice, text};
+use super::input::{Output, OutputSlice, array, slice, text};
 use super::joint::cstk_joint_kind;
 use super::status::cstk_status;
 use crate::error::{Error, ErrorKind, require_coordinates};
@@ -295,20 +295,23 @@ pub unsafe extern "C" fn cstk_robot_jacobian(
     })
 }
 
-/// Poses of all links, from `count` runs of 12 doubles.
-pub(super) unsafe fn link_poses(
+/// Reads `count` poses, of 12 doubles each, into memory that is used again.
+pub(super) unsafe fn read_poses(
     values: *const f64,
     count: usize,
     argument: &str,
-) -> Result<Vec<Pose>, Failure> {
+    poses: &mut Vec<Pose>,
+) -> Result<(), Failure> {
     let numbers = count.saturating_mul(12);
     // SAFETY: as the caller states.
     let numbers = unsafe { slice(values, numbers, argument)? };
-    let mut poses = reserved(count, argument)?;
+    poses.clear();
+    let room = poses.try_reserve(count);
+    room.map_err(|e| Error::memory(e).within(argument))?;
     let (twelves, _) = numbers.as_chunks::<12>();
     for (i, values) in twelves.iter().enumerate() {
         let pose = Pose::from_row_major(values);
         poses.push(pose.map_err(|e| e.within(format_args!("{argument}[{i}]")))?);
     }
-    Ok(poses)
+    Ok(())
 }

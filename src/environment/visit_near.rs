@@ -7,6 +7,7 @@ use crate::hierarchy::{BOX, Extent, PackedBox, power_of_two};
 use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
 use crate::pose::{Pose, Vec3};
+use crate::reused::emptied;
 
 impl ObjectTree {
     /// Visits, for each of some bodies, the objects that may be within a limit of it: by the body's name and pose, what
@@ -22,19 +23,28 @@ impl ObjectTree {
         if self.is_empty() {
             return;
         }
+        let NearScratch { open, boxes, near } = scratch;
+        let mut together = emptied(std::mem::take(near));
         with_widest(Visit {
             objects: self,
             bodies,
             limit,
-            open: &mut scratch.0,
+            open,
+            boxes,
+            together: &mut together,
             visit,
         });
+        *near = emptied(together);
     }
 }
 
 /// Memory of a descent, reused from one to the next.
 #[derive(Debug, Default)]
-pub struct NearScratch(Vec<Open>);
+pub struct NearScratch {
+    open: Vec<Open>,
+    boxes: Vec<PackedBox>,
+    near: Vec<(Named<'static>, Bounds)>,
+}
 
 /// A node or an object to be visited.
 #[derive(Clone, Copy, Debug)]
@@ -52,15 +62,18 @@ pub type Named<'b> = (usize, &'b Body, &'b Pose);
 /// So many bodies go down the tree together.
 const TOGETHER: usize = u64::BITS as usize;
 
-struct Visit<'a, B, V> {
+struct Visit<'a, 'b, B, V> {
     objects: &'a ObjectTree,
     bodies: B,
     limit: f64,
     open: &'a mut Vec<Open>,
+    boxes: &'a mut Vec<PackedBox>,
+    /// The bodies that go down the tree together.
+    together: &'a mut Vec<(Named<'b>, Bounds)>,
     visit: V,
 }
 
-impl<'b, B, V> Work for Visit<'_, B, V>
+impl<'b, B, V> Work for Visit<'_, 'b, B, V>
 where
     B: Iterator<Item = Named<'b>>,
     V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
@@ -69,27 +82,27 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        let most = self.bodies.size_hint().1.unwrap_or(TOGETHER);
-        let mut bodies: Vec<(Named, Bounds)> = Vec::with_capacity(most.min(TOGETHER));
+        let mut bodies = std::mem::take(self.together);
         loop {
             let next = self.bodies.by_ref().take(TOGETHER);
             bodies.extend(next.map(|named| (named, Bounds::of(named.1, named.2))));
             if bodies.is_empty() {
-                return;
+                break;
             }
             self.descend(lanes, &bodies);
             bodies.clear();
         }
+        *self.together = bodies;
     }
 }
 
-impl<'b, B, V> Visit<'_, B, V>
+impl<'b, B, V> Visit<'_, 'b, B, V>
 where
     V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
 {
     #[inline(always)]
     fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
-        let descent = Descent::new(self.objects, bodies);
+        let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
         let all = u64::MAX >> (TOGETHER - bodies.len());
         let first = |name| Open {
             bound: f32::NEG_INFINITY,
@@ -182,6 +195,7 @@ where
                 }
             }
         }
+        *self.boxes = descent.bodies;
     }
 }
 
@@ -201,7 +215,7 @@ struct Descent {
 
 impl Descent {
     #[inline(always)]
-    fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)]) -> Self {
+    fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)], mut boxes: Vec<PackedBox>) -> Self {
         let frame = objects.tree.frame();
         let mut size = objects.radius;
         let (mut reach, mut deviation) = (objects.reach, 0.0f64);
@@ -224,10 +238,11 @@ impl Descent {
                 inverse_scale,
             )
         });
-        let bodies = bodies.collect();
+        boxes.clear();
+        boxes.extend(bodies);
         let whole = whole.unwrap_or_default();
         Self {
-            bodies,
+            bodies: boxes,
             around: packed(
                 &[Vec3::x(), Vec3::y()],
                 &(whole.center() - frame.center),

@@ -3,7 +3,7 @@
 use super::answer::{Distance, WitnessList};
 use super::candidates::Wanted;
 use super::context::QueryContext;
-use super::scene::{Configuration, Group, Scene};
+use super::scene::{Configuration, Group, Scene, SceneMemory};
 use super::set_witnesses::Listed;
 use super::world::World;
 use crate::cobject::{CObject, Class, Set};
@@ -52,25 +52,44 @@ pub(super) fn scene<'a>(
     cobject: &'a CObject,
     world: &'a World,
     at: Configuration<'a>,
+    memory: SceneMemory,
 ) -> Result<Scene<'a>> {
     if let Configuration::LinkPoses(_) = at {
         cobject.require_no_coordinates()?;
     }
-    Scene::new(cobject.space(), world, at)
+    Scene::new(cobject.space(), world, at, memory)
 }
 
 impl QueryContext {
+    /// Asks about the scene of a query, in memory that the context keeps.
+    pub(super) fn ask<T>(
+        &mut self,
+        cobject: &CObject,
+        world: &World,
+        at: Configuration,
+        question: impl FnOnce(&mut Self, &Scene) -> Result<T>,
+    ) -> Result<T> {
+        let memory = std::mem::take(&mut self.scene_memory);
+        let scene = scene(cobject, world, at, memory)?;
+        let answer = question(self, &scene);
+        self.scene_memory = scene.into_memory();
+        answer
+    }
+
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let world = self.look(cobject);
-        let scene = scene(cobject, &world, at)?;
-        self.class_of(cobject, &scene)
+        self.ask(cobject, &world, at, |context, scene| {
+            context.class_of(cobject, scene)
+        })
     }
 
     /// The same in a given world, at a configuration.
     pub fn classify_in(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<Class> {
-        let scene = scene(cobject, world, Configuration::Coordinates(q))?;
-        self.class_of(cobject, &scene)
+        let at = Configuration::Coordinates(q);
+        self.ask(cobject, world, at, |context, scene| {
+            context.class_of(cobject, scene)
+        })
     }
 
     /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does a distance of
@@ -79,8 +98,9 @@ impl QueryContext {
         check_threshold(threshold, "threshold")?;
         cobject.require_one_unit()?;
         let world = self.look(cobject);
-        let scene = scene(cobject, &world, at)?;
-        self.set_within(cobject, &scene, threshold)
+        self.ask(cobject, &world, at, |context, scene| {
+            context.set_within(cobject, scene, threshold)
+        })
     }
 
     /// Operation 6: the distance from contact, up to `max_distance`, and the nearest primitive pair.
@@ -104,8 +124,9 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         cobject.require_one_unit()?;
-        let scene = scene(cobject, world, at)?;
-        self.set_distance(cobject, &scene, max_distance)
+        self.ask(cobject, world, at, |context, scene| {
+            context.set_distance(cobject, scene, max_distance)
+        })
     }
 
     /// Operation 7: all primitive pairs of the leaves at most `epsilon` apart; of more than `max_count`, the nearest.
@@ -144,8 +165,9 @@ impl QueryContext {
         check_threshold(listed.epsilon, "epsilon")?;
         cobject.require_one_unit()?;
         let world = self.look(cobject);
-        let scene = scene(cobject, &world, at)?;
-        self.set_witnesses(cobject, &scene, listed)
+        self.ask(cobject, &world, at, |context, scene| {
+            context.set_witnesses(cobject, scene, listed)
+        })
     }
 
     /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within a shell.
@@ -169,19 +191,21 @@ impl QueryContext {
     ) -> Result<PseudoNormal> {
         check_threshold(shell.max_shell, "max_shell")?;
         cobject.require_one_unit()?;
-        let scene = scene(cobject, world, Configuration::Coordinates(q))?;
         let listed = Listed {
             with_gradients: true,
             ..Listed::within(shell.max_shell, shell.max_count)
         };
-        let mut found = match only_group(cobject) {
-            Some(group) => self.group_pseudo_normal(group, &scene, listed)?,
-            None => PseudoNormal {
-                class: self.class_of(cobject, &scene)?,
-                distance: self.set_distance(cobject, &scene, f64::INFINITY)?,
-                list: self.set_witnesses(cobject, &scene, listed)?,
-            },
-        };
+        let at = Configuration::Coordinates(q);
+        let mut found = self.ask(cobject, world, at, |context, scene| {
+            match only_group(cobject) {
+                Some(group) => context.group_pseudo_normal(group, scene, listed),
+                None => Ok(PseudoNormal {
+                    class: context.class_of(cobject, scene)?,
+                    distance: context.set_distance(cobject, scene, f64::INFINITY)?,
+                    list: context.set_witnesses(cobject, scene, listed)?,
+                }),
+            }
+        })?;
         if shell.normalize {
             found.list.normalize();
         }
@@ -211,6 +235,7 @@ impl QueryContext {
         } else {
             Class::Outside
         };
+        self.keep_memory(candidates);
         Ok(PseudoNormal {
             class,
             distance,

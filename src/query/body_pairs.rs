@@ -1,7 +1,7 @@
 //! The body pairs that induced sets hold in a scene.
 
 use super::answer::SSide;
-use super::candidates::{Candidates, Wanted};
+use super::candidates::{CandidateScratch, Candidates, Wanted};
 use super::context::{CacheKey, QueryContext};
 use super::scene::{Group, Held, Scene};
 use super::target::{Placement, Target};
@@ -121,14 +121,15 @@ impl<'a> Scene<'a> {
         &self,
         group: &Group,
         wanted: Wanted,
-        scratch: &mut NearScratch,
+        scratch: &mut CandidateScratch,
         meter: &mut WorkMeter,
     ) -> Result<Vec<Target<'_>>> {
-        let mut candidates = Candidates::new(wanted, meter);
+        let mut candidates = Candidates::new(wanted, scratch, meter);
         for (number, term) in (0..).zip(group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
-                    self.offer_links(pairs, &term.options, number, &mut candidates);
+                    let known = &mut scratch.links;
+                    self.offer_links(pairs, &term.options, number, &mut candidates, known);
                 }
                 BodyPairs::Objects {
                     links,
@@ -146,7 +147,7 @@ impl<'a> Scene<'a> {
                         number,
                         snapshot,
                     };
-                    self.offer_objects(&term, &mut candidates, scratch);
+                    self.offer_objects(&term, &mut candidates, &mut scratch.near);
                 }
             }
         }
@@ -159,9 +160,11 @@ impl<'a> Scene<'a> {
         options: &InducedOptions,
         term: u32,
         candidates: &mut Candidates<'s, '_>,
+        known: &mut Vec<Option<Bounds>>,
     ) {
         // Most links are in several pairs.
-        let mut known: Vec<Option<Bounds>> = vec![None; self.space().link_count()];
+        known.clear();
+        known.resize(self.space().link_count(), None);
         for &[r, s] in pairs {
             if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
                 let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
@@ -407,6 +410,11 @@ impl<'a> Held<'a> {
 }
 
 impl QueryContext {
+    /// Takes the memory of a list of body pairs that is not needed any more.
+    pub(super) fn keep_memory(&mut self, targets: Vec<Target>) {
+        self.candidates.keep(targets);
+    }
+
     /// The body pairs of a group that was checked that a search may need: see [`Scene::candidates`].
     pub(super) fn candidates<'s>(
         &mut self,
@@ -414,6 +422,11 @@ impl QueryContext {
         group: &Group,
         wanted: Wanted,
     ) -> Result<Vec<Target<'s>>> {
-        scene.candidates(group, wanted, &mut self.near, self.scratch.meter_mut())
+        scene.candidates(
+            group,
+            wanted,
+            &mut self.candidates,
+            self.scratch.meter_mut(),
+        )
     }
 }

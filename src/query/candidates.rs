@@ -2,8 +2,9 @@
 
 use super::target::Target;
 use crate::cobject::InducedOptions;
-use crate::environment::Bounds;
+use crate::environment::{Bounds, NearScratch};
 use crate::error::Result;
+use crate::reused::emptied;
 use crate::work_meter::WorkMeter;
 
 /// Which body pairs a search needs.
@@ -27,6 +28,22 @@ impl Wanted {
     }
 }
 
+/// Memory of searches for body pairs, used again by the next.
+#[derive(Default)]
+pub(super) struct CandidateScratch {
+    pub near: NearScratch,
+    /// What bounds each link that is met.
+    pub links: Vec<Option<Bounds>>,
+    targets: Vec<Target<'static>>,
+}
+
+impl CandidateScratch {
+    /// Takes the memory of a list that is not needed any more.
+    pub fn keep(&mut self, targets: Vec<Target>) {
+        self.targets = emptied(targets);
+    }
+}
+
 /// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
 pub(super) struct Candidates<'s, 'm> {
     wanted: Wanted,
@@ -37,14 +54,12 @@ pub(super) struct Candidates<'s, 'm> {
 }
 
 impl<'s, 'm> Candidates<'s, 'm> {
-    pub fn new(wanted: Wanted, meter: &'m mut WorkMeter) -> Self {
-        // Most searches end with a handful.
-        const FEW: usize = 8;
+    pub fn new(wanted: Wanted, scratch: &mut CandidateScratch, meter: &'m mut WorkMeter) -> Self {
         Self {
             wanted,
             meter,
             nearest: f64::INFINITY,
-            found: Vec::with_capacity(FEW),
+            found: emptied(std::mem::take(&mut scratch.targets)),
         }
     }
 
@@ -97,7 +112,7 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.meter.check()?;
         let mut found = std::mem::take(&mut self.found);
         found.retain(|target| target.bound <= self.limit(&target.options));
-        found.sort_by_key(Target::parties);
+        found.sort_unstable_by_key(|target| (target.parties(), target.term));
         if found
             .windows(2)
             .any(|two| two[0].parties() == two[1].parties())
@@ -107,7 +122,7 @@ impl<'s, 'm> Candidates<'s, 'm> {
         for (target, rank) in found.iter_mut().zip(0..) {
             target.rank = rank;
         }
-        found.sort_by(|a, b| a.bound.total_cmp(&b.bound));
+        found.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
         Ok(found)
     }
 }

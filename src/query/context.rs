@@ -5,9 +5,12 @@ use std::collections::HashMap;
 use foldhash::fast::RandomState;
 
 use super::answer::SSide;
+use super::candidates::CandidateScratch;
+use super::scene::SceneMemory;
+use super::sets::Answers;
 use super::world::World;
 use crate::cobject::CObject;
-use crate::environment::{Environment, NearScratch};
+use crate::environment::Environment;
 use crate::pair::Scratch;
 use crate::work_meter::Statistics;
 
@@ -30,7 +33,9 @@ pub(super) enum CacheKey {
 #[derive(Default)]
 pub struct QueryContext {
     pub(super) scratch: Scratch,
-    pub(super) near: NearScratch,
+    pub(super) candidates: CandidateScratch,
+    pub(super) scene_memory: SceneMemory,
+    pub(super) answers: Answers,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::answer::WitnessList;
 use super::at_configuration::scene;
 use super::context::QueryContext;
-use super::scene::{Configuration, Group, Scene};
+use super::scene::{Configuration, Group, Scene, SceneMemory};
 use super::set_witnesses::{Listed, pure_witnesses};
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
@@ -68,7 +68,7 @@ impl QueryContext {
         max_count: usize,
     ) -> Result<Explanation> {
         let world = self.look(cobject);
-        let scene = scene(cobject, &world, at)?;
+        let scene = scene(cobject, &world, at, SceneMemory::default())?;
         let mut classes = Classes {
             scene: &scene,
             leaves: HashMap::new(),

@@ -1,6 +1,5 @@
 //! The world at a configuration.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::target::Placement;
@@ -9,6 +8,7 @@ use crate::cobject::{Induced, Stand};
 use crate::environment::{Attachment, SObject};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
+use crate::reused::emptied;
 use crate::robot::Posture;
 use crate::space::Space;
 
@@ -23,10 +23,19 @@ pub enum Configuration<'a> {
 pub struct Scene<'a> {
     space: &'a Space,
     q: Option<&'a [f64]>,
-    pub poses: Cow<'a, [Pose]>,
+    /// Those that the caller gave; else they are in `computed`.
+    given: Option<&'a [Pose]>,
+    computed: Vec<Pose>,
     world: &'a World,
     /// By their environments' serial numbers, in their order.
     held: Vec<Held<'a>>,
+}
+
+/// Memory of a scene, used again by the next.
+#[derive(Default)]
+pub struct SceneMemory {
+    poses: Vec<Pose>,
+    held: Vec<Held<'static>>,
 }
 
 /// An s-object attached to a link, where that has taken it.
@@ -46,11 +55,15 @@ impl<'a> Scene<'a> {
         space: &'a Space,
         world: &'a World,
         configuration: Configuration<'a>,
+        memory: SceneMemory,
     ) -> Result<Self> {
-        let (q, poses) = match configuration {
+        let mut computed = memory.poses;
+        computed.clear();
+        let (q, given) = match configuration {
             Configuration::Coordinates(q) => {
                 space.check_configuration(q)?;
-                (Some(q), Cow::Owned(space.link_poses(q)?))
+                space.append_link_poses(q, &mut computed)?;
+                (Some(q), None)
             }
             Configuration::LinkPoses(poses) => {
                 if poses.len() != space.link_count() {
@@ -70,10 +83,12 @@ impl<'a> Scene<'a> {
                         "the pose of link {link} leaves the plane z = 0 of its robot"
                     )));
                 }
-                (None, Cow::Borrowed(poses))
+                (None, Some(poses))
             }
         };
-        let held = world
+        let poses = given.unwrap_or(&computed);
+        let mut held = emptied(memory.held);
+        let attached = world
             .attached(space)
             .map(|(environment, object, attachment)| Held {
                 environment,
@@ -81,14 +96,28 @@ impl<'a> Scene<'a> {
                 attachment,
                 pose: poses[attachment.link].compose(&object.pose),
             });
-        let held = held.collect();
+        held.extend(attached);
         Ok(Self {
             space,
             q,
-            poses,
+            given,
+            computed,
             world,
             held,
         })
+    }
+
+    pub fn into_memory(self) -> SceneMemory {
+        SceneMemory {
+            poses: self.computed,
+            held: emptied(self.held),
+        }
+    }
+
+    /// The pose of every link of the space.
+    #[inline]
+    pub fn poses(&self) -> &[Pose] {
+        self.given.unwrap_or(&self.computed)
     }
 
     pub fn version(&self) -> u64 {
@@ -100,20 +129,20 @@ impl<'a> Scene<'a> {
         Stand {
             space: self.space,
             q: self.q,
-            poses: &self.poses,
+            poses: self.poses(),
         }
     }
 
     /// The configuration with its link poses; `None` where only the poses are known.
     pub fn posture(&self) -> Option<Posture<'_>> {
-        let poses = &self.poses;
+        let poses = self.poses();
         self.q.map(|q| Posture { q, poses })
     }
 
     /// A link's body, if it has one, at its pose.
     pub fn link(&self, link: usize) -> Option<Placement<'_>> {
         let body = self.space.link(link)?.body.as_deref()?;
-        Some((body, &self.poses[link]))
+        Some((body, &self.poses()[link]))
     }
 
     /// The s-objects attached to links.

@@ -9,7 +9,7 @@ use super::candidates::Wanted;
 use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::pure_answer::PureAt;
-use super::scene::{Configuration, Group, Scene};
+use super::scene::{Configuration, Group, Scene, SceneMemory};
 use super::set_witnesses::{Listed, pure_witnesses};
 use super::slide_step::Approach;
 use super::target::{Placement, Target};
@@ -136,7 +136,7 @@ impl QueryContext {
         scene.check(term)?;
         let wanted = Wanted::within(fastest / STEP_FRACTION);
         let candidates =
-            scene.candidates(term, wanted, &mut self.near, self.scratch.meter_mut())?;
+            scene.candidates(term, wanted, &mut self.candidates, self.scratch.meter_mut())?;
         for &target in &candidates {
             let rate = way.rate(scene, &target);
             if STEP_FRACTION * target.bound >= rate {
@@ -351,6 +351,7 @@ impl<'a> Way<'a> {
             self.cobject.space(),
             self.world,
             Configuration::Coordinates(q),
+            SceneMemory::default(),
         )
     }
 
@@ -429,7 +430,7 @@ impl<'a> Way<'a> {
 
 /// How far a link's body, or what the link holds, is from the link's origin, at most.
 fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
-    (pose.translation - scene.poses[link].translation).norm() + body.reach()
+    (pose.translation - scene.poses()[link].translation).norm() + body.reach()
 }
 
 /// The pure sets of a union, or the set itself if it is one.

@@ -109,7 +109,9 @@ impl QueryContext {
         let wanted = Wanted::within(listed.epsilon);
         scene.check(group)?;
         let candidates = self.candidates(scene, group, wanted)?;
-        self.list(group, scene, &candidates, listed)
+        let list = self.list(group, scene, &candidates, listed)?;
+        self.keep_memory(candidates);
+        Ok(list)
     }
 
     /// The witnesses among the candidates.

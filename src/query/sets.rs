@@ -16,6 +16,14 @@ use crate::error::Result;
 /// What parts have answered: by their serials, and whether the complement was asked.
 type Known<T> = HashMap<(u64, bool), T, RandomState>;
 
+/// Memory for what the parts of a set answer, used again by the next call.
+#[derive(Default)]
+pub(super) struct Answers {
+    classes: Known<Class>,
+    within: Known<bool>,
+    distances: Known<Distance>,
+}
+
 /// How a set is made of its parts, or of their complements.
 enum Made<'a> {
     /// A union: of what is induced, and of parts.
@@ -41,17 +49,24 @@ fn made(set: &Set, complement: bool) -> Made<'_> {
 }
 
 /// The parts with the cheap ones first.
-fn cheap_first(parts: &[std::sync::Arc<CObject>]) -> impl Iterator<Item = &CObject> {
-    let is_pure = |part: &&CObject| matches!(part.set(), Set::Pure(_));
+fn cheap_first(parts: &[std::sync::Arc<CObject>]) -> impl Iterator<Item = &CObject> + Clone {
     let all = || parts.iter().map(|part| &**part);
     all()
         .filter(is_pure)
-        .chain(all().filter(move |part| !is_pure(part)))
+        .chain(all().filter(|part| !is_pure(part)))
+}
+
+fn is_pure(part: &&CObject) -> bool {
+    matches!(part.set(), Set::Pure(_))
 }
 
 impl QueryContext {
     pub(super) fn class_of(&mut self, cobject: &CObject, scene: &Scene) -> Result<Class> {
-        self.class_among(cobject, scene, &mut Known::default())
+        let mut known = std::mem::take(&mut self.answers.classes);
+        known.clear();
+        let class = self.class_among(cobject, scene, &mut known);
+        self.answers.classes = known;
+        class
     }
 
     fn class_among(
@@ -92,16 +107,14 @@ impl QueryContext {
             }
             Set::Complement(part) => self.class_among(part, scene, known)?.reversed(),
             Set::Union { induced, .. } => {
-                let (pure, compound): (Vec<_>, Vec<_>) =
-                    parts.partition(|part| matches!(part.set(), Set::Pure(_)));
                 let mut most = Class::Outside;
-                for part in pure {
+                for part in parts.clone().filter(is_pure) {
                     most = most.max(self.class_among(part, scene, known)?);
                 }
                 if most < Class::Inside && !induced.is_empty() {
                     most = most.max(self.class_of_group(induced, scene)?);
                 }
-                for part in compound {
+                for part in parts.filter(|part| !is_pure(part)) {
                     if most == Class::Inside {
                         break;
                     }
@@ -125,13 +138,15 @@ impl QueryContext {
             ..Wanted::within(0.0)
         };
         let candidates = self.candidates(scene, group, wanted)?;
-        Ok(if self.any_within(&candidates, |_| 0.0)? {
+        let class = if self.any_within(&candidates, |_| 0.0)? {
             Class::Inside
         } else if self.any_in_contact(&candidates, 0.0)? {
             Class::Contact
         } else {
             Class::Outside
-        })
+        };
+        self.keep_memory(candidates);
+        Ok(class)
     }
 
     /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
@@ -157,7 +172,11 @@ impl QueryContext {
         scene: &Scene,
         threshold: f64,
     ) -> Result<bool> {
-        self.within_among(cobject, scene, threshold, false, &mut Known::default())
+        let mut known = std::mem::take(&mut self.answers.within);
+        known.clear();
+        let within = self.within_among(cobject, scene, threshold, false, &mut known);
+        self.answers.within = known;
+        within
     }
 
     /// Whether the lower bound of the distance, from the set or from its complement, is at most the threshold.
@@ -223,7 +242,9 @@ impl QueryContext {
             return Ok(true);
         }
         let candidates = self.candidates(scene, group, Wanted::within(threshold))?;
-        self.any_within(&candidates, |_| threshold)
+        let is_within = self.any_within(&candidates, |_| threshold)?;
+        self.keep_memory(candidates);
+        Ok(is_within)
     }
 
     pub(super) fn set_distance(
@@ -232,11 +253,13 @@ impl QueryContext {
         scene: &Scene,
         max_distance: f64,
     ) -> Result<Distance> {
-        let found =
-            self.distance_from(cobject, scene, max_distance, false, &mut Known::default())?;
+        let mut known = std::mem::take(&mut self.answers.distances);
+        known.clear();
+        let found = self.distance_from(cobject, scene, max_distance, false, &mut known);
+        self.answers.distances = known;
         Ok(Distance {
             version: scene.version(),
-            ..found
+            ..found?
         })
     }
 
@@ -305,7 +328,9 @@ impl QueryContext {
             ..Wanted::within(0.0)
         };
         let candidates = self.candidates(scene, group, wanted)?;
-        self.distance_among(group, scene, &candidates, max_distance)
+        let distance = self.distance_among(group, scene, &candidates, max_distance)?;
+        self.keep_memory(candidates);
+        Ok(distance)
     }
 
     pub(super) fn distance_among(

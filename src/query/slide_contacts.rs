@@ -3,7 +3,7 @@
 use super::answer::WitnessList;
 use super::candidates::Wanted;
 use super::context::QueryContext;
-use super::scene::{Configuration, Group, Scene};
+use super::scene::{Configuration, Group, Scene, SceneMemory};
 use super::set_witnesses::{Listed, pure_witnesses};
 use super::slide::SlideOptions;
 use super::target::Target;
@@ -39,7 +39,12 @@ impl QueryContext {
         options: &SlideOptions,
         detail: Detail,
     ) -> Result<WitnessList> {
-        let scene = &Scene::new(cobject.space(), world, Configuration::Coordinates(q))?;
+        let scene = &Scene::new(
+            cobject.space(),
+            world,
+            Configuration::Coordinates(q),
+            SceneMemory::default(),
+        )?;
         let mut search = ContactSearch {
             options,
             detail,
@@ -85,7 +90,7 @@ impl ContactSearch<'_> {
         let shells = group.iter().map(|term| term.shell.unwrap_or(max_shell));
         let wanted = Wanted::within(shells.fold(0.0, f64::max));
         let meter = context.scratch.meter_mut();
-        let candidates = scene.candidates(group, wanted, &mut context.near, meter)?;
+        let candidates = scene.candidates(group, wanted, &mut context.candidates, meter)?;
         for target in &candidates {
             let shell = group[target.term as usize].shell.unwrap_or(max_shell);
             if target.bound > shell {

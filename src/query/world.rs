@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use smallvec::SmallVec;
+
 use crate::cobject::CObject;
 use crate::environment::{Attachment, Environment, SObject, Snapshot};
 use crate::space::Space;
@@ -10,7 +12,7 @@ use crate::space::Space;
 #[derive(Clone, Debug)]
 pub struct World {
     /// By serials of environments, in their order.
-    snapshots: Vec<(u64, Arc<Snapshot>)>,
+    snapshots: SmallVec<[(u64, Arc<Snapshot>); 2]>,
     version: u64,
 }
 
@@ -18,7 +20,7 @@ impl World {
     /// The world as it is now.
     pub fn of(cobject: &CObject) -> Self {
         let environments = cobject.environments().iter();
-        let snapshots: Vec<(u64, Arc<Snapshot>)> = environments
+        let snapshots: SmallVec<[(u64, Arc<Snapshot>); 2]> = environments
             .map(|environment| (environment.serial(), environment.snapshot()))
             .collect();
         let versions = snapshots.iter().map(|(_, snapshot)| snapshot.version);

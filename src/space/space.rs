@@ -154,10 +154,16 @@ impl Space {
     /// The poses of all links at q. Only joints by maps of the caller can fail.
     pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
         let mut poses = Vec::with_capacity(self.links);
-        for robot in 0..self.robots.len() {
-            self.robots[robot].link_poses(&q[self.coordinates_of(robot)], &mut poses)?;
-        }
+        self.append_link_poses(q, &mut poses)?;
         Ok(poses)
+    }
+
+    /// Appends the same to others.
+    pub fn append_link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
+        for robot in 0..self.robots.len() {
+            self.robots[robot].link_poses(&q[self.coordinates_of(robot)], poses)?;
+        }
+        Ok(())
     }
 
     /// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion
