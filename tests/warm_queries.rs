@@ -10,7 +10,7 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, InducedOptions, PureOptions, PureShape};
 use cstk::environment::{Attachment, Change};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, QueryContext};
+use cstk::query::{Configuration::Coordinates, QueryContext};
 use cstk::robot::JointKind;
 use cstk::space::Space;
 
@@ -116,15 +116,16 @@ fn warm_queries_allocate_nothing() {
                 .map(|_| (0..*nq).map(|_| random.within(-3.0, 3.0)).collect())
                 .collect();
             let context = &mut QueryContext::new();
-            let at = |q| Configuration::Coordinates(q);
             let classified = allocations(&configurations, context, |context, q| {
-                context.classify(cobject, at(q)).unwrap();
+                context.classify(cobject, Coordinates(q)).unwrap();
             });
             let within = allocations(&configurations, context, |context, q| {
-                context.within(cobject, at(q), 0.1).unwrap();
+                context.within(cobject, Coordinates(q), 0.1).unwrap();
             });
             let measured = allocations(&configurations, context, |context, q| {
-                context.distance(cobject, at(q), f64::INFINITY).unwrap();
+                context
+                    .distance(cobject, Coordinates(q), f64::INFINITY)
+                    .unwrap();
             });
             assert_eq!(
                 [classified, within, measured],

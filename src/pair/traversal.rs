@@ -95,6 +95,11 @@ impl Scratch {
         &mut self.state.meter
     }
 
+    /// The memory for distances of primitives.
+    pub fn for_primitives(&mut self) -> &mut PrimitiveScratch {
+        &mut self.state.primitives
+    }
+
     /// Counts a pair of primitives whose distance is to be computed, and lends the memory for it.
     pub fn for_one_pair(&mut self) -> Result<&mut PrimitiveScratch> {
         let meter = &mut self.state.meter;

@@ -9,9 +9,7 @@ use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
 use crate::gjk::DistanceLimits;
-use crate::pair::{
-    Collect, Hit, Nearest, Pairing, PrimitiveScratch, Singles, Within, WorldContact, traverse,
-};
+use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, Singles, WorldContact};
 
 /// Refuses two bodies of which one is of planar worlds, unless both are and stay there.
 fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
@@ -50,9 +48,12 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
     })
 }
 
-/// Whether two bodies are one primitive each, and no more than it.
+/// Whether two bodies are one primitive each and no more than it, and not both a polygon of space: for these there are outlines,
+/// which the walk compares.
 fn are_singles(a: &Body, b: &Body) -> bool {
-    a.is_single() && b.is_single()
+    let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
+    let are_planar = a.dimension() == 2;
+    a.is_single() && b.is_single() && (are_planar || !has_outline(a) || !has_outline(b))
 }
 
 impl QueryContext {
@@ -71,9 +72,9 @@ impl QueryContext {
         }
         let targets = [target];
         let found = self.nearest(&targets, max_distance)?;
-        Ok(Distance::from_found(&found, max_distance, |_| {
-            Leaf::default()
-        }))
+        let leaf = |_| Leaf::default();
+        let scratch = self.scratch.for_primitives();
+        Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
 
     /// The same of bodies of one primitive each, which need no search.
@@ -82,24 +83,6 @@ impl QueryContext {
         let pairing = target.pairing();
         if pairing.sphere_bound() > max_distance {
             return Ok(Distance::beyond(max_distance, f64::INFINITY));
-        }
-        if pairing.are_outlines([0, 0]) {
-            let mut visitor = Nearest::up_to(max_distance);
-            let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
-            self.scratch.meter().check()?;
-            let (hit, measured) = (visitor.best.as_ref(), visitor.measured.as_ref());
-            let of_hit = |hit| {
-                Distance::of_hit(
-                    hit,
-                    visitor.lower,
-                    measured,
-                    target,
-                    &pairing,
-                    Leaf::default(),
-                )
-            };
-            let beyond = || Distance::beyond(max_distance, visitor.lower);
-            return Ok(hit.map_or_else(beyond, of_hit));
         }
         let mut singles = Singles::new(&pairing, self.scratch.for_one_pair()?);
         let limits = DistanceLimits {
@@ -155,16 +138,6 @@ impl QueryContext {
         self.count_body_pair()?;
         if pairing.sphere_bound() > threshold {
             return Ok(false);
-        }
-        if pairing.are_outlines([0, 0]) {
-            let mut visitor = Within::<false> {
-                margin: 0.0,
-                threshold,
-                found: None,
-            };
-            let _ = traverse(pairing, None, &mut self.scratch, &mut visitor);
-            self.scratch.meter().check()?;
-            return Ok(visitor.found.is_some());
         }
         let scratch = self.scratch.for_one_pair()?;
         Ok(Singles::new(pairing, scratch).are_within(threshold))

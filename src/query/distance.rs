@@ -40,13 +40,19 @@ impl Distance {
     }
 
     /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
-    pub(super) fn from_found(found: &Found, max_distance: f64, leaf: impl Fn(u32) -> Leaf) -> Self {
+    pub(super) fn from_found(
+        found: &Found,
+        max_distance: f64,
+        leaf: impl Fn(u32) -> Leaf,
+        scratch: &mut PrimitiveScratch,
+    ) -> Self {
         let Some((hit, target)) = &found.hit else {
             return Self::beyond(max_distance, found.lower);
         };
         let measured = found.measured.as_ref();
         let leaf = leaf(target.term);
-        Self::of_hit(hit, found.lower, measured, target, &target.pairing(), leaf)
+        let pairing = &target.pairing();
+        Self::of_hit(hit, found.lower, measured, target, pairing, leaf, scratch)
     }
 
     /// That of the nearest primitive pair, and of what else is known of it.
@@ -57,12 +63,12 @@ impl Distance {
         target: &Target,
         pairing: &Pairing,
         leaf: Leaf,
+        scratch: &mut PrimitiveScratch,
     ) -> Self {
         let error = pairing.precision.error;
         let (points, contact) = match hit.contained {
             Some(inner) => (pairing.points_inside(inner, hit), None),
             None => {
-                let scratch = &mut PrimitiveScratch::default();
                 let again;
                 let measured = match measured {
                     Some(measured) => measured,

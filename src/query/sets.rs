@@ -348,7 +348,7 @@ impl QueryContext {
         let leaf = |term: u32| group[term as usize].leaf;
         Ok(Distance {
             version: scene.version(),
-            ..Distance::from_found(&found, max_distance, leaf)
+            ..Distance::from_found(&found, max_distance, leaf, self.scratch.for_primitives())
         })
     }
 
