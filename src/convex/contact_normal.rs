@@ -1,5 +1,7 @@
 //! The normal of a contact: exact where features define it, however near the points; the least overlap at touch.
 
+use smallvec::SmallVec;
+
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{feature_normal, gap_along};
 use super::penetration::polytope_penetration;
@@ -17,6 +19,9 @@ const PARALLEL_SEEN: f64 = 1e-12;
 
 /// Of fans of very many edges that meet at two touching vertices, so many pairs are tried.
 const MAX_EDGE_PAIRS: usize = 4096;
+
+/// Directions that are mostly few.
+type Few = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
@@ -134,11 +139,11 @@ impl ContactPair<'_> {
 
     /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
     /// polygon's outline within its plane.
-    fn local_normals(&self) -> Vec<Vec3> {
+    fn local_normals(&self) -> Few {
         let near = 1e-8 * self.precision.size;
         let local_r = Local::around(self.r, &self.closest.points[0], near);
         let local_s = Local::around(self.s, &self.closest.points[1], near);
-        let mut found = Vec::new();
+        let mut found = Few::new();
         let mut offer = |candidate: Vec3| {
             let in_plane = if self.precision.planar {
                 Vec3::new(candidate.x, candidate.y, 0.0)
@@ -201,14 +206,14 @@ fn depth_below(placed: &Placed, point: &Vec3, planar: bool) -> f64 {
 
 /// The face normals and edge directions of the features that hold a point.
 struct Local {
-    normals: Vec<Vec3>,
-    directions: Vec<Vec3>,
+    normals: Few,
+    directions: Few,
     is_flat: bool,
 }
 
 impl Local {
     fn around(placed: &Placed, point: &Vec3, near: f64) -> Self {
-        let mut directions = Vec::new();
+        let mut directions = Few::new();
         for &ends in &placed.shape.edges {
             let (p, q) = placed.edge_ends(ends);
             let segment = Segment::new((p, q));
