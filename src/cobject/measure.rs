@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::spans::{Span, of_spans, span};
+use super::spans::{Span, largest, measure_of, slopes_of, span};
 use super::world_place::{beyond_world, over_floor, reach_of};
 use super::{Class, Measure, PureSet, PureShape, Stand, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
@@ -106,7 +106,7 @@ impl PureSet {
                 }
             }
             _ => {
-                let (signed, error, _) = self.by_coordinate(at.space, self.coordinates(at)?);
+                let (signed, error) = self.by_coordinate(at.space, self.coordinates(at)?);
                 Measure {
                     signed,
                     error,
@@ -134,17 +134,10 @@ impl PureSet {
     /// The coordinate that decides the measure of limits or a box: the one farthest beyond its interval, or nearest to an end
     /// of it.
     pub fn coordinate(&self, at: &Stand) -> Option<usize> {
-        let spans = self.spans(at.space, at.q?)?;
-        let known = spans
-            .iter()
-            .enumerate()
-            .filter_map(|(i, span)| Some((i, (*span)?.beyond)));
-        let most = known.clone().map(|(_, beyond)| beyond);
-        let most = most.fold(f64::NEG_INFINITY, f64::max);
-        known
-            .into_iter()
-            .find(|(_, beyond)| *beyond == most)
-            .map(|(i, _)| i)
+        let mut spans = self.spans(at.space, at.q?);
+        let most = largest(spans.clone());
+        let (i, _) = spans.find(|(_, span)| span.beyond == most)?;
+        Some(i)
     }
 
     /// The derivative of the measure, one entry a velocity.
@@ -192,61 +185,76 @@ impl PureSet {
                 row.iter_mut().for_each(|x| *x *= factor);
                 row
             }
-            _ => {
-                let (_, _, by_coordinate) = self.by_coordinate(space, q);
-                space.by_velocity(q, &by_coordinate)
-            }
+            _ => space.by_velocity(q, &self.slopes(space, q)),
         };
         let scale = self.scale();
         row.iter_mut().for_each(|x| *x *= scale);
         Ok(row)
     }
 
-    /// The measure before the scale, its error, and its derivative by the coordinates.
-    fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64, Vec<f64>) {
+    /// The measure before the scale, and its error.
+    fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64) {
         match &self.shape {
-            PureShape::BeyondLimits | PureShape::Box { .. } => {
-                let spans = self.spans(space, q).unwrap_or_default();
-                let (measure, error, slopes) = of_spans(&spans);
-                if matches!(self.shape, PureShape::Box { .. }) {
-                    return (measure, error, slopes);
-                }
-                (-measure, error, slopes.iter().map(|x| -x).collect())
+            PureShape::BeyondLimits => {
+                let (measure, error) = measure_of(self.spans(space, q));
+                (-measure, error)
             }
+            PureShape::Box { .. } => measure_of(self.spans(space, q)),
             PureShape::HalfSpace { normal, offset } => {
                 let length = norm(normal);
-                let unit: Vec<f64> = normal.iter().map(|x| x / length).collect();
-                let terms = || unit.iter().zip(q).map(|(n, x)| n * x);
+                let terms = || normal.iter().zip(q).map(|(n, x)| n / length * x);
                 let signed = terms().sum::<f64>() - offset / length;
                 let size = terms().map(f64::abs).sum::<f64>() + (offset / length).abs();
                 let error = (q.len() + 4) as f64 * EPSILON * size;
-                (signed, error, unit)
+                (signed, error)
             }
             PureShape::Ball { center, radius } => {
                 let offset = space.offset(center, q);
                 let sizes = center.iter().chain(q).map(|x| x.abs());
                 let size = sizes.fold(TAU.max(*radius), f64::max);
                 let error = 8.0 * (q.len() as f64).sqrt() * EPSILON * size;
-                (norm(&offset) - radius, error, Vec::new())
+                (norm(&offset) - radius, error)
             }
             PureShape::BeyondWorld { .. } | PureShape::Floor { .. } | PureShape::Predicate(_) => {
-                (f64::INFINITY, 0.0, Vec::new())
+                (f64::INFINITY, 0.0)
             }
         }
     }
 
-    /// How far each coordinate is from the ends of its interval, for limits and boxes.
-    fn spans(&self, space: &Space, q: &[f64]) -> Option<Vec<Option<Span>>> {
+    /// The derivative of limits, boxes and half-spaces before the scale, by the coordinates.
+    fn slopes(&self, space: &Space, q: &[f64]) -> Vec<f64> {
+        match &self.shape {
+            PureShape::BeyondLimits => {
+                let slopes = slopes_of(self.spans(space, q), q.len());
+                slopes.iter().map(|x| -x).collect()
+            }
+            PureShape::Box { .. } => slopes_of(self.spans(space, q), q.len()),
+            PureShape::HalfSpace { normal, .. } => {
+                let length = norm(normal);
+                normal.iter().map(|x| x / length).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// How far each coordinate that has an interval is from its ends: for limits and boxes, and for others none.
+    fn spans<'a>(
+        &'a self,
+        space: &'a Space,
+        q: &'a [f64],
+    ) -> impl Iterator<Item = (usize, Span)> + Clone + 'a {
         let coordinates = space.coordinates().iter().zip(q).enumerate();
-        let spans = coordinates.map(|(i, (&coordinate, &x))| match &self.shape {
-            PureShape::BeyondLimits => match coordinate {
-                Coordinate::Interval { lower, upper } => Some(span(coordinate, x, lower, upper)),
-                _ => Some(None),
-            },
-            PureShape::Box { low, high } => Some(span(coordinate, x, low[i], high[i])),
-            _ => None,
-        });
-        spans.collect()
+        coordinates.filter_map(|(i, (&coordinate, &x))| {
+            let span = match &self.shape {
+                PureShape::BeyondLimits => match coordinate {
+                    Coordinate::Interval { lower, upper } => span(coordinate, x, lower, upper),
+                    _ => None,
+                },
+                PureShape::Box { low, high } => span(coordinate, x, low[i], high[i]),
+                _ => None,
+            };
+            Some((i, span?))
+        })
     }
 
     fn coordinates<'a>(&self, at: &Stand<'a>) -> Result<&'a [f64]> {

@@ -50,33 +50,47 @@ pub(super) fn span(coordinate: Coordinate, q: f64, low: f64, high: f64) -> Optio
     }
 }
 
-/// The measure of a set of intervals, and its derivative by the coordinates: outside the length of what is beyond, inside the
-/// least depth.
-pub(super) fn of_spans(spans: &[Option<Span>]) -> (f64, f64, Vec<f64>) {
-    let mut by_coordinate = vec![0.0; spans.len()];
-    let known = || {
-        spans
-            .iter()
-            .enumerate()
-            .filter_map(|(i, s)| Some((i, (*s)?)))
-    };
-    let error = known().map(|(_, span)| span.error).sum();
-    let largest = known()
-        .map(|(_, s)| s.beyond)
-        .fold(f64::NEG_INFINITY, f64::max);
+/// The measure of a set of intervals, each given with its coordinate, and the error: outside the length of what is beyond, inside
+/// the least depth.
+pub(super) fn measure_of(spans: impl Iterator<Item = (usize, Span)> + Clone) -> (f64, f64) {
+    let error = spans.clone().map(|(_, span)| span.error).sum();
+    let largest = largest(spans.clone());
     if largest <= 0.0 {
-        let first = known().find(|(_, span)| span.beyond == largest);
-        if let Some((i, span)) = first {
-            by_coordinate[i] = span.slope;
+        return (largest, error);
+    }
+    (length_outside(spans, largest), error)
+}
+
+/// The derivative of the same by so many coordinates.
+pub(super) fn slopes_of(
+    spans: impl Iterator<Item = (usize, Span)> + Clone,
+    coordinates: usize,
+) -> Vec<f64> {
+    let mut slopes = vec![0.0; coordinates];
+    let largest = largest(spans.clone());
+    if largest <= 0.0 {
+        if let Some((i, span)) = spans.clone().find(|(_, span)| span.beyond == largest) {
+            slopes[i] = span.slope;
         }
-        return (largest, error, by_coordinate);
+        return slopes;
     }
-    let outside = || known().filter(|(_, span)| span.beyond > 0.0);
+    let length = length_outside(spans.clone(), largest);
+    for (i, span) in spans.filter(|(_, span)| span.beyond > 0.0) {
+        slopes[i] = span.slope * (span.beyond / length);
+    }
+    slopes
+}
+
+/// The most that a coordinate is beyond its interval.
+pub(super) fn largest(spans: impl Iterator<Item = (usize, Span)>) -> f64 {
+    let beyond = spans.map(|(_, span)| span.beyond);
+    beyond.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The length of what is beyond the intervals, of which `largest` is the most.
+fn length_outside(spans: impl Iterator<Item = (usize, Span)>, largest: f64) -> f64 {
+    let outside = spans.filter(|(_, span)| span.beyond > 0.0);
     // Scaled, so that no square overflows.
-    let sum: f64 = outside().map(|(_, s)| (s.beyond / largest).powi(2)).sum();
-    let length = largest * sum.sqrt();
-    for (i, span) in outside() {
-        by_coordinate[i] = span.slope * (span.beyond / length);
-    }
-    (length, error, by_coordinate)
+    let sum: f64 = outside.map(|(_, s)| (s.beyond / largest).powi(2)).sum();
+    largest * sum.sqrt()
 }
