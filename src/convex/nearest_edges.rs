@@ -3,6 +3,7 @@
 use super::closest::Closest;
 use super::outline::{MAX_CORNERS, Outline, Side};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3, sub64};
+use crate::pose::Vec3;
 use crate::tolerance;
 
 /// The best of four pairs of edges, by the squares of their distances. A pair is called `MAX_CORNERS` * the block of the
@@ -41,9 +42,26 @@ impl NearestEdges {
         self.squares.least().sqrt()
     }
 
-    /// The closest points. One no farther than `error` from a corner is held by that.
+    /// The vector between the closest points, from B to A.
     #[inline(always)]
-    pub fn points(&self, a: &Outline, b: &Outline, error: f64) -> Closest {
+    pub fn across(&self, a: &Outline, b: &Outline) -> Vec3 {
+        let (i, block, lane) = self.best();
+        let starts = &b.blocks[block];
+        let along = sub64(&b.following(block), starts);
+        let (start, edge) = a.edge(i);
+        let inverse_square = dot64(&edge, &edge).inverse();
+        let (s, t, _) = edge_places(&start, &edge, inverse_square, starts, &along);
+        let (s, t) = (s.0[lane], t.0[lane]);
+        let [x, y, z] = each3(|k| {
+            let on_a = start[k].0[lane] + edge[k].0[lane] * s;
+            on_a - (starts[k].0[lane] + along[k].0[lane] * t)
+        });
+        Vec3::new(x, y, z)
+    }
+
+    /// The nearest pair: the first's edge, and the block of the second's edge and its lane.
+    #[inline(always)]
+    fn best(&self) -> (usize, usize, usize) {
         let mut lane = 0;
         for other in 1..4 {
             if self.squares.0[other] < self.squares.0[lane] {
@@ -51,7 +69,13 @@ impl NearestEdges {
             }
         }
         let pair = self.pairs.0[lane] as usize;
-        let (block, i) = (pair / MAX_CORNERS, pair % MAX_CORNERS);
+        (pair % MAX_CORNERS, pair / MAX_CORNERS, lane)
+    }
+
+    /// The closest points. One no farther than `error` from a corner is held by that.
+    #[inline(always)]
+    pub fn points(&self, a: &Outline, b: &Outline, error: f64) -> Closest {
+        let (i, block, lane) = self.best();
         let starts = &b.blocks[block];
         let along = sub64(&b.following(block), starts);
         let (start, edge) = a.edge(i);

@@ -11,8 +11,8 @@ use crate::tolerance;
 /// What is known of the distance of two polygons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PolygonDistance {
-    /// More than the cutoff.
-    Beyond,
+    /// More than the cutoff, and where, unless a plane told.
+    Beyond(Option<Nearest>),
     /// The distance, and where.
     Apart(f64, Nearest),
     /// They surely cross.
@@ -38,10 +38,7 @@ impl Nearest {
         match *self {
             Self::FirstCorner(corner) => b.normal * b.height(&a.corner(corner)),
             Self::SecondCorner(corner) => a.normal * -a.height(&b.corner(corner)),
-            Self::Edges(edges) => {
-                let [on_a, on_b] = edges.points(a, b, 0.0).points;
-                on_a - on_b
-            }
+            Self::Edges(edges) => edges.across(a, b),
         }
     }
 }
@@ -57,7 +54,7 @@ pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> Pol
     let sides = [a.side(b), b.side(a)];
     let apart = sides[0].gap.max(sides[1].gap);
     if apart - rounding > cutoff {
-        return PolygonDistance::Beyond;
+        return PolygonDistance::Beyond(None);
     }
     if apart < rounding {
         match cross(a, b, size) {
@@ -68,7 +65,7 @@ pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> Pol
     }
     let (distance, nearest) = nearest(a, b, &sides, size);
     if distance - rounding > cutoff {
-        PolygonDistance::Beyond
+        PolygonDistance::Beyond(Some(nearest))
     } else {
         PolygonDistance::Apart(distance, nearest)
     }

@@ -133,7 +133,7 @@ where
             let children = (1 << wide.count) - 1;
             if next.bodies == all && bodies.len() > 1 {
                 // Far from the bodies, all of them are elsewhere, or go the same way.
-                let bounds = bounds(lanes, &eight, &descent.around, false);
+                let bounds = bounds(lanes, &eight, &descent.around);
                 let near = lanes.at_most(bounds, cutoff) & children;
                 if near == 0 {
                     continue;
@@ -156,7 +156,7 @@ where
                 let at = rest.trailing_zeros() as usize;
                 let bit = rest & rest.wrapping_neg();
                 rest ^= bit;
-                let bounds = bounds(lanes, &eight, &descent.bodies[at], false);
+                let bounds = bounds(lanes, &eight, &descent.bodies[at]);
                 let mut near = lanes.at_most(bounds, cutoff) & children;
                 let bounds = lanes.array(bounds);
                 while near != 0 {

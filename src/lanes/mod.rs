@@ -47,7 +47,8 @@ mod widest {
 
     #[cold]
     fn find() -> u8 {
-        if !(has!("avx2") && has!("fma")) {
+        let has_bits = has!("popcnt") && has!("bmi1") && has!("bmi2") && has!("lzcnt");
+        if !(has!("avx2") && has!("fma") && has_bits) {
             return PLAIN;
         }
         let has_avx512 =
@@ -61,12 +62,14 @@ mod widest {
 pub fn with_widest<W: Work>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     {
-        #[target_feature(enable = "avx2,fma")]
+        #[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt")]
         fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }
         // Twice the registers are what AVX-512 is for here: wider lanes gain nothing.
-        #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+        #[target_feature(
+            enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq,avx512bw"
+        )]
         fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }

@@ -107,14 +107,52 @@ impl Motion32 {
 }
 
 /// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do
-/// as a number below 0. With `refined` they are sharper where boxes are apart.
+/// as a number below 0.
 #[inline(always)]
-pub fn bounds<I: Instructions>(
+pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Lanes8<I> {
+    let [first, second] = &sides(lanes, eight, one);
+    let largest = lanes.max(first.largest(lanes), second.largest(lanes));
+    lanes.mul(largest, lanes.splat(UPRIGHT))
+}
+
+/// How bounds are made sharper, and for which boxes that is worth it.
+pub struct Sharper<'a> {
+    /// A unit vector from the eight to the one, along which they may be apart.
+    pub direction: Option<&'a [f32; 3]>,
+    /// Boxes that are farther apart than this need not be known better.
+    pub cutoff: f32,
+    /// Which of the eight there are, as bits.
+    pub among: u32,
+}
+
+/// The same, sharper where boxes are apart, if by the first bounds some of them are near enough to matter.
+#[inline(always)]
+pub fn sharper_bounds<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,
-    refined: bool,
+    wanted: &Sharper,
 ) -> Lanes8<I> {
+    let [first, second] = &sides(lanes, eight, one);
+    let largest = [first.largest(lanes), second.largest(lanes)];
+    let upright = lanes.splat(UPRIGHT);
+    let mut known = lanes.mul(lanes.max(largest[0], largest[1]), upright);
+    if let Some(direction) = wanted.direction {
+        known = lanes.max(known, gaps_along(lanes, eight, one, direction));
+    }
+    if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
+        return known;
+    }
+    // Where no gap is above 0 the diagonal is 0, and how deep the boxes overlap counts.
+    let zero = lanes.splat(0.0);
+    let first = lanes.add(first.along_diagonal(lanes), lanes.min(largest[0], zero));
+    let second = lanes.add(second.along_diagonal(lanes), lanes.min(largest[1], zero));
+    lanes.max(known, lanes.mul(lanes.max(first, second), upright))
+}
+
+/// What the gaps along the axes of the eight follow from, and those along the axes of the one.
+#[inline(always)]
+fn sides<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> [Gaps<I>; 2] {
     let apart = apart(lanes, eight, one);
     let half = splat(lanes, &one.half);
     // The products of the axes of the eight with those of the one.
@@ -123,71 +161,83 @@ pub fn bounds<I: Instructions>(
     let [ax, ay, az] = [lanes.along(a, x), lanes.along(a, y), lanes.along(a, z)];
     let [bx, by, bz] = [lanes.along(b, x), lanes.along(b, y), lanes.along(b, z)];
     let [cx, cy, cz] = [lanes.along(c, x), lanes.along(c, y), lanes.along(c, z)];
-    let first = Gaps {
-        places: [
-            lanes.dot(a, &apart),
-            lanes.dot(b, &apart),
-            lanes.dot(c, &apart),
-        ],
-        half: &eight.half,
-        other_half: &half,
-        along: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]],
-    };
-    let second = Gaps {
-        places: [
-            lanes.along(&apart, x),
-            lanes.along(&apart, y),
-            lanes.along(&apart, z),
-        ],
-        half: &half,
-        other_half: &eight.half,
-        along: [[ax, bx, cx], [ay, by, cy], [az, bz, cz]],
-    };
-    let first = first.bounds(lanes, refined);
-    let second = second.bounds(lanes, refined);
-    lanes.mul(lanes.max(first, second), lanes.splat(UPRIGHT))
+    [
+        Gaps::new(
+            lanes,
+            [
+                lanes.dot(a, &apart),
+                lanes.dot(b, &apart),
+                lanes.dot(c, &apart),
+            ],
+            [eight.half, half],
+            [[ax, ay, az], [bx, by, bz], [cx, cy, cz]],
+        ),
+        Gaps::new(
+            lanes,
+            [
+                lanes.along(&apart, x),
+                lanes.along(&apart, y),
+                lanes.along(&apart, z),
+            ],
+            [half, eight.half],
+            [[ax, bx, cx], [ay, by, cy], [az, bz, cz]],
+        ),
+    ]
 }
 
 /// What the gaps along the axes of a box follow from.
-struct Gaps<'a, I: Instructions> {
+struct Gaps<I: Instructions> {
     /// Where the other box is along the axes.
     places: Triple<I>,
-    half: &'a Triple<I>,
-    other_half: &'a Triple<I>,
+    half: Triple<I>,
+    other_half: Triple<I>,
     /// The products of the axes with those of the other box.
     along: [Triple<I>; 3],
+    /// What both boxes reach along the axes.
+    reaches: Triple<I>,
 }
 
-impl<I: Instructions> Gaps<'_, I> {
-    /// The largest gap along an axis; if refined and there is one above 0, that along the diagonal.
+impl<I: Instructions> Gaps<I> {
     #[inline(always)]
-    fn bounds(&self, lanes: I, refined: bool) -> Lanes8<I> {
-        let [a, b, c] = &self.along;
-        // What both boxes reach along the axes.
+    fn new(
+        lanes: I,
+        places: Triple<I>,
+        [half, other_half]: [Triple<I>; 2],
+        along: [Triple<I>; 3],
+    ) -> Self {
         let reaches = [
-            reach(lanes, a, self.other_half, self.half[0]),
-            reach(lanes, b, self.other_half, self.half[1]),
-            reach(lanes, c, self.other_half, self.half[2]),
+            reach(lanes, &along[0], &other_half, half[0]),
+            reach(lanes, &along[1], &other_half, half[1]),
+            reach(lanes, &along[2], &other_half, half[2]),
         ];
-        let [x, y, z] = each3(|i| lanes.sub(lanes.abs(self.places[i]), reaches[i]));
-        let largest = lanes.max(lanes.max(x, y), z);
-        if refined {
-            // Where no gap is above 0 the diagonal is 0, and how deep the boxes overlap counts.
-            let depth = lanes.min(largest, lanes.splat(0.0));
-            lanes.add(self.along_diagonal(lanes, &reaches), depth)
-        } else {
-            largest
+        Self {
+            places,
+            half,
+            other_half,
+            along,
+            reaches,
         }
+    }
+
+    /// The largest gap along an axis.
+    #[inline(always)]
+    fn largest(&self, lanes: I) -> Lanes8<I> {
+        let [x, y, z] = [
+            lanes.sub(lanes.abs(self.places[0]), self.reaches[0]),
+            lanes.sub(lanes.abs(self.places[1]), self.reaches[1]),
+            lanes.sub(lanes.abs(self.places[2]), self.reaches[2]),
+        ];
+        lanes.max(lanes.max(x, y), z)
     }
 
     /// The gap along the diagonal of those that are above 0, or less; 0 or less if there is none.
     #[inline(always)]
-    fn along_diagonal(&self, lanes: I, reaches: &Triple<I>) -> Lanes8<I> {
+    fn along_diagonal(&self, lanes: I) -> Lanes8<I> {
         let mut beyond = self.places;
         let mut square = lanes.splat(0.0);
         let mut own = lanes.splat(0.0);
         for i in 0..3 {
-            let (place, reach) = (self.places[i], reaches[i]);
+            let (place, reach) = (self.places[i], self.reaches[i]);
             let below = lanes.sub(lanes.splat(0.0), reach);
             let within = lanes.max(lanes.min(place, reach), below);
             beyond[i] = lanes.sub(place, within);
@@ -202,7 +252,7 @@ impl<I: Instructions> Gaps<'_, I> {
             lanes.dot(&beyond, &[a[1], b[1], c[1]]),
             lanes.dot(&beyond, &[a[2], b[2], c[2]]),
         ];
-        let reach = reach(lanes, &across, self.other_half, lanes.splat(0.0));
+        let reach = reach(lanes, &across, &self.other_half, lanes.splat(0.0));
         // So short a diagonal may have lost its squares; divided by more, the gap is only less.
         let length = lanes.max(diagonal, lanes.splat(SHORTEST));
         lanes.max(lanes.div(lanes.sub(own, reach), length), diagonal)
@@ -211,7 +261,7 @@ impl<I: Instructions> Gaps<'_, I> {
 
 /// Lower bounds of the same distances along a unit vector from the eight to the one; negative where they may overlap.
 #[inline(always)]
-pub fn gaps_along<I: Instructions>(
+fn gaps_along<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,

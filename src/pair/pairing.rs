@@ -51,6 +51,12 @@ pub struct Apart {
     pub doubt: f64,
 }
 
+/// Of two primitives that are farther apart than is asked about.
+pub struct Beyond {
+    /// Where they are nearest, if that was found.
+    pub nearest: Option<Nearest>,
+}
+
 impl Apart {
     /// Of primitives that meet, or are as near to one another as is enough.
     const NONE: Self = Self {
@@ -140,8 +146,8 @@ impl<'a> Pairing<'a> {
             cutoff,
             ..DistanceLimits::EXACT
         };
-        let apart = self.distance_to(places, &b, &Vec3::zeros(), limits, scratch)?;
-        Some(apart.distance)
+        let apart = self.distance_to(places, &b, &Vec3::zeros(), limits, scratch);
+        Some(apart.ok()?.distance)
     }
 
     #[inline(always)]
@@ -165,14 +171,14 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<Apart> {
+    ) -> std::result::Result<Apart, Beyond> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
         let found = match (&outline_a, outline_b) {
             (Some(a), Some(b)) => polygon_distance(a, b, limits.cutoff, self.precision.size),
             _ => PolygonDistance::Doubt,
         };
         let apart = match found {
-            PolygonDistance::Beyond => return None,
+            PolygonDistance::Beyond(nearest) => return Err(Beyond { nearest }),
             PolygonDistance::Apart(distance, nearest) => Apart {
                 distance: self.above_error(distance),
                 nearest: Some(nearest),
@@ -180,10 +186,17 @@ impl<'a> Pairing<'a> {
             },
             PolygonDistance::Cross => Apart::NONE,
             PolygonDistance::Doubt => {
-                return self.measured_apart(places, direction, limits, scratch);
+                let measured = self.measured_apart(places, direction, limits, scratch);
+                return measured.ok_or(Beyond { nearest: None });
             }
         };
-        (apart.distance <= limits.cutoff).then_some(apart)
+        if apart.distance <= limits.cutoff {
+            Ok(apart)
+        } else {
+            Err(Beyond {
+                nearest: apart.nearest,
+            })
+        }
     }
 
     /// The same of primitives of which one at least is no polygon. `direction` may part them, a unit vector from B to A, or is

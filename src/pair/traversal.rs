@@ -3,12 +3,12 @@
 
 use std::ops::ControlFlow;
 
-use super::box_bounds::{self, Motion32, ROUNDING};
+use super::box_bounds::{Motion32, ROUNDING, Sharper, bounds, gap_along, sharper_bounds};
 use super::hit::{Hit, HitKey};
 use super::nearest_first::{Entry, Waiting};
-use super::pairing::{Apart, EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::pairing::{Apart, Beyond, EMPTY, MovedOutline, Pairing, PrimitiveScratch};
 use super::winding::RayScratch;
-use crate::convex::Measured;
+use crate::convex::{Measured, Nearest, Outline};
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
 use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
@@ -123,7 +123,20 @@ struct State {
     /// From B to A where they were last seen nearest, in A's frame: a unit vector, or zero. And how far apart that was.
     direction: Vec3,
     direction_at: f64,
+    /// The same where the last pair that was measured is nearest, be it near or not.
+    last_direction: Vec3,
+    /// The primitive of B whose outline is in the buffer.
+    moved: Option<MovedPlane>,
     meter: WorkMeter,
+}
+
+/// Where a primitive's outline has been moved to, but for its corners.
+#[derive(Clone, Copy)]
+struct MovedPlane {
+    place: u32,
+    corners: usize,
+    normal: Vec3,
+    offset: f64,
 }
 
 /// Shows the visitor the primitives at two places.
@@ -184,6 +197,8 @@ impl<'a, V: Visitor> Meetings<'a, V> {
     ) -> Self {
         state.direction = Vec3::zeros();
         state.direction_at = f64::INFINITY;
+        state.last_direction = Vec3::zeros();
+        state.moved = None;
         Self {
             pairing,
             buffer,
@@ -198,12 +213,14 @@ impl<'a, V: Visitor> Meetings<'a, V> {
     fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
         self.state.meter.count_primitives(1);
-        let outline = self.pairing.outline_b(places[1], self.buffer);
+        let outline = moved_outline(self.pairing, places[1], self.buffer, &mut self.state.moved);
         let outlines = self.pairing.outline_a(places[0]).zip(outline);
         if let Some((a, b)) = &outlines {
-            let direction: [f64; 3] = self.state.direction.into();
-            if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
-                return ControlFlow::Continue(());
+            for direction in [&self.state.direction, &self.state.last_direction] {
+                let direction: [f64; 3] = (*direction).into();
+                if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
+                    return ControlFlow::Continue(());
+                }
             }
         }
         self.state.meter.done.primitive_distances += 1;
@@ -213,11 +230,17 @@ impl<'a, V: Visitor> Meetings<'a, V> {
             cutoff,
         };
         let direction = self.state.direction;
-        let Some(apart) = self
+        let found = self
             .pairing
-            .distance_to(places, &outline, &direction, limits, primitives)
-        else {
-            return ControlFlow::Continue(());
+            .distance_to(places, &outline, &direction, limits, primitives);
+        let apart = match found {
+            Ok(apart) => apart,
+            Err(Beyond { nearest }) => {
+                if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
+                    self.state.last_direction = unit_across(&nearest, a, b);
+                }
+                return ControlFlow::Continue(());
+            }
         };
         show(
             self.pairing,
@@ -230,7 +253,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
                 let across = match (&outlines, apart.nearest, &apart.measured) {
-                    (Some((a, b)), Some(nearest), _) => nearest.across(a, b),
+                    (Some((a, b)), Some(nearest), _) => unit_across(&nearest, a, b),
                     (_, _, Some(measured)) => {
                         let [on_a, on_b] = measured.closest.points;
                         on_a - on_b
@@ -268,6 +291,41 @@ impl<V: Visitor> Meetings<'_, V> {
             None => ControlFlow::Continue(()),
         }
     }
+}
+
+/// The outline of a primitive of B in A's frame, if it has one; moved already if it was asked for last.
+#[inline(always)]
+fn moved_outline<'b>(
+    pairing: &Pairing,
+    place: u32,
+    buffer: &'b mut MovedOutline,
+    moved: &mut Option<MovedPlane>,
+) -> Option<Outline<'b>> {
+    if let Some(plane) = moved
+        && plane.place == place
+    {
+        return Some(Outline {
+            blocks: &buffer[..plane.corners.div_ceil(4)],
+            corners: plane.corners,
+            normal: plane.normal,
+            offset: plane.offset,
+        });
+    }
+    let outline = pairing.outline_b(place, buffer);
+    *moved = outline.map(|outline| MovedPlane {
+        place,
+        corners: outline.corners,
+        normal: outline.normal,
+        offset: outline.offset,
+    });
+    outline
+}
+
+/// The unit vector between the closest points of two polygons, from the second to the first; zero where they touch.
+#[inline(always)]
+fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
+    let across = nearest.across(a, b);
+    across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 
 /// Shows the visitor a pair whose distance is known.
@@ -320,6 +378,9 @@ impl<V: Visitor> Work for Traversal<'_, V> {
         Walk::new(self.meetings, self.stack).run(lanes)
     }
 }
+
+/// Bounds are made sharper where what matters is farther apart than this, in units of the pair.
+const SHARP_FROM: f32 = 1e-4;
 
 /// The two bodies as the walk sees them. Lengths in single precision are in units of `scale`, a power of two next above
 /// the pair's size.
@@ -429,9 +490,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             };
             let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
             let b = self.motions[0].apply(lanes, b);
-            if box_bounds::gap_along(&b, &a, &first) > 0.0
-                || box_bounds::gap_along(&b, &a, &centers) <= 0.0
-            {
+            if gap_along(&b, &a, &first) > 0.0 || gap_along(&b, &a, &centers) <= 0.0 {
                 return;
             }
         }
@@ -467,13 +526,19 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let node = tree.node(index);
         let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
-        let mut bounds = box_bounds::bounds(lanes, &eight, &one, V::REFINES);
-        if self.meetings.state.direction != Vec3::zeros() {
-            let direction = &self.directions[opened];
-            let gaps = box_bounds::gaps_along(lanes, &eight, &one, direction);
-            bounds = lanes.max(bounds, gaps);
-        }
         let children = tree.children(index);
+        // Where boxes that hardly overlap are all that matters, sharper bounds tell no more.
+        let bounds = if V::REFINES && cutoff > SHARP_FROM {
+            let is_aimed = self.meetings.state.direction != Vec3::zeros();
+            let wanted = Sharper {
+                direction: is_aimed.then_some(&self.directions[opened]),
+                cutoff,
+                among: (1 << children.count) - 1,
+            };
+            sharper_bounds(lanes, &eight, &one, &wanted)
+        } else {
+            bounds(lanes, &eight, &one)
+        };
         self.meetings.state.meter.count_nodes(children.count as u64);
         self.stack
             .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);
