@@ -8,7 +8,7 @@ use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
 use cstk::gjk::DistanceLimits;
 use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
-use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, bounds};
+use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, Sharper, bounds, sharper_bounds};
 use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::query::QueryContext;
 use cstk::tolerance::DISTANCE_ERROR;
@@ -251,7 +251,16 @@ impl Work for Bounded<'_> {
 
     fn run<I: Instructions>(self, lanes: I) -> Self::Output {
         let eight = self.0.boxes(lanes, 1.0);
-        [false, true].map(|refined| lanes.array(bounds(lanes, &eight, self.1, refined)))
+        let wanted = Sharper {
+            direction: None,
+            cutoff: f32::INFINITY,
+            among: 255,
+        };
+        let coarse = lanes.array(bounds(lanes, &eight, self.1));
+        [
+            coarse,
+            lanes.array(sharper_bounds(lanes, &eight, self.1, &wanted)),
+        ]
     }
 }
 

@@ -12,7 +12,7 @@ mod traversal;
 mod visitors;
 mod winding;
 
-pub use box_bounds::{Motion32, ROUNDING, bounds};
+pub use box_bounds::{Motion32, ROUNDING, Sharper, bounds, sharper_bounds};
 pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use shortlist::{Ranked, Shortlist};
