@@ -76,40 +76,38 @@ pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, cutoff: f64) -> bool {
 }
 
 /// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
-pub fn are_within(
+pub fn meeting_or_beyond(
     a: &Placed,
     b: &Placed,
     pair: &Precision,
     limits: DistanceLimits,
 ) -> Option<bool> {
-    let radii = [a, b].map(|placed| placed.shape.radius());
+    let radii = a.shape.radius() + b.shape.radius();
     if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
-        let limits = limits.of_cores(radii[0] + radii[1]);
+        let limits = limits.of_cores(radii);
         return cuboids_within([a, b], [on_a, on_b], pair.size, limits);
     }
-    let is_smooth = is_smooth(a, b);
-    let known = if is_smooth {
-        None
+    // Round ones, and those that need not meet, may be near enough without it.
+    if pair.planar || limits.enough > 0.0 || radii > 0.0 {
+        return None;
+    }
+    let (size, cutoff) = (pair.size, limits.cutoff);
+    let start = a.middle() - b.middle();
+    if is_smooth(a, b) {
+        meeting(&Core::of(a), &Core::of(b), start, size, cutoff)
     } else {
-        closed_form(a, b, pair)
-    };
-    let Some(cores) = known.map(|found| found.distance) else {
-        // Round ones may be within without meeting.
-        if pair.planar || limits.enough > 0.0 || radii != [0.0; 2] {
-            return None;
-        }
-        let (size, cutoff) = (pair.size, limits.cutoff);
-        let start = a.middle() - b.middle();
-        return if is_smooth {
-            meeting(&Core::of(a), &Core::of(b), start, size, cutoff)
-        } else {
-            meeting(a, b, start, size, cutoff)
-        };
-    };
-    let distance = beyond_radii(cores, radii);
-    let is_apart = distance > pair.error;
-    let lower = if is_apart { distance - pair.error } else { 0.0 };
-    Some(lower <= limits.enough)
+        meeting(a, b, start, size, cutoff)
+    }
+}
+
+/// The distance of two primitives in closed form, if their cores have one; maybe less than the error.
+pub fn closed_distance(a: &Placed, b: &Placed, pair: &Precision) -> Option<f64> {
+    if is_smooth(a, b) {
+        return None;
+    }
+    let cores = closed_form(a, b, pair)?;
+    let radii = [a, b].map(|placed| placed.shape.radius());
+    Some(beyond_radii(cores.distance, radii))
 }
 
 /// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than the cutoff.

@@ -23,7 +23,7 @@ mod surface_part;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};
-pub use distance::{DistanceScratch, Measured, are_within, measure, parts};
+pub use distance::{DistanceScratch, Measured, closed_distance, measure, meeting_or_beyond, parts};
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{Placed, PlacedBuffer, Precision};

@@ -236,14 +236,14 @@ impl<I: Instructions> Gaps<I> {
         let mut beyond = self.places;
         let mut square = lanes.splat(0.0);
         let mut own = lanes.splat(0.0);
-        for i in 0..3 {
-            let (place, reach) = (self.places[i], self.reaches[i]);
+        for (i, beyond) in beyond.iter_mut().enumerate() {
+            let (place, reach) = (*beyond, self.reaches[i]);
             let below = lanes.sub(lanes.splat(0.0), reach);
             let within = lanes.max(lanes.min(place, reach), below);
-            beyond[i] = lanes.sub(place, within);
-            square = lanes.mul_add(beyond[i], beyond[i], square);
+            *beyond = lanes.sub(place, within);
+            square = lanes.mul_add(*beyond, *beyond, square);
             let outside = lanes.sub(lanes.abs(place), self.half[i]);
-            own = lanes.mul_add(outside, lanes.abs(beyond[i]), own);
+            own = lanes.mul_add(outside, lanes.abs(*beyond), own);
         }
         let diagonal = lanes.sqrt(square);
         let [a, b, c] = &self.along;

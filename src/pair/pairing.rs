@@ -5,8 +5,8 @@ use super::traversal::Met;
 use crate::body::Body;
 use crate::convex::{
     Closest, Contact, DistanceScratch, MAX_CORNERS, Measured, Nearest, Outline, Penetration,
-    Placed, PlacedBuffer, PolygonDistance, Precision, are_within, contacts, first_contact, measure,
-    moved, parts, penetration, polygon_closest, polygon_distance,
+    Placed, PlacedBuffer, PolygonDistance, Precision, contacts, first_contact, measure,
+    meeting_or_beyond, moved, parts, penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -58,7 +58,7 @@ pub struct Beyond {
 }
 
 impl Apart {
-    /// Of primitives that meet, or are as near to one another as is enough.
+    /// Of primitives that meet.
     const NONE: Self = Self {
         distance: 0.0,
         nearest: None,
@@ -215,9 +215,9 @@ impl<'a> Pairing<'a> {
             return None;
         }
         if limits.enough >= 0.0
-            && let Some(is_within) = are_within(a, b, &self.precision, limits)
+            && let Some(meet) = meeting_or_beyond(a, b, &self.precision, limits)
         {
-            return is_within.then_some(Apart::NONE);
+            return meet.then_some(Apart::NONE);
         }
         let measured = measure(a, b, &self.precision, limits, distance)?;
         let Closest {

@@ -2,7 +2,9 @@
 
 use super::hit::{Hit, HitKey};
 use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
-use crate::convex::{DistanceScratch, Measured, Placed, are_within, first_contact, measure};
+use crate::convex::{
+    DistanceScratch, Measured, Placed, closed_distance, first_contact, measure, meeting_or_beyond,
+};
 use crate::gjk::DistanceLimits;
 
 /// The only primitives of two bodies, in the centred frame of A.
@@ -32,8 +34,13 @@ impl<'a> Singles<'a> {
             enough: threshold,
             cutoff: threshold + self.pairing.slack(),
         };
-        if let Some(answer) = are_within(&self.a, &self.b, &self.pairing.precision, limits) {
-            return answer;
+        let precision = &self.pairing.precision;
+        if let Some(distance) = closed_distance(&self.a, &self.b, precision) {
+            let is_apart = distance > precision.error;
+            return !is_apart || distance - precision.error <= threshold;
+        }
+        if let Some(meet) = meeting_or_beyond(&self.a, &self.b, precision, limits) {
+            return meet;
         }
         self.measure(limits)
             .is_some_and(|(hit, measured)| self.lower(&hit, &measured) <= threshold)
