@@ -1425,7 +1425,7 @@ typedef struct cstk_query_statistics {
    */
   uint64_t cache_hits;
   /**
-   * Of `primitive_pairs` those whose distance was computed: no separating direction was known yet.
+   * Of `primitive_pairs` those whose distance was asked for: polygons that a direction known before parts are left out.
    */
   uint64_t primitive_distances;
   uint64_t reserved[4];

@@ -9,7 +9,7 @@ pub struct Statistics {
     pub node_pairs: u64,
     /// Primitive pairs that were looked at; of rays, the faces tested.
     pub primitive_pairs: u64,
-    /// Of those, pairs whose distance was computed: no direction known before proved them too far apart.
+    /// Of those, pairs whose distance was asked for: polygons that a direction known before parts are left out.
     pub primitive_distances: u64,
     /// Remembered witnesses that were evaluated first.
     pub cache_hits: u64,

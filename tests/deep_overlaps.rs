@@ -307,3 +307,42 @@ fn a_cylinder_sunk_in_a_large_slab_is_inside() {
         assert_eq!(class_as_link(&bodies, &pose, 0.0), (Class::Inside, true));
     }
 }
+
+/// Directions are products of lengths, and supports square them: whatever the unit of length, what overlaps meets.
+#[test]
+fn what_overlaps_meets_at_every_scale() {
+    let mut random = Random::new(6);
+    let mut query = QueryContext::new();
+    for scale in [
+        1e-45, 1e-40, 1e-35, 1e-20, 1.0, 1e20, 1e38, 1e39, 1e40, 1e41, 1e45,
+    ] {
+        for _ in 0..300 {
+            let mut semi = || lengths(&mut random, scale, 0.3);
+            let (a, b) = (semi(), semi());
+            let points = random.points(10, 1.0);
+            let hull: Vec<Vec3> = points.iter().map(|p| p * scale).collect();
+            let mut set = |l: Vec3| match random.below(5) {
+                0 => Cylinder(l.x, l.y),
+                1 => Cone(l.x, 2.0 * l.y),
+                2 => Points(hull.clone()),
+                3 => Cuboid(l),
+                _ => Ellipsoid(l),
+            };
+            // The middle of each is deep inside it.
+            let bodies = [set(a), set(b)].map(|set| set.body());
+            let pose = Pose {
+                rotation: random.rotation(),
+                translation: random.unit() * (0.05 * scale),
+            };
+            let sides = [(&bodies[0], &Pose::identity()), (&bodies[1], &pose)];
+            let found = query
+                .pair_distance(sides[0], sides[1], f64::INFINITY)
+                .unwrap();
+            let is_within = query.pair_within(sides[0], sides[1], 0.0).unwrap();
+            assert!(
+                is_within && found.lower == 0.0,
+                "{scale:e} {a:?} {b:?} {found:?}"
+            );
+        }
+    }
+}

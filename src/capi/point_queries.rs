@@ -11,6 +11,7 @@ use super::status::cstk_status;
 use crate::cobject::CObject;
 use crate::pose::Pose;
 use crate::query::{Configuration, Shell};
+use crate::space::Space;
 
 /// Where the robot is, as C gave it: `count` numbers or poses.
 #[derive(Clone, Copy)]
@@ -21,12 +22,17 @@ enum Given {
 
 impl Given {
     /// What is given, checked; poses in memory that is used again.
-    unsafe fn read<'a>(self, memory: &'a mut Vec<Pose>) -> Result<Configuration<'a>, Failure> {
+    unsafe fn read<'a>(
+        self,
+        space: &Space,
+        memory: &'a mut Vec<Pose>,
+    ) -> Result<Configuration<'a>, Failure> {
         // SAFETY: as the caller states.
         unsafe {
             Ok(match self {
                 Self::Coordinates(q, count) => Configuration::Coordinates(slice(q, count, "q")?),
                 Self::LinkPoses(values, count) => {
+                    space.check_link_poses(count)?;
                     read_poses(values, count, "link_poses", memory)?;
                     Configuration::LinkPoses(memory)
                 }
@@ -66,7 +72,7 @@ unsafe fn run_at<T>(
     let ask = |state: &mut State, cobject: &CObject, (): &()| {
         let mut memory = std::mem::take(&mut state.poses);
         // SAFETY: the caller states the lengths.
-        let at = unsafe { given.read(&mut memory)? };
+        let at = unsafe { given.read(cobject.space(), &mut memory)? };
         let answer = ask(state, cobject, at);
         state.poses = memory;
         answer

@@ -216,7 +216,7 @@ pub struct cstk_query_statistics {
     pub primitive_pairs: u64,
     /// Witnesses of earlier queries that were evaluated first.
     pub cache_hits: u64,
-    /// Of `primitive_pairs` those whose distance was computed: no separating direction was known yet.
+    /// Of `primitive_pairs` those whose distance was asked for: polygons that a direction known before parts are left out.
     pub primitive_distances: u64,
     pub reserved: [u64; 4],
 }

@@ -8,7 +8,7 @@ use super::placed::{Placed, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, Support, gjk, meeting};
 use crate::pose::Vec3;
-use crate::primitive::{Cuboid, Feature, FeatureKind};
+use crate::primitive::{Cuboid, Feature, FeatureKind, Smooth, SmoothKind};
 use crate::tolerance;
 
 /// Memory of the distance computation, reused from pair to pair.
@@ -63,7 +63,10 @@ pub fn measure(
 }
 
 /// Whether a unit direction from B to A proves two primitives to be farther apart than the cutoff.
-pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, cutoff: f64) -> bool {
+pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, pair: &Precision, cutoff: f64) -> bool {
+    let Some(cutoff) = proved_cutoff(a, b, pair, cutoff) else {
+        return false;
+    };
     let cutoff = cutoff + a.shape.radius() + b.shape.radius();
     let [a, b] = [(a, -direction), (b, *direction)].map(|(placed, direction)| {
         if placed.shape.smooth().is_some() {
@@ -73,6 +76,19 @@ pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, cutoff: f64) -> bool {
         }
     });
     direction.dot(&(a - b)) > cutoff
+}
+
+/// The cutoff beyond which any direction that parts two primitives leaves no doubt about their distance, so that what is asked
+/// first decides nothing: more than that where one is smooth. `None` for functions of the caller's, which are true but for
+/// an error of their own.
+fn proved_cutoff(a: &Placed, b: &Placed, pair: &Precision, cutoff: f64) -> Option<f64> {
+    let smooth = [a.shape.smooth(), b.shape.smooth()];
+    if smooth.iter().all(Option::is_none) {
+        return Some(cutoff);
+    }
+    let is_function = |smooth: &&Smooth| matches!(smooth.kind, SmoothKind::Function(_));
+    let has_function = smooth.iter().flatten().any(is_function);
+    (!has_function).then(|| cutoff.max(tolerance::SMOOTH_ERROR * pair.size))
 }
 
 /// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
@@ -91,8 +107,8 @@ pub fn meeting_or_beyond(
     if pair.planar || limits.enough > 0.0 || radii > 0.0 {
         return None;
     }
-    let (size, cutoff) = (pair.size, limits.cutoff);
-    let start = a.middle() - b.middle();
+    let cutoff = proved_cutoff(a, b, pair, limits.cutoff)?;
+    let (size, start) = (pair.size, a.middle() - b.middle());
     if is_smooth(a, b) {
         meeting(&Core::of(a), &Core::of(b), start, size, cutoff)
     } else {

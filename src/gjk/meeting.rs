@@ -6,7 +6,7 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// Sets that need more steps than this are near to touching.
+/// Sets that need more steps than this are mostly near to touching.
 const MAX_STEPS: usize = 16;
 
 /// Whether A and B meet, or are proved to be farther apart than `cutoff`; `None` where neither is soon told. No coordinate of A
@@ -18,20 +18,30 @@ pub fn meeting<A: Support, B: Support>(
     size: f64,
     cutoff: f64,
 ) -> Option<bool> {
+    // Directions are products of three lengths, which the sets square: in units of their size they stay in range.
+    let unit = power_of_two(size);
     with_widest(Search {
         a,
         b,
-        start,
-        depth: tolerance::TOUCH_DEPTH * size,
-        cutoff,
+        start: start / unit,
+        inverse_unit: 1.0 / unit,
+        depth: tolerance::TOUCH_DEPTH * (size / unit),
+        cutoff: cutoff / unit,
     })
+}
+
+/// The largest power of two that is no larger than a length.
+fn power_of_two(length: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    f64::from_bits(length.to_bits() & EXPONENT)
 }
 
 struct Search<'a, A, B> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
-    /// The origin is inside a tetrahedron if it is so deep in it.
+    inverse_unit: f64,
+    /// In units: the origin is inside a tetrahedron if it is so deep in it.
     depth: f64,
     cutoff: f64,
 }
@@ -53,7 +63,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
                 return None;
             }
             let corner = Corner::between(self.a.extreme(&-v), self.b.extreme(&v));
-            let newest = corner.difference;
+            let newest = corner.difference * self.inverse_unit;
             let along = v.dot(&newest);
             if along > 0.0 {
                 // The origin is beyond the newest corner: a proof, or else doubt.

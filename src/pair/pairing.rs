@@ -211,7 +211,7 @@ impl<'a> Pairing<'a> {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = &self.placed(places, buffer);
         let is_aimed = *direction != Vec3::zeros();
-        if is_aimed && parts(a, b, direction, limits.cutoff) {
+        if is_aimed && parts(a, b, direction, &self.precision, limits.cutoff) {
             return None;
         }
         if limits.enough >= 0.0

@@ -6,7 +6,7 @@ use super::target::Placement;
 use super::world::World;
 use crate::cobject::{Induced, Stand};
 use crate::environment::{Attachment, SObject};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::pose::Pose;
 use crate::reused::emptied;
 use crate::robot::Posture;
@@ -66,16 +66,7 @@ impl<'a> Scene<'a> {
                 (Some(q), None)
             }
             Configuration::LinkPoses(poses) => {
-                if poses.len() != space.link_count() {
-                    return Err(Error::new(
-                        ErrorKind::WrongSize,
-                        format!(
-                            "{} link poses given, the space has {} links",
-                            poses.len(),
-                            space.link_count()
-                        ),
-                    ));
-                }
+                space.check_link_poses(poses.len())?;
                 if let Some(link) = poses.iter().position(|pose| !pose.is_planar())
                     && space.dimension() == 2
                 {

@@ -24,6 +24,17 @@ pub(super) struct Answers {
     distances: Known<Distance>,
 }
 
+/// Memory is used again for so many parts: more would be swept by each call.
+const MAX_KEPT: usize = 1024;
+
+fn emptied<T>(mut known: Known<T>) -> Known<T> {
+    if known.capacity() > MAX_KEPT {
+        return Known::default();
+    }
+    known.clear();
+    known
+}
+
 /// How a set is made of its parts, or of their complements.
 enum Made<'a> {
     /// A union: of what is induced, and of parts.
@@ -62,8 +73,7 @@ fn is_pure(part: &&CObject) -> bool {
 
 impl QueryContext {
     pub(super) fn class_of(&mut self, cobject: &CObject, scene: &Scene) -> Result<Class> {
-        let mut known = std::mem::take(&mut self.answers.classes);
-        known.clear();
+        let mut known = emptied(std::mem::take(&mut self.answers.classes));
         let class = self.class_among(cobject, scene, &mut known);
         self.answers.classes = known;
         class
@@ -172,8 +182,7 @@ impl QueryContext {
         scene: &Scene,
         threshold: f64,
     ) -> Result<bool> {
-        let mut known = std::mem::take(&mut self.answers.within);
-        known.clear();
+        let mut known = emptied(std::mem::take(&mut self.answers.within));
         let within = self.within_among(cobject, scene, threshold, false, &mut known);
         self.answers.within = known;
         within
@@ -253,8 +262,7 @@ impl QueryContext {
         scene: &Scene,
         max_distance: f64,
     ) -> Result<Distance> {
-        let mut known = std::mem::take(&mut self.answers.distances);
-        known.clear();
+        let mut known = emptied(std::mem::take(&mut self.answers.distances));
         let found = self.distance_from(cobject, scene, max_distance, false, &mut known);
         self.answers.distances = known;
         Ok(Distance {

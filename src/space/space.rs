@@ -166,6 +166,18 @@ impl Space {
         Ok(())
     }
 
+    /// Refuses poses of more or fewer links than there are.
+    pub fn check_link_poses(&self, count: usize) -> Result<()> {
+        if count == self.links {
+            return Ok(());
+        }
+        let links = self.links;
+        Err(Error::new(
+            ErrorKind::WrongSize,
+            format!("{count} link poses given, the space has {links} links"),
+        ))
+    }
+
     /// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion
     /// that is none.
     pub fn check_configuration(&self, q: &[f64]) -> Result<()> {
