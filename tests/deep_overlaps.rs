@@ -319,8 +319,10 @@ fn what_overlaps_meets_at_every_scale() {
         for _ in 0..300 {
             let mut semi = || lengths(&mut random, scale, 0.3);
             let (a, b) = (semi(), semi());
-            let points = random.points(10, 1.0);
-            let hull: Vec<Vec3> = points.iter().map(|p| p * scale).collect();
+            // With one point across from each, the middle is inside.
+            let points = random.points(6, 1.0);
+            let across = points.iter().flat_map(|p| [p * scale, p * -scale]);
+            let hull: Vec<Vec3> = across.collect();
             let mut set = |l: Vec3| match random.below(5) {
                 0 => Cylinder(l.x, l.y),
                 1 => Cone(l.x, 2.0 * l.y),
