@@ -51,12 +51,18 @@ fn calls(text: &str, name: &str) -> bool {
         .any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || "_.".contains(c)))
 }
 
-/// Whether a file has a function `run` of its own that is a guarded call: it may stand for the guard there.
-fn has_guarded_run(text: &str) -> bool {
-    text.split("fn run<").nth(1).is_some_and(|rest| {
-        let body = rest.split("\n}").next().unwrap_or_default();
-        calls(body, "guard")
-    })
+/// Those of a file's own functions `run` and `run_at` that are guarded calls, by `guard` or by one another: they may stand for the
+/// guard there.
+fn guarded_runs(text: &str) -> Vec<&'static str> {
+    let mut guarded = vec!["guard"];
+    for name in ["run", "run_at"] {
+        let own = text.split(&format!("fn {name}<")).nth(1);
+        let body = own.and_then(|rest| rest.split("\n}").next());
+        if body.is_some_and(|body| guarded.iter().any(|guard| calls(body, guard))) {
+            guarded.push(name);
+        }
+    }
+    guarded
 }
 
 #[test]
@@ -67,10 +73,9 @@ fn every_export_runs_in_the_guard() {
     for entry in std::fs::read_dir(directory).unwrap() {
         let path = entry.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
-        let run_is_guarded = has_guarded_run(&text);
+        let guarded = guarded_runs(&text);
         for export in exports(&text) {
-            let by_run = run_is_guarded && calls(&export.body, "run");
-            if !calls(&export.body, "guard") && !by_run {
+            if !guarded.iter().any(|guard| calls(&export.body, guard)) {
                 bare.push(export.name.clone());
             }
             names.push(export.name);
