@@ -25,6 +25,18 @@ fn parallel(frame: &Pose, offset: &Vec3) -> (Pose, Pose) {
     (*frame, b)
 }
 
+/// How far one box is off another, whose half sides add up to `sums`: a face, an edge or a corner nearest, by a gap between two
+/// powers of ten, of either sign.
+fn off_by_a_gap(random: &mut Random, case: usize, sums: &Vec3, powers: [f64; 2]) -> Vec3 {
+    let sign = if case.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let gap = sign * 10f64.powf(random.within(powers[0], powers[1]));
+    let mut offset = Vec3::from([0, 1, 2].map(|k| random.within(-0.95, 0.95) * sums[k]));
+    for k in 0..=(case / 2 % 3) {
+        offset[k] = (sums[k] + gap).max(0.0).copysign(offset[k]);
+    }
+    offset
+}
+
 #[test]
 fn parallel_boxes_are_within_what_their_sides_say() {
     let mut random = Random::new(71);
@@ -34,12 +46,7 @@ fn parallel_boxes_are_within_what_their_sides_say() {
         let (a, b) = (half(&mut random), half(&mut random));
         let frame = random.pose(2.0);
         let sums = a + b;
-        // A face, an edge or a corner nearest, or none: by a gap from rounding to the size of the boxes, of either sign.
-        let gap = 10f64.powf(random.within(-13.0, 0.0)) * if case % 2 == 0 { 1.0 } else { -1.0 };
-        let mut offset = Vec3::from([0, 1, 2].map(|k| random.within(-0.95, 0.95) * sums[k]));
-        for k in 0..=(case / 2 % 3) {
-            offset[k] = (sums[k] + gap).max(0.0).copysign(offset[k]);
-        }
+        let offset = off_by_a_gap(&mut random, case, &sums, [-13.0, 0.0]);
         let beyond = Vec3::from([0, 1, 2].map(|k| (offset[k].abs() - sums[k]).max(0.0)));
         let distance = beyond.norm();
         let (bodies, poses) = ([box_of(&a), box_of(&b)], parallel(&frame, &offset));
@@ -77,11 +84,7 @@ fn boxes_turned_by_little_are_within_their_distance() {
     for case in 0..6000 {
         let (a, b) = (half(&mut random), half(&mut random));
         let sums = a + b;
-        let gap = 10f64.powf(random.within(-12.0, -1.0)) * if case % 2 == 0 { 1.0 } else { -1.0 };
-        let mut offset = Vec3::from([0, 1, 2].map(|k| random.within(-0.95, 0.95) * sums[k]));
-        for k in 0..=(case / 2 % 3) {
-            offset[k] = (sums[k] + gap).max(0.0).copysign(offset[k]);
-        }
+        let offset = off_by_a_gap(&mut random, case, &sums, [-12.0, -1.0]);
         let angle = 10f64.powf(random.within(-16.0, 0.0));
         let turn = Pose {
             rotation: rotation_about(&random.unit(), angle),
