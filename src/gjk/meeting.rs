@@ -153,6 +153,11 @@ fn beyond_triangle(a: Vec3, b: Vec3, c: Vec3) -> Next {
     }
 }
 
+/// What rounding may make of the triple product of three edges of a tetrahedron whose corners are differences of points with
+/// coordinates up to 2: these are no longer than 7, edges 14, so that the product is within 14 * 14 * 7 * 5 EPSILON. The normal
+/// of a needle says nothing, however deep the origin seems below it.
+const VOLUME_ERROR: f64 = 8192.0 * tolerance::EPSILON;
+
 /// Whether the origin is inside a tetrahedron, farther than `depth` from its faces.
 #[inline(always)]
 fn is_deep_inside(corners: &[Vec3; 4], depth: f64) -> bool {
@@ -161,7 +166,8 @@ fn is_deep_inside(corners: &[Vec3; 4], depth: f64) -> bool {
         let normal = (corners[j] - a).cross(&(corners[k] - a));
         let towards = normal.dot(&(corners[opposite] - a));
         let height = -normal.dot(&a);
-        let is_deep = height * height > depth * depth * normal.norm_squared();
+        let is_clear = height.abs() > VOLUME_ERROR;
+        let is_deep = is_clear & (height * height > depth * depth * normal.norm_squared());
         (towards * height > 0.0) & is_deep
     };
     is_inside(0, 1, 2, 3) & is_inside(0, 2, 3, 1) & is_inside(0, 3, 1, 2) & is_inside(1, 2, 3, 0)
