@@ -219,7 +219,8 @@ enum cstk_wrapper_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default.
+   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. They are made when
+   * nodes are first looked at; the boxes that queries walk are fitted to the primitives themselves.
    */
   CSTK_WRAPPER_HULL = 0,
   CSTK_WRAPPER_ORIENTED_BOX = 1,
@@ -562,11 +563,12 @@ enum cstk_grouping
  {
   /**
    * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
-   * nothing but points (cstk_body_builder_add_points), which have no edges, are split from the top.
+   * more than 16,384 primitives are first cut into regions of no more, from the top. Bodies of nothing but points
+   * (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
    */
   CSTK_GROUPING_HYBRID = 0,
   /**
-   * Clustering of what is near; needs no adjacency (the report's Basic Clustering).
+   * Clustering of what is near, in such regions; needs no adjacency (the report's Basic Clustering).
    */
   CSTK_GROUPING_BASIC = 1,
   /**
@@ -874,8 +876,8 @@ typedef struct cstk_hierarchy_statistics {
   double grouping_seconds;
   double construction_seconds;
   /**
-   * Memory of the hierarchy and of what queries read of the primitives. Of a body of nothing but points, whose wrappers
-   * are made when nodes are first looked at, it is more afterwards.
+   * Memory of the hierarchy and of what queries read of the primitives. Of hulls and of a body of nothing but points,
+   * whose wrappers are made when nodes are first looked at, it is several times more afterwards.
    */
   uint64_t memory_bytes;
   uint64_t reserved[8];
@@ -2251,8 +2253,8 @@ cstk_status cstk_body_builder_add_support(struct cstk_body_builder *builder,
                                           uint64_t tag);
 
 /**
- * Describes the body's hierarchy. Takes time in proportion to its nodes. That of nothing but points is described by the
- * boxes around the points, along the axes of coordinates, whatever its wrappers.
+ * Describes the body's hierarchy. Takes time in proportion to its nodes. That of hulls, and of nothing but points, is
+ * described by the boxes around the primitives, along the axes of coordinates.
  */
 cstk_status cstk_body_get_hierarchy(const struct cstk_body *body,
                                     struct cstk_hierarchy_statistics *out);

@@ -366,13 +366,13 @@ fn progress_rises_to_one_and_an_error_ends_the_build() {
 #[test]
 fn a_hierarchy_can_be_built_of_primitives_alone() {
     let body = built(&builder(&scenes::lamp()), &HierarchyOptions::default());
-    let (tree, times) = build_hierarchy(
-        &body.primitives().as_shapes(),
-        &HierarchyOptions::default(),
-        &mut |_| Ok(()),
-    )
+    let built = build_hierarchy(body.primitives(), &HierarchyOptions::default(), &mut |_| {
+        Ok(())
+    })
     .unwrap();
-    assert!(tree == *body.tree());
+    let times = built.times;
+    assert!(built.wrappers.tree(body.primitives()) == body.tree());
+    assert!(built.packed == *body.packed());
     assert!(
         [times.preparation, times.grouping, times.construction]
             .iter()

@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
-use super::wrappers::Wrappers;
 use crate::error::{Error, Result};
-use crate::hierarchy::{BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree};
+use crate::hierarchy::{
+    BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree, Wrappers,
+};
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 use crate::user_data::UserData;
@@ -142,7 +143,7 @@ impl Body {
         self.primitives.tag(primitive as usize)
     }
 
-    /// The wrapper tree; of a cloud of points it is made when first asked for.
+    /// The wrapper tree; of hulls and of clouds it is made when first asked for.
     pub fn tree(&self) -> &WrapperTree {
         self.wrappers.tree(&self.primitives)
     }
@@ -152,7 +153,8 @@ impl Body {
         self.wrappers.kind()
     }
 
-    /// What the hierarchy is like, with the bytes that it and the points of clouds take. Makes no wrappers.
+    /// What the hierarchy is like, with the bytes that it and the points of clouds take. Makes
+    /// no wrappers.
     pub fn tree_statistics(&self) -> TreeStatistics {
         let statistics = self.wrappers.statistics(&self.primitives);
         let read = self.packed.bytes() + self.primitives.point_bytes();

@@ -1,16 +1,12 @@
 //! Collects primitives, checks each as it comes, and builds the body.
 
 use std::path::Path;
-use std::time::Instant;
 
 use super::mesh_file::read_mesh_file;
 use super::solid::{Scrap, Solid};
-use super::wrappers::Wrappers;
 use super::{Body, BodyStatistics, Mesh};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{
-    BuildTimes, HierarchyOptions, PackedTree, build_cloud, build_hierarchy, is_cloud,
-};
+use crate::hierarchy::{HierarchyOptions, build_hierarchy};
 use crate::pose::{Pose, Vec3, check_dimension};
 use crate::primitive::{
     Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
@@ -199,7 +195,7 @@ impl BodyBuilder {
             }
             Solid::new(signs, scraps, &primitives)
         });
-        let built = build(&primitives, options, progress)?;
+        let built = build_hierarchy(&primitives, options, progress)?;
         let statistics = BodyStatistics {
             is_solid: self.is_solid,
             primitives: primitives.len() as u64,
@@ -266,47 +262,6 @@ impl BodyBuilder {
             _ => Ok(()),
         }
     }
-}
-
-/// A body's hierarchy, and what is told of it.
-struct Hierarchy {
-    wrappers: Wrappers,
-    packed: PackedTree,
-    nodes: usize,
-    depth: usize,
-    times: BuildTimes,
-}
-
-/// Builds the hierarchy of primitives in their body's own frame.
-fn build(
-    primitives: &Primitives,
-    options: &HierarchyOptions,
-    progress: &mut dyn FnMut(f64) -> Result<()>,
-) -> Result<Hierarchy> {
-    if is_cloud(primitives, options) {
-        let cloud = build_cloud(primitives, options, progress)?;
-        return Ok(Hierarchy {
-            wrappers: Wrappers::of_cloud(options),
-            packed: cloud.packed,
-            nodes: 2 * primitives.len() - 1,
-            depth: cloud.depth,
-            times: cloud.times,
-        });
-    }
-    let start = Instant::now();
-    let shapes = primitives.as_shapes();
-    let (tree, mut times) = build_hierarchy(&shapes, options, progress)?;
-    let packed = PackedTree::new(&shapes, &tree);
-    // Packing the tree is part of its construction.
-    let before = times.preparation + times.grouping;
-    times.construction = start.elapsed().as_secs_f64() - before;
-    Ok(Hierarchy {
-        packed,
-        nodes: tree.subsets().nodes.len(),
-        depth: tree.subsets().depth(),
-        wrappers: Wrappers::Eager(Box::new(tree)),
-        times,
-    })
 }
 
 /// The rings between a face and its triangles, where those leave out vertices that repeat others.

@@ -12,7 +12,7 @@ use crate::pose::check_dimension;
 use crate::whole_file::{read_whole, write_whole};
 
 const MAGIC: [u8; 8] = *b"cstkbody";
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 const HEADER_BYTES: usize = 32;
 
 /// 16 GiB: many times what the largest body that a mesh file can give (`mesh_size`) takes.
@@ -231,10 +231,10 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 5;
+        altered[8] = 6;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 5"), "{}", error.message);
+        assert!(error.message.contains("version 6"), "{}", error.message);
     }
 
     /// Content that passes the checksum but was not written by us must not lead out of bounds.

@@ -1,12 +1,14 @@
 //! Numbers, primitives and hierarchies from the bytes of a body file.
 
 use super::Solid;
-use super::file_writer::{CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, PLAIN, POINTS, ROUNDED, SHAPE};
-use super::wrappers::Wrappers;
+use super::file_writer::{
+    CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, MADE, OF_CLOUD, OF_GROUPS, PLAIN, POINTS, ROUNDED,
+    SHAPE,
+};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{
-    Ball, Frame, HierarchyOptions, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode, WrapperKind,
-    WrapperTree, is_cloud,
+    Ball, Frame, Groups, HierarchyOptions, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode,
+    WrapperKind, WrapperTree, Wrappers, is_cloud,
 };
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
@@ -214,46 +216,93 @@ impl Reader<'_> {
         Ok(read)
     }
 
-    /// The wrapper tree, or of a cloud of points how it is made; the numbers of nodes and of levels.
+    /// The wrapper tree, or how it is made; the numbers of nodes and of levels.
     pub fn wrappers(&mut self, primitives: &Primitives) -> Result<(Wrappers, [u64; 2])> {
         let wrapper = *KINDS
             .get(self.u32()? as usize)
             .ok_or_else(|| self.damaged("the kind of wrappers"))?;
-        if self.flag()? {
-            let tree = self.tree(primitives.len(), wrapper)?;
-            let shape = [tree.subsets().nodes.len(), tree.subsets().depth()];
-            return Ok((Wrappers::Eager(Box::new(tree)), shape.map(|n| n as u64)));
-        }
+        let shape_of = |subsets: &SubsetTree| [subsets.nodes.len(), subsets.depth()];
+        let (wrappers, shape) = match self.u32()? {
+            MADE => {
+                let tree = self.tree(primitives.len(), wrapper)?;
+                let shape = shape_of(tree.subsets());
+                (Wrappers::Made(Box::new(tree)), shape)
+            }
+            OF_GROUPS => {
+                let options = self.options(wrapper)?;
+                let groups = self.groups(primitives.len())?;
+                let shape = shape_of(&groups.subsets);
+                (Wrappers::of_groups(groups, &options), shape)
+            }
+            OF_CLOUD => {
+                let options = self.options(wrapper)?;
+                let depth = self.u32()?;
+                if !is_cloud(primitives, &options) || depth > MAX_DEPTH {
+                    return Err(self.damaged("what is said of the hierarchy"));
+                }
+                let shape = [2 * primitives.len() - 1, depth as usize];
+                (Wrappers::of_cloud(&options), shape)
+            }
+            _ => return Err(self.damaged("what is said of the wrappers")),
+        };
+        Ok((wrappers, shape.map(|n| n as u64)))
+    }
+
+    fn options(&mut self, wrapper: WrapperKind) -> Result<HierarchyOptions> {
         let options = HierarchyOptions {
             wrapper,
             hull_vertex_limit: self.u32()?,
             ..HierarchyOptions::default()
         };
-        let depth = self.u32()?;
-        if !is_cloud(primitives, &options) || options.check().is_err() || depth > MAX_DEPTH {
-            return Err(self.damaged("what is said of the hierarchy"));
+        let checked = options.check();
+        checked.map_err(|_| self.damaged("what is said of the hierarchy"))?;
+        Ok(options)
+    }
+
+    fn groups(&mut self, primitives: usize) -> Result<Groups> {
+        let count = self.count(4)?;
+        let nodes = (0..count).map(|i| self.node(i as u32));
+        let nodes = nodes.collect::<Result<_>>()?;
+        let groups = self.sound(nodes, primitives)?;
+        // Wrappers take time that grows with the levels.
+        match groups.subsets.depth() <= MAX_DEPTH as usize + 1 {
+            true => Ok(groups),
+            false => Err(self.damaged("the depth of the tree")),
         }
-        let nodes = 2 * primitives.len() as u64 - 1;
-        Ok((Wrappers::of_cloud(&options), [nodes, depth.into()]))
+    }
+
+    fn node(&mut self, index: u32) -> Result<Node> {
+        let code = self.u32()?;
+        Ok(match code & LEAF {
+            0 => Node::Interior {
+                children: [index + 1, code],
+            },
+            _ => Node::Leaf {
+                primitive: code & !LEAF,
+            },
+        })
+    }
+
+    /// Nodes that make a tree, and which of them hold pieces.
+    fn sound(&mut self, nodes: Vec<Node>, primitives: usize) -> Result<Groups> {
+        let count = self.count(4)?;
+        let pieces: Vec<u32> = (0..count)
+            .map(|_| self.index(nodes.len()))
+            .collect::<Result<_>>()?;
+        let subsets = SubsetTree { nodes };
+        if !subsets.is_sound(primitives) || !pieces.is_sorted_by(|a, b| a < b) {
+            return Err(self.damaged("the tree"));
+        }
+        Ok(Groups { subsets, pieces })
     }
 
     fn tree(&mut self, primitives: usize, kind: WrapperKind) -> Result<WrapperTree> {
         let count = self.count(48)?;
-        let pieces = self.count(4)?;
         let mut nodes = Vec::with_capacity(count);
         let mut frames = Vec::with_capacity(count);
         let mut corners = Vec::new();
         for i in 0..count {
-            let code = self.u32()?;
-            nodes.push(if code & LEAF != 0 {
-                Node::Leaf {
-                    primitive: code & !LEAF,
-                }
-            } else {
-                Node::Interior {
-                    children: [i as u32 + 1, code],
-                }
-            });
+            nodes.push(self.node(i as u32)?);
             let corner_count = self.short_count(24)?;
             frames.push(Frame {
                 first_corner: corners.len(),
@@ -269,13 +318,7 @@ impl Reader<'_> {
                 corners.push(self.vector()?);
             }
         }
-        let pieces: Vec<u32> = (0..pieces)
-            .map(|_| self.index(count))
-            .collect::<Result<_>>()?;
-        let subsets = SubsetTree { nodes };
-        if !subsets.is_sound(primitives) || !pieces.is_sorted_by(|a, b| a < b) {
-            return Err(self.damaged("the tree"));
-        }
+        let Groups { subsets, pieces } = self.sound(nodes, primitives)?;
         Ok(WrapperTree::from_parts(
             subsets, frames, corners, kind, pieces,
         ))
@@ -328,5 +371,33 @@ impl Reader<'_> {
         }
         let solid = Solid::new(signs, scraps, primitives);
         solid.map(Some).ok_or_else(|| self.damaged("a boundary"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::file_writer::Writer;
+
+    /// A tree that is one long chain, sound but for its depth, would have its wrappers take for ever.
+    #[test]
+    fn deep_trees_are_refused() {
+        let read = |leaves: u32| {
+            let mut writer = Writer::default();
+            writer.count(2 * leaves as usize - 1);
+            for leaf in 0..leaves - 1 {
+                writer.u32(2 * leaf + 2);
+                writer.u32(LEAF | leaf);
+            }
+            writer.u32(LEAF | (leaves - 1));
+            writer.count(0);
+            let mut reader = Reader {
+                payload: &writer.0,
+                place: 0,
+            };
+            reader.groups(leaves as usize).map(|g| g.subsets.depth())
+        };
+        assert_eq!(read(63).unwrap(), 63);
+        assert!(read(64).is_err());
     }
 }

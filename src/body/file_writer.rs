@@ -1,9 +1,8 @@
 //! Numbers, primitives and hierarchies as bytes of a body file.
 
 use super::Solid;
-use super::wrappers::Wrappers;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{Node, PackedTree, WrapperKind, WrapperTree};
+use crate::hierarchy::{Groups, Node, PackedTree, WrapperKind, WrapperTree, Wrappers};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, PrimitiveGroup, Primitives, Smooth, SmoothKind};
 
@@ -13,6 +12,11 @@ pub const LEAF: u32 = 1 << 31;
 /// What follows in the list of primitives.
 pub const SHAPE: u32 = 0;
 pub const POINTS: u32 = 1;
+
+/// What of the wrappers follows.
+pub const OF_CLOUD: u32 = 0;
+pub const MADE: u32 = 1;
+pub const OF_GROUPS: u32 = 2;
 
 /// The kinds of shapes by their numbers in files.
 pub const PLAIN: u32 = 0;
@@ -142,31 +146,62 @@ impl Writer {
         Ok(())
     }
 
-    /// The wrapper tree, or of a cloud of points how it is made.
+    /// The wrapper tree, or how it is made when it is asked for.
     pub fn wrappers(&mut self, wrappers: &Wrappers, depth: u64) {
         let kind = KINDS.iter().position(|&kind| kind == wrappers.kind());
         self.u32(kind.unwrap_or(0) as u32);
         match wrappers {
-            Wrappers::Eager(tree) => {
-                self.u32(1);
+            Wrappers::Made(tree) => {
+                self.u32(MADE);
                 self.tree(tree);
             }
-            Wrappers::Lazy { options, .. } => {
-                self.u32(0);
+            Wrappers::OnDemand {
+                groups: Some(groups),
+                options,
+                ..
+            } => {
+                self.u32(OF_GROUPS);
+                self.u32(options.hull_vertex_limit);
+                self.groups(groups);
+            }
+            Wrappers::OnDemand {
+                groups: None,
+                options,
+                ..
+            } => {
+                self.u32(OF_CLOUD);
                 self.u32(options.hull_vertex_limit);
                 self.u32(depth as u32);
             }
         }
     }
 
+    fn groups(&mut self, groups: &Groups) {
+        self.count(groups.subsets.nodes.len());
+        for node in &groups.subsets.nodes {
+            self.node(node);
+        }
+        self.pieces(&groups.pieces);
+    }
+
+    fn node(&mut self, node: &Node) {
+        self.u32(match *node {
+            Node::Leaf { primitive } => LEAF | primitive,
+            Node::Interior { children } => children[1],
+        });
+    }
+
+    fn pieces(&mut self, pieces: &[u32]) {
+        self.count(pieces.len());
+        for &piece in pieces {
+            self.u32(piece);
+        }
+    }
+
     fn tree(&mut self, tree: &WrapperTree) {
         self.count(tree.subsets().nodes.len());
-        self.count(tree.pieces().len());
         for (i, node) in tree.subsets().nodes.iter().enumerate() {
-            self.u32(match *node {
-                Node::Leaf { primitive } => LEAF | primitive,
-                Node::Interior { children } => children[1],
-            });
+            self.node(node);
             let wrapper = tree.wrapper(i as u32);
             self.u32(wrapper.corners.len() as u32);
             self.f64(wrapper.excess);
@@ -176,9 +211,7 @@ impl Writer {
                 self.vector(corner);
             }
         }
-        for &piece in tree.pieces() {
-            self.u32(piece);
-        }
+        self.pieces(tree.pieces());
     }
 
     pub fn packed(&mut self, packed: &PackedTree) {

@@ -20,7 +20,6 @@ mod solid;
 mod stl;
 mod surface_edges;
 mod vertex_numbers;
-mod wrappers;
 
 pub use body::{Body, BodyStatistics};
 pub use body_cache::{BodyCache, BodyKey};

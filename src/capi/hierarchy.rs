@@ -11,9 +11,10 @@ use crate::hierarchy::{Cost, Grouping, HierarchyOptions, Pieces, WrapperKind};
 #[derive(Clone, Copy)]
 pub enum cstk_grouping {
     /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
-    /// nothing but points (cstk_body_builder_add_points), which have no edges, are split from the top.
+    /// more than 16,384 primitives are first cut into regions of no more, from the top. Bodies of nothing but points
+    /// (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
     CSTK_GROUPING_HYBRID = 0,
-    /// Clustering of what is near; needs no adjacency (the report's Basic Clustering).
+    /// Clustering of what is near, in such regions; needs no adjacency (the report's Basic Clustering).
     CSTK_GROUPING_BASIC = 1,
     /// Top-down splits by the surface-area heuristic; the fastest to build.
     CSTK_GROUPING_TOP_DOWN = 2,
@@ -23,7 +24,8 @@ pub enum cstk_grouping {
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_wrapper_kind {
-    /// Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default.
+    /// Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. They are made when
+    /// nodes are first looked at; the boxes that queries walk are fitted to the primitives themselves.
     CSTK_WRAPPER_HULL = 0,
     CSTK_WRAPPER_ORIENTED_BOX = 1,
     CSTK_WRAPPER_ALIGNED_BOX = 2,

@@ -58,8 +58,8 @@ pub struct cstk_hierarchy_statistics {
     pub preparation_seconds: f64,
     pub grouping_seconds: f64,
     pub construction_seconds: f64,
-    /// Memory of the hierarchy and of what queries read of the primitives. Of a body of nothing but points, whose wrappers
-    /// are made when nodes are first looked at, it is more afterwards.
+    /// Memory of the hierarchy and of what queries read of the primitives. Of hulls and of a body of nothing but points,
+    /// whose wrappers are made when nodes are first looked at, it is several times more afterwards.
     pub memory_bytes: u64,
     pub reserved: [u64; 8],
 }
@@ -114,8 +114,8 @@ pub struct cstk_mesh_view {
     pub reserved: [u64; 4],
 }
 
-/// Describes the body's hierarchy. Takes time in proportion to its nodes. That of nothing but points is described by the
-/// boxes around the points, along the axes of coordinates, whatever its wrappers.
+/// Describes the body's hierarchy. Takes time in proportion to its nodes. That of hulls, and of nothing but points, is
+/// described by the boxes around the primitives, along the axes of coordinates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_hierarchy(
     body: *const cstk_body,

@@ -1,6 +1,6 @@
 //! Eligibility by adjacency (§3.2.5): bodies that own edges of one family.
 
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 
 use super::greedy_clustering::{Eligibility, Limits};
 use super::{Cost, Forest};

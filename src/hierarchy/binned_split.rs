@@ -1,5 +1,7 @@
 //! The top-down builder: splits where a binned surface-area heuristic is least (Goldsmith and Salmon 1987; Wald 2007).
 
+use std::ops::Range;
+
 use super::Forest;
 use super::extent::Extent;
 use super::parallel::{self, Progress};
@@ -13,9 +15,33 @@ const TASK: usize = 4096;
 
 /// A subtree not yet in the forest: a body, or an index of a pair of them.
 #[derive(Clone, Copy)]
-enum Branch {
+pub enum Branch {
     Body(u32),
     Pair(u32),
+}
+
+/// Sets of bodies, and the tree over them.
+pub struct Cut {
+    /// Where in the list of bodies each set begins and ends, and how many levels are left for the tree below it.
+    pub sets: Vec<(Range<usize>, usize)>,
+    /// The root; a body is the number of a set.
+    pub root: Branch,
+    /// Each after those that it is of.
+    pub pairs: Vec<[Branch; 2]>,
+}
+
+/// Orders bodies into sets of at most `largest`, so that the tree over all gets no more than 2 log2 N levels.
+pub fn cut(forest: &Forest, bodies: &mut [u32], largest: usize) -> Cut {
+    let levels = levels_for(bodies.len());
+    let (mut sets, mut pairs) = (Vec::new(), Vec::new());
+    let mut cut_whole = Cutter {
+        forest,
+        largest,
+        pairs: &mut pairs,
+        sets: &mut sets,
+    };
+    let root = cut_whole.cut(bodies, 0, levels);
+    Cut { sets, root, pairs }
 }
 
 /// Builds a tree over the bodies from the top; returns its root.
@@ -27,28 +53,25 @@ pub fn split(
     threads: usize,
     progress: &mut Progress,
 ) -> Result<u32> {
-    let depth_limit = levels_for(bodies.len());
     // Large sets first, so that the rest can be shared out.
-    let mut upper: Vec<[Branch; 2]> = Vec::new();
-    let mut tasks: Vec<(usize, usize, usize)> = Vec::new();
-    let root = split_upper(forest, &mut bodies, 0, depth_limit, &mut upper, &mut tasks);
+    let upper = cut(forest, &mut bodies, TASK);
     progress.at(0.3)?;
     let shared = &*forest;
     let bodies = &bodies;
-    let lower = parallel::map(threads, tasks.len(), &mut progress.part(0.3, 0.9), |t| {
-        let (from, to, levels) = tasks[t];
-        let mut members = bodies[from..to].to_vec();
+    let sets = &upper.sets;
+    let lower = parallel::map(threads, sets.len(), &mut progress.part(0.3, 0.9), |t| {
+        let (range, levels) = &sets[t];
+        let mut members = bodies[range.clone()].to_vec();
         let mut pairs = Vec::new();
-        let root = split_whole(shared, &mut members, levels, &mut pairs);
+        let root = split_whole(shared, &mut members, *levels, &mut pairs);
         (root, pairs)
     })?;
     let roots: Vec<u32> = lower
         .iter()
         .map(|(root, pairs)| merge_all(forest, *root, pairs, &|body| body))
         .collect();
-    // In the upper part a body is the number of a task.
-    Ok(merge_all(forest, root, &upper, &|task| {
-        roots[task as usize]
+    Ok(merge_all(forest, upper.root, &upper.pairs, &|set| {
+        roots[set as usize]
     }))
 }
 
@@ -78,24 +101,26 @@ fn merge_all(
     body(root, &made)
 }
 
-fn split_upper(
-    forest: &Forest,
-    members: &mut [u32],
-    start: usize,
-    levels: usize,
-    pairs: &mut Vec<[Branch; 2]>,
-    tasks: &mut Vec<(usize, usize, usize)>,
-) -> Branch {
-    if members.len() <= TASK {
-        tasks.push((start, start + members.len(), levels));
-        return Branch::Body((tasks.len() - 1) as u32);
+struct Cutter<'a> {
+    forest: &'a Forest,
+    largest: usize,
+    pairs: &'a mut Vec<[Branch; 2]>,
+    sets: &'a mut Vec<(Range<usize>, usize)>,
+}
+
+impl Cutter<'_> {
+    fn cut(&mut self, members: &mut [u32], start: usize, levels: usize) -> Branch {
+        if members.len() <= self.largest {
+            self.sets.push((start..start + members.len(), levels));
+            return Branch::Body((self.sets.len() - 1) as u32);
+        }
+        let middle = partition(self.forest, members, levels);
+        let (left, right) = members.split_at_mut(middle);
+        let left = self.cut(left, start, levels - 1);
+        let right = self.cut(right, start + middle, levels - 1);
+        self.pairs.push([left, right]);
+        Branch::Pair((self.pairs.len() - 1) as u32)
     }
-    let middle = partition(forest, members, levels);
-    let (left, right) = members.split_at_mut(middle);
-    let left = split_upper(forest, left, start, levels - 1, pairs, tasks);
-    let right = split_upper(forest, right, start + middle, levels - 1, pairs, tasks);
-    pairs.push([left, right]);
-    Branch::Pair((pairs.len() - 1) as u32)
 }
 
 fn split_whole(

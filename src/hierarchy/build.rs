@@ -2,13 +2,16 @@
 
 use std::time::Instant;
 
+use super::cloud::{build_cloud, is_cloud};
 use super::convex_pieces::convex_pieces;
-use super::grouping::group;
+use super::grouping::{Groups, group};
+use super::packed_groups::pack_groups;
+use super::packed_wrappers::pack_wrappers;
 use super::parallel::Progress;
 use super::parts::{Part, parts};
-use super::{HierarchyOptions, Node, WrapperTree};
+use super::{Ball, HierarchyOptions, Node, PackedTree, WrapperKind, WrapperTree, Wrappers};
 use crate::error::Result;
-use crate::primitive::Convex;
+use crate::primitive::{Convex, Primitives};
 
 /// Seconds each phase of a build took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,6 +20,103 @@ pub struct BuildTimes {
     pub preparation: f64,
     pub grouping: f64,
     pub construction: f64,
+}
+
+/// What a build makes of primitives.
+#[derive(Debug)]
+pub struct Hierarchy {
+    pub wrappers: Wrappers,
+    /// The tree as queries walk it.
+    pub packed: PackedTree,
+    /// Of the binary tree.
+    pub nodes: usize,
+    pub depth: usize,
+    pub times: BuildTimes,
+}
+
+/// Builds the hierarchy of primitives, of which there is at least one. `progress` hears the fraction done, on this thread,
+/// and may end the work with an error.
+pub fn build_hierarchy(
+    primitives: &Primitives,
+    options: &HierarchyOptions,
+    progress: &mut dyn FnMut(f64) -> Result<()>,
+) -> Result<Hierarchy> {
+    options.check()?;
+    let mut progress = Progress::new(progress);
+    progress.at(0.0)?;
+    let built = match is_cloud(primitives, options) {
+        true => build_cloud(primitives, options, &mut progress)?,
+        false => build_of_shapes(primitives, options, &mut progress)?,
+    };
+    progress.at(1.0)?;
+    Ok(built)
+}
+
+fn build_of_shapes(
+    primitives: &Primitives,
+    options: &HierarchyOptions,
+    progress: &mut Progress,
+) -> Result<Hierarchy> {
+    let start = Instant::now();
+    let shapes = primitives.as_shapes();
+    let parts = parts(&shapes, options.aspect_limit);
+    let mut pieces = convex_pieces(&shapes, options.pieces, &mut progress.part(0.0, 0.1))?;
+    if parts.len() > shapes.len() {
+        pieces = parts_of(&parts, shapes.len(), pieces);
+    }
+    let prepared = start.elapsed().as_secs_f64();
+    let mut part = progress.part(0.1, 0.6);
+    let groups = group(&shapes, &parts, &pieces, options, &mut part)?;
+    let grouped = start.elapsed().as_secs_f64();
+    let (nodes, depth) = (groups.subsets.nodes.len(), groups.subsets.depth());
+    let threads = options.thread_count();
+    let mut rest = progress.part(0.6, 1.0);
+    // Boxes hold points best. Wrappers of other kinds are asked for so that queries walk what they hold; and slabs have
+    // points that no primitive has.
+    let (wrappers, packed) =
+        if options.wrapper == WrapperKind::Hull && parts.len() == primitives.len() {
+            let ball = Ball::around(primitives);
+            let packed = pack_groups(primitives, &groups.subsets, ball, threads, &mut rest)?;
+            (Wrappers::of_groups(groups, options), packed)
+        } else {
+            let mut part = rest.part(0.0, 0.8);
+            let tree = wrapped(&shapes, &parts, groups, options, &mut part)?;
+            let packed = pack_wrappers(primitives, &tree, threads, &mut rest.part(0.8, 1.0))?;
+            (Wrappers::Made(Box::new(tree)), packed)
+        };
+    let times = BuildTimes {
+        preparation: prepared,
+        grouping: grouped - prepared,
+        construction: start.elapsed().as_secs_f64() - grouped,
+    };
+    Ok(Hierarchy {
+        wrappers,
+        packed,
+        nodes,
+        depth,
+        times,
+    })
+}
+
+/// The wrappers of parts; their leaves name the primitives.
+fn wrapped(
+    shapes: &[Convex],
+    parts: &[Part],
+    groups: Groups,
+    options: &HierarchyOptions,
+    progress: &mut Progress,
+) -> Result<WrapperTree> {
+    let points_of = |part: u32| {
+        let (points, doubt) = parts[part as usize].vertices(shapes);
+        (points.to_vec(), doubt)
+    };
+    let mut tree = WrapperTree::build(groups, points_of, options, progress)?;
+    for node in &mut tree.subsets.nodes {
+        if let Node::Leaf { primitive } = node {
+            *primitive = parts[*primitive as usize].primitive;
+        }
+    }
+    Ok(tree)
 }
 
 /// Pieces of primitives as pieces of the parts those were cut into.
@@ -30,49 +130,4 @@ fn parts_of(parts: &[Part], primitives: usize, pieces: Vec<Vec<u32>>) -> Vec<Vec
         members.collect()
     };
     pieces.into_iter().map(of_piece).collect()
-}
-
-/// Builds the hierarchy of primitives, of which there is at least one. `progress` hears the fraction done, on this thread,
-/// and may end the work with an error.
-pub fn build_hierarchy(
-    primitives: &[Convex],
-    options: &HierarchyOptions,
-    progress: &mut dyn FnMut(f64) -> Result<()>,
-) -> Result<(WrapperTree, BuildTimes)> {
-    options.check()?;
-    let mut progress = Progress::new(progress);
-    progress.at(0.0)?;
-    let start = Instant::now();
-    let parts = parts(primitives, options.aspect_limit);
-    let mut pieces = convex_pieces(primitives, options.pieces, &mut progress.part(0.0, 0.1))?;
-    if parts.len() > primitives.len() {
-        pieces = parts_of(&parts, primitives.len(), pieces);
-    }
-    let prepared = start.elapsed().as_secs_f64();
-    let groups = group(
-        primitives,
-        &parts,
-        &pieces,
-        options,
-        &mut progress.part(0.1, 0.5),
-    )?;
-    let grouped = start.elapsed().as_secs_f64();
-    let points_of = |part: u32| {
-        let (points, doubt) = parts[part as usize].vertices(primitives);
-        (points.to_vec(), doubt)
-    };
-    let mut rest = progress.part(0.5, 1.0);
-    let mut tree = WrapperTree::build(groups, points_of, options, &mut rest)?;
-    for node in &mut tree.subsets.nodes {
-        if let Node::Leaf { primitive } = node {
-            *primitive = parts[*primitive as usize].primitive;
-        }
-    }
-    progress.at(1.0)?;
-    let times = BuildTimes {
-        preparation: prepared,
-        grouping: grouped - prepared,
-        construction: start.elapsed().as_secs_f64() - grouped,
-    };
-    Ok((tree, times))
 }

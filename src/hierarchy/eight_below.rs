@@ -1,7 +1,7 @@
 //! Which nodes of a binary tree become the nodes of a tree with eight children a node: those of least expected cost, by
 //! dynamic programming over how many nodes may stand for a subtree.
 
-use super::{Node, WrapperTree};
+use super::{Node, SubsetTree};
 
 const MAX_BELOW: usize = 8;
 
@@ -12,12 +12,14 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    pub fn of(tree: &WrapperTree) -> Self {
-        let count = tree.subsets().nodes.len();
+    /// Of a tree whose nodes' radii are given.
+    pub fn of(tree: &SubsetTree, radius: impl Fn(u32) -> f64) -> Self {
+        let count = tree.nodes.len();
+        let whole_radius = radius(0).max(f64::MIN_POSITIVE);
         let mut first = vec![[0; MAX_BELOW + 1]; count];
         let mut costs = vec![[0.0f32; MAX_BELOW + 1]; count];
         for node in (0..count).rev() {
-            let Node::Interior { children: [a, b] } = tree.node(node as u32) else {
+            let Node::Interior { children: [a, b] } = tree.nodes[node] else {
                 continue;
             };
             let (a, b) = (costs[a as usize], costs[b as usize]);
@@ -32,7 +34,7 @@ impl Cuts {
                 }
             }
             // A wide node is visited about as often as its surface is large, and takes memory at any size.
-            let radius = (tree.radius(node as u32) / tree.radius(0).max(f64::MIN_POSITIVE)) as f32;
+            let radius = (radius(node as u32) / whole_radius) as f32;
             let whole = radius * radius + 1e-6 + own[MAX_BELOW];
             costs[node] = own.map(|cost| cost.min(whole));
             costs[node][0] = f32::INFINITY;
@@ -46,15 +48,18 @@ impl Cuts {
     }
 
     /// The nodes that become the children of a wide node, in the order of the tree.
-    pub fn below(&self, tree: &WrapperTree, node: u32) -> Vec<u32> {
+    pub fn below(&self, tree: &SubsetTree, node: u32) -> Vec<u32> {
         let mut below = Vec::with_capacity(MAX_BELOW);
         let mut open = Vec::with_capacity(MAX_BELOW);
-        if let Node::Interior { children: [a, b] } = tree.node(node) {
+        if let Node::Interior { children: [a, b] } = tree.nodes[node as usize] {
             let part = self.first[node as usize][MAX_BELOW];
             open.extend([(b, MAX_BELOW as u8 - part), (a, part)]);
         }
         while let Some((node, total)) = open.pop() {
-            match (tree.node(node), self.first[node as usize][total as usize]) {
+            match (
+                tree.nodes[node as usize],
+                self.first[node as usize][total as usize],
+            ) {
                 (Node::Interior { children: [a, b] }, part) if part > 0 => {
                     open.extend([(b, total - part), (a, part)]);
                 }

@@ -12,14 +12,17 @@ pub struct Extent {
 impl Extent {
     /// The box of points, of which there is at least one.
     pub fn of(points: &[Vec3]) -> Self {
-        let first = Self {
-            low: points[0],
-            high: points[0],
-        };
-        points[1..].iter().fold(first, |extent, p| Self {
-            low: extent.low.inf(p),
-            high: extent.high.sup(p),
-        })
+        Self::of_points(points.iter().copied())
+    }
+
+    /// The same of points that come one by one.
+    pub fn of_points(points: impl Iterator<Item = Vec3>) -> Self {
+        let boxes = points.map(|point| Self {
+            low: point,
+            high: point,
+        });
+        let whole = boxes.reduce(|all, point| all.union(&point));
+        whole.expect("a box is around at least one point")
     }
 
     #[inline]

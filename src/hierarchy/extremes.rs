@@ -22,6 +22,16 @@ const BLOCK: usize = 256;
 
 /// The points farthest out along the directions, both ways: vertices of their hull, each once.
 pub fn extremes(points: &[Vec3]) -> Vec<Vec3> {
+    extremes_along(points, 1)
+}
+
+/// The same along a third of the directions, which are enough to fit a box.
+pub fn few_extremes(points: &[Vec3]) -> Vec<Vec3> {
+    extremes_along(points, 3)
+}
+
+/// Along each direction of so many.
+fn extremes_along(points: &[Vec3], of: usize) -> Vec<Vec3> {
     let mut low = [(0, f64::INFINITY); LINES];
     let mut high = [(0, f64::NEG_INFINITY); LINES];
     for (b, block) in points.chunks(BLOCK).enumerate() {
@@ -33,7 +43,7 @@ pub fn extremes(points: &[Vec3]) -> Vec<Vec3> {
             }
         }
         let [x, y, z] = &coordinates;
-        for (k, direction) in DIRECTIONS.iter().enumerate() {
+        for (k, direction) in DIRECTIONS.iter().step_by(of).enumerate() {
             for i in 0..BLOCK {
                 along[i] = direction.x * x[i] + direction.y * y[i] + direction.z * z[i];
             }
@@ -49,7 +59,9 @@ pub fn extremes(points: &[Vec3]) -> Vec<Vec3> {
             }
         }
     }
-    let mut indices: Vec<usize> = low.iter().chain(&high).map(|end| end.0).collect();
+    let asked = LINES.div_ceil(of);
+    let ends = low[..asked].iter().chain(&high[..asked]);
+    let mut indices: Vec<usize> = ends.map(|end| end.0).collect();
     indices.sort_unstable();
     indices.dedup();
     indices.into_iter().map(|i| points[i]).collect()

@@ -7,15 +7,24 @@ use super::nearby::{Curve, Nearby};
 use super::parallel::Progress;
 use super::parts::Part;
 use super::rebalancing::rebalanced;
+use super::regions::{REGION, group_by_regions};
 use super::{Extent, Forest, Grouping, HierarchyOptions, Node, SubsetTree};
 use crate::error::Result;
 use crate::primitive::Convex;
 
 /// The subset tree over parts (its leaves name parts, by index), and the nodes that hold the given convex pieces.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Groups {
     pub subsets: SubsetTree,
     /// In ascending order. A piece that was opened to bound the tree's depth has none.
     pub pieces: Vec<u32>,
+}
+
+impl Groups {
+    /// Bytes of memory they take.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.subsets.nodes[..]) + size_of_val(&self.pieces[..])
+    }
 }
 
 /// Groups parts, of which there is at least one. `pieces` are sets of parts that get a common ancestor of their own. The
@@ -27,7 +36,26 @@ pub fn group(
     options: &HierarchyOptions,
     progress: &mut Progress,
 ) -> Result<Groups> {
-    let extents: Vec<Extent> = parts.iter().map(|p| p.extent(primitives)).collect();
+    if parts.len() > REGION && pieces.is_empty() && options.grouping != Grouping::TopDown {
+        let subsets = group_by_regions(primitives, parts, options, progress)?;
+        let pieces = Vec::new();
+        return Ok(Groups { subsets, pieces });
+    }
+    let all: Vec<u32> = (0..parts.len() as u32).collect();
+    group_few(primitives, parts, &all, pieces, options, progress)
+}
+
+/// Groups some of the parts at once.
+pub fn group_few(
+    primitives: &[Convex],
+    parts: &[Part],
+    members: &[u32],
+    pieces: &[Vec<u32>],
+    options: &HierarchyOptions,
+    progress: &mut Progress,
+) -> Result<Groups> {
+    let extent = |&part: &u32| parts[part as usize].extent(primitives);
+    let extents: Vec<Extent> = members.iter().map(extent).collect();
     let bounds = extents
         .iter()
         .fold(extents[0], |all, extent| all.union(extent));
@@ -36,6 +64,7 @@ pub fn group(
     let mut order: Vec<u32> = (0..extents.len() as u32).collect();
     order.sort_by_cached_key(|&i| (curve.code(&extents[i as usize].center()), i));
     let mut forest = Forest::new(order.iter().map(|&i| extents[i as usize]).collect());
+    let order: Vec<u32> = order.iter().map(|&i| members[i as usize]).collect();
     let (bodies, holders, piece_roots) = join_pieces(&mut forest, pieces, &order);
     let threads = options.thread_count();
     progress.at(0.05)?;
@@ -91,6 +120,9 @@ fn join_pieces(
     order: &[u32],
 ) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
     let mut holders: Vec<u32> = (0..order.len() as u32).collect();
+    if pieces.is_empty() {
+        return (holders.clone(), holders, Vec::new());
+    }
     let mut roots = Vec::new();
     let mut leaf_of = vec![0; order.len()];
     for (leaf, &part) in order.iter().enumerate() {

@@ -3,7 +3,7 @@
 use nalgebra::{SymmetricEigen, Vector2};
 
 use crate::pose::{Mat3, Vec3};
-use crate::primitive::monotone_chain;
+use crate::primitive::outline;
 
 /// The eight corners of a box that covers the points, up to rounding.
 ///
@@ -16,14 +16,23 @@ pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
 /// The axes of that box.
 pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
     let mut best = (f64::INFINITY, Mat3::identity());
+    let mut turner = Turner::default();
     for start in [Mat3::identity(), principal_axes(few)] {
-        let mut axes = start;
+        let mut axes = shortest_first(few, &start);
         let mut size = measure(few, &axes);
+        let (mut fruitless, mut enough) = (0, 3);
         for turn in 0..6 {
-            let turned = least_rectangle(few, &axes, turn % 3);
+            let turned = turner.least_rectangle(few, &axes, turn % 3);
             let smaller = measure(few, &turned);
             if smaller < size {
                 (size, axes) = (smaller, turned);
+                // About the same axis nothing is left to be gained.
+                (fruitless, enough) = (0, 2);
+            } else {
+                fruitless += 1;
+            }
+            if fruitless == enough {
+                break;
             }
         }
         // The axes of coordinates are kept where nothing is gained: their boxes are exact.
@@ -32,6 +41,15 @@ pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
         }
     }
     best.1
+}
+
+/// The same axes, that along which points reach least first: turns about it gain most.
+fn shortest_first(points: &[Vec3], axes: &Mat3) -> Mat3 {
+    let (low, high) = span(points, axes);
+    let shortest = (high - low).imin();
+    let [first, second] =
+        [(shortest + 1) % 3, (shortest + 2) % 3].map(|i| axes.column(i).into_owned());
+    Mat3::from_columns(&[first.cross(&second), first, second])
 }
 
 pub fn principal_axes(points: &[Vec3]) -> Mat3 {
@@ -48,46 +66,61 @@ pub fn principal_axes(points: &[Vec3]) -> Mat3 {
     SymmetricEigen::new(covariance).eigenvectors
 }
 
-/// The axes turned about one of them so that the projection along it fills the least rectangle.
-fn least_rectangle(points: &[Vec3], axes: &Mat3, about: usize) -> Mat3 {
-    let (w, u, v) = (
-        axes.column(about).into_owned(),
-        axes.column((about + 1) % 3).into_owned(),
-        axes.column((about + 2) % 3).into_owned(),
-    );
-    let flat: Vec<Vector2<f64>> = points
-        .iter()
-        .map(|p| Vector2::new(u.dot(p), v.dot(p)))
-        .collect();
-    let hull = monotone_chain(&flat, (0..flat.len() as u32).collect(), 0.0);
-    let mut best = (f64::INFINITY, Vector2::x());
-    for (i, &from) in hull.iter().enumerate() {
-        let edge = flat[hull[(i + 1) % hull.len()] as usize] - flat[from as usize];
-        let Some(along) = edge.try_normalize(0.0) else {
-            continue;
-        };
-        let across = Vector2::new(-along.y, along.x);
-        let span = |axis: Vector2<f64>| {
-            let ends = hull.iter().map(|&k| axis.dot(&flat[k as usize]));
-            let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
-            high - low
-        };
-        let area = span(along) * span(across);
-        if area < best.0 {
-            best = (area, along);
-        }
+/// Turns axes; its memory is used again and again.
+#[derive(Default)]
+struct Turner {
+    flat: Vec<Vector2<f64>>,
+    outline: Vec<Vector2<f64>>,
+}
+
+impl Turner {
+    /// The axes turned about one of them so that the projection along it fills the least rectangle.
+    fn least_rectangle(&mut self, points: &[Vec3], axes: &Mat3, about: usize) -> Mat3 {
+        let (w, u, v) = (
+            axes.column(about).into_owned(),
+            axes.column((about + 1) % 3).into_owned(),
+            axes.column((about + 2) % 3).into_owned(),
+        );
+        self.flat.clear();
+        let flat = points.iter().map(|p| Vector2::new(u.dot(p), v.dot(p)));
+        self.flat.extend(flat);
+        outline(&mut self.flat, &mut self.outline);
+        let along = self.side_of_least_rectangle();
+        // Made upright again: errors would add up over the turns.
+        let first = (u * along.x + v * along.y).normalize();
+        let w = (w - first * first.dot(&w)).normalize();
+        let mut turned = Mat3::zeros();
+        turned.set_column(about, &w);
+        turned.set_column((about + 1) % 3, &first);
+        turned.set_column((about + 2) % 3, &w.cross(&first));
+        turned
     }
-    let (cos, sin) = (best.1.x, best.1.y);
-    // Made upright again: errors would add up over the turns.
-    let first = (u * cos + v * sin).normalize();
-    let w = (w - first * first.dot(&w)).normalize();
-    let mut turned = Mat3::zeros();
-    turned.set_column(about, &w);
-    turned.set_column((about + 1) % 3, &first);
-    turned.set_column((about + 2) % 3, &w.cross(&first));
-    turned
+
+    /// The direction of an edge of the outline along which the rectangle around it is least.
+    fn side_of_least_rectangle(&self) -> Vector2<f64> {
+        let mut best = (f64::INFINITY, Vector2::x());
+        let mut from = self.outline[self.outline.len() - 1];
+        for &to in &self.outline {
+            let along = to - from;
+            from = to;
+            let across = Vector2::new(-along.y, along.x);
+            let (mut low, mut high) = (
+                Vector2::repeat(f64::INFINITY),
+                Vector2::repeat(-f64::INFINITY),
+            );
+            for corner in &self.outline {
+                let place = Vector2::new(along.dot(corner), across.dot(corner));
+                (low, high) = (low.inf(&place), high.sup(&place));
+            }
+            let sides = high - low;
+            let area = sides.x * sides.y / along.norm_squared();
+            // Not so for an edge of no length, whose area is no number.
+            if area < best.0 {
+                best = (area, along);
+            }
+        }
+        best.1.normalize()
+    }
 }
 
 /// The box's volume, its sides lengthened a little so that flat boxes are told apart too.

@@ -15,7 +15,7 @@ pub struct PackedBox {
 }
 
 /// More points than this are worth a search for their axes.
-const FEW: usize = 12;
+const FEW: usize = 5;
 
 /// The axes of a box of little surface around points, that of its shortest side last: distances are bounded best by such
 /// boxes, as those turn away the most of what comes from all sides. `flat` is a polygon among the points.

@@ -1,14 +1,13 @@
 //! The tree as the kernel walks it: eight children a node, oriented boxes in few bits, and the primitives in the order of
 //! the leaves.
 
-use super::eight_below::Cuts;
 use super::packed_box::{PackedBox, fitted_axes};
 use super::packed_primitives::PackedPrimitives;
 use super::wide_node::{Held, WideNode};
-use super::{Node, WrapperTree};
+use super::{Ball, Node, SubsetTree};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
-use crate::pose::{Pose, Vec3};
-use crate::primitive::{Convex, Primitive, Primitives};
+use crate::pose::Vec3;
+use crate::primitive::{Primitive, Primitives};
 
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,21 +106,6 @@ pub struct Whole {
     pub ball_radius: f64,
 }
 
-/// A ball around a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    pub center: Vec3,
-    pub radius: f64,
-}
-
-impl Ball {
-    /// A lower bound of the distance of the bodies in two balls. `pose` places `other`.
-    pub fn apart(&self, other: &Self, pose: &Pose) -> f64 {
-        let apart = (pose.transform_point(&other.center) - self.center).norm();
-        apart - self.radius - other.radius
-    }
-}
-
 impl Whole {
     pub fn ball(&self) -> Ball {
         Ball {
@@ -132,19 +116,15 @@ impl Whole {
 }
 
 impl PackedTree {
-    pub fn new(primitives: &[Convex], tree: &WrapperTree) -> Self {
-        let mut builder = Builder {
-            tree,
-            shapes: primitives,
-            packed: Self::empty(tree.ball()),
-        };
-        builder.build();
-        let only = match primitives {
-            [only] => Some(only.into()),
-            _ => None,
-        };
-        builder.packed.finish(tree.ball(), only);
-        builder.packed
+    /// Adds the primitives of a tree's leaves, in their order.
+    pub(super) fn push_leaves(&mut self, subsets: &SubsetTree, primitives: &Primitives) {
+        self.primitives.reserve(subsets.nodes.len().div_ceil(2));
+        for node in &subsets.nodes {
+            if let Node::Leaf { primitive } = *node {
+                let shape = primitives.get(primitive as usize).shape;
+                self.primitives.push(primitive, shape);
+            }
+        }
     }
 
     /// The tree of given nodes, and of primitives in the order of its leaves, with a ball around all; `None` if they do not
@@ -357,55 +337,4 @@ pub fn power_of_two(length: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     let below = f64::from_bits(length.to_bits() & EXPONENT);
     (2.0 * below).clamp(1e-300, 1e300)
-}
-
-struct Builder<'a> {
-    tree: &'a WrapperTree,
-    shapes: &'a [Convex],
-    packed: PackedTree,
-}
-
-impl Builder<'_> {
-    fn build(&mut self) {
-        let cuts = Cuts::of(self.tree);
-        self.packed.nodes.push(WideNode::new(&[self.held(0)]));
-        // Nodes of the binary tree, each with where its wide node is to be named.
-        let mut open: Vec<(u32, usize, usize)> = vec![(0, 0, 0)];
-        while let Some((node, above, lane)) = open.pop() {
-            let target = if let Node::Leaf { primitive } = self.tree.node(node) {
-                let shape = &self.shapes[primitive as usize];
-                self.packed.primitives.push(primitive, shape);
-                PackedTree::leaf((self.packed.primitives.len() - 1) as u32)
-            } else {
-                let below = cuts.below(self.tree, node);
-                let held: Vec<Held> = below.iter().map(|&child| self.held(child)).collect();
-                let index = self.packed.nodes.len();
-                self.packed.nodes.push(WideNode::new(&held));
-                let children = below.iter().enumerate();
-                open.extend(children.rev().map(|(lane, &child)| (child, index, lane)));
-                index as u32
-            };
-            self.packed.nodes[above].children[lane] = target;
-        }
-    }
-
-    fn held(&self, node: u32) -> Held<'static> {
-        let wrapper = self.tree.wrapper(node);
-        let points: Vec<Vec3> = wrapper
-            .corners
-            .iter()
-            .map(|p| p / self.packed.scale)
-            .collect();
-        let flat = match self.tree.node(node) {
-            Node::Leaf { primitive } => {
-                Some(&self.shapes[primitive as usize]).filter(|shape| shape.is_flat())
-            }
-            Node::Interior { .. } => None,
-        };
-        Held {
-            axes: fitted_axes(&points, flat),
-            excess: wrapper.excess / self.packed.scale,
-            points: points.into(),
-        }
-    }
 }

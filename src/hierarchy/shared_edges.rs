@@ -1,6 +1,6 @@
 //! Which flat polygons share an edge: found by the coordinates of its ends.
 
-use std::collections::HashMap;
+use foldhash::{HashMap, HashMapExt};
 
 use crate::pose::Vec3;
 use crate::primitive::Convex;

@@ -27,7 +27,7 @@ pub use feature::{Feature, FeatureKind};
 pub use form::Form;
 pub use hull::{CheckedHull, checked_hull, excess_over, frame_of};
 pub use kind::PrimitiveKind;
-pub use planar_hull::{convex_hull_2d, monotone_chain, plane_axes};
+pub use planar_hull::{convex_hull_2d, monotone_chain, outline, plane_axes};
 pub use polygon::convex_polygon;
 pub use polyhedron::convex_polyhedron;
 pub use primitives::{Primitive, PrimitiveGroup, Primitives};

@@ -26,7 +26,7 @@ pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
 /// The same among the points of some indices, which need not be distinct if the tolerance is 0.
 pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance: f64) -> Vec<u32> {
     let at = |i: u32| points[i as usize];
-    distinct.sort_by(|&i, &j| {
+    distinct.sort_unstable_by(|&i, &j| {
         let (p, q) = (at(i), at(j));
         p.x.total_cmp(&q.x)
             .then(p.y.total_cmp(&q.y))
@@ -36,7 +36,7 @@ pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance
         return distinct;
     }
     let chain = |indices: &mut dyn Iterator<Item = u32>| {
-        let mut hull: Vec<u32> = Vec::new();
+        let mut hull: Vec<u32> = Vec::with_capacity(8);
         for i in indices {
             while let [.., a, b] = hull[..] {
                 let (edge, next) = (at(b) - at(a), at(i) - at(a));
@@ -54,6 +54,32 @@ pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance
     let mut hull = chain(&mut distinct.iter().copied());
     hull.extend(chain(&mut distinct.iter().rev().copied()));
     hull
+}
+
+/// The corners of the hull of points, of which there is at least one, in their order; points on its edges are left out. Leaves
+/// the points sorted.
+pub fn outline(points: &mut [Vector2<f64>], corners: &mut Vec<Vector2<f64>>) {
+    points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    corners.clear();
+    let mut add = |first: usize, point: &Vector2<f64>| {
+        while let [.., a, b] = corners[first..] {
+            if (b - a).perp(&(point - a)) > 0.0 {
+                break;
+            }
+            corners.pop();
+        }
+        corners.push(*point);
+        corners.len()
+    };
+    let below = points.iter().map(|point| add(0, point)).last();
+    // The last corner of one chain is the first of the other.
+    let first = below.unwrap_or(1) - 1;
+    for point in points.iter().rev().skip(1) {
+        add(first, point);
+    }
+    if corners.len() > 1 {
+        corners.pop();
+    }
 }
 
 /// Indices of points farther than the tolerance from all kept before them.

@@ -22,6 +22,15 @@ impl<'a> From<&'a Convex> for Primitive<'a> {
     }
 }
 
+impl<'a> Primitive<'a> {
+    /// Points whose hull holds the set: the vertices, unless it is curved.
+    pub fn bounding_points(self) -> impl Iterator<Item = Vec3> + use<'a> {
+        // Not 0 only for a point of a cloud, whose shape is at the origin.
+        let offset = self.vertices[0] - self.shape.vertices[0];
+        self.shape.bounding_points().iter().map(move |p| p + offset)
+    }
+}
+
 impl Primitive<'_> {
     /// The point of the set that is farthest along a direction.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
