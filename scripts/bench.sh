@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | shapes [--csv FILE] | slides |
-# accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel, objects and shapes [--quick]
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | shapes | builds [--csv FILE] |
+# slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel, objects, shapes and builds [--quick]
 # [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do; of
 # shapes, for the rows whose group, bodies, poses and query do: "shapes box and box random collide"); slides [--quick] [--seed N];
 # accuracy [PAIRS [SEED]].
@@ -8,8 +8,8 @@ set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | shapes | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | shapes [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | shapes | builds | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | shapes | builds [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -45,6 +45,13 @@ if [ "$name" = objects ]; then
   cmake -S benches/objects -B build/objects -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
   cmake --build build/objects -j2 >/dev/null
   exec build/objects/objects "${arguments[@]}"
+fi
+if [ "$name" = builds ]; then
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  coal=$(scripts/fetch_coal.sh) || coal=
+  cmake -S benches/builds -B build/builds -DCMAKE_PREFIX_PATH="$PWD/local" ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
+  cmake --build build/builds -j2 >/dev/null
+  exec build/builds/builds "${arguments[@]}"
 fi
 if [ "$name" != hierarchies ] && [ "$name" != shapes ]; then
   # A peer or a model that cannot be had is left out, and named.
