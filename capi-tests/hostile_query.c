@@ -33,6 +33,7 @@ static void get_statistics(const fixture *f) {
 static void set_limit(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
         CHECK_FAILS(cstk_query_set_limit(bad->handle, 1), bad->status, "query");
+        CHECK_FAILS(cstk_query_set_contacts(bad->handle, CSTK_CONTACTS_NONE), bad->status, "query");
     }
     fixture_unchanged(f);
 }
@@ -226,6 +227,10 @@ static void query_limits(const fixture *f, const form *of) {
     }
     const question a = good_question(f, of);
     answer out;
+    CHECK_FAILS(cstk_query_set_contacts(f->query, 3), CSTK_INVALID_ARGUMENT, "3 is none");
+    CHECK_FAILS(cstk_query_set_contacts(f->query, -1), CSTK_INVALID_ARGUMENT, "-1 is none");
+    CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_NEAREST));
+    CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_ALL));
     CHECK_OK(cstk_query_set_limit(f->query, 1));
     refuse(of, &a, CSTK_LIMIT, "limit of 1");
     CHECK_OK(cstk_query_set_limit(f->query, UINT64_MAX));

@@ -665,6 +665,36 @@ typedef int32_t cstk_urdf_geometry;
 #endif // __cplusplus
 
 /**
+ * Which contacts come with each witness of a list (cstk_query_set_contacts). Finding them takes most of the time that a
+ * witness takes.
+ */
+enum cstk_contacts_listed
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * All: parallel features have several. With these a context begins.
+   */
+  CSTK_CONTACTS_ALL = 0,
+  /**
+   * The one at the closest points.
+   */
+  CSTK_CONTACTS_NEAREST = 1,
+  /**
+   * None, and no gradients. It is then not told whether what meets touches or overlaps: at distance 0 `overlapping` is true.
+   */
+  CSTK_CONTACTS_NONE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_contacts_listed cstk_contacts_listed;
+#else
+typedef int32_t cstk_contacts_listed;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
  */
 typedef struct cstk_body cstk_body;
@@ -2993,6 +3023,14 @@ cstk_status cstk_query_release(struct cstk_query *query);
 cstk_status cstk_query_get_version(struct cstk_query *query,
                                    const struct cstk_environment *environment,
                                    uint64_t *out);
+
+/**
+ * Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
+ * their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
+ * the same with each. Slides ask for what they need themselves. CSTK_INVALID_ARGUMENT for another number.
+ */
+cstk_status cstk_query_set_contacts(struct cstk_query *query,
+                                    int32_t listed);
 
 /**
  * Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the

@@ -1317,6 +1317,11 @@ public:
         return out;
     }
 
+    /// Which contacts come with the witnesses of lists from now on.
+    void set_contacts(cstk_contacts_listed listed) const {
+        check(cstk_query_set_contacts(get(), listed));
+    }
+
     /// Limits the work of each query from now on; 0 for no limit. A query that needs more fails with CSTK_LIMIT.
     void set_limit(std::uint64_t node_and_primitive_pairs) const {
         check(cstk_query_set_limit(get(), node_and_primitive_pairs));

@@ -6,7 +6,7 @@ mod common;
 use cstk::convex::ContactMode;
 use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::primitive::FeatureKind;
-use cstk::query::QueryContext;
+use cstk::query::{ContactsListed, QueryContext};
 
 use common::differences::rows;
 use common::random::Random;
@@ -247,4 +247,61 @@ fn expect_overlap(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) {
     let list = context.pair_witnesses(sides.0, sides.1, 0.0, 10).unwrap();
     assert_eq!((list.witnesses.len(), list.contacts.len()), (1, 0));
     assert!(list.witnesses[0].overlapping && list.witnesses[0].contact_count == 0);
+}
+
+/// What is listed of contacts changes neither the witnesses nor their distances; and the nearest is the first of all.
+#[test]
+fn fewer_contacts_are_the_first_of_all() {
+    let mut random = Random::new(9);
+    let at = |x: f64, z: f64| Pose::from_translation(Vec3::new(x, 0.0, z));
+    let blocks = [cuboid([1.0; 3]), cuboid([0.5, 1.0, 1.5])];
+    let mut compared = 0;
+    for k in 0..200 {
+        let (a, b) = (&blocks[k % 2], &blocks[1 - k % 2]);
+        // Upright, so that faces are parallel; the bodies are apart, touch, or overlap.
+        let pose = match k % 4 {
+            0 => random.pose(1.5),
+            _ => at(0.3, 1.0 + 0.5 * (k % 3) as f64),
+        };
+        let sides = ((&*a.body, &Pose::identity()), (&*b.body, &pose));
+        let lists = [
+            ContactsListed::All,
+            ContactsListed::Nearest,
+            ContactsListed::None,
+        ]
+        .map(|listed| {
+            let mut context = QueryContext::new();
+            context.set_contacts(listed);
+            context.pair_witnesses(sides.0, sides.1, 2.0, 10).unwrap()
+        });
+        let [all, nearest, none] = &lists;
+        for list in [nearest, none] {
+            assert_eq!(list.witnesses.len(), all.witnesses.len());
+            for (one, other) in list.witnesses.iter().zip(&all.witnesses) {
+                assert_eq!(
+                    (one.primitives, one.distance),
+                    (other.primitives, other.distance)
+                );
+            }
+        }
+        assert!(none.contacts.is_empty());
+        for (witness, of_all) in nearest.witnesses.iter().zip(&all.witnesses) {
+            assert_eq!(witness.overlapping, of_all.overlapping);
+            assert_eq!(witness.contact_count, of_all.contact_count.min(1));
+            if witness.contact_count > 0 {
+                let (one, first) = (
+                    &nearest.contacts[witness.first_contact],
+                    &all.contacts[of_all.first_contact],
+                );
+                assert_eq!((one.points, one.normal), (first.points, first.normal));
+                assert_eq!((one.mode, one.distance), (first.mode, first.distance));
+                compared += usize::from(of_all.contact_count > 1);
+            }
+        }
+        for witness in &none.witnesses {
+            assert_eq!(witness.contact_count, 0);
+            assert_eq!(witness.overlapping, witness.distance == 0.0);
+        }
+    }
+    assert!(compared > 30, "{compared} pairs had several contacts");
 }

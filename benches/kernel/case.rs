@@ -122,6 +122,20 @@ impl Case {
         }
     }
 
+    /// The same with every polygon as a fan of triangles, as peers are given it.
+    pub fn in_triangles(&self) -> Self {
+        let cut = |meshes: &[Mesh]| meshes.iter().map(fans).collect();
+        Self {
+            name: self.name.clone(),
+            query: self.query,
+            modes: self.modes.clone(),
+            moving: cut(&self.moving),
+            obstacles: cut(&self.obstacles),
+            poses: self.poses.clone(),
+            counts: self.counts,
+        }
+    }
+
     pub fn polygons(&self) -> [usize; 2] {
         [&self.moving, &self.obstacles]
             .map(|meshes| meshes.iter().map(|m| m.face_sizes.len()).sum())
@@ -166,6 +180,16 @@ pub fn merged(meshes: &[Mesh]) -> Mesh {
         all.indices.extend(mesh.indices.iter().map(|i| i + first));
     }
     all
+}
+
+/// A mesh with its faces in fans of triangles.
+fn fans(mesh: &Mesh) -> Mesh {
+    let indices = Triangles::of(mesh).triangles;
+    Mesh {
+        vertices: mesh.vertices.clone(),
+        face_sizes: vec![3; indices.len() / 3],
+        indices,
+    }
 }
 
 /// A mesh as peers take it: faces in fans of triangles.

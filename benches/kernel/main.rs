@@ -23,6 +23,14 @@ use parry::Parry;
 use peer::Peer;
 use runner::Runner;
 
+/// The head of the tables. B and H are wrappers, C remembers witnesses, T is HC over the same polygons as triangles.
+const HEAD: &str = "| row | polygons | B | BC | H | HC = default | T = default, triangles | FCL | Coal | parry | best peer / \
+                    default | best peer / T | boxes, primitives a query |\n\
+                    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+
+/// How many of the runners are ours; the last two are those that ratios are of.
+const OURS: usize = 5;
+
 /// How often the fastest variants run.
 const REPEATS: usize = 5;
 
@@ -47,11 +55,8 @@ fn main() {
         .filter_map(|(name, prefix)| Peer::open(name, prefix))
         .collect();
     let mut csv = String::from("scene,mode,library,variant,microseconds_per_query\n");
-    println!(
-        "| row | polygons | B | BC | H | HC = default | FCL | Coal | parry | best peer / default | boxes, primitives a query |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
-    let mut ratios = Vec::new();
+    println!("{HEAD}");
+    let mut ratios: Vec<[f64; 2]> = Vec::new();
     let mut culled = Vec::new();
     for case in cases(quick, seed).iter().filter(|case| wanted(&case.name)) {
         for &mode in &case.modes {
@@ -65,20 +70,21 @@ fn main() {
         }
     }
     println!("\nRows in which everything is culled at once:\n");
-    println!(
-        "| row | polygons | B | BC | H | HC = default | FCL | Coal | parry | best peer / default | boxes, primitives a query |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    println!("{HEAD}");
     for line in culled {
         println!("{line}");
     }
-    let mean = ratios.iter().map(|r: &f64| r.ln()).sum::<f64>() / ratios.len().max(1) as f64;
-    let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-    println!(
-        "\nGeometric mean of best peer / default over the {} rows of the first table: {:.1}, least {least:.1}.",
-        ratios.len(),
-        mean.exp()
-    );
+    println!();
+    for (column, name) in ["default", "T"].into_iter().enumerate() {
+        let ratios: Vec<f64> = ratios.iter().map(|both| both[column]).collect();
+        let mean = ratios.iter().map(|r| r.ln()).sum::<f64>() / ratios.len().max(1) as f64;
+        let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        println!(
+            "Geometric mean of best peer / {name} over the {} rows of the first table: {:.1}, least {least:.1}.",
+            ratios.len(),
+            mean.exp()
+        );
+    }
     if wanted("scaling") {
         scaling::table(quick, seed, &mut csv);
     }
@@ -88,14 +94,16 @@ fn main() {
     }
 }
 
-/// Measures one row. The line of the table, and the ratio of the best peer's time to ours.
-fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Option<f64>) {
+/// Measures one row. The line of the table, and the ratios of the best peer's time to ours with polygons and with triangles.
+fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Option<[f64; 2]>) {
     let kind = match case.query {
         Query::Pair => "",
         Query::CObject => ", C-object",
     };
     let name = format!("{} {}{kind}", case.name, mode.name());
     let asked = [WrapperKind::AlignedBox, WrapperKind::Hull].map(|w| Asked::new(case, w));
+    let in_triangles = case.in_triangles();
+    let triangles = Asked::new(&in_triangles, WrapperKind::Hull);
     let parry = Parry::new(case);
     let mut runners: Vec<Runner> = Vec::new();
     for (asked, letter) in asked.iter().zip(["B", "H"]) {
@@ -110,6 +118,10 @@ fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Op
             ));
         }
     }
+    runners.push(Runner::new("cstk", "T", || {
+        let pass = triangles.run(&in_triangles, mode, true);
+        Some((pass.seconds, pass.answers))
+    }));
     for peer in peers {
         runners.extend(peer.runners(case, mode));
     }
@@ -154,23 +166,28 @@ fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Op
         .iter()
         .filter_map(|library| Some(best(library)?.0));
     let best_peer = times.fold(f64::INFINITY, f64::min);
-    let ours = [0, 1, 2, 3].map(|i| format!("{:.3}", micro(&runners[i])));
-    let ratio = best_peer / micro(&runners[3]);
+    let ours: Vec<String> = runners[..OURS]
+        .iter()
+        .map(|runner| format!("{:.3}", micro(runner)))
+        .collect();
+    let ratios = [OURS - 2, OURS - 1].map(|i| best_peer / micro(&runners[i]));
     let tests = asked[1].run(case, mode, true).tests;
     let polygons = case.polygons();
     for note in notes {
         eprintln!("  {name}: {note}");
     }
     let line = format!(
-        "| {name} | {}, {} | {} | {} | {ratio:.1} | {:.0}, {:.1} |",
+        "| {name} | {}, {} | {} | {} | {:.1} | {:.1} | {:.0}, {:.1} |",
         polygons[0],
         polygons[1],
         ours.join(" | "),
         shown.join(" | "),
+        ratios[0],
+        ratios[1],
         tests[0],
         tests[1],
     );
-    (line, ratio.is_finite().then_some(ratio))
+    (line, best_peer.is_finite().then_some(ratios))
 }
 
 /// Runs everything once and compares the answers with our first; says where they differ.
@@ -211,7 +228,7 @@ fn first_passes(name: &str, mode: Mode, runners: &mut [Runner]) -> Vec<String> {
 
 /// All of ours, and the two fastest variants of each peer.
 fn fastest(runners: &[Runner]) -> Vec<usize> {
-    let mut kept: Vec<usize> = (0..4).collect();
+    let mut kept: Vec<usize> = (0..OURS).collect();
     for library in ["FCL", "Coal", "parry"] {
         let mut of: Vec<usize> = (0..runners.len())
             .filter(|&i| runners[i].library == library && !runners[i].seconds.is_empty())

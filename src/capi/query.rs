@@ -16,7 +16,9 @@ use super::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
-use crate::query::{LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList};
+use crate::query::{
+    ContactsListed, LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList,
+};
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
 /// time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
@@ -178,6 +180,44 @@ pub unsafe extern "C" fn cstk_query_get_version(
                 Error::new(ErrorKind::NotFound, message)
             })?;
             out.write(version);
+            Ok(())
+        })
+    })
+}
+
+/// Which contacts come with each witness of a list (cstk_query_set_contacts). Finding them takes most of the time that a
+/// witness takes.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_contacts_listed {
+    /// All: parallel features have several. With these a context begins.
+    CSTK_CONTACTS_ALL = 0,
+    /// The one at the closest points.
+    CSTK_CONTACTS_NEAREST = 1,
+    /// None, and no gradients. It is then not told whether what meets touches or overlaps: at distance 0 `overlapping` is true.
+    CSTK_CONTACTS_NONE = 2,
+}
+
+/// Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
+/// their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
+/// the same with each. Slides ask for what they need themselves. CSTK_INVALID_ARGUMENT for another number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_set_contacts(
+    query: *mut cstk_query,
+    listed: i32,
+) -> cstk_status {
+    guard(|| {
+        let listed = match listed {
+            x if x == cstk_contacts_listed::CSTK_CONTACTS_ALL as i32 => ContactsListed::All,
+            x if x == cstk_contacts_listed::CSTK_CONTACTS_NEAREST as i32 => ContactsListed::Nearest,
+            x if x == cstk_contacts_listed::CSTK_CONTACTS_NONE as i32 => ContactsListed::None,
+            other => {
+                let message = format!("{other} is none of cstk_contacts_listed");
+                return Err(Error::invalid(message).into());
+            }
+        };
+        with_query(query, |state| {
+            state.context.set_contacts(listed);
             Ok(())
         })
     })

@@ -99,6 +99,19 @@ pub struct ContactRecord {
     pub features: [Feature; 2],
 }
 
+/// Which contacts come with witnesses. Finding them takes most of the time that a witness takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactsListed {
+    /// All of each pair of primitives.
+    #[default]
+    All,
+    /// The one at the closest points.
+    Nearest,
+    /// None, and no gradients: it is not told whether what meets touches or overlaps, so that all of it counts as
+    /// overlapping.
+    None,
+}
+
 /// All primitive pairs within a threshold, nearest first, and their contacts; with each piece of a body that lies inside
 /// another, at distance 0.
 #[derive(Clone, Debug, Default)]

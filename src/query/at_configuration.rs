@@ -137,7 +137,10 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let listed = Listed::within(epsilon, max_count);
+        let listed = Listed {
+            contacts: self.contacts,
+            ..Listed::within(epsilon, max_count)
+        };
         self.listed(cobject, at, listed)
     }
 
@@ -151,6 +154,7 @@ impl QueryContext {
     ) -> Result<WitnessList> {
         let listed = Listed {
             with_gradients: true,
+            contacts: self.contacts,
             ..Listed::within(epsilon, max_count)
         };
         self.listed(cobject, Configuration::Coordinates(q), listed)
@@ -193,6 +197,7 @@ impl QueryContext {
         cobject.require_one_unit()?;
         let listed = Listed {
             with_gradients: true,
+            contacts: self.contacts,
             ..Listed::within(shell.max_shell, shell.max_count)
         };
         let at = Configuration::Coordinates(q);

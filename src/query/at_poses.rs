@@ -1,6 +1,6 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
-use super::answer::{ContactRecord, Distance, Witness, WitnessList};
+use super::answer::{ContactRecord, ContactsListed, Distance, Witness, WitnessList};
 use super::at_configuration::check_threshold;
 use super::context::{CacheKey, QueryContext};
 use super::distance::NearestPair;
@@ -164,7 +164,8 @@ impl QueryContext {
         list.reserve(hits.len());
         let mut scratch = PrimitiveScratch::default();
         for hit in &hits {
-            list.push(&target, pairing, hit, Leaf::default(), &mut scratch);
+            let leaf = Leaf::default();
+            list.push(&target, pairing, hit, leaf, self.contacts, &mut scratch);
         }
         Ok(list)
     }
@@ -194,23 +195,28 @@ impl Witness {
 }
 
 impl WitnessList {
-    /// Takes a primitive pair with its contacts.
+    /// Takes a primitive pair with its contacts, as many as are listed.
     pub(super) fn push(
         &mut self,
         target: &Target,
         pairing: &Pairing,
         hit: &Hit,
         leaf: Leaf,
+        listed: ContactsListed,
         scratch: &mut PrimitiveScratch,
     ) {
         let first_contact = self.contacts.len();
-        if hit.contained.is_none() {
+        if hit.contained.is_none() && listed != ContactsListed::None {
             let measured = pairing.closest(hit, scratch);
-            let found = pairing.world_contacts(hit.key.primitives, &measured, scratch);
-            let records = found.into_iter();
-            let margin = target.options.margin;
-            self.contacts
-                .extend(records.map(|contact| ContactRecord::new(contact, margin)));
+            let record = |contact| ContactRecord::new(contact, target.options.margin);
+            let primitives = hit.key.primitives;
+            if listed == ContactsListed::Nearest {
+                let found = pairing.first_world_contact(primitives, &measured, scratch);
+                self.contacts.extend(found.map(record));
+            } else {
+                let found = pairing.world_contacts(primitives, &measured, scratch);
+                self.contacts.extend(found.into_iter().map(record));
+            }
         }
         let contact_count = self.contacts.len() - first_contact;
         self.witnesses.push(Witness {

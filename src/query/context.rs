@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use foldhash::fast::RandomState;
 
-use super::answer::SSide;
+use super::answer::{ContactsListed, SSide};
 use super::candidates::CandidateScratch;
 use super::scene::SceneMemory;
 use super::sets::Answers;
@@ -36,6 +36,8 @@ pub struct QueryContext {
     pub(super) candidates: CandidateScratch,
     pub(super) scene_memory: SceneMemory,
     pub(super) answers: Answers,
+    /// Which contacts lists of witnesses hold.
+    pub(super) contacts: ContactsListed,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
@@ -85,6 +87,11 @@ impl QueryContext {
 
     pub fn set_limit(&mut self, limit: Option<u64>) {
         self.scratch.meter_mut().limit = limit;
+    }
+
+    /// Which contacts come with the witnesses of lists from now on.
+    pub fn set_contacts(&mut self, contacts: ContactsListed) {
+        self.contacts = contacts;
     }
 
     /// Forgets the witnesses of earlier queries.

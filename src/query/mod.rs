@@ -26,8 +26,8 @@ mod target;
 mod world;
 
 pub use answer::{
-    ContactRecord, Distance, DistanceKind, PenetrationList, PrimitivePenetration, PurePlace, SSide,
-    Witness, WitnessList,
+    ContactRecord, ContactsListed, Distance, DistanceKind, PenetrationList, PrimitivePenetration,
+    PurePlace, SSide, Witness, WitnessList,
 };
 pub use at_configuration::{PseudoNormal, Shell};
 pub use context::QueryContext;

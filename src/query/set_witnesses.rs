@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::answer::{ContactRecord, Witness, WitnessList};
+use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
 use super::candidates::Wanted;
 use super::context::QueryContext;
 use super::pure_answer::{PureAt, PureWitness};
@@ -62,6 +62,7 @@ pub(super) struct Listed {
     pub epsilon: f64,
     pub max_count: usize,
     pub with_gradients: bool,
+    pub contacts: ContactsListed,
     /// Pairs count as within `epsilon` if their lower bound is, as they do for classes; else if their distance is.
     pub counts_doubt: bool,
 }
@@ -72,6 +73,7 @@ impl Listed {
             epsilon,
             max_count,
             with_gradients: false,
+            contacts: ContactsListed::All,
             counts_doubt: false,
         }
     }
@@ -136,7 +138,8 @@ impl QueryContext {
             let target = ranked[hit.key.pair as usize];
             let first = list.contacts.len();
             let leaf = group[target.term as usize].leaf;
-            list.push(target, &target.pairing(), hit, leaf, &mut scratch);
+            let pairing = target.pairing();
+            list.push(target, &pairing, hit, leaf, listed.contacts, &mut scratch);
             if let Some(posture) = posture {
                 for contact in &list.contacts[first..] {
                     push_gradient(scene.space(), posture, target, contact, &mut list.gradients)?;
@@ -166,12 +169,16 @@ pub(super) fn pure_witnesses(
     let mut list = WitnessList::empty(scene, listed);
     list.truncated = found.len() > listed.max_count;
     for next in found.into_iter().take(listed.max_count) {
+        let first_contact = list.contacts.len();
+        if listed.contacts != ContactsListed::None {
+            list.contacts.extend(next.contact);
+            list.gradients.extend(next.row);
+        }
         list.witnesses.push(Witness {
-            first_contact: list.contacts.len(),
+            first_contact,
+            contact_count: list.contacts.len() - first_contact,
             ..next.witness
         });
-        list.contacts.extend(next.contact);
-        list.gradients.extend(next.row);
     }
     Ok(list)
 }
