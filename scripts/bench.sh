@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | shapes | builds [--csv FILE] |
-# slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; kernel, objects, shapes and builds [--quick]
-# [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do; of
-# shapes, for the rows whose group, bodies, poses and query do: "shapes box and box random collide"); slides [--quick] [--seed N];
-# accuracy [PAIRS [SEED]].
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds
+# [--csv FILE] | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; robots, builds
+# and slides [--quick] [--seed N]; kernel, objects and shapes [--quick] [--seed N] [--only TEXT], the last for the scenes whose names
+# hold a text (of objects, for the rows whose scene and name do; of shapes, for the rows whose group, bodies, poses and query do:
+# "shapes box and box random collide"); accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | shapes | builds | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | shapes | builds [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | robots | shapes | builds | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -52,6 +52,15 @@ if [ "$name" = builds ]; then
   cmake -S benches/builds -B build/builds -DCMAKE_PREFIX_PATH="$PWD/local" ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/builds -j2 >/dev/null
   exec build/builds/builds "${arguments[@]}"
+fi
+if [ "$name" = robots ]; then
+  robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: Pinocchio and its robots could not be fetched" >&2; exit 77; }
+  coal=$(scripts/fetch_coal.sh) || { echo "SKIPPED: Coal could not be fetched" >&2; exit 77; }
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  cmake -S benches/robots -B build/robots -DCMAKE_PREFIX_PATH="$PWD/local" -DPINOCCHIO_FOLDER="$PWD/$robots" \
+    -DCOAL_FOLDER="$PWD/$coal" >/dev/null
+  cmake --build build/robots -j2 >/dev/null
+  exec build/robots/robots "$robots" "${arguments[@]}"
 fi
 if [ "$name" != hierarchies ] && [ "$name" != shapes ]; then
   # A peer or a model that cannot be had is left out, and named.

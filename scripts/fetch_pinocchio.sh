@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Fetches Pinocchio's Python module, the libraries it needs, and the robots of example-robot-data (their URDF files and
-# collision meshes) from PyPI into a folder (default build/pinocchio). Prints the folder; fails loudly where a package cannot
-# be had or the module does not load. What is there already is not fetched again.
+# Fetches Pinocchio's Python module, the libraries it needs, their headers (but Boost's, which fetch_coal.sh has), and the
+# robots of example-robot-data (their URDF files and collision meshes) from PyPI into a folder (default build/pinocchio).
+# Prints the folder; fails loudly where a package cannot be had or the module does not load. What is there already is not
+# fetched again, unless it is without headers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-build/pinocchio}
 packages=(pin==4.1.0 libpinocchio==4.1.0 coal==3.0.3 libcoal==3.0.3 eigenpy==3.13.0 numpy==2.4.6 cmeel-assimp==6.0.5
   cmeel-boost==1.90.0 cmeel-console-bridge==1.0.2.3 cmeel-octomap==1.10.0 cmeel-qhull==8.0.2.1 cmeel-tinyxml2==11.0.0
-  cmeel-urdfdom==6.0.0 cmeel-zlib==1.3.2 example-robot-data==6.0.0)
+  cmeel-urdfdom==6.0.0 cmeel-urdfdom-headers==3.0.0 cmeel-zlib==1.3.2 example-robot-data==6.0.0)
 
 # As Python finds the module: cmeel's wheels put theirs below cmeel.prefix.
 check() {
@@ -28,7 +29,9 @@ pinocchio.buildModelFromUrdf(os.path.join(robots, "panda_description/urdf/panda.
 PY
 }
 
-if [ ! -e "$folder" ]; then
+headers=$folder/cmeel.prefix/include/pinocchio
+is_old() { [ -e "$folder/cmeel.prefix/share/example-robot-data" ] && [ ! -e "$headers" ]; }
+if [ ! -e "$folder" ] || is_old; then
   work=$(mktemp -d)
   part=$folder.part.$$
   trap 'rm -rf "$work" "$part"' EXIT
@@ -52,7 +55,8 @@ for path in glob.glob(os.path.join(work, "*.whl")):
     written = {}
     for entry in wheel.infolist():
         name = entry.filename
-        is_left_out = name.startswith("cmeel.prefix/") and not name.startswith("cmeel.prefix/lib")
+        is_kept = not name.startswith("cmeel.prefix/") or name.startswith(("cmeel.prefix/lib", "cmeel.prefix/include/"))
+        is_left_out = not is_kept or name.startswith("cmeel.prefix/include/boost/")
         if name.endswith((".a", "/")) or "/tests/" in name or is_left_out and name not in wanted:
             continue
         target = os.path.join(folder, name)
@@ -66,6 +70,7 @@ for path in glob.glob(os.path.join(work, "*.whl")):
             shutil.copyfileobj(wheel.open(entry), out)
 PY
   check "$part"
+  if is_old; then rm -rf "$folder"; fi
   mv -T "$part" "$folder"
 fi
 check "$folder"
