@@ -1,7 +1,7 @@
 //! Forward kinematics by compounding, eq. (12)–(19): a link's pose is its parent's, then the joint's frame, then the joint's
 //! motion. (In print (14) ends with p of frame i - 1; the point it carries is given in the last frame.)
 
-use super::Robot;
+use super::{JointKind, Robot};
 use crate::error::Result;
 use crate::pose::Pose;
 
@@ -15,6 +15,10 @@ impl Robot {
                 None => link.at,
                 Some(parent) => poses[first + parent].compose(&link.at),
             };
+            if matches!(link.joint.kind, JointKind::Fixed) {
+                poses.push(at);
+                continue;
+            }
             let motion = link.joint.motion(q).and_then(|motion| {
                 self.check_motion(&motion)?;
                 Ok(motion)
