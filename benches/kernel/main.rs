@@ -37,6 +37,9 @@ const REPEATS: usize = 5;
 /// What is slower is run once.
 const SLOW: f64 = 2.0;
 
+/// What is faster has each pass that counts follow another.
+const BRIEF: f64 = 0.1;
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let value = |name: &str| {
@@ -131,9 +134,14 @@ fn row(case: &Case, mode: Mode, peers: &[Peer], csv: &mut String) -> (String, Op
     for _ in 0..REPEATS {
         for &i in &kept {
             let runner = &mut runners[i];
-            if runner.seconds[0] <= SLOW
-                && let Some((seconds, _)) = (runner.run)()
-            {
+            if runner.seconds[0] > SLOW {
+                continue;
+            }
+            // Each finds its bodies in the caches, whoever came before.
+            if runner.seconds[0] < BRIEF {
+                (runner.run)();
+            }
+            if let Some((seconds, _)) = (runner.run)() {
                 runner.seconds.push(seconds);
             }
         }
