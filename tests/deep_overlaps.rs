@@ -308,6 +308,50 @@ fn a_cylinder_sunk_in_a_large_slab_is_inside() {
     }
 }
 
+/// A disc at an edge of a box half a million times as large, 3.1e-6 off it at least: the direction across the edge, and the
+/// supports of both sets along it, leave so much between them. What volumes lose to rounding must not pass for contact.
+#[test]
+fn a_disc_just_off_a_huge_box_is_free() {
+    let half = Vec3::new(241457.6241420255, 185001.65538230314, 412853.764695156);
+    let bodies = [
+        Cylinder(0.6656062223582805, 0.12672297817459038).body(),
+        Cuboid(half).body(),
+    ]
+    .map(Arc::new);
+    let pose = Pose {
+        rotation: Mat3::new(
+            0.19085360403791196,
+            -0.5650003182894047,
+            0.8027138606991981,
+            0.6969347621633527,
+            -0.4978766292541804,
+            -0.5161402903579669,
+            0.6912718995547635,
+            0.6579464281956143,
+            0.2987468133898371,
+        ),
+        translation: Vec3::new(
+            -241458.09624876088,
+            -185002.14137383638,
+            -412853.76000221225,
+        ),
+    };
+    let here = Pose::identity();
+    for order in [[0, 1], [1, 0]] {
+        let poses = [&pose, &here];
+        let [a, b] = order.map(|i| (&*bodies[i], poses[i]));
+        let mut query = QueryContext::new();
+        assert!(!query.pair_within(a, b, 0.0).unwrap());
+        let found = query.pair_distance(a, b, f64::INFINITY).unwrap();
+        assert!(
+            found.lower > 3.1e-6 && found.distance < 4e-6,
+            "{} to {}",
+            found.lower,
+            found.distance
+        );
+    }
+}
+
 /// Directions are products of lengths, and supports square them: whatever the unit of length, what overlaps meets.
 #[test]
 fn what_overlaps_meets_at_every_scale() {
