@@ -495,6 +495,15 @@ static void steps_of_lists(const fixture *f) {
     /* A list that came without gradients. */
     CHECK_OK(cstk_witnesses(query, f->cobject, f->q, FIXTURE_NQ, 10.0, 16, &list));
     refuse_list(&list, FIXTURE_NQ, CSTK_INVALID_ARGUMENT, "without gradients");
+    /* And lists without all contacts, by which nothing would stand in the way. */
+    CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_NONE));
+    CHECK_OK(cstk_gradients(query, f->cobject, f->q, FIXTURE_NQ, 10, 16, &list));
+    CHECK(list.contacts_left_out && list.contact_count == 0);
+    refuse_list(&list, list.nv, CSTK_INVALID_ARGUMENT, "without all contacts");
+    CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_NEAREST));
+    CHECK_OK(cstk_gradients(query, f->cobject, f->q, FIXTURE_NQ, 10, 16, &list));
+    refuse_list(&list, list.nv, CSTK_INVALID_ARGUMENT, "without all contacts");
+    CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_ALL));
     CHECK_OK(cstk_query_release(query));
     fixture_unchanged(f);
 }

@@ -219,8 +219,9 @@ enum cstk_wrapper_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. They are made when
-   * nodes are first looked at; the boxes that queries walk are fitted to the primitives themselves.
+   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Where
+   * no primitive is cut into slabs they are made when nodes are first looked at, on as many threads as the build, and
+   * the boxes that queries walk are fitted to the primitives themselves.
    */
   CSTK_WRAPPER_HULL = 0,
   CSTK_WRAPPER_ORIENTED_BOX = 1,
@@ -562,8 +563,8 @@ enum cstk_grouping
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
-   * more than 16,384 primitives are first cut into regions of no more, from the top. Bodies of nothing but points
+   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. More than
+   * 16,384 parts without pieces are first cut into regions of no more, from the top. Bodies of nothing but points
    * (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
    */
   CSTK_GROUPING_HYBRID = 0,
@@ -900,7 +901,7 @@ typedef struct cstk_hierarchy_statistics {
   double expected_cost;
   /**
    * Seconds the phases took on the machine that built it: convex pieces and slender primitives, the tree of sets, the
-   * wrappers.
+   * boxes that queries walk with the wrappers that they are fitted to.
    */
   double preparation_seconds;
   double grouping_seconds;
@@ -1498,7 +1499,8 @@ typedef struct cstk_witness {
   uint32_t first_contact;
   uint32_t contact_count;
   /**
-   * The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient.
+   * The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient. With
+   * CSTK_CONTACTS_NONE all at distance 0 counts as overlapping.
    */
   bool overlapping;
   /**
@@ -1631,7 +1633,11 @@ typedef struct cstk_witness_list {
    * There are more witnesses than max_count; these are the nearest.
    */
   bool truncated;
-  uint8_t reserved_bytes[7];
+  /**
+   * Not all contacts are listed, by cstk_query_set_contacts: cstk_slide_step and cstk_spring_step refuse such a list.
+   */
+  bool contacts_left_out;
+  uint8_t reserved_bytes[6];
   uint64_t environment_version;
   uint64_t reserved[8];
 } cstk_witness_list;
@@ -2283,8 +2289,9 @@ cstk_status cstk_body_builder_add_support(struct cstk_body_builder *builder,
                                           uint64_t tag);
 
 /**
- * Describes the body's hierarchy. Takes time in proportion to its nodes. That of hulls, and of nothing but points, is
- * described by the boxes around the primitives, along the axes of coordinates.
+ * Describes the body's hierarchy. Takes time in proportion to its nodes. Where wrappers are made when they are first looked
+ * at (hulls without an aspect_limit that cuts, and nothing but points) it is described by the boxes around the
+ * primitives, along the axes of coordinates.
  */
 cstk_status cstk_body_get_hierarchy(const struct cstk_body *body,
                                     struct cstk_hierarchy_statistics *out);
@@ -3027,7 +3034,8 @@ cstk_status cstk_query_get_version(struct cstk_query *query,
 /**
  * Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
  * their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
- * the same with each. Slides ask for what they need themselves. CSTK_INVALID_ARGUMENT for another number.
+ * the same with each. cstk_slide asks for what it needs itself; cstk_slide_step and cstk_spring_step need lists with all
+ * contacts. CSTK_INVALID_ARGUMENT for another number.
  */
 cstk_status cstk_query_set_contacts(struct cstk_query *query,
                                     int32_t listed);

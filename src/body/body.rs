@@ -7,7 +7,7 @@ use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
 use crate::error::{Error, Result};
 use crate::hierarchy::{
-    BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree, Wrappers,
+    BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree, Wrappers, require_level,
 };
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
@@ -146,6 +146,11 @@ impl Body {
     /// The wrapper tree; of hulls and of clouds it is made when first asked for.
     pub fn tree(&self) -> &WrapperTree {
         self.wrappers.tree(&self.primitives)
+    }
+
+    /// Fails for a level that the hierarchy does not have. Makes no wrappers.
+    pub fn require_level(&self, level: u32) -> Result<()> {
+        require_level(level, self.statistics.depth as usize)
     }
 
     /// The kind of the wrappers, made or not.

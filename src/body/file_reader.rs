@@ -211,7 +211,12 @@ impl Reader<'_> {
             curve: None,
         };
         if let Some((radius, smooth)) = curve {
-            read.curve = Some(Box::new(Curve::new(&read, radius, smooth, planar)));
+            let curve = Curve::new(&read, radius, smooth, planar);
+            // Not so where a face does not fit its edges.
+            if !curve.bounds().iter().flatten().all(|x| x.is_finite()) {
+                return Err(self.damaged("a curved primitive"));
+            }
+            read.curve = Some(Box::new(curve));
         }
         Ok(read)
     }
@@ -290,8 +295,13 @@ impl Reader<'_> {
             .map(|_| self.index(nodes.len()))
             .collect::<Result<_>>()?;
         let subsets = SubsetTree { nodes };
-        if !subsets.is_sound(primitives) || !pieces.is_sorted_by(|a, b| a < b) {
+        if !subsets.is_sound(primitives) {
             return Err(self.damaged("the tree"));
+        }
+        // One after the other, none in another: their hulls are as large as they come.
+        let sizes = subsets.sizes();
+        if !pieces.is_sorted_by(|&a, &b| a + sizes[a as usize] <= b) {
+            return Err(self.damaged("the pieces"));
         }
         Ok(Groups { subsets, pieces })
     }
@@ -399,5 +409,56 @@ mod tests {
         };
         assert_eq!(read(63).unwrap(), 63);
         assert!(read(64).is_err());
+    }
+
+    /// Pieces lie side by side: hulls of all that nested ones hold would be kept at every level.
+    #[test]
+    fn nested_pieces_are_refused() {
+        let read = |pieces: &[u32]| {
+            let mut writer = Writer::default();
+            // Two pairs of leaves.
+            let nodes = [4, 3, LEAF, LEAF | 1, 6, LEAF | 2, LEAF | 3];
+            writer.count(nodes.len());
+            nodes.iter().for_each(|&node| writer.u32(node));
+            writer.count(pieces.len());
+            pieces.iter().for_each(|&piece| writer.u32(piece));
+            let mut reader = Reader {
+                payload: &writer.0,
+                place: 0,
+            };
+            reader.groups(4).is_ok()
+        };
+        assert!(read(&[]) && read(&[1]) && read(&[1, 4]) && read(&[2, 4]));
+        assert!(!read(&[1, 2]) && !read(&[0, 1]) && !read(&[4, 1]) && !read(&[4, 4]));
+    }
+
+    /// The first edge of the core runs along the normal of its face, so that no box has both for axes.
+    #[test]
+    fn faces_upright_to_their_edges_are_refused() {
+        let read = |normal: [f64; 3]| {
+            let mut writer = Writer::default();
+            [3u32, 3, 1].iter().for_each(|&count| writer.u32(count));
+            writer.f64(0.0);
+            writer.u32(ROUNDED);
+            writer.f64(1.0);
+            let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            corners
+                .iter()
+                .for_each(|&corner| writer.vector(&corner.into()));
+            [0u32, 1, 1, 2, 2, 0]
+                .iter()
+                .for_each(|&end| writer.u32(end));
+            writer.vector(&normal.into());
+            [3u32, 0, 1, 2]
+                .iter()
+                .for_each(|&number| writer.u32(number));
+            let mut reader = Reader {
+                payload: &writer.0,
+                place: 0,
+            };
+            reader.primitive(false).is_ok()
+        };
+        assert!(read([0.0, 0.0, 1.0]));
+        assert!(!read([1.0, 0.0, 0.0]));
     }
 }

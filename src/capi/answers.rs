@@ -97,7 +97,8 @@ pub struct cstk_witness {
     /// span the common part.
     pub first_contact: u32,
     pub contact_count: u32,
-    /// The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient.
+    /// The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient. With
+    /// CSTK_CONTACTS_NONE all at distance 0 counts as overlapping.
     pub overlapping: bool,
     /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet:
     /// they stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
@@ -181,7 +182,9 @@ pub struct cstk_witness_list {
     pub nv: usize,
     /// There are more witnesses than max_count; these are the nearest.
     pub truncated: bool,
-    pub reserved_bytes: [u8; 7],
+    /// Not all contacts are listed, by cstk_query_set_contacts: cstk_slide_step and cstk_spring_step refuse such a list.
+    pub contacts_left_out: bool,
+    pub reserved_bytes: [u8; 6],
     pub environment_version: u64,
     pub reserved: [u64; 8],
 }

@@ -10,8 +10,8 @@ use crate::hierarchy::{Cost, Grouping, HierarchyOptions, Pieces, WrapperKind};
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_grouping {
-    /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. Bodies of
-    /// more than 16,384 primitives are first cut into regions of no more, from the top. Bodies of nothing but points
+    /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. More than
+    /// 16,384 parts without pieces are first cut into regions of no more, from the top. Bodies of nothing but points
     /// (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
     CSTK_GROUPING_HYBRID = 0,
     /// Clustering of what is near, in such regions; needs no adjacency (the report's Basic Clustering).
@@ -24,8 +24,9 @@ pub enum cstk_grouping {
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_wrapper_kind {
-    /// Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. They are made when
-    /// nodes are first looked at; the boxes that queries walk are fitted to the primitives themselves.
+    /// Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Where
+    /// no primitive is cut into slabs they are made when nodes are first looked at, on as many threads as the build, and
+    /// the boxes that queries walk are fitted to the primitives themselves.
     CSTK_WRAPPER_HULL = 0,
     CSTK_WRAPPER_ORIENTED_BOX = 1,
     CSTK_WRAPPER_ALIGNED_BOX = 2,

@@ -54,7 +54,7 @@ pub struct cstk_hierarchy_statistics {
     /// comparing hierarchies of one body.
     pub expected_cost: f64,
     /// Seconds the phases took on the machine that built it: convex pieces and slender primitives, the tree of sets, the
-    /// wrappers.
+    /// boxes that queries walk with the wrappers that they are fitted to.
     pub preparation_seconds: f64,
     pub grouping_seconds: f64,
     pub construction_seconds: f64,
@@ -114,8 +114,9 @@ pub struct cstk_mesh_view {
     pub reserved: [u64; 4],
 }
 
-/// Describes the body's hierarchy. Takes time in proportion to its nodes. That of hulls, and of nothing but points, is
-/// described by the boxes around the primitives, along the axes of coordinates.
+/// Describes the body's hierarchy. Takes time in proportion to its nodes. Where wrappers are made when they are first looked
+/// at (hulls without an aspect_limit that cuts, and nothing but points) it is described by the boxes around the
+/// primitives, along the axes of coordinates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_hierarchy(
     body: *const cstk_body,
@@ -158,6 +159,7 @@ pub unsafe extern "C" fn cstk_body_get_level(
     guard(|| {
         let body = &*handle::share::<Body>(body, "body")?;
         let out = Output::checked(out, "out")?;
+        body.require_level(level)?;
         let s = body.tree().level_statistics(level)?;
         out.write(cstk_level_statistics {
             node_count: s.nodes,
@@ -184,7 +186,7 @@ pub unsafe extern "C" fn cstk_body_level(
         let body = &*handle::share::<Body>(body, "body")?;
         let room = OutputSlice::checked(nodes, max_count, "nodes")?;
         let count = Output::checked(count, "count")?;
-        body.tree().require_level(level)?;
+        body.require_level(level)?;
         let found = body.tree().level(level);
         room.write(&found);
         count.write(found.len());

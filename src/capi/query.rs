@@ -105,7 +105,8 @@ impl State {
             gradients: start(&self.gradients),
             nv: list.nv,
             truncated: list.truncated,
-            reserved_bytes: [0; 7],
+            contacts_left_out: self.context.contacts() != ContactsListed::All,
+            reserved_bytes: [0; 6],
             environment_version: list.version,
             reserved: [0; 8],
         }
@@ -200,7 +201,8 @@ pub enum cstk_contacts_listed {
 
 /// Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
 /// their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
-/// the same with each. Slides ask for what they need themselves. CSTK_INVALID_ARGUMENT for another number.
+/// the same with each. cstk_slide asks for what it needs itself; cstk_slide_step and cstk_spring_step need lists with all
+/// contacts. CSTK_INVALID_ARGUMENT for another number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_set_contacts(
     query: *mut cstk_query,

@@ -230,6 +230,10 @@ unsafe fn approaches<'a>(
     // SAFETY: checked for NULL; the caller states that it is a list of a query that is still valid.
     let list = unsafe { slice(list, 1, "list")? };
     let list = &list[0];
+    if list.contacts_left_out {
+        let message = "the list was made without all contacts, see cstk_query_set_contacts";
+        return Err(Error::invalid(message).into());
+    }
     if list.nv == 0 && list.contact_count > 0 {
         return Err(Error::invalid("the list was made without gradients").into());
     }

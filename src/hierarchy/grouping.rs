@@ -8,7 +8,7 @@ use super::parallel::Progress;
 use super::parts::Part;
 use super::rebalancing::rebalanced;
 use super::regions::{REGION, group_by_regions};
-use super::{Extent, Forest, Grouping, HierarchyOptions, Node, SubsetTree};
+use super::{Extent, Forest, Grouping, HierarchyOptions, Node, Pieces, SubsetTree};
 use crate::error::Result;
 use crate::primitive::Convex;
 
@@ -36,7 +36,8 @@ pub fn group(
     options: &HierarchyOptions,
     progress: &mut Progress,
 ) -> Result<Groups> {
-    if parts.len() > REGION && pieces.is_empty() && options.grouping != Grouping::TopDown {
+    let has_no_pieces = options.pieces == Pieces::Off;
+    if parts.len() > REGION && has_no_pieces && options.grouping != Grouping::TopDown {
         let subsets = group_by_regions(primitives, parts, options, progress)?;
         let pieces = Vec::new();
         return Ok(Groups { subsets, pieces });

@@ -61,7 +61,7 @@ pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use packed_box::PackedBox;
 pub use packed_primitives::{PackedPrimitive, PackedPrimitives};
 pub use packed_tree::{Children, PackedTree, Unit, Whole, power_of_two};
-pub use statistics::{LevelStatistics, TreeStatistics};
+pub use statistics::{LevelStatistics, TreeStatistics, require_level};
 pub use subset_tree::{Node, SubsetTree};
 pub use wide_node::{EightBoxes, Held, SIZE_STEPS, WideNode};
 pub use wide_node_bytes::NODE_BYTES;

@@ -7,8 +7,8 @@ use crate::error::{Error, ErrorKind, Result};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grouping {
     /// Adjacent-element clustering, then basic clustering of its chunks (§3.2.5). For models that are built once and
-    /// asked often. Bodies of more than 16,384 primitives are first cut into regions of no more, by the surface-area
-    /// heuristic, and each is clustered.
+    /// asked often. More than 16,384 parts, where no pieces are asked for, are first cut into regions of no more, by the
+    /// surface-area heuristic, and each is clustered.
     #[default]
     Hybrid,
     /// Basic clustering alone (§3.2.2): needs no adjacency. In regions too.
@@ -20,8 +20,9 @@ pub enum Grouping {
 /// The kind of wrapper in the construction phase (§3.2.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WrapperKind {
-    /// Convex hulls of bounded size, oriented boxes where the hull has more vertices (§2.3.4). Made when they are first
-    /// looked at: what queries walk is fitted to the primitives themselves.
+    /// Convex hulls of bounded size, oriented boxes where the hull has more vertices (§2.3.4). Where no primitive
+    /// is cut into slabs they are made when they are first looked at, and what queries walk is fitted to the primitives
+    /// themselves.
     #[default]
     Hull,
     OrientedBox,

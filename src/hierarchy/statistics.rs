@@ -97,7 +97,7 @@ impl WrapperTree {
 
     /// Fails for a level the tree does not have. Work grows with the level's nodes.
     pub fn level_statistics(&self, level: u32) -> Result<LevelStatistics> {
-        self.require_level(level)?;
+        require_level(level, self.subsets.depth())?;
         let mut statistics = LevelStatistics::default();
         let levels = self.subsets.levels();
         for node in self.level(level) {
@@ -112,16 +112,15 @@ impl WrapperTree {
         }
         Ok(statistics)
     }
+}
 
-    /// Fails for a level the tree does not have.
-    pub fn require_level(&self, level: u32) -> Result<()> {
-        let depth = self.subsets.depth();
-        if (level as usize) < depth {
-            return Ok(());
-        }
-        Err(Error::new(
-            ErrorKind::NotFound,
-            format!("the hierarchy has no level {level}; its {depth} levels count from 0"),
-        ))
+/// Fails for a level that a tree of so many does not have.
+pub fn require_level(level: u32, depth: usize) -> Result<()> {
+    if (level as usize) < depth {
+        return Ok(());
     }
+    Err(Error::new(
+        ErrorKind::NotFound,
+        format!("the hierarchy has no level {level}; its {depth} levels count from 0"),
+    ))
 }

@@ -122,8 +122,7 @@ fn extents(groups: &Groups, primitives: &Primitives) -> Vec<Extent> {
     for (i, node) in nodes.iter().enumerate().rev() {
         extents[i] = match *node {
             Node::Leaf { primitive } => {
-                let (low, high) = primitives.get(primitive as usize).extent();
-                Extent { low, high }
+                Extent::of_points(primitives.get(primitive as usize).bounding_points())
             }
             Node::Interior { children: [a, b] } => extents[a as usize].union(&extents[b as usize]),
         };

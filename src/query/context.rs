@@ -89,6 +89,11 @@ impl QueryContext {
         self.scratch.meter_mut().limit = limit;
     }
 
+    /// Which contacts come with the witnesses of lists.
+    pub fn contacts(&self) -> ContactsListed {
+        self.contacts
+    }
+
     /// Which contacts come with the witnesses of lists from now on.
     pub fn set_contacts(&mut self, contacts: ContactsListed) {
         self.contacts = contacts;

@@ -174,9 +174,11 @@ pub(super) fn pure_witnesses(
             list.contacts.extend(next.contact);
             list.gradients.extend(next.row);
         }
+        let is_untold = listed.contacts == ContactsListed::None && next.witness.distance == 0.0;
         list.witnesses.push(Witness {
             first_contact,
             contact_count: list.contacts.len() - first_contact,
+            overlapping: next.witness.overlapping || is_untold,
             ..next.witness
         });
     }
