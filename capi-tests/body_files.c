@@ -352,7 +352,7 @@ static void sign(content *file) {
 
 /* The version counts before all else, whether the rest is right or not. */
 static void newer(content *whole) {
-    const uint32_t versions[] = {3, 5, 0x00010000, UINT32_MAX};
+    const uint32_t versions[] = {4, 6, 0x00010000, UINT32_MAX};
     for (int i = 0; i < 4; ++i) {
         char text[32];
         snprintf(text, sizeof text, "version %u", (unsigned)versions[i]);
@@ -362,7 +362,7 @@ static void newer(content *whole) {
         put(whole->bytes + SUM_AT, 0);
         refuse_bytes(whole->bytes, HEADER_SIZE + 1, CSTK_UNSUPPORTED, text);
     }
-    put(whole->bytes + VERSION_AT, 4);
+    put(whole->bytes + VERSION_AT, 5);
     sign(whole);
     CHECK(checksum((const unsigned char *)"123456789", 9) == 0xCBF43926u);
     write_file("signed.cstk", whole->bytes, whole->size);
