@@ -2145,8 +2145,8 @@ cstk_status cstk_body_save(const struct cstk_body *body,
 
 /**
  * Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_IO if
- * the file cannot be read, CSTK_PARSE if it is truncated, altered or no body file, CSTK_UNSUPPORTED if a newer version
- * of the library wrote it. The checksum finds damage; it is no protection against forgery.
+ * the file cannot be read, CSTK_PARSE if it is truncated, altered or no body file, CSTK_UNSUPPORTED if it is of another
+ * version of the format. The checksum finds damage; it is no protection against forgery.
  */
 cstk_status cstk_body_load(const char *file,
                            struct cstk_body **out);

@@ -234,8 +234,8 @@ pub unsafe extern "C" fn cstk_body_save(
 }
 
 /// Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_IO if
-/// the file cannot be read, CSTK_PARSE if it is truncated, altered or no body file, CSTK_UNSUPPORTED if a newer version
-/// of the library wrote it. The checksum finds damage; it is no protection against forgery.
+/// the file cannot be read, CSTK_PARSE if it is truncated, altered or no body file, CSTK_UNSUPPORTED if it is of another
+/// version of the format. The checksum finds damage; it is no protection against forgery.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_load(
     file: *const c_char,
