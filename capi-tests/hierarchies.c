@@ -217,22 +217,47 @@ static void check_covers(const cstk_body *body, const tree *t) {
     free(nodes);
 }
 
-/* The size of the box around a node's wrapper. */
-static void box_of(const tree *t, size_t node, double size[3]) {
+/* Widens a box (low and high of each axis) to hold points with a margin around them. */
+static void hold(const double *points, size_t count, double margin, double box[6]) {
+    for (size_t i = 0; i < count; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double at = points[3 * i + axis];
+            box[2 * axis] = -larger(-box[2 * axis], margin - at);
+            box[2 * axis + 1] = larger(box[2 * axis + 1], at + margin);
+        }
+    }
+}
+
+static void hold_primitives(const tree *t, const model *m, size_t node, double box[6]) {
+    if (is_leaf(t, node)) {
+        const size_t first = m->first[t->nodes[node].primitive];
+        const size_t end = m->first[t->nodes[node].primitive + 1];
+        hold(&m->vertices[3 * first], end - first, 0.0, box);
+        return;
+    }
+    for (int k = 0; k < 2; ++k) {
+        hold_primitives(t, m, t->nodes[node].children[k], box);
+    }
+}
+
+/* The size of the box by which a node is described: around its wrapper, or, where wrappers are made when they are looked at,
+ * around the primitives. */
+static void box_of(const tree *t, const model *m, const cstk_hierarchy_options *options,
+                   size_t node, double size[3]) {
+    double box[6] = {INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY};
+    if (options->wrapper == CSTK_WRAPPER_HULL && options->aspect_limit == 0.0) {
+        hold_primitives(t, m, node, box);
+    } else {
+        hold(&t->corners[3 * t->first[node]], t->nodes[node].corner_count, t->nodes[node].excess,
+             box);
+    }
     for (int axis = 0; axis < 3; ++axis) {
-        double up[3] = {0, 0, 0};
-        double down[3] = {0, 0, 0};
-        up[axis] = 1.0;
-        down[axis] = -1.0;
-        const double *corners = &t->corners[3 * t->first[node]];
-        const size_t count = t->nodes[node].corner_count;
-        size[axis] = reach(corners, count, up) + reach(corners, count, down);
-        size[axis] += 2.0 * t->nodes[node].excess;
+        size[axis] = box[2 * axis + 1] - box[2 * axis];
     }
 }
 
 /* Every number of the statistics from the nodes, by the words of the header. */
-static void check_statistics(const cstk_body *body, const tree *t,
+static void check_statistics(const cstk_body *body, const tree *t, const model *m,
                              const cstk_hierarchy_options *options) {
     cstk_hierarchy_statistics s;
     cstk_body_statistics of_body;
@@ -245,10 +270,10 @@ static void check_statistics(const cstk_body *body, const tree *t,
     double root[3];
     CHECK_OK(cstk_body_get_hierarchy(body, &s));
     CHECK_OK(cstk_body_get_statistics(body, &of_body));
-    box_of(t, 0, root);
+    box_of(t, m, options, 0, root);
     for (size_t i = 0; i < t->count; ++i) {
         double own[3];
-        box_of(t, i, own);
+        box_of(t, m, options, i, own);
         pieces += t->nodes[i].is_piece;
         if (is_leaf(t, i)) {
             ++leaves;
@@ -259,7 +284,7 @@ static void check_statistics(const cstk_body *body, const tree *t,
         double child[2];
         for (int k = 0; k < 2; ++k) {
             double size[3];
-            box_of(t, t->nodes[i].children[k], size);
+            box_of(t, m, options, t->nodes[i].children[k], size);
             child[k] = larger(sqrt(dot(size, size)), 1e-9 * sqrt(dot(root, root)));
         }
         cost += 2.0 * half_surface(own) / half_surface(root);
@@ -298,7 +323,7 @@ static void check_body(const cstk_body *body, const cstk_hierarchy_options *opti
     check_wrappers(&t, &m, options);
     check_levels(body, &t, statistics.depth);
     check_covers(body, &t);
-    check_statistics(body, &t, options);
+    check_statistics(body, &t, &m, options);
     free_model(&m);
     free_tree(&t);
 }
