@@ -114,6 +114,36 @@ impl Pose {
         }
     }
 
+    /// The pose after a turn by `angle` radians about a unit axis of its own frame.
+    pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
+        let is_along =
+            |k: usize| axis[k].abs() == 1.0 && axis[(k + 1) % 3] == 0.0 && axis[(k + 2) % 3] == 0.0;
+        let Some(k) = [2, 1, 0].into_iter().find(|&k| is_along(k)) else {
+            return Pose {
+                rotation: turned_axes(&self.rotation, &rotation_about(axis, angle)),
+                ..*self
+            };
+        };
+        // About an axis of the frame, as that of most joints is, two columns turn in their plane.
+        let (sine, cosine) = (angle * axis[k]).sin_cos();
+        let [i, j] = [(k + 1) % 3, (k + 2) % 3];
+        let mut rotation = self.rotation;
+        for row in 0..3 {
+            let [x, y] = [self.rotation[(row, i)], self.rotation[(row, j)]];
+            rotation[(row, i)] = cosine * x + sine * y;
+            rotation[(row, j)] = cosine * y - sine * x;
+        }
+        Pose { rotation, ..*self }
+    }
+
+    /// The pose after a shift along a unit axis of its own frame.
+    pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Pose {
+        Pose {
+            translation: self.translation + turned(&self.rotation, axis) * length,
+            ..*self
+        }
+    }
+
     pub fn inverse(&self) -> Pose {
         let rotation = self.rotation.transpose();
         Pose {
@@ -144,8 +174,19 @@ pub fn check_dimension(dimension: u32) -> Result<()> {
 /// The rotation by `angle` radians about the unit vector `axis` (Rodrigues' formula).
 pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     let (s, c) = angle.sin_cos();
-    let k = axis.cross_matrix();
-    Mat3::identity() + k * s + k * k * (1.0 - c)
+    let (v, [x, y, z]) = (1.0 - c, [axis.x, axis.y, axis.z]);
+    let on_axis = |a: f64, b: f64| 1.0 - (a * a + b * b) * v;
+    Mat3::new(
+        on_axis(y, z),
+        x * y * v - z * s,
+        x * z * v + y * s,
+        x * y * v + z * s,
+        on_axis(x, z),
+        y * z * v - x * s,
+        x * z * v - y * s,
+        y * z * v + x * s,
+        on_axis(x, y),
+    )
 }
 
 /// Whether 12 numbers are a pose, up to rounding: the columns of unit length and upright to one another, and no coordinate too
@@ -334,6 +375,33 @@ mod tests {
         let long = xyzw.map(|x| x * 1.00001);
         let error = Pose::from_quaternion(Vec3::x(), long).unwrap_err();
         assert_eq!(error.kind, ErrorKind::NotARotation);
+    }
+
+    #[test]
+    fn turns_and_shifts_are_those_of_composed_poses() {
+        let frame = Pose {
+            rotation: rotation_about(&Vec3::new(0.36, 0.48, 0.8), 0.4),
+            translation: Vec3::new(1.0, 2.0, 3.0),
+        };
+        let sixth = Vec3::new(0.36, -0.8, 0.48);
+        let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+        for axis in axes
+            .into_iter()
+            .flat_map(|axis| [axis, -axis])
+            .chain([sixth])
+        {
+            // Rodrigues' formula by matrices.
+            let cross = axis.cross_matrix();
+            let turn =
+                Mat3::identity() + cross * 1.1f64.sin() + cross * cross * (1.0 - 1.1f64.cos());
+            let turned = frame.turned_about(&axis, 1.1);
+            assert!((turned.rotation - frame.rotation * turn).amax() < 1e-15);
+            assert_eq!(turned.translation, frame.translation);
+            let shifted = frame.shifted_along(&axis, 0.7);
+            let expected = frame.compose(&Pose::from_translation(axis * 0.7));
+            assert!((shifted.translation - expected.translation).amax() < 1e-15);
+            assert_eq!(shifted.rotation, frame.rotation);
+        }
     }
 
     #[test]

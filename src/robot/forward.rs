@@ -2,7 +2,7 @@
 //! motion. (In print (14) ends with p of frame i - 1; the point it carries is given in the last frame.)
 
 use super::{JointKind, Robot};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::pose::Pose;
 
 impl Robot {
@@ -15,17 +15,21 @@ impl Robot {
                 None => link.at,
                 Some(parent) => poses[first + parent].compose(&link.at),
             };
-            if matches!(link.joint.kind, JointKind::Fixed) {
-                poses.push(at);
-                continue;
-            }
-            let motion = link.joint.motion(q).and_then(|motion| {
-                self.check_motion(&motion)?;
-                Ok(motion)
+            let joint = &link.joint;
+            poses.push(match joint.kind {
+                JointKind::Fixed => at,
+                JointKind::Revolute => at.turned_about(&joint.axis, joint.position(q)),
+                JointKind::Prismatic => at.shifted_along(&joint.axis, joint.position(q)),
+                _ => {
+                    let motion = joint.motion(q).and_then(|motion| {
+                        self.check_motion(&motion)?;
+                        Ok(motion)
+                    });
+                    let at_link =
+                        |e: Error| e.within(format_args!("link {index} (\"{}\")", link.name));
+                    at.compose(&motion.map_err(at_link)?)
+                }
             });
-            let motion =
-                motion.map_err(|e| e.within(format_args!("link {index} (\"{}\")", link.name)))?;
-            poses.push(at.compose(&motion));
         }
         Ok(())
     }

@@ -96,10 +96,10 @@ impl Joint {
         Ok(match &self.kind {
             JointKind::Fixed => Pose::identity(),
             JointKind::Revolute => Pose {
-                rotation: rotation_about(&self.axis, self.follow(own[0])),
+                rotation: rotation_about(&self.axis, self.position(q)),
                 translation: Vec3::zeros(),
             },
-            JointKind::Prismatic => Pose::from_translation(self.axis * self.follow(own[0])),
+            JointKind::Prismatic => Pose::from_translation(self.axis * self.position(q)),
             JointKind::Planar => Pose {
                 rotation: rotation_about(&Vec3::z(), own[2]),
                 translation: Vec3::new(own[0], own[1], 0.0),
@@ -167,8 +167,10 @@ impl Joint {
         Ok(())
     }
 
-    fn follow(&self, coordinate: f64) -> f64 {
-        self.multiplier * coordinate + self.offset
+    /// The angle or length of a revolute or prismatic joint at configuration q of the robot.
+    #[inline]
+    pub(super) fn position(&self, q: &[f64]) -> f64 {
+        self.multiplier * q[self.coordinate] + self.offset
     }
 }
 
