@@ -141,9 +141,9 @@ void random_pose(int i, double reach, double pose[12]) {
 size_t primitive_vertices(const cstk_body *body, uint32_t primitive, double *xyz) {
     for (uint32_t vertex = 0; vertex < 64; ++vertex) {
         size_t count = 0;
-        const cstk_status status = cstk_body_feature_vertices(body, primitive, CSTK_VERTEX, vertex,
+        const cstk_status status = cstk_body_get_feature_vertices(body, primitive, CSTK_FEATURE_VERTEX, vertex,
                                                               1, &xyz[3 * vertex], &count);
-        if (status == CSTK_NOT_FOUND && vertex > 0) {
+        if (status == CSTK_ERROR_NOT_FOUND && vertex > 0) {
             return vertex;
         }
         CHECK_STATUS(status, CSTK_OK);
@@ -168,7 +168,7 @@ static void read_node(const cstk_body *body, tree *t, size_t i) {
     t->first[i + 1] = t->first[i] + node->corner_count;
     t->corners = realloc(t->corners, 3 * t->first[i + 1] * sizeof(double));
     CHECK(t->corners != NULL && node->corner_count > 0);
-    CHECK_OK(cstk_body_node_corners(body, (uint32_t)i, node->corner_count,
+    CHECK_OK(cstk_body_get_node_corners(body, (uint32_t)i, node->corner_count,
                                     &t->corners[3 * t->first[i]], &count));
     CHECK(count == node->corner_count);
     CHECK(node->is_piece <= 1);
@@ -212,7 +212,7 @@ static void check_order(const cstk_body *body, tree *t) {
 tree read_tree(const cstk_body *body) {
     tree t = {0, NULL, NULL, NULL, NULL, NULL};
     cstk_hierarchy_statistics statistics;
-    CHECK_OK(cstk_body_get_hierarchy(body, &statistics));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &statistics));
     t.count = statistics.node_count;
     t.nodes = room(t.count, sizeof *t.nodes);
     t.levels = room(t.count, sizeof *t.levels);

@@ -78,13 +78,13 @@ static void check_same_numbers(const cstk_body *a, const cstk_body *b) {
     CHECK_OK(cstk_body_get_statistics(a, &counts[0]));
     CHECK_OK(cstk_body_get_statistics(b, &counts[1]));
     CHECK(memcmp(&counts[0], &counts[1], sizeof counts[0]) == 0);
-    CHECK_OK(cstk_body_get_hierarchy(a, &shapes[0]));
-    CHECK_OK(cstk_body_get_hierarchy(b, &shapes[1]));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(a, &shapes[0]));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(b, &shapes[1]));
     CHECK(memcmp(&shapes[0], &shapes[1], sizeof shapes[0]) == 0);
     for (uint32_t level = 0; level < shapes[0].depth; ++level) {
         cstk_level_statistics levels[2];
-        CHECK_OK(cstk_body_get_level(a, level, &levels[0]));
-        CHECK_OK(cstk_body_get_level(b, level, &levels[1]));
+        CHECK_OK(cstk_body_get_level_statistics(a, level, &levels[0]));
+        CHECK_OK(cstk_body_get_level_statistics(b, level, &levels[1]));
         CHECK(memcmp(&levels[0], &levels[1], sizeof levels[0]) == 0);
     }
     tree trees[2] = {read_tree(a), read_tree(b)};
@@ -98,21 +98,21 @@ static void check_same_features(const cstk_body *a, const cstk_body *b) {
     cstk_body_statistics s;
     CHECK_OK(cstk_body_get_statistics(a, &s));
     for (uint32_t primitive = 0; primitive < s.primitive_count; ++primitive) {
-        for (int32_t kind = CSTK_VERTEX; kind <= CSTK_INTERIOR; ++kind) {
+        for (int32_t kind = CSTK_FEATURE_VERTEX; kind <= CSTK_FEATURE_INTERIOR; ++kind) {
             cstk_status status = CSTK_OK;
             for (uint32_t feature = 0; status == CSTK_OK; ++feature) {
                 double xyz[2][3 * 64];
                 size_t count[2] = {0, 0};
                 status =
-                    cstk_body_feature_vertices(a, primitive, kind, feature, 64, xyz[0], &count[0]);
+                    cstk_body_get_feature_vertices(a, primitive, kind, feature, 64, xyz[0], &count[0]);
                 CHECK_STATUS(
-                    cstk_body_feature_vertices(b, primitive, kind, feature, 64, xyz[1], &count[1]),
+                    cstk_body_get_feature_vertices(b, primitive, kind, feature, 64, xyz[1], &count[1]),
                     status);
                 CHECK(count[0] == count[1] && count[0] <= 64);
                 CHECK(memcmp(xyz[0], xyz[1], 3 * count[0] * sizeof(double)) == 0);
                 CHECK(feature < 1000);
             }
-            CHECK(status == CSTK_NOT_FOUND);
+            CHECK(status == CSTK_ERROR_NOT_FOUND);
         }
     }
 }
@@ -155,7 +155,7 @@ static void check_same_answers(const cstk_body *a, const cstk_body *b, double re
         }
         check_same_bits(&d[0].distance, &d[1].distance, 3 * sizeof(double));
         check_same_bits(d[0].r_point, d[1].r_point, 6 * sizeof(double));
-        CHECK(d[0].kind == CSTK_EXACT && d[1].kind == CSTK_EXACT && counts[0] == counts[1]);
+        CHECK(d[0].kind == CSTK_DISTANCE_EXACT && d[1].kind == CSTK_DISTANCE_EXACT && counts[0] == counts[1]);
         CHECK(d[0].witness.r_primitive == d[1].witness.r_primitive);
         CHECK(d[0].witness.r_tag == d[1].witness.r_tag);
         for (size_t w = 0; w < counts[0]; ++w) {
@@ -276,15 +276,15 @@ static void refuse_bytes(const void *bytes, size_t size, cstk_status status, con
 static void not_a_body(void) {
     const char text[] = "This is a text that is longer than the header of a body file.\n";
     unsigned char zeros[1000] = {0};
-    refuse("missing.cstk", CSTK_IO, "missing.cstk");
-    refuse("missing/a.cstk", CSTK_IO, "missing/a.cstk");
+    refuse("missing.cstk", CSTK_ERROR_IO, "missing.cstk");
+    refuse("missing/a.cstk", CSTK_ERROR_IO, "missing/a.cstk");
     mkdir(path_of("folder.cstk"), 0777);
-    refuse("folder.cstk", CSTK_IO, "folder.cstk");
-    refuse_bytes("", 0, CSTK_PARSE, "truncated");
-    refuse_bytes(text, 5, CSTK_PARSE, "no body file");
-    refuse_bytes(text, sizeof text, CSTK_PARSE, "no body file");
-    refuse_bytes(zeros, sizeof zeros, CSTK_PARSE, "no body file");
-    refuse_bytes("v 0 0 0\n", 8, CSTK_PARSE, "no body file");
+    refuse("folder.cstk", CSTK_ERROR_IO, "folder.cstk");
+    refuse_bytes("", 0, CSTK_ERROR_PARSE, "truncated");
+    refuse_bytes(text, 5, CSTK_ERROR_PARSE, "no body file");
+    refuse_bytes(text, sizeof text, CSTK_ERROR_PARSE, "no body file");
+    refuse_bytes(zeros, sizeof zeros, CSTK_ERROR_PARSE, "no body file");
+    refuse_bytes("v 0 0 0\n", 8, CSTK_ERROR_PARSE, "no body file");
 }
 
 /* The file of a triangle. */
@@ -304,12 +304,12 @@ enum { VERSION_AT = 8, SUM_AT = 24, HEADER_SUM_AT = 28, HEADER_SIZE = 32 };
 
 static void truncated(const content *whole) {
     for (size_t size = 0; size < whole->size; ++size) {
-        refuse_bytes(whole->bytes, size, CSTK_PARSE, size < 8 ? "" : "truncated");
+        refuse_bytes(whole->bytes, size, CSTK_ERROR_PARSE, size < 8 ? "" : "truncated");
     }
     unsigned char *longer = calloc(whole->size + 1, 1);
     CHECK(longer != NULL);
     memcpy(longer, whole->bytes, whole->size);
-    refuse_bytes(longer, whole->size + 1, CSTK_PARSE, "damaged");
+    refuse_bytes(longer, whole->size + 1, CSTK_ERROR_PARSE, "damaged");
     free(longer);
 }
 
@@ -318,7 +318,7 @@ static void altered(const content *whole) {
         const unsigned char masks[] = {0x01, 0x80, 0xFF};
         const int version = place >= VERSION_AT && place < VERSION_AT + 4;
         whole->bytes[place] ^= masks[place % 3];
-        refuse_bytes(whole->bytes, whole->size, version ? CSTK_UNSUPPORTED : CSTK_PARSE,
+        refuse_bytes(whole->bytes, whole->size, version ? CSTK_ERROR_UNSUPPORTED : CSTK_ERROR_PARSE,
                      version ? "version" : "");
         whole->bytes[place] ^= masks[place % 3];
     }
@@ -358,9 +358,9 @@ static void newer(content *whole) {
         snprintf(text, sizeof text, "version %u", (unsigned)versions[i]);
         put(whole->bytes + VERSION_AT, versions[i]);
         sign(whole);
-        refuse_bytes(whole->bytes, whole->size, CSTK_UNSUPPORTED, text);
+        refuse_bytes(whole->bytes, whole->size, CSTK_ERROR_UNSUPPORTED, text);
         put(whole->bytes + SUM_AT, 0);
-        refuse_bytes(whole->bytes, HEADER_SIZE + 1, CSTK_UNSUPPORTED, text);
+        refuse_bytes(whole->bytes, HEADER_SIZE + 1, CSTK_ERROR_UNSUPPORTED, text);
     }
     put(whole->bytes + VERSION_AT, 5);
     sign(whole);
@@ -375,13 +375,13 @@ static void ask_forged(const cstk_body *body) {
     cstk_query *query = NULL;
     cstk_hierarchy_statistics s;
     CHECK_OK(cstk_query_create(&query));
-    CHECK_OK(cstk_body_get_hierarchy(body, &s));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &s));
     for (uint32_t i = 0; i < s.node_count; ++i) {
         cstk_hierarchy_node node;
         cstk_mesh *mesh = NULL;
         CHECK_OK(cstk_body_get_node(body, i, &node));
-        const cstk_status status = cstk_body_nodes_mesh(body, &i, 1, &mesh);
-        CHECK(status != CSTK_INTERNAL);
+        const cstk_status status = cstk_mesh_create_from_nodes(body, &i, 1, &mesh);
+        CHECK(status != CSTK_ERROR_INTERNAL);
         CHECK_OK(cstk_mesh_release(mesh));
     }
     for (int i = 0; i < 2; ++i) {
@@ -390,9 +390,9 @@ static void ask_forged(const cstk_body *body) {
         double pose[12];
         random_pose(i, 2.0, pose);
         CHECK(cstk_pair_distance(query, body, identity_pose, body, pose, INFINITY, &d) !=
-              CSTK_INTERNAL);
+              CSTK_ERROR_INTERNAL);
         CHECK(cstk_pair_witnesses(query, body, identity_pose, body, pose, 1.0, 9, &list) !=
-              CSTK_INTERNAL);
+              CSTK_ERROR_INTERNAL);
     }
     CHECK_OK(cstk_query_release(query));
 }
@@ -410,7 +410,7 @@ static void forged(content *whole) {
             sign(&copy);
             write_file("forged.cstk", copy.bytes, copy.size);
             const cstk_status status = cstk_body_load(path_of("forged.cstk"), &body);
-            CHECK(status == CSTK_OK || status == CSTK_PARSE);
+            CHECK(status == CSTK_OK || status == CSTK_ERROR_PARSE);
             if (status == CSTK_OK) {
                 ask_forged(body);
                 CHECK_OK(cstk_body_release(body));
@@ -437,15 +437,15 @@ static void kept_when_saving_fails(void) {
     tight.rlim_cur = 1000;
     signal(SIGXFSZ, SIG_IGN);
     CHECK(setrlimit(RLIMIT_FSIZE, &tight) == 0);
-    CHECK_FAILS(cstk_body_save(body, path_of("kept.cstk")), CSTK_IO, "kept.cstk");
-    CHECK_FAILS(cstk_body_save(body, path_of("new.cstk")), CSTK_IO, "new.cstk");
+    CHECK_FAILS(cstk_body_save(body, path_of("kept.cstk")), CSTK_ERROR_IO, "kept.cstk");
+    CHECK_FAILS(cstk_body_save(body, path_of("new.cstk")), CSTK_ERROR_IO, "new.cstk");
     const uint32_t root = 0;
-    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, path_of("new.glb")), CSTK_IO, "new.glb");
+    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, path_of("new.glb")), CSTK_ERROR_IO, "new.glb");
     CHECK(setrlimit(RLIMIT_FSIZE, &before) == 0);
     CHECK(same_content("kept.cstk", "small.cstk"));
     CHECK(access(path_of("new.cstk"), F_OK) != 0 && access(path_of("new.glb"), F_OK) != 0);
-    CHECK_FAILS(cstk_body_save(body, path_of("missing/new.cstk")), CSTK_IO, "missing/new.cstk");
-    CHECK_FAILS(cstk_body_save(body, path_of("folder.cstk")), CSTK_IO, "folder.cstk");
+    CHECK_FAILS(cstk_body_save(body, path_of("missing/new.cstk")), CSTK_ERROR_IO, "missing/new.cstk");
+    CHECK_FAILS(cstk_body_save(body, path_of("folder.cstk")), CSTK_ERROR_IO, "folder.cstk");
     CHECK(files_with(".part") == parts_before);
     CHECK_OK(cstk_body_save(body, path_of("kept.cstk")));
     CHECK_OK(cstk_body_release(load("kept.cstk")));

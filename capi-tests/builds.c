@@ -59,12 +59,12 @@ static void progress(void) {
             listener some = {pthread_self(), 0, stop, 0.0};
             if (options.threads == 1) {
                 CHECK_REFUSED(body, cstk_body_build(builder, &options, listen, &some, &body),
-                              CSTK_CANCELLED, "progress");
+                              CSTK_ERROR_CANCELLED, "progress");
                 CHECK(some.calls == stop + 1);
                 continue;
             }
             const cstk_status status = cstk_body_build(builder, &options, listen, &some, &body);
-            CHECK(status == (some.calls > stop ? CSTK_CANCELLED : CSTK_OK));
+            CHECK(status == (some.calls > stop ? CSTK_ERROR_CANCELLED : CSTK_OK));
             if (status == CSTK_OK) {
                 CHECK_OK(cstk_body_release(body));
             }

@@ -37,7 +37,7 @@ static cstk_body *cloud_of(const double *xyz, const cstk_hierarchy_options *opti
 
 static uint64_t memory_of(const cstk_body *body) {
     cstk_hierarchy_statistics s;
-    CHECK_OK(cstk_body_get_hierarchy(body, &s));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &s));
     CHECK(s.leaf_count == POINTS && s.node_count == 2 * POINTS - 1 && s.piece_count == 0);
     CHECK(s.depth <= 2 * log2(POINTS));
     return s.memory_bytes;
@@ -59,7 +59,7 @@ static void nodes(const double *xyz) {
     CHECK(close_to(s.low[0], -RADIUS, 1e-15) && close_to(s.high[0], 0.04 * 48 + RADIUS, 1e-15));
     CHECK(memory_of(body) < 100 * POINTS);
     cstk_hierarchy_node node;
-    CHECK_FAILS(cstk_body_get_node(body, 2 * POINTS - 1, &node), CSTK_NOT_FOUND, "5999");
+    CHECK_FAILS(cstk_body_get_node(body, 2 * POINTS - 1, &node), CSTK_ERROR_NOT_FOUND, "5999");
     CHECK(memory_of(body) < 100 * POINTS);
     pthread_t threads[LOOKERS];
     tree *seen[LOOKERS];
@@ -85,13 +85,13 @@ static void nodes(const double *xyz) {
     }
     uint32_t cover[10];
     size_t count = 0;
-    CHECK_OK(cstk_body_cover(body, 10, cover, &count));
+    CHECK_OK(cstk_body_get_cover_nodes(body, 10, cover, &count));
     CHECK(count == 10);
     cstk_level_statistics level;
-    CHECK_OK(cstk_body_get_level(body, 3, &level));
+    CHECK_OK(cstk_body_get_level_statistics(body, 3, &level));
     CHECK(level.node_count == 8 && level.volume > 0);
     cstk_mesh *mesh = NULL;
-    CHECK_OK(cstk_body_nodes_mesh(body, cover, count, &mesh));
+    CHECK_OK(cstk_mesh_create_from_nodes(body, cover, count, &mesh));
     CHECK_OK(cstk_mesh_release(mesh));
     for (int i = 0; i < LOOKERS; ++i) {
         free_tree(seen[i]);
@@ -114,17 +114,17 @@ static void answers(const double *xyz) {
         for (int k = 0; k < 4; ++k) {
             double point[3];
             size_t count = 0;
-            CHECK_OK(cstk_body_feature_vertices(bodies[k], i, CSTK_VERTEX, 0, 1, point, &count));
+            CHECK_OK(cstk_body_get_feature_vertices(bodies[k], i, CSTK_FEATURE_VERTEX, 0, 1, point, &count));
             CHECK(count == 1 && apart(point, xyz + 3 * i) < 1e-14);
-            CHECK_FAILS(cstk_body_feature_vertices(bodies[k], i, CSTK_FACE, 0, 1, point, &count),
-                        CSTK_NOT_FOUND, "primitive");
+            CHECK_FAILS(cstk_body_get_feature_vertices(bodies[k], i, CSTK_FEATURE_FACE, 0, 1, point, &count),
+                        CSTK_ERROR_NOT_FOUND, "primitive");
         }
     }
     double point[3];
     size_t count = 0;
     CHECK_FAILS(
-        cstk_body_feature_vertices(bodies[0], POINTS, CSTK_VERTEX, 0, 1, point, &count),
-        CSTK_NOT_FOUND, "3000");
+        cstk_body_get_feature_vertices(bodies[0], POINTS, CSTK_FEATURE_VERTEX, 0, 1, point, &count),
+        CSTK_ERROR_NOT_FOUND, "3000");
     cstk_body *box = make_box(0.1, 0.2, 0.15);
     cstk_query *query = NULL;
     CHECK_OK(cstk_query_create(&query));

@@ -253,7 +253,7 @@ static void sampling(void) {
     CHECK(state == 0x9E3779B97F4A7C15u);
     CHECK_OK(cstk_space_release(space));
     space = space_of(robot, NULL, 0);
-    CHECK_STATUS(cstk_space_sample(space, &state, &q), CSTK_UNSUPPORTED);
+    CHECK_STATUS(cstk_space_sample(space, &state, &q), CSTK_ERROR_UNSUPPORTED);
     CHECK_OK(cstk_space_release(space));
     CHECK_OK(cstk_robot_release(robot));
 }

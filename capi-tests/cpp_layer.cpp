@@ -39,8 +39,8 @@ static const double cube[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
 
 static void bodies() {
     cstk::BodyBuilder builder;
-    REQUIRE(status_of([&] { builder.build(); }) == CSTK_EMPTY);
-    REQUIRE(status_of([] { cstk::BodyBuilder plane(4); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { builder.build(); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([] { cstk::BodyBuilder plane(4); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const std::vector<double> triangle = {0, 0, 2, 1, 0, 2, 0, 1, 2};
     builder.add_polyhedron(cube, 7).add_polygon(triangle, 8);
     builder.add_triangles(triangle, std::vector<std::uint32_t>{0, 1, 2});
@@ -48,11 +48,11 @@ static void bodies() {
     builder.add_mesh(triangle, sizes, std::vector<std::uint32_t>{0, 1, 2});
     cstk::Body body = builder.build();
     REQUIRE(body.statistics().primitive_count == 4);
-    REQUIRE(body.feature_vertices(0, CSTK_FACE, 0).size() == 12);
+    REQUIRE(body.feature_vertices(0, CSTK_FEATURE_FACE, 0).size() == 12);
     const cstk_primitive solid = body.primitive(0);
     REQUIRE(solid.kind == CSTK_PRIMITIVE_POLYHEDRON && solid.vertex_count == 8 && solid.tag == 7);
-    REQUIRE(status_of([&] { body.primitive(4); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { builder.add_mesh_file("/nowhere.obj"); }) == CSTK_IO);
+    REQUIRE(status_of([&] { body.primitive(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { builder.add_mesh_file("/nowhere.obj"); }) == CSTK_ERROR_IO);
     cstk::BodyBuilder placed;
     const cstk::BodyBuilder::Vector scale = {2, 3, -4};
     placed.add_triangles(triangle, std::vector<std::uint32_t>{0, 1, 2}, cstk::translation(5, 6, 7),
@@ -61,10 +61,10 @@ static void bodies() {
     const cstk_body_statistics extent = placed.build().statistics();
     REQUIRE(extent.low[2] == -8 && extent.high[0] == 7 && extent.high[1] == 9);
     REQUIRE(status_of([&] { placed.add_mesh_file("/nowhere.obj", cstk::identity(), scale); }) ==
-            CSTK_IO);
+            CSTK_ERROR_IO);
 
     builder.set_solid();
-    REQUIRE(status_of([&] { builder.build(); }) == CSTK_NOT_CLOSED);
+    REQUIRE(status_of([&] { builder.build(); }) == CSTK_ERROR_NOT_CLOSED);
     builder.set_solid(false);
 
     int heard = 0;
@@ -72,7 +72,7 @@ static void bodies() {
     REQUIRE(heard > 1);
     REQUIRE(status_of([&] {
                 builder.build(cstk::hierarchy_options(), [](double) { return false; });
-            }) == CSTK_CANCELLED);
+            }) == CSTK_ERROR_CANCELLED);
     bool passed = false;
     try {
         builder.build(cstk::hierarchy_options(),
@@ -96,39 +96,39 @@ static void hierarchies() {
     cstk_hierarchy_options options = cstk::hierarchy_options();
     options.wrapper = CSTK_WRAPPER_ALIGNED_BOX;
     cstk::Body body = builder.build(options);
-    const cstk_hierarchy_statistics statistics = body.hierarchy();
+    const cstk_hierarchy_statistics statistics = body.hierarchy_statistics();
     REQUIRE(statistics.wrapper == CSTK_WRAPPER_ALIGNED_BOX);
     REQUIRE(statistics.node_count == 5 && statistics.leaf_count == 3 && statistics.depth == 3);
-    REQUIRE(body.level(0) == std::vector<std::uint32_t>{0});
-    REQUIRE(body.level(2).size() == 3 && body.level_statistics(2).leaves_above == 1);
+    REQUIRE(body.level_nodes(0) == std::vector<std::uint32_t>{0});
+    REQUIRE(body.level_nodes(2).size() == 3 && body.level_statistics(2).leaves_above == 1);
     REQUIRE(std::fabs(body.level_statistics(0).volume - 2.0) < 1e-14);
-    REQUIRE(status_of([&] { body.level(3); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { body.level_statistics(3); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { body.level_nodes(3); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { body.level_statistics(3); }) == CSTK_ERROR_NOT_FOUND);
 
-    REQUIRE(body.cover(1) == body.level(0) && body.cover(2).size() == 2);
-    REQUIRE(body.cover(SIZE_MAX) == body.level(2));
-    REQUIRE(status_of([&] { body.cover(0); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(body.cover_nodes(1) == body.level_nodes(0) && body.cover_nodes(2).size() == 2);
+    REQUIRE(body.cover_nodes(SIZE_MAX) == body.level_nodes(2));
+    REQUIRE(status_of([&] { body.cover_nodes(0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const cstk_hierarchy_node root = body.node(0);
     REQUIRE(root.children[0] == 1 && root.primitive == UINT32_MAX && root.corner_count == 8);
     REQUIRE(root.center[0] == 0.5 && root.center[1] == 0.5 && root.center[2] == 1.0);
     REQUIRE(body.node_corners(0).size() == 24);
-    REQUIRE(status_of([&] { body.node(5); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { body.node_corners(5); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { body.node(5); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { body.node_corners(5); }) == CSTK_ERROR_NOT_FOUND);
 
     const char *picture = "cpp_layer_nodes.glb";
-    body.show_nodes(body.level(1), picture);
+    body.show_nodes(body.level_nodes(1), picture);
     REQUIRE(std::remove(picture) == 0);
-    REQUIRE(status_of([&] { body.show_nodes({0}, "/nowhere/x.glb"); }) == CSTK_IO);
-    REQUIRE(status_of([&] { body.nodes_mesh({0, 5}); }) == CSTK_NOT_FOUND);
-    cstk::Mesh mesh = body.nodes_mesh({0});
+    REQUIRE(status_of([&] { body.show_nodes({0}, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { body.mesh_of_nodes({0, 5}); }) == CSTK_ERROR_NOT_FOUND);
+    cstk::Mesh mesh = body.mesh_of_nodes({0});
     cstk::Mesh copy = mesh;
 
     const char *file = "cpp_layer.cstk";
     body.save(file);
     cstk::Body loaded = cstk::Body::load(file);
     REQUIRE(std::remove(file) == 0);
-    REQUIRE(status_of([&] { cstk::Body::load(file); }) == CSTK_IO);
-    REQUIRE(status_of([&] { body.save("/nowhere/x"); }) == CSTK_IO);
+    REQUIRE(status_of([&] { cstk::Body::load(file); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { body.save("/nowhere/x"); }) == CSTK_ERROR_IO);
     REQUIRE(loaded.get() != body.get() && loaded.statistics().primitive_count == 3);
     REQUIRE(loaded.node_corners(0) == body.node_corners(0));
 
@@ -159,9 +159,9 @@ static void poses() {
              std::array<double, 7>{1, 2, 3, 0, 0, 0, 1}));
     cstk::Pose sheared = cstk::identity();
     sheared[1] = 0.5;
-    REQUIRE(status_of([&] { cstk::pose_inverse(sheared); }) == CSTK_NOT_A_ROTATION);
-    REQUIRE(status_of([&] { cstk::pose_to_quaternion(sheared); }) == CSTK_NOT_A_ROTATION);
-    REQUIRE(status_of([&] { cstk::transform_point(sheared, point); }) == CSTK_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { cstk::pose_inverse(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { cstk::pose_to_quaternion(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { cstk::transform_point(sheared, point); }) == CSTK_ERROR_NOT_A_ROTATION);
 }
 
 static void euler_angles() {
@@ -186,8 +186,8 @@ static void euler_angles() {
         REQUIRE(std::fabs(basic[i] - back[i]) < 1e-13);
     }
     const std::array<double, 3> singular = {0, std::acos(0.0), 0};
-    REQUIRE(status_of([&] { cstk::euler_rates_inverse(singular); }) == CSTK_DEGENERATE);
-    REQUIRE(status_of([&] { cstk::jacobian_to_euler(singular, basic); }) == CSTK_DEGENERATE);
+    REQUIRE(status_of([&] { cstk::euler_rates_inverse(singular); }) == CSTK_ERROR_DEGENERATE);
+    REQUIRE(status_of([&] { cstk::jacobian_to_euler(singular, basic); }) == CSTK_ERROR_DEGENERATE);
     REQUIRE(is_invalid([&] { cstk::jacobian_to_euler(angles, {1, 2, 3}); }));
 }
 
@@ -224,9 +224,9 @@ static void queries() {
     environment.move(id, cstk::translation(4, 0, 0));
     REQUIRE(environment.object_count() == 1 && environment.version() == 2);
     REQUIRE(environment.object_pose(id) == cstk::translation(4, 0, 0));
-    REQUIRE(status_of([&] { before.remove(id); }) == CSTK_UNSUPPORTED);
+    REQUIRE(status_of([&] { before.remove(id); }) == CSTK_ERROR_UNSUPPORTED);
 
-    cstk::CObject obstacles = cstk::CObject::induced(space, environment, cstk::cobject_options(3));
+    cstk::CObject obstacles = cstk::CObject::induced(space, environment, cstk::induced_options(3));
     cstk::CObject self = cstk::CObject::induced_links(space, {{0, 1}});
     cstk::CObject all = cstk::CObject::union_of({obstacles, self});
     cstk::Query query;
@@ -234,20 +234,20 @@ static void queries() {
     REQUIRE(query.distance(self, q).distance == 2.0);
     REQUIRE(query.distance(all, q).distance == 2.0);
     REQUIRE(query.distance(all, {0, 0}).distance == 2.0);
-    REQUIRE(query.distance(all, q, 1.0).kind == CSTK_BEYOND_MAX);
-    REQUIRE(query.classify(all, q) == CSTK_CONTACT);
+    REQUIRE(query.distance(all, q, 1.0).kind == CSTK_DISTANCE_BEYOND_MAX);
+    REQUIRE(query.classify(all, q) == CSTK_CLASS_CONTACT);
     REQUIRE(query.within(all, q, 2.0) && !query.within(all, q, 1.9));
     REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
     const cstk_witness_list list = query.gradients(obstacles, q, 2.6);
     REQUIRE(list.contact_count == 4 && list.nv == 2 && list.gradients[0] == -1.0);
     const cstk_pseudo_normal_result everything = query.pseudo_normal(all, q, 2.6);
-    REQUIRE(everything.point_class == CSTK_CONTACT && everything.list.witness_count == 2);
+    REQUIRE(everything.point_class == CSTK_CLASS_CONTACT && everything.list.witness_count == 2);
 
     const std::vector<cstk::Pose> links = {robot.link_pose(q, 0), robot.link_pose(q, 1)};
-    REQUIRE(query.classify_at(all, links) == CSTK_CONTACT);
-    REQUIRE(query.within_at(all, links, 2.0));
-    REQUIRE(query.distance_at(all, links).distance == 2.0);
-    REQUIRE(query.witnesses_at(all, links, 2.6).witness_count == 2);
+    REQUIRE(query.classify_at_link_poses(all, links) == CSTK_CLASS_CONTACT);
+    REQUIRE(query.within_at_link_poses(all, links, 2.0));
+    REQUIRE(query.distance_at_link_poses(all, links).distance == 2.0);
+    REQUIRE(query.witnesses_at_link_poses(all, links, 2.6).witness_count == 2);
 
     std::vector<double> moving = q;
     const cstk_slide_result slide =
@@ -256,7 +256,7 @@ static void queries() {
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);
-    REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_LIMIT);
+    REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_ERROR_LIMIT);
     query.set_limit(0);
     REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
     const cstk_query_statistics done = query.statistics(true);
@@ -269,11 +269,11 @@ static void queries() {
     REQUIRE(query.pair_penetration(body, here, body, there).count == 0);
     REQUIRE(query.pair_penetration(body, here, body, here, 1).count == 1);
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
-            CSTK_INVALID_ARGUMENT);
+            CSTK_ERROR_INVALID_ARGUMENT);
     const char *file = "cpp_layer.glb";
     all.show(q, file);
     REQUIRE(std::remove(file) == 0);
-    REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_IO);
+    REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);
 }
 
 static std::int32_t turn(const double *q, std::size_t, double *pose, void *calls) {
@@ -314,7 +314,7 @@ static cstk::Robot make_robot(int &calls) {
     joint.user = &calls;
     cstk::Link wrist;
     wrist.joint = CSTK_JOINT_CUSTOM;
-    REQUIRE(status_of([&] { builder.add_link(wrist); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { builder.add_link(wrist); }) == CSTK_ERROR_NULL_ARGUMENT);
     wrist.custom = &joint;
     REQUIRE(builder.add_link(wrist) == 3);
     return builder.build();
@@ -332,10 +332,10 @@ static void robots() {
     REQUIRE(info.joint == CSTK_JOINT_PRISMATIC && info.parent == -1 && info.coordinate == 0);
     REQUIRE(info.multiplier == -1 && info.offset == 0.5);
     REQUIRE(robot.link_info(3).joint == CSTK_JOINT_CUSTOM && robot.link_info(3).velocity == 7);
-    REQUIRE(status_of([&] { robot.find_joint("none"); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.link_info(4); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.link_name(4); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.joint_name(4); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.find_joint("none"); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.link_info(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.link_name(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { robot.joint_name(4); }) == CSTK_ERROR_NOT_FOUND);
     REQUIRE(calls == 0);
 }
 
@@ -355,8 +355,8 @@ static void spaces() {
     REQUIRE(space.range(8).kind == CSTK_RANGE_CIRCLE);
     const cstk_space_offset offset = space.offset(1);
     REQUIRE(offset.link == 4 && offset.coordinate == 9 && offset.velocity == 8);
-    REQUIRE(status_of([&] { space.range(18); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { space.offset(2); }) == CSTK_NOT_FOUND);
+    REQUIRE(status_of([&] { space.range(18); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { space.offset(2); }) == CSTK_ERROR_NOT_FOUND);
 
     std::vector<double> q = space.neutral();
     REQUIRE(q.size() == 18 && q[7] == 1 && q[16] == 1 && q[0] == 0);
@@ -390,14 +390,14 @@ static void spaces() {
     REQUIRE(is_invalid([&] { space.interpolate(shorter, q, 0.5); }));
     REQUIRE(is_invalid([&] { space.distance(q, shorter); }));
     REQUIRE(is_invalid([&] { space.distance(q, q, shorter); }));
-    REQUIRE(status_of([&] { space.step(q, q); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.clamp(shorter); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.wrap(shorter); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.link_poses(shorter); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.within_limits(shorter); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.within_world(shorter); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.jacobian(q, 8, {0, 0, 0}); }) == CSTK_NOT_FOUND);
-    REQUIRE(status_of([&] { cstk::Space(robot).sample(state); }) == CSTK_UNSUPPORTED);
+    REQUIRE(status_of([&] { space.step(q, q); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.clamp(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.wrap(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.link_poses(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.within_limits(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.within_world(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { space.jacobian(q, 8, {0, 0, 0}); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { cstk::Space(robot).sample(state); }) == CSTK_ERROR_UNSUPPORTED);
 }
 
 static void steps() {
@@ -425,10 +425,10 @@ static void steps() {
     const auto spring = cstk::spring_step(list, 0.2);
     REQUIRE(spring && std::fabs((*spring)[0]) < 1e-9 && std::fabs((*spring)[1] - 0.1) < 1e-9);
     REQUIRE(!cstk::spring_step(list, 0.05));
-    REQUIRE(status_of([&] { cstk::slide_step(list, {1}, 0.2); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { cstk::spring_step(list, -1); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::slide_step(list, {1}, 0.2); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { cstk::spring_step(list, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const cstk_witness_list without = query.witnesses(obstacle, {0, 0}, 0.5);
-    REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_ERROR_INVALID_ARGUMENT);
 }
 
 /// A cube that a rail moves along x, between -5 and 5; a wheel turns nothing.
@@ -452,45 +452,45 @@ static void pure_sets(const cstk::Space &space) {
     cstk::Query query;
     const double infinity = std::numeric_limits<double>::infinity();
     const cstk_pure_options options = cstk::pure_options(1, 2);
-    const cstk::CObject limits = cstk::CObject::limits(space);
-    const cstk::CObject world = cstk::CObject::world(space);
+    const cstk::CObject limits = cstk::CObject::beyond_limits(space);
+    const cstk::CObject world = cstk::CObject::beyond_world(space);
     const cstk::CObject box = cstk::CObject::box(space, {1, -infinity}, {2, infinity}, options);
     const cstk::CObject plane = cstk::CObject::halfspace(space, {-2, 0}, -6, options);
     const cstk::CObject ball = cstk::CObject::ball(space, {0, 0}, 0.5, options);
     const std::vector<double> q = {3, 0};
     REQUIRE(query.distance(limits, q).distance == 2 && query.distance(world, q).distance == 1);
     REQUIRE(query.distance(box, q).distance == 2 && query.distance(ball, q).distance == 5);
-    REQUIRE(query.classify(limits, q) == CSTK_OUTSIDE && query.classify(ball, q) == CSTK_OUTSIDE);
-    REQUIRE(query.classify(box, q) == CSTK_CONTACT && query.classify(plane, q) == CSTK_INSIDE);
-    REQUIRE(query.classify(limits, {6, 0}) == CSTK_INSIDE);
+    REQUIRE(query.classify(limits, q) == CSTK_CLASS_OUTSIDE && query.classify(ball, q) == CSTK_CLASS_OUTSIDE);
+    REQUIRE(query.classify(box, q) == CSTK_CLASS_CONTACT && query.classify(plane, q) == CSTK_CLASS_INSIDE);
+    REQUIRE(query.classify(limits, {6, 0}) == CSTK_CLASS_INSIDE);
     REQUIRE(query.gradients(box, q, 3).gradients[0] == 2);
 
     const cstk::CObject either = cstk::CObject::union_of({box, ball});
     const cstk::CObject both = cstk::CObject::intersection_of({box, plane});
     REQUIRE(query.distance(either, q).distance == 2);
-    REQUIRE(query.classify(both, q) == CSTK_CONTACT);
-    REQUIRE(query.classify(both, {1, 0}) == CSTK_OUTSIDE);
-    REQUIRE(query.classify(cstk::CObject::difference(plane, box), {4, 0}) == CSTK_INSIDE);
-    REQUIRE(query.classify(ball.complement(), q) == CSTK_INSIDE);
-    REQUIRE(query.classify(ball.complement(), {0, 0}) == CSTK_OUTSIDE);
+    REQUIRE(query.classify(both, q) == CSTK_CLASS_CONTACT);
+    REQUIRE(query.classify(both, {1, 0}) == CSTK_CLASS_OUTSIDE);
+    REQUIRE(query.classify(cstk::CObject::difference(plane, box), {4, 0}) == CSTK_CLASS_INSIDE);
+    REQUIRE(query.classify(ball.complement(), q) == CSTK_CLASS_INSIDE);
+    REQUIRE(query.classify(ball.complement(), {0, 0}) == CSTK_CLASS_OUTSIDE);
 
     REQUIRE(is_invalid([&] { cstk::CObject::box(space, {1, 2}, {1}); }));
-    REQUIRE(status_of([&] { cstk::CObject::box(space, {1}, {2}); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_DEGENERATE);
-    REQUIRE(status_of([&] { cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::box(space, {1}, {2}); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_ERROR_DEGENERATE);
+    REQUIRE(status_of([&] { cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const cstk_pure_options bad = cstk::pure_options(-1);
-    REQUIRE(status_of([&] { cstk::CObject::limits(space, bad); }) == CSTK_INVALID_ARGUMENT);
-    REQUIRE(status_of([&] { cstk::CObject::world(space, bad); }) == CSTK_INVALID_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject::intersection_of({}); }) == CSTK_EMPTY);
-    REQUIRE(status_of([] { cstk::CObject::union_of({}); }) == CSTK_EMPTY);
-    REQUIRE(status_of([] { cstk::CObject().complement(); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::beyond_limits(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::beyond_world(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject::intersection_of({}); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([] { cstk::CObject::union_of({}); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([] { cstk::CObject().complement(); }) == CSTK_ERROR_NULL_ARGUMENT);
     REQUIRE(status_of([&] { cstk::CObject::difference(box, cstk::CObject()); }) ==
-            CSTK_NULL_ARGUMENT);
+            CSTK_ERROR_NULL_ARGUMENT);
 }
 
 static std::int32_t beyond_three(const double *q, std::size_t, std::int32_t *out, void *calls) {
     ++*static_cast<int *>(calls);
-    *out = q[0] >= 3 ? CSTK_INSIDE : CSTK_OUTSIDE;
+    *out = q[0] >= 3 ? CSTK_CLASS_INSIDE : CSTK_CLASS_OUTSIDE;
     return CSTK_OK;
 }
 
@@ -500,27 +500,27 @@ static void predicates(const cstk::Space &space) {
     cstk::Query query;
     int calls = 0;
     cstk_predicate plain = cstk::predicate();
-    REQUIRE(status_of([&] { cstk::CObject::predicate(space, plain); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::predicate(space, plain); }) == CSTK_ERROR_NULL_ARGUMENT);
     plain.classify = beyond_three;
     plain.user = &calls;
     plain.destroy = count;
     cstk::CObject by_c = cstk::CObject::predicate(space, plain);
-    REQUIRE(query.classify(by_c, {3, 0}) == CSTK_INSIDE && calls == 1);
+    REQUIRE(query.classify(by_c, {3, 0}) == CSTK_CLASS_INSIDE && calls == 1);
     by_c = cstk::CObject();
     REQUIRE(calls == 101);
 
     const auto kept = std::make_shared<double>(3);
     cstk::Predicate functions;
-    REQUIRE(status_of([&] { cstk::CObject::predicate(space, functions); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { cstk::CObject::predicate(space, functions); }) == CSTK_ERROR_NULL_ARGUMENT);
     functions.classify = [kept](cstk::Span<double> q) {
         if (q.data()[1] == 1) {
             throw std::domain_error("mine");
         }
-        return q.size() == 2 && q.data()[0] >= *kept ? CSTK_INSIDE : CSTK_OUTSIDE;
+        return q.size() == 2 && q.data()[0] >= *kept ? CSTK_CLASS_INSIDE : CSTK_CLASS_OUTSIDE;
     };
     cstk::CObject by_class = cstk::CObject::predicate(space, functions);
-    REQUIRE(query.distance(by_class, {1, 0}).kind == CSTK_LOWER_BOUND);
-    REQUIRE(query.classify(by_class, {3, 0}) == CSTK_INSIDE);
+    REQUIRE(query.distance(by_class, {1, 0}).kind == CSTK_DISTANCE_LOWER_BOUND);
+    REQUIRE(query.classify(by_class, {3, 0}) == CSTK_CLASS_INSIDE);
     functions.distance = [kept](cstk::Span<double> q) { return *kept - q.data()[0]; };
     functions.gradient = [](cstk::Span<double> q) {
         return q.data()[1] == 2 ? std::vector<double>{-1} : std::vector<double>{-1, 0};
@@ -532,13 +532,13 @@ static void predicates(const cstk::Space &space) {
     REQUIRE(query.distance(set, {1, 0}).distance == 4);
     REQUIRE(query.distance(set.complement(), {4, 0}).distance == 2);
     REQUIRE(query.gradients(set, {1, 0}, 5).gradients[0] == -2);
-    REQUIRE(status_of([&] { query.gradients(set, {1, 2}, 5); }) == CSTK_CALLBACK_FAILED);
-    REQUIRE(status_of([&] { query.classify(set, {1, 1}); }) == CSTK_CALLBACK_FAILED);
+    REQUIRE(status_of([&] { query.gradients(set, {1, 2}, 5); }) == CSTK_ERROR_CALLBACK_FAILED);
+    REQUIRE(status_of([&] { query.classify(set, {1, 1}); }) == CSTK_ERROR_CALLBACK_FAILED);
     REQUIRE(status_of([&] {
                 cstk::Predicate refused;
-                refused.classify = [kept](cstk::Span<double>) { return CSTK_OUTSIDE; };
+                refused.classify = [kept](cstk::Span<double>) { return CSTK_CLASS_OUTSIDE; };
                 cstk::CObject::predicate(space, refused, cstk::pure_options(-1));
-            }) == CSTK_INVALID_ARGUMENT);
+            }) == CSTK_ERROR_INVALID_ARGUMENT);
     by_class = cstk::CObject();
     REQUIRE(kept.use_count() > 1);
     set = cstk::CObject();
@@ -558,22 +558,22 @@ static void explanations(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(obstacle.number() != ball.number() && environment.object_count() == 1);
     const cstk::CObject all = cstk::CObject::union_of({obstacle, ball.complement()});
     const cstk_explanation why = query.explain(all, {1.5, 0});
-    REQUIRE(why.point_class == CSTK_INSIDE && why.leaf_count == 2 && why.list.witness_count == 1);
+    REQUIRE(why.point_class == CSTK_CLASS_INSIDE && why.leaf_count == 2 && why.list.witness_count == 1);
     REQUIRE(why.leaves[0].data == &destroyed && why.leaves[0].cobject == obstacle.number());
     REQUIRE(why.leaves[1].data == &mark && why.leaves[1].cobject == ball.number());
     REQUIRE(why.leaves[1].complemented && why.leaves[1].decisive && why.leaves[0].decisive);
     REQUIRE(why.list.witnesses[0].cobject_data == &destroyed);
     REQUIRE(why.list.witnesses[0].s_object == id);
     REQUIRE(query.explain(all, {1.5, 0}, 0).list.truncated);
-    REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_WRONG_SIZE);
-    REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_UNSUPPORTED);
+    REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_ERROR_UNSUPPORTED);
     REQUIRE(obstacle.with_shell(0.1).data() == &destroyed);
     REQUIRE(obstacle.with_shell(0.1).number() != obstacle.number());
-    REQUIRE(status_of([&] { all.with_shell(0.1); }) == CSTK_UNSUPPORTED);
-    REQUIRE(status_of([] { cstk::CObject().with_shell(0.1); }) == CSTK_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().with_data(nullptr); }) == CSTK_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().data(); }) == CSTK_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().number(); }) == CSTK_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { all.with_shell(0.1); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([] { cstk::CObject().with_shell(0.1); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject().with_data(nullptr); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject().data(); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { cstk::CObject().number(); }) == CSTK_ERROR_NULL_ARGUMENT);
     const cstk::CObject alone = obstacle;
     obstacle = cstk::CObject();
     REQUIRE(destroyed == 0);
@@ -589,7 +589,7 @@ static void worlds(const cstk::Space &space, const cstk::Body &body) {
     const std::uint64_t id = world.add(held, cstk::translation(0, 0, 50));
     const std::vector<double> q(space.nq(), 0.0);
     cstk::Query query;
-    const cstk::CObject ground = cstk::CObject::floor(space, {0, 0, 4}, -400);
+    const cstk::CObject ground = cstk::CObject::below_floor(space, {0, 0, 4}, -400);
     REQUIRE(query.distance(ground, q).distance > 90);
     const std::uint32_t hand = static_cast<std::uint32_t>(space.link_count() - 1);
     world.attach(id, space, hand, cstk::translation(0, 0, 20));
@@ -603,7 +603,7 @@ static void worlds(const cstk::Space &space, const cstk::Body &body) {
     world.move(id, cstk::translation(0, 0, 50));
     REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
     REQUIRE(query.distance(all, q).witness.r_object == 0);
-    REQUIRE(space.link_name(hand) == "link1" && query.link_pairs(space).empty());
+    REQUIRE(space.link_name(hand) == "link1" && query.find_link_pairs(space).empty());
 }
 
 static void sets() {
@@ -635,7 +635,7 @@ static void urdf() {
     REQUIRE(robot.find_link("b_a") == 1 && robot.nq() == 7 && robot.nv() == 6);
     REQUIRE(robot.body(1).statistics().primitive_count == 1);
     REQUIRE(std::remove(file) == 0);
-    REQUIRE(status_of([&] { builder.load_urdf(file); }) == CSTK_IO);
+    REQUIRE(status_of([&] { builder.load_urdf(file); }) == CSTK_ERROR_IO);
 }
 
 int main() {

@@ -91,13 +91,13 @@ bool leaf_slope(int leaf, const double *q, int k, double *out) {
 
 cstk_class leaf_class(int leaf, const double *q) {
     const double away = leaf_distance(leaf, q);
-    return away <= 0.0 ? CSTK_INSIDE : away <= epsilons[leaf] ? CSTK_CONTACT : CSTK_OUTSIDE;
+    return away <= 0.0 ? CSTK_CLASS_INSIDE : away <= epsilons[leaf] ? CSTK_CLASS_CONTACT : CSTK_CLASS_OUTSIDE;
 }
 
 static int32_t pole_class(const double *q, size_t nq, int32_t *out, void *user) {
     CHECK(nq == NQ && user == NULL);
     const double away = leaf_distance(POLE, q);
-    *out = away <= 0.0 ? CSTK_INSIDE : away <= epsilons[POLE] ? CSTK_CONTACT : CSTK_OUTSIDE;
+    *out = away <= 0.0 ? CSTK_CLASS_INSIDE : away <= epsilons[POLE] ? CSTK_CLASS_CONTACT : CSTK_CLASS_OUTSIDE;
     return CSTK_OK;
 }
 
@@ -120,8 +120,8 @@ bool leaf_is_pure(int leaf) { return leaf >= LIMITS; }
 bool leaf_knows_depth(int leaf) { return leaf >= BALL || leaf == LIMITS; }
 
 static void make_obstacle(cube *c, int i) {
-    cstk_cobject_options options;
-    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = epsilons[i];
     options.margin = i == GROWN_OBSTACLE ? margin : 0.0;
     CHECK_OK(cstk_environment_create(&c->environments[i]));
@@ -142,10 +142,10 @@ static void make_pure(cube *c, int i) {
     options.scale = 1.0;
     switch (i) {
     case LIMITS:
-        CHECK_OK(cstk_cobject_limits(space, &options, out));
+        CHECK_OK(cstk_cobject_beyond_limits(space, &options, out));
         break;
     case WORLD:
-        CHECK_OK(cstk_cobject_world(space, &options, out));
+        CHECK_OK(cstk_cobject_beyond_world(space, &options, out));
         break;
     case BALL:
         CHECK_OK(cstk_cobject_ball(space, center, NQ, radius, &options, out));

@@ -30,7 +30,7 @@ static arm make_posed_arm(int32_t kind, const cstk_custom_joint *custom, const c
     }
     CHECK_OK(cstk_robot_build(builder, &a.robot));
     CHECK_OK(cstk_robot_builder_release(builder));
-    CHECK_OK(cstk_robot_size(a.robot, &a.n, NULL, NULL));
+    CHECK_OK(cstk_robot_get_size(a.robot, &a.n, NULL, NULL));
     a.space = space_of(a.robot, NULL, 0);
     CHECK_OK(cstk_cobject_induced(a.space, NULL, 0, environment, NULL, 0, NULL, &a.cobject));
     CHECK_OK(cstk_query_create(&a.query));

@@ -19,13 +19,13 @@ static cstk_environment_change change_of(int32_t kind, uint64_t id, const cstk_b
 static void check_state(const cstk_environment *environment, size_t objects, uint64_t version) {
     size_t count = 99;
     uint64_t now = 99;
-    CHECK_OK(cstk_environment_state(environment, &count, &now));
+    CHECK_OK(cstk_environment_get_state(environment, &count, &now));
     CHECK(count == objects && now == version);
 }
 
 static void check_at(const cstk_environment *environment, uint64_t id, double x) {
     double pose[12];
-    CHECK_OK(cstk_environment_object_pose(environment, id, pose));
+    CHECK_OK(cstk_environment_get_object_pose(environment, id, pose));
     CHECK(pose[3] == x && pose[0] == 1.0);
 }
 
@@ -54,7 +54,7 @@ static void changes(const cstk_body *body) {
     check_at(e, ids[2], 3);
     check_at(e, about[3], 4);
     double pose[12];
-    CHECK_REFUSED(pose, cstk_environment_object_pose(e, ids[1], pose), CSTK_NOT_FOUND, "id");
+    CHECK_REFUSED(pose, cstk_environment_get_object_pose(e, ids[1], pose), CSTK_ERROR_NOT_FOUND, "id");
     CHECK_OK(cstk_environment_apply(e, add, 1, NULL, NULL));
     check_state(e, 4, 3);
     CHECK_OK(cstk_environment_release(e));
@@ -70,7 +70,7 @@ static void failed_apply(const cstk_body *body) {
     const cstk_environment_change wrong[3] = {change_of(CSTK_CHANGE_MOVE, first, NULL, 9, 0),
                                               change_of(CSTK_CHANGE_DELETE, second, NULL, 0, 0),
                                               change_of(CSTK_CHANGE_MOVE, second, NULL, 9, 0)};
-    CHECK_REFUSED(ids, cstk_environment_apply(e, wrong, 3, ids, NULL), CSTK_NOT_FOUND, "change");
+    CHECK_REFUSED(ids, cstk_environment_apply(e, wrong, 3, ids, NULL), CSTK_ERROR_NOT_FOUND, "change");
     check_state(e, 2, 2);
     check_at(e, first, 1);
     check_at(e, second, 2);
@@ -92,7 +92,7 @@ static void ids_are_new(const cstk_body *body) {
         last = id;
         const cstk_environment_change gone = change_of(CSTK_CHANGE_DELETE, id, NULL, 0, 0);
         CHECK_OK(cstk_environment_apply(e, &gone, 1, NULL, NULL));
-        CHECK_FAILS(cstk_environment_apply(e, &gone, 1, NULL, NULL), CSTK_NOT_FOUND, "id");
+        CHECK_FAILS(cstk_environment_apply(e, &gone, 1, NULL, NULL), CSTK_ERROR_NOT_FOUND, "id");
     }
     for (int i = 0; i < 2; ++i) {
         check_state(environments[i], 0, ROUNDS);
@@ -116,7 +116,7 @@ static void snapshots(const fixture *f) {
     check_state(frozen, 1, 1);
     const cstk_environment_change add = change_of(CSTK_CHANGE_ADD, 0, f->body, 9, 9);
     CHECK_REFUSED(version, cstk_environment_apply(frozen, &add, 1, NULL, &version),
-                  CSTK_UNSUPPORTED, "snapshot");
+                  CSTK_ERROR_UNSUPPORTED, "snapshot");
     /* The live one moves on; the snapshot, and one of it, stay. */
     const cstk_environment_change move = change_of(CSTK_CHANGE_MOVE, f->box, NULL, 5, 0);
     CHECK_OK(cstk_environment_apply(f->environment, &move, 1, NULL, NULL));
@@ -137,14 +137,14 @@ static void snapshots(const fixture *f) {
 
 static void check_empty(const fixture *f, const cstk_cobject *cobject) {
     cstk_distance_result d;
-    cstk_class class_of = CSTK_INSIDE;
+    cstk_class class_of = CSTK_CLASS_INSIDE;
     bool within = true;
     cstk_witness_list list;
     CHECK_OK(cstk_distance(f->query, cobject, f->q, FIXTURE_NQ, INFINITY, &d));
-    CHECK(d.kind == CSTK_EMPTY_SET && !d.has_witness && !d.has_contact);
+    CHECK(d.kind == CSTK_DISTANCE_EMPTY && !d.has_witness && !d.has_contact);
     CHECK(isinf(d.distance) && isinf(d.lower) && isinf(d.upper));
     CHECK_OK(cstk_classify(f->query, cobject, f->q, FIXTURE_NQ, &class_of));
-    CHECK(class_of == CSTK_OUTSIDE);
+    CHECK(class_of == CSTK_CLASS_OUTSIDE);
     CHECK_OK(cstk_within(f->query, cobject, f->q, FIXTURE_NQ, 1e9, &within));
     CHECK(!within);
     CHECK_OK(cstk_witnesses(f->query, cobject, f->q, FIXTURE_NQ, INFINITY, 10, &list));
@@ -156,19 +156,19 @@ static void check_empty(const fixture *f, const cstk_cobject *cobject) {
 static void deleted_objects(void) {
     fixture f;
     cstk_cobject *named = NULL;
-    cstk_class class_of = CSTK_INSIDE;
+    cstk_class class_of = CSTK_CLASS_INSIDE;
     fixture_create(&f);
     CHECK_OK(cstk_cobject_induced(f.space, NULL, 0, f.environment, &f.box, 1, NULL, &named));
     const uint64_t inside = add_object(f.environment, f.body, 0, 0, 0);
     CHECK_OK(cstk_classify(f.query, f.cobject, f.q, FIXTURE_NQ, &class_of));
-    CHECK(class_of == CSTK_INSIDE);
+    CHECK(class_of == CSTK_CLASS_INSIDE);
     CHECK_OK(cstk_classify(f.query, named, f.q, FIXTURE_NQ, &class_of));
-    CHECK(class_of == CSTK_OUTSIDE);
+    CHECK(class_of == CSTK_CLASS_OUTSIDE);
     const cstk_environment_change gone = change_of(CSTK_CHANGE_DELETE, f.box, NULL, 0, 0);
     CHECK_OK(cstk_environment_apply(f.environment, &gone, 1, NULL, NULL));
     check_empty(&f, named);
     CHECK_OK(cstk_classify(f.query, f.cobject, f.q, FIXTURE_NQ, &class_of));
-    CHECK(class_of == CSTK_INSIDE);
+    CHECK(class_of == CSTK_CLASS_INSIDE);
     const cstk_environment_change last = change_of(CSTK_CHANGE_DELETE, inside, NULL, 0, 0);
     CHECK_OK(cstk_environment_apply(f.environment, &last, 1, NULL, NULL));
     check_empty(&f, f.cobject);
@@ -198,12 +198,12 @@ static void dimensions(const fixture *f) {
     check_empty(f, cobject);
     const uint64_t id = add_object(e, square, 1, 2, 0);
     CHECK_REFUSED(d, cstk_distance(f->query, cobject, f->q, FIXTURE_NQ, INFINITY, &d),
-                  CSTK_INVALID_ARGUMENT, "dimension");
+                  CSTK_ERROR_INVALID_ARGUMENT, "dimension");
     cstk_environment_change change = change_of(CSTK_CHANGE_ADD, 0, f->body, 0, 0);
-    CHECK_FAILS(cstk_environment_apply(e, &change, 1, NULL, NULL), CSTK_INVALID_ARGUMENT, "planar");
+    CHECK_FAILS(cstk_environment_apply(e, &change, 1, NULL, NULL), CSTK_ERROR_INVALID_ARGUMENT, "planar");
     change = change_of(CSTK_CHANGE_MOVE, id, NULL, 0, 0);
     change.pose[11] = 1e-9;
-    CHECK_FAILS(cstk_environment_apply(e, &change, 1, NULL, NULL), CSTK_INVALID_ARGUMENT, "plane");
+    CHECK_FAILS(cstk_environment_apply(e, &change, 1, NULL, NULL), CSTK_ERROR_INVALID_ARGUMENT, "plane");
     check_state(e, 1, 1);
     check_at(e, id, 1);
     CHECK_OK(cstk_cobject_release(cobject));
@@ -240,7 +240,7 @@ static void insertion_order(const fixture *f) {
         const double q0 = 0.7 * step;
         const int sorted[4] = {0, 1, 2, 3};
         const cstk_distance_result first = ask(f, boxes, sorted, q0);
-        CHECK(first.kind == CSTK_EXACT);
+        CHECK(first.kind == CSTK_DISTANCE_EXACT);
         for (int code = 0; code < 256; ++code) {
             const int o[4] = {code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6 & 3};
             if ((1 << o[0] | 1 << o[1] | 1 << o[2] | 1 << o[3]) != 15) {

@@ -178,9 +178,9 @@ struct Body {
         primitives.resize(statistics.primitive_count);
         for (std::uint32_t i = 0; i < primitives.size(); ++i) {
             std::size_t count = 0;
-            must(cstk_body_feature_vertices(body.get(), i, CSTK_FACE, 0, 0, nullptr, &count));
+            must(cstk_body_get_feature_vertices(body.get(), i, CSTK_FEATURE_FACE, 0, 0, nullptr, &count));
             primitives[i].resize(count);
-            must(cstk_body_feature_vertices(body.get(), i, CSTK_FACE, 0, count,
+            must(cstk_body_get_feature_vertices(body.get(), i, CSTK_FEATURE_FACE, 0, count,
                                             primitives[i][0].data(), &count));
         }
     }

@@ -202,7 +202,7 @@ void check_answer(Session &session, const Scene &s, const truth::Soup &a, const 
     Tally &tally = session.tally;
     const auto tell = [&] { dump(s, r.distance, NAN, nullptr); };
     const double d = r.distance;
-    tally.expect(r.kind == CSTK_EXACT && r.has_witness, "an exact distance with a witness", tell);
+    tally.expect(r.kind == CSTK_DISTANCE_EXACT && r.has_witness, "an exact distance with a witness", tell);
     tally.expect(r.lower <= d && d <= r.upper, "lower <= distance <= upper", tell);
     tally.expect((d == 0) == (r.lower == 0), "lower is 0 exactly when the distance is", tell);
     tally.expect(r.upper - r.lower <= 2 * exact * size, "the bounds are tight", tell);
@@ -262,7 +262,7 @@ void check_relations(Session &session, const Scene &s, double size, const cstk_d
     if (d > 1e-3 * size) {
         const double limit = 0.75 * d;
         const cstk_distance_result beyond = ask(warm, s, limit);
-        const bool ok = beyond.kind == CSTK_BEYOND_MAX && beyond.lower >= limit - exact * size &&
+        const bool ok = beyond.kind == CSTK_DISTANCE_BEYOND_MAX && beyond.lower >= limit - exact * size &&
                         beyond.lower <= d && std::isinf(beyond.distance) &&
                         std::isinf(beyond.upper) && !beyond.has_witness;
         tally.expect(ok, "beyond the maximum", [&] {

@@ -56,7 +56,7 @@ class Visit {
         std::memset(&r_, 0, sizeof r_);
         run_.cstk_distance_time(
             [&] { must(cstk_distance(run_.query.get(), cobject_, q_, joints, INFINITY, &r_)); });
-        expect(r_.kind == CSTK_EXACT && r_.has_witness, "an exact distance with a witness");
+        expect(r_.kind == CSTK_DISTANCE_EXACT && r_.has_witness, "an exact distance with a witness");
         expect(r_.lower <= r_.distance && r_.distance <= r_.upper, "lower <= distance <= upper");
         compare_with_fcl();
         check_meeting();
@@ -163,12 +163,12 @@ class Visit {
 
     void check_meeting() {
         cstk_query *query = run_.query.get();
-        cstk_class point_class = CSTK_OUTSIDE, at_class = CSTK_OUTSIDE;
+        cstk_class point_class = CSTK_CLASS_OUTSIDE, at_class = CSTK_CLASS_OUTSIDE;
         must(cstk_classify(query, cobject_, q_, joints, &point_class));
         const double d = r_.distance;
-        const cstk_class expected = d == 0                 ? CSTK_INSIDE
-                                    : d <= contact_epsilon ? CSTK_CONTACT
-                                                           : CSTK_OUTSIDE;
+        const cstk_class expected = d == 0                 ? CSTK_CLASS_INSIDE
+                                    : d <= contact_epsilon ? CSTK_CLASS_CONTACT
+                                                           : CSTK_CLASS_OUTSIDE;
         expect(point_class == expected, "the class is that of the distance");
         ++run_.classes[expected];
 
@@ -190,9 +190,9 @@ class Visit {
         }
         cstk_distance_result at;
         std::memset(&at, 0, sizeof at);
-        must(cstk_distance_at(query, cobject_, poses[0].m, poses.size(), INFINITY, &at));
+        must(cstk_distance_at_link_poses(query, cobject_, poses[0].m, poses.size(), INFINITY, &at));
         expect(std::fabs(at.distance - d) <= 1e-12, "the same distance with our own kinematics");
-        must(cstk_classify_at(query, cobject_, poses[0].m, poses.size(), &at_class));
+        must(cstk_classify_at_link_poses(query, cobject_, poses[0].m, poses.size(), &at_class));
         expect(at_class == point_class || std::min(d, std::fabs(d - contact_epsilon)) < 1e-12,
                "the same class with our own kinematics");
 
@@ -361,7 +361,7 @@ int main(int argc, char **argv) {
     std::printf("outside %ld, contact %ld, inside %ld; brute force: %ld; witness sets: %ld, %ld "
                 "witnesses; largest "
                 "error of libcstk %.2g L; agreeing with FCL within %.2g\n",
-                run.classes[CSTK_OUTSIDE], run.classes[CSTK_CONTACT], run.classes[CSTK_INSIDE],
+                run.classes[CSTK_CLASS_OUTSIDE], run.classes[CSTK_CLASS_CONTACT], run.classes[CSTK_CLASS_INSIDE],
                 run.truths, run.witness_sets, run.witnesses, run.worst, run.worst_fcl);
     std::printf("median us: distance libcstk %.1f, FCL %.1f; meeting libcstk %.1f, FCL %.1f\n",
                 run.cstk_distance_time.median(), run.fcl_distance_time.median(),

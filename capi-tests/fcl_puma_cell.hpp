@@ -194,8 +194,8 @@ inline std::vector<LinkPair> self_pairs() {
 }
 
 inline void make_cobjects(Cell &cell) {
-    cstk_cobject_options options;
-    must(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    must(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = contact_epsilon;
     cstk_cobject *made = nullptr;
     // The base never moves: leave it to the self-collisions.

@@ -227,7 +227,7 @@ void make(Scene &scene) {
     cstk_space *space = nullptr;
     must(cstk_space_create(&robot, 1, nullptr, 0, nullptr, &space));
     scene.space.reset(space);
-    must(cstk_space_size(space, &scene.nq, &scene.nv, nullptr));
+    must(cstk_space_get_size(space, &scene.nq, &scene.nv, nullptr));
     cstk_environment *environment = nullptr;
     must(cstk_environment_create(&environment));
     const Handle<cstk_environment> keep_environment(environment);
@@ -396,7 +396,7 @@ int main(int argc, char **argv) {
                 x *= far;
             }
             Vector neutral(scene.nq);
-            must(cstk_space_neutral(scene.space.get(), neutral.data()));
+            must(cstk_space_get_neutral(scene.space.get(), neutral.data()));
             must(cstk_space_step(scene.space.get(), neutral.data(), neutral.size(), v.data(),
                                  v.size(), q.data()));
         } while (scene.collides(q) && ++tries < 200);

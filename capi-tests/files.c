@@ -54,7 +54,7 @@ static void check_refused(const char *name, cstk_status status, const char *culp
     CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name), NULL, NULL), status,
                 culprit);
     CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, path_of(name), NULL, NULL), status, name);
-    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
+    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(builder));
     if (check_failures > before) {
         fprintf(stderr, "  (%s)\n", name);
@@ -110,37 +110,37 @@ static void obj_faces(void) {
     write_text("lines.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     CHECK_OK(cstk_body_builder_create(3, &builder));
     CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("lines.obj"), NULL, NULL));
-    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "area");
+    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "area");
     CHECK_OK(cstk_body_builder_release(builder));
 }
 
 static void damaged_obj(void) {
-    refuse_text("empty.obj", "", CSTK_EMPTY, "face");
-    refuse_text("vertices.obj", SQUARE, CSTK_EMPTY, "face");
-    refuse_text("beyond.obj", SQUARE "f 1 2 5\n", CSTK_PARSE, "");
-    refuse_text("zero.obj", SQUARE "f 0 1 2\n", CSTK_PARSE, "");
-    refuse_text("far_negative.obj", SQUARE "f -5 -3 -2\n", CSTK_PARSE, "");
-    refuse_text("overflow.obj", SQUARE "f 1 2 99999999999999999999\n", CSTK_PARSE, "");
-    refuse_text("word.obj", SQUARE "f 1 2 three\n", CSTK_PARSE, "");
-    refuse_text("cut_vertex.obj", "v 0 0 0\nv 1 0 0\nv 1", CSTK_PARSE, "");
-    refuse_text("short_vertex.obj", "v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n", CSTK_PARSE, "");
-    refuse_text("word_vertex.obj", "v 0 0 x\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_PARSE, "");
-    refuse_text("nan.obj", "v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_NOT_FINITE, "face 0");
-    refuse_text("inf.obj", "v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_NOT_FINITE, "face 0");
-    refuse_text("crossing.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 3 0\nf 1 3 2 4\n", CSTK_NOT_CONVEX,
+    refuse_text("empty.obj", "", CSTK_ERROR_EMPTY, "face");
+    refuse_text("vertices.obj", SQUARE, CSTK_ERROR_EMPTY, "face");
+    refuse_text("beyond.obj", SQUARE "f 1 2 5\n", CSTK_ERROR_PARSE, "");
+    refuse_text("zero.obj", SQUARE "f 0 1 2\n", CSTK_ERROR_PARSE, "");
+    refuse_text("far_negative.obj", SQUARE "f -5 -3 -2\n", CSTK_ERROR_PARSE, "");
+    refuse_text("overflow.obj", SQUARE "f 1 2 99999999999999999999\n", CSTK_ERROR_PARSE, "");
+    refuse_text("word.obj", SQUARE "f 1 2 three\n", CSTK_ERROR_PARSE, "");
+    refuse_text("cut_vertex.obj", "v 0 0 0\nv 1 0 0\nv 1", CSTK_ERROR_PARSE, "");
+    refuse_text("short_vertex.obj", "v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n", CSTK_ERROR_PARSE, "");
+    refuse_text("word_vertex.obj", "v 0 0 x\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_ERROR_PARSE, "");
+    refuse_text("nan.obj", "v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_ERROR_NOT_FINITE, "face 0");
+    refuse_text("inf.obj", "v 0 0 0\nv inf 0 0\nv 1 1 0\nf 1 2 3\n", CSTK_ERROR_NOT_FINITE, "face 0");
+    refuse_text("crossing.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 3 0\nf 1 3 2 4\n", CSTK_ERROR_NOT_CONVEX,
                 "face 0");
-    refuse_text("garbage.obj", "\x01\x02\xff\xfe garbage \x80\n", CSTK_PARSE, "");
+    refuse_text("garbage.obj", "\x01\x02\xff\xfe garbage \x80\n", CSTK_ERROR_PARSE, "");
 }
 
 /* Messages about texts say which line is to blame. */
 static void lines(void) {
-    refuse_text("line5.obj", SQUARE "f 1 2 5\n", CSTK_PARSE, "line 5");
-    refuse_text("line6.obj", SQUARE "\nf 1 2 three\n", CSTK_PARSE, "line 6");
-    refuse_text("line2.obj", "v 0 0 0\nv 1 0\nv 1 1 0\nf 1 2 3\n", CSTK_PARSE, "line 2");
+    refuse_text("line5.obj", SQUARE "f 1 2 5\n", CSTK_ERROR_PARSE, "line 5");
+    refuse_text("line6.obj", SQUARE "\nf 1 2 three\n", CSTK_ERROR_PARSE, "line 6");
+    refuse_text("line2.obj", "v 0 0 0\nv 1 0\nv 1 1 0\nf 1 2 3\n", CSTK_ERROR_PARSE, "line 2");
     refuse_text("line4.stl",
                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex one 0 0\nvertex 1 0 0\n"
                 "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n",
-                CSTK_PARSE, "line 4");
+                CSTK_ERROR_PARSE, "line 4");
 }
 
 static const char ascii_stl[] = "solid x\n"
@@ -157,21 +157,21 @@ static void ascii(void) {
     for (size_t size = 1; size <= whole; size += 7) {
         memcpy(cut, ascii_stl, size);
         cut[size] = '\0';
-        refuse_text("ascii_cut.stl", cut, CSTK_PARSE, "");
+        refuse_text("ascii_cut.stl", cut, CSTK_ERROR_PARSE, "");
     }
     refuse_text("ascii_nan.stl",
                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\n"
                 "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n",
-                CSTK_NOT_FINITE, "NaN");
+                CSTK_ERROR_NOT_FINITE, "NaN");
     refuse_text("ascii_word.stl",
                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex one 0 0\nvertex 1 0 0\n"
                 "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n",
-                CSTK_PARSE, "");
+                CSTK_ERROR_PARSE, "");
     refuse_text("ascii_two.stl",
                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                 "endloop\nendfacet\nendsolid x\n",
-                CSTK_PARSE, "");
-    refuse_text("ascii_none.stl", "solid x\nendsolid x\n", CSTK_EMPTY, "face");
+                CSTK_ERROR_PARSE, "");
+    refuse_text("ascii_none.stl", "solid x\nendsolid x\n", CSTK_ERROR_EMPTY, "face");
 }
 
 enum { HEADER = 80, TRIANGLE = 50, TRIANGLES = 2 };
@@ -208,48 +208,48 @@ static void binary(void) {
         1, HEADER, HEADER + 3, HEADER + 4, HEADER + 4 + TRIANGLE, sizeof stl - 1};
     for (int i = 0; i < 6; ++i) {
         write_file("binary_cut.stl", &stl, sizes[i]);
-        check_refused("binary_cut.stl", CSTK_PARSE, "");
+        check_refused("binary_cut.stl", CSTK_ERROR_PARSE, "");
     }
     const uint32_t counts[] = {TRIANGLES - 1, TRIANGLES + 1, 0x7FFFFFFF, UINT32_MAX};
     for (int i = 0; i < 4; ++i) {
         set_count(&stl, counts[i]);
         write_file("binary_count.stl", &stl, sizeof stl);
-        check_refused("binary_count.stl", CSTK_PARSE, "");
+        check_refused("binary_count.stl", CSTK_ERROR_PARSE, "");
     }
     set_count(&stl, 0);
     write_file("binary_none.stl", &stl, HEADER + 4);
-    check_refused("binary_none.stl", CSTK_EMPTY, "face");
+    check_refused("binary_none.stl", CSTK_ERROR_EMPTY, "face");
     stl = make_binary("solid, and binary all the same", 0);
     write_file("binary_solid.stl", &stl, sizeof stl);
     check_loads("binary_solid.stl", 2, 0, 0);
     set_count(&stl, UINT32_MAX);
     write_file("binary_solid_count.stl", &stl, sizeof stl);
-    check_refused("binary_solid_count.stl", CSTK_PARSE, "");
+    check_refused("binary_solid_count.stl", CSTK_ERROR_PARSE, "");
     stl = make_binary("binary", (float)NAN);
     write_file("binary_nan.stl", &stl, sizeof stl);
-    check_refused("binary_nan.stl", CSTK_NOT_FINITE, "face 0");
+    check_refused("binary_nan.stl", CSTK_ERROR_NOT_FINITE, "face 0");
     stl = make_binary("binary", 1); /* its first two corners are one */
     write_file("binary_sliver.stl", &stl, sizeof stl);
     cstk_body_builder *builder = NULL;
     CHECK_OK(cstk_body_builder_create(3, &builder));
     CHECK_OK(cstk_body_builder_add_mesh_file(builder, path_of("binary_sliver.stl"), NULL, NULL));
     CHECK_OK(cstk_body_builder_release(builder));
-    refuse_text("garbage.stl", "\x01\x02\xff\xfe garbage", CSTK_PARSE, "");
-    refuse_text("empty.stl", "", CSTK_PARSE, "");
+    refuse_text("garbage.stl", "\x01\x02\xff\xfe garbage", CSTK_ERROR_PARSE, "");
+    refuse_text("empty.stl", "", CSTK_ERROR_PARSE, "");
 }
 
 static void paths(void) {
     CHECK(mkdir(path_of("folder.obj"), 0777) == 0 || load("plain.obj").primitive_count == 1);
-    check_refused("folder.obj", CSTK_IO, "");
-    check_refused("missing.obj", CSTK_IO, "");
-    check_refused("missing.stl", CSTK_IO, "");
-    check_refused("plain.obj/below.obj", CSTK_IO, "");
-    refuse_text("mesh.ply", "ply\n", CSTK_UNSUPPORTED, "ply");
-    refuse_text("mesh", SQUARE "f 1 2 3\n", CSTK_UNSUPPORTED, "obj");
-    refuse_text(".obj", SQUARE "f 1 2 3\n", CSTK_UNSUPPORTED, "obj");
+    check_refused("folder.obj", CSTK_ERROR_IO, "");
+    check_refused("missing.obj", CSTK_ERROR_IO, "");
+    check_refused("missing.stl", CSTK_ERROR_IO, "");
+    check_refused("plain.obj/below.obj", CSTK_ERROR_IO, "");
+    refuse_text("mesh.ply", "ply\n", CSTK_ERROR_UNSUPPORTED, "ply");
+    refuse_text("mesh", SQUARE "f 1 2 3\n", CSTK_ERROR_UNSUPPORTED, "obj");
+    refuse_text(".obj", SQUARE "f 1 2 3\n", CSTK_ERROR_UNSUPPORTED, "obj");
     /* STL in a file called OBJ, and the other way round. */
-    refuse_text("stl_inside.obj", ascii_stl, CSTK_EMPTY, "face");
-    refuse_text("obj_inside.stl", SQUARE "f 1 2 3\n", CSTK_PARSE, "");
+    refuse_text("stl_inside.obj", ascii_stl, CSTK_ERROR_EMPTY, "face");
+    refuse_text("obj_inside.stl", SQUARE "f 1 2 3\n", CSTK_ERROR_PARSE, "");
 }
 
 int main(void) {

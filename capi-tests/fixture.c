@@ -91,7 +91,7 @@ static void create_scene(fixture *f) {
     add_box(f->body_builder, 0.4, 0.1, 0.1);
     CHECK_OK(cstk_body_build(f->body_builder, NULL, NULL, NULL, &f->body));
     const uint32_t root = 0;
-    CHECK_OK(cstk_body_nodes_mesh(f->body, &root, 1, &f->mesh));
+    CHECK_OK(cstk_mesh_create_from_nodes(f->body, &root, 1, &f->mesh));
     CHECK_OK(cstk_robot_builder_create(3, &f->robot_builder));
     f->robot = make_arm(f->robot_builder, f->body);
     const cstk_robot *robot = f->robot;
@@ -118,7 +118,7 @@ void fixture_create(fixture *f) {
         CHECK_OK(cstk_robot_link_pose(f->robot, f->q, FIXTURE_NQ, i, pose));
     }
     CHECK_OK(cstk_distance(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &f->distance));
-    CHECK(f->distance.kind == CSTK_EXACT && f->distance.distance > 0.0);
+    CHECK(f->distance.kind == CSTK_DISTANCE_EXACT && f->distance.distance > 0.0);
 }
 
 void fixture_release(fixture *f) { release_handles(f->live); }
@@ -128,16 +128,16 @@ static void environment_unchanged(const fixture *f) {
     uint64_t version = 0;
     double pose[12];
     double expected[12];
-    CHECK_OK(cstk_environment_state(f->environment, &objects, &version));
+    CHECK_OK(cstk_environment_get_state(f->environment, &objects, &version));
     CHECK(objects == 1 && version == 1);
-    CHECK_OK(cstk_environment_object_pose(f->environment, f->box, pose));
+    CHECK_OK(cstk_environment_get_object_pose(f->environment, f->box, pose));
     translation(3.0, 0.5, 0.0, expected);
     CHECK(memcmp(pose, expected, sizeof pose) == 0);
 }
 
 static void mesh_unchanged(const fixture *f) {
     cstk_mesh_view view;
-    CHECK_OK(cstk_mesh_get(f->mesh, &view));
+    CHECK_OK(cstk_mesh_get_view(f->mesh, &view));
     CHECK(view.vertex_count == 8 && view.face_count == 6 && view.index_count == 24);
 }
 
@@ -154,7 +154,7 @@ static void builders_unchanged(const fixture *f) {
     size_t nq = 0;
     size_t links = 0;
     CHECK_OK(cstk_robot_build(f->robot_builder, &robot));
-    CHECK_OK(cstk_robot_size(robot, &nq, NULL, &links));
+    CHECK_OK(cstk_robot_get_size(robot, &nq, NULL, &links));
     CHECK(nq == FIXTURE_NQ && links == FIXTURE_LINKS);
     CHECK_OK(cstk_robot_release(robot));
 }
@@ -175,14 +175,14 @@ const bad_handle *bad_handles(const fixture *f, noun wanted) {
     /* Not a handle at all, but memory that can be read. */
     static uint64_t foreign[8];
     bad_handle *next = bad;
-    *next++ = (bad_handle){NULL, CSTK_NULL_ARGUMENT};
-    *next++ = (bad_handle){foreign, CSTK_WRONG_HANDLE};
+    *next++ = (bad_handle){NULL, CSTK_ERROR_NULL_ARGUMENT};
+    *next++ = (bad_handle){foreign, CSTK_ERROR_WRONG_HANDLE};
     for (int kind = 0; kind < NOUN_COUNT; ++kind) {
         if (kind != (int)wanted) {
-            *next++ = (bad_handle){f->live[kind], CSTK_WRONG_HANDLE};
+            *next++ = (bad_handle){f->live[kind], CSTK_ERROR_WRONG_HANDLE};
         }
     }
-    *next++ = (bad_handle){f->released[wanted], CSTK_WRONG_HANDLE};
+    *next++ = (bad_handle){f->released[wanted], CSTK_ERROR_WRONG_HANDLE};
     *next = (bad_handle){NULL, CSTK_OK};
     return bad;
 }
@@ -199,14 +199,14 @@ const bad_pose *bad_poses(void) {
     static bad_pose bad[12 * 3 + 8];
     bad_pose *next = bad;
     for (int entry = 0; entry < 12; ++entry) {
-        EACH_NOT_FINITE(i) { *next++ = pose_with(entry, not_finite[i], CSTK_NOT_FINITE); }
+        EACH_NOT_FINITE(i) { *next++ = pose_with(entry, not_finite[i], CSTK_ERROR_NOT_FINITE); }
     }
-    *next++ = pose_with(0, -1.0, CSTK_NOT_A_ROTATION); /* a reflection */
-    *next++ = pose_with(1, 0.5, CSTK_NOT_A_ROTATION);  /* a shear */
-    *next++ = pose_with(10, 2.0, CSTK_NOT_A_ROTATION); /* a scaling */
-    *next++ = pose_with(5, 0.0, CSTK_NOT_A_ROTATION);  /* a projection */
-    *next++ = pose_with(4, 1e-4, CSTK_NOT_A_ROTATION); /* a little off */
-    *next++ = pose_with(7, 1e300, CSTK_INVALID_ARGUMENT);
+    *next++ = pose_with(0, -1.0, CSTK_ERROR_NOT_A_ROTATION); /* a reflection */
+    *next++ = pose_with(1, 0.5, CSTK_ERROR_NOT_A_ROTATION);  /* a shear */
+    *next++ = pose_with(10, 2.0, CSTK_ERROR_NOT_A_ROTATION); /* a scaling */
+    *next++ = pose_with(5, 0.0, CSTK_ERROR_NOT_A_ROTATION);  /* a projection */
+    *next++ = pose_with(4, 1e-4, CSTK_ERROR_NOT_A_ROTATION); /* a little off */
+    *next++ = pose_with(7, 1e300, CSTK_ERROR_INVALID_ARGUMENT);
     *next = pose_with(0, 1.0, CSTK_OK);
     return bad;
 }
@@ -223,7 +223,7 @@ const bad_options *bad_options_like(const void *good, size_t size) {
     memset(copies, 0, sizeof copies);
     for (int i = 0; i < COPIES; ++i) {
         memcpy(copies[i].bytes, good, size);
-        bad[i] = (bad_options){copies[i].bytes, CSTK_NOT_INITIALISED};
+        bad[i] = (bad_options){copies[i].bytes, CSTK_ERROR_NOT_INITIALISED};
     }
     memset(copies[0].bytes, 0, size); /* not initialised */
     copies[1].words[1] ^= 1;          /* another cookie */
@@ -235,7 +235,7 @@ const bad_options *bad_options_like(const void *good, size_t size) {
     /* A later version of the structure, with a field this library does not know. */
     copies[7].words[0] = (uint32_t)size + 8;
     copies[7].bytes[size + 7] = 1;
-    bad[7].status = CSTK_UNSUPPORTED;
+    bad[7].status = CSTK_ERROR_UNSUPPORTED;
     bad[COPIES] = (bad_options){NULL, CSTK_OK};
     return bad;
 }

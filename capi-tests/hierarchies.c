@@ -187,8 +187,8 @@ static void check_levels(const cstk_body *body, const tree *t, uint64_t depth) {
         cstk_level_statistics statistics;
         size_t count = 0;
         size_t on_level = 0;
-        CHECK_OK(cstk_body_get_level(body, level, &statistics));
-        CHECK_OK(cstk_body_level(body, level, t->count, nodes, &count));
+        CHECK_OK(cstk_body_get_level_statistics(body, level, &statistics));
+        CHECK_OK(cstk_body_get_level_nodes(body, level, t->count, nodes, &count));
         for (size_t i = 0; i < count; ++i) {
             CHECK(t->levels[nodes[i]] <= level);
             on_level += t->levels[nodes[i]] == level;
@@ -207,7 +207,7 @@ static void check_covers(const cstk_body *body, const tree *t) {
     CHECK(nodes != NULL);
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) {
         size_t count = 0;
-        CHECK_OK(cstk_body_cover(body, counts[i], nodes, &count));
+        CHECK_OK(cstk_body_get_cover_nodes(body, counts[i], nodes, &count));
         CHECK(count >= 1 && count <= counts[i]);
         check_partition(t, nodes, count);
         /* There is room for all leaves: every interior node is opened. */
@@ -268,7 +268,7 @@ static void check_statistics(const cstk_body *body, const tree *t, const model *
     uint64_t leaves = 0;
     uint64_t pieces = 0;
     double root[3];
-    CHECK_OK(cstk_body_get_hierarchy(body, &s));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &s));
     CHECK_OK(cstk_body_get_statistics(body, &of_body));
     box_of(t, m, options, 0, root);
     for (size_t i = 0; i < t->count; ++i) {
@@ -314,7 +314,7 @@ static void check_body(const cstk_body *body, const cstk_hierarchy_options *opti
     tree t = read_tree(body);
     model m = read_model(body);
     cstk_hierarchy_statistics statistics;
-    CHECK_OK(cstk_body_get_hierarchy(body, &statistics));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &statistics));
     size_t *leaves = leaves_per_primitive(&t, &m, 0, t.count);
     for (size_t i = 0; i < m.statistics.primitive_count; ++i) {
         CHECK(leaves[i] == 1 || (options->aspect_limit > 0.0 && leaves[i] > 1));
@@ -347,7 +347,7 @@ static void same_answers(const cstk_body *one, const cstk_body *other, const cst
             CHECK_OK(
                 cstk_pair_within(query, bodies[k], identity_pose, probe, pose, 0.5, &within[k]));
         }
-        CHECK(d[0].kind == CSTK_EXACT && d[1].kind == CSTK_EXACT && within[0] == within[1]);
+        CHECK(d[0].kind == CSTK_DISTANCE_EXACT && d[1].kind == CSTK_DISTANCE_EXACT && within[0] == within[1]);
         CHECK(within[0] == (d[0].distance <= 0.5));
         CHECK(memcmp(&d[0].distance, &d[1].distance, sizeof(double)) == 0);
         CHECK(memcmp(&d[0].lower, &d[1].lower, sizeof(double)) == 0);
@@ -420,7 +420,7 @@ static void odd_bodies(void) {
             cstk_body *body = build_body(builder, &options);
             cstk_hierarchy_statistics s;
             tree t = read_tree(body);
-            CHECK_OK(cstk_body_get_hierarchy(body, &s));
+            CHECK_OK(cstk_body_get_hierarchy_statistics(body, &s));
             CHECK(t.count == (kind == 0 ? 1 : 39) && s.node_count == t.count);
             CHECK(isfinite(s.expected_cost) && s.expected_cost > 0.0);
             CHECK(isfinite(s.balance) && s.balance >= 1.0 && isfinite(s.fill) && s.fill >= 0.0);
@@ -527,7 +527,7 @@ static void slender(void) {
             for (int side = 0; side < 2; ++side) {
                 bodies[side] = build_body(builders[side], &options);
             }
-            CHECK_OK(cstk_body_get_hierarchy(bodies[0], &s));
+            CHECK_OK(cstk_body_get_hierarchy_statistics(bodies[0], &s));
             /* Their length is 80 times their width. */
             const int cut = limits[i] > 0.0 && limits[i] < 80.0;
             if (cut ? s.leaf_count <= PLANKS : s.leaf_count != PLANKS) {
@@ -565,7 +565,7 @@ static void pieces(void) {
         options.pieces = kind;
         cstk_body *body = build_body(builder, &options);
         check_body(body, &options);
-        CHECK_OK(cstk_body_get_hierarchy(body, &s));
+        CHECK_OK(cstk_body_get_hierarchy_statistics(body, &s));
         if ((s.piece_count > 0) != (kind != CSTK_PIECES_OFF)) {
             fprintf(stderr, "pieces %d: %d pieces of a square cut into sixteen\n", (int)kind,
                     (int)s.piece_count);

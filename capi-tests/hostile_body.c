@@ -10,10 +10,10 @@ static void builder_create(const fixture *f) {
     cstk_body_builder *out;
     const uint32_t wrong[] = {0, 1, 4, UINT32_MAX};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        CHECK_REFUSED(out, cstk_body_builder_create(wrong[i], &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_body_builder_create(wrong[i], &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "dimension");
     }
-    CHECK_FAILS(cstk_body_builder_create(3, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_builder_create(3, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -41,22 +41,22 @@ typedef struct bad_points {
 } bad_points;
 
 static const bad_points polygons[] = {
-    {{0}, 0, CSTK_EMPTY, "polygon"},
-    {{1, 2, 3}, 1, CSTK_DEGENERATE, "polygon"},
-    {{0, 0, 0, 1, 0, 0}, 2, CSTK_DEGENERATE, "polygon"},
-    {{1, 1, 1, 1, 1, 1, 1, 1, 1}, 3, CSTK_DEGENERATE, "polygon"},
-    {{0, 0, 0, 1, 0, 0, 2, 0, 0}, 3, CSTK_DEGENERATE, "area"},
-    {{0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0}, 4, CSTK_DEGENERATE, "vertices 1 and 2"},
-    {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 0}, 5, CSTK_DEGENERATE, "vertices 4 and 0"},
-    {{0, 0, 0, 1, 0, 0, 1, 1, 0.1, 0, 1, 0}, 4, CSTK_NOT_PLANAR, "vertex"},
-    {{0, 0, 0, 2, 0, 0, 0.5, 0.5, 0, 0, 2, 0}, 4, CSTK_NOT_CONVEX, "vertex 2"},
-    {{0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0}, 4, CSTK_NOT_CONVEX, "polygon"},
+    {{0}, 0, CSTK_ERROR_EMPTY, "polygon"},
+    {{1, 2, 3}, 1, CSTK_ERROR_DEGENERATE, "polygon"},
+    {{0, 0, 0, 1, 0, 0}, 2, CSTK_ERROR_DEGENERATE, "polygon"},
+    {{1, 1, 1, 1, 1, 1, 1, 1, 1}, 3, CSTK_ERROR_DEGENERATE, "polygon"},
+    {{0, 0, 0, 1, 0, 0, 2, 0, 0}, 3, CSTK_ERROR_DEGENERATE, "area"},
+    {{0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0}, 4, CSTK_ERROR_DEGENERATE, "vertices 1 and 2"},
+    {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 0}, 5, CSTK_ERROR_DEGENERATE, "vertices 4 and 0"},
+    {{0, 0, 0, 1, 0, 0, 1, 1, 0.1, 0, 1, 0}, 4, CSTK_ERROR_NOT_PLANAR, "vertex"},
+    {{0, 0, 0, 2, 0, 0, 0.5, 0.5, 0, 0, 2, 0}, 4, CSTK_ERROR_NOT_CONVEX, "vertex 2"},
+    {{0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0}, 4, CSTK_ERROR_NOT_CONVEX, "polygon"},
     /* A star of five points winds twice. */
     {{1, 0, 0, -0.809, 0.588, 0, 0.309, -0.951, 0, 0.309, 0.951, 0, -0.809, -0.588, 0},
      5,
-     CSTK_NOT_CONVEX,
+     CSTK_ERROR_NOT_CONVEX,
      "polygon"},
-    {{0, 0, 0, 1e200, 0, 0, 0, 1e200, 0}, 3, CSTK_INVALID_ARGUMENT, "coordinate"},
+    {{0, 0, 0, 1e200, 0, 0, 0, 1e200, 0}, 3, CSTK_ERROR_INVALID_ARGUMENT, "coordinate"},
 };
 
 static void add_polygon(const fixture *f) {
@@ -65,11 +65,11 @@ static void add_polygon(const fixture *f) {
         CHECK_FAILS(cstk_body_builder_add_polygon(bad->handle, square, 4, 0), bad->status,
                     "builder");
     }
-    CHECK_FAILS(cstk_body_builder_add_polygon(builder, NULL, 4, 0), CSTK_NULL_ARGUMENT, "xyz");
-    CHECK_FAILS(cstk_body_builder_add_polygon(builder, square, SIZE_MAX, 0), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_body_builder_add_polygon(builder, NULL, 4, 0), CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_FAILS(cstk_body_builder_add_polygon(builder, square, SIZE_MAX, 0), CSTK_ERROR_WRONG_SIZE,
                 "xyz");
     CHECK_FAILS(cstk_body_builder_add_polygon(builder, square, SIZE_MAX / 24 + 1, 0),
-                CSTK_WRONG_SIZE, "xyz");
+                CSTK_ERROR_WRONG_SIZE, "xyz");
     for (size_t i = 0; i < sizeof polygons / sizeof polygons[0]; ++i) {
         const bad_points *bad = &polygons[i];
         CHECK_FAILS(cstk_body_builder_add_polygon(builder, bad->xyz, bad->count, 0), bad->polygon,
@@ -80,7 +80,7 @@ static void add_polygon(const fixture *f) {
             double xyz[12];
             memcpy(xyz, square, sizeof xyz);
             xyz[entry] = not_finite[i];
-            CHECK_FAILS(cstk_body_builder_add_polygon(builder, xyz, 4, 0), CSTK_NOT_FINITE,
+            CHECK_FAILS(cstk_body_builder_add_polygon(builder, xyz, 4, 0), CSTK_ERROR_NOT_FINITE,
                         "vertex");
         }
     }
@@ -93,18 +93,18 @@ static void add_polyhedron(const fixture *f) {
         CHECK_FAILS(cstk_body_builder_add_polyhedron(bad->handle, square, 4, 0), bad->status,
                     "builder");
     }
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, NULL, 4, 0), CSTK_NULL_ARGUMENT, "xyz");
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, square, 0, 0), CSTK_EMPTY, "polyhedron");
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, square, SIZE_MAX, 0), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, NULL, 4, 0), CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, square, 0, 0), CSTK_ERROR_EMPTY, "polyhedron");
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, square, SIZE_MAX, 0), CSTK_ERROR_WRONG_SIZE,
                 "xyz");
     const double huge[12] = {0, 0, 0, 1e200, 0, 0, 0, 1e200, 0, 0, 0, 1e200};
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, huge, 4, 0), CSTK_INVALID_ARGUMENT,
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, huge, 4, 0), CSTK_ERROR_INVALID_ARGUMENT,
                 "polyhedron");
     for (int entry = 0; entry < 12; ++entry) {
         EACH_NOT_FINITE(i) {
             double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
             xyz[entry] = not_finite[i];
-            CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, xyz, 4, 0), CSTK_NOT_FINITE,
+            CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, xyz, 4, 0), CSTK_ERROR_NOT_FINITE,
                         "polyhedron");
         }
     }
@@ -121,14 +121,14 @@ static void planar_builder(const fixture *f) {
     memcpy(raised, square, sizeof raised);
     raised[8] = 1e-9;
     CHECK_OK(cstk_body_builder_create(2, &builder));
-    CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_NOT_PLANAR, "vertex 2");
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, raised, 4, 0), CSTK_NOT_PLANAR,
+    CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_ERROR_NOT_PLANAR, "vertex 2");
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, raised, 4, 0), CSTK_ERROR_NOT_PLANAR,
                 "vertex 2");
     CHECK_FAILS(cstk_body_builder_add_mesh(builder, raised, 4, &size, 1, face, 4, NULL, NULL),
-                CSTK_NOT_PLANAR, "vertex 2");
+                CSTK_ERROR_NOT_PLANAR, "vertex 2");
     raised[8] = NAN;
-    CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_NOT_FINITE, "vertex 2");
-    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
+    CHECK_FAILS(cstk_body_builder_add_polygon(builder, raised, 4, 0), CSTK_ERROR_NOT_FINITE, "vertex 2");
+    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(builder));
     fixture_unchanged(f);
 }
@@ -146,9 +146,9 @@ static void add_mesh_arguments(const fixture *f) {
                     bad->status, "builder");
     }
     CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 4, sizes, 2, indices, 6, NULL, NULL),
-                CSTK_NULL_ARGUMENT, "vertices");
+                CSTK_ERROR_NULL_ARGUMENT, "vertices");
     CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, sizes, 2, NULL, 6, NULL, NULL),
-                CSTK_NULL_ARGUMENT, "indices");
+                CSTK_ERROR_NULL_ARGUMENT, "indices");
     const struct {
         size_t vertices;
         const uint32_t *sizes;
@@ -167,7 +167,7 @@ static void add_mesh_arguments(const fixture *f) {
         CHECK_FAILS(cstk_body_builder_add_mesh(b, square, wrong[i].vertices, wrong[i].sizes,
                                                wrong[i].faces, indices, wrong[i].indices, NULL,
                                                NULL),
-                    CSTK_WRONG_SIZE, wrong[i].culprit);
+                    CSTK_ERROR_WRONG_SIZE, wrong[i].culprit);
     }
     fixture_unchanged(f);
 }
@@ -180,7 +180,7 @@ static void add_mesh_huge_counts(const fixture *f) {
     for (int i = 0; i < 3; ++i) {
         CHECK_FAILS(cstk_body_builder_add_mesh(f->body_builder, square, 4, NULL, faces[i], indices,
                                                SIZE_MAX, NULL, NULL),
-                    CSTK_WRONG_SIZE, "ind");
+                    CSTK_ERROR_WRONG_SIZE, "ind");
     }
     fixture_unchanged(f);
 }
@@ -191,18 +191,18 @@ static void add_mesh_geometry(const fixture *f) {
     const uint32_t largest[3] = {0, 1, UINT32_MAX};
     const uint32_t good[3] = {0, 1, 2};
     CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 2, beyond, 6, NULL, NULL),
-                CSTK_NOT_FOUND, "face 1");
+                CSTK_ERROR_NOT_FOUND, "face 1");
     CHECK_FAILS(cstk_body_builder_add_mesh(b, square, 4, NULL, 1, largest, 3, NULL, NULL),
-                CSTK_NOT_FOUND, "face 0");
+                CSTK_ERROR_NOT_FOUND, "face 0");
     CHECK_FAILS(cstk_body_builder_add_mesh(b, NULL, 0, NULL, 1, good, 3, NULL, NULL),
-                CSTK_NOT_FOUND, "face 0");
+                CSTK_ERROR_NOT_FOUND, "face 0");
     for (int entry = 0; entry < 9; ++entry) {
         EACH_NOT_FINITE(i) {
             double xyz[12];
             memcpy(xyz, square, sizeof xyz);
             xyz[entry] = not_finite[i];
             CHECK_FAILS(cstk_body_builder_add_mesh(b, xyz, 4, NULL, 1, good, 3, NULL, NULL),
-                        CSTK_NOT_FINITE, "face 0");
+                        CSTK_ERROR_NOT_FINITE, "face 0");
         }
     }
     /* The second face crosses itself: the first is not kept either. */
@@ -210,7 +210,7 @@ static void add_mesh_geometry(const fixture *f) {
     const uint32_t crossing[7] = {0, 1, 2, 0, 2, 1, 3};
     const uint32_t sizes[2] = {3, 4};
     CHECK_FAILS(cstk_body_builder_add_mesh(b, outline, 4, sizes, 2, crossing, 7, NULL, NULL),
-                CSTK_NOT_CONVEX, "face 1");
+                CSTK_ERROR_NOT_CONVEX, "face 1");
     fixture_unchanged(f);
 }
 
@@ -222,8 +222,8 @@ static void bow_tie(void) {
     cstk_body *body;
     CHECK_OK(cstk_body_builder_create(3, &builder));
     CHECK_FAILS(cstk_body_builder_add_mesh(builder, square, 4, &size, 1, face, 4, NULL, NULL),
-                CSTK_NOT_CONVEX, "face 0");
-    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
+                CSTK_ERROR_NOT_CONVEX, "face 0");
+    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(builder));
 }
 
@@ -233,13 +233,13 @@ static void add_mesh_file(const fixture *f) {
                     bad->status, "builder");
     }
     cstk_body_builder *b = f->body_builder;
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, NULL, NULL, NULL), CSTK_NULL_ARGUMENT, "file");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "", NULL, NULL), CSTK_UNSUPPORTED, "obj");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.ply", NULL, NULL), CSTK_UNSUPPORTED,
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, NULL, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "", NULL, NULL), CSTK_ERROR_UNSUPPORTED, "obj");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.ply", NULL, NULL), CSTK_ERROR_UNSUPPORTED,
                 "missing.ply");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj", NULL, NULL), CSTK_IO,
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj", NULL, NULL), CSTK_ERROR_IO,
                 "missing.obj");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing \xff.stl", NULL, NULL), CSTK_IO,
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing \xff.stl", NULL, NULL), CSTK_ERROR_IO,
                 "missing");
     fixture_unchanged(f);
 }
@@ -258,11 +258,11 @@ static void place_mesh(const fixture *f) {
         double factor;
         cstk_status status;
     } wrong[] = {
-        {0, CSTK_INVALID_ARGUMENT},     {-0.0, CSTK_INVALID_ARGUMENT},
-        {1e-60, CSTK_INVALID_ARGUMENT}, {-1e-300, CSTK_INVALID_ARGUMENT},
-        {1e60, CSTK_INVALID_ARGUMENT},  {-1e300, CSTK_INVALID_ARGUMENT},
-        {NAN, CSTK_NOT_FINITE},         {INFINITY, CSTK_NOT_FINITE},
-        {-INFINITY, CSTK_NOT_FINITE},
+        {0, CSTK_ERROR_INVALID_ARGUMENT},     {-0.0, CSTK_ERROR_INVALID_ARGUMENT},
+        {1e-60, CSTK_ERROR_INVALID_ARGUMENT}, {-1e-300, CSTK_ERROR_INVALID_ARGUMENT},
+        {1e60, CSTK_ERROR_INVALID_ARGUMENT},  {-1e300, CSTK_ERROR_INVALID_ARGUMENT},
+        {NAN, CSTK_ERROR_NOT_FINITE},         {INFINITY, CSTK_ERROR_NOT_FINITE},
+        {-INFINITY, CSTK_ERROR_NOT_FINITE},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -278,15 +278,15 @@ static void place_mesh(const fixture *f) {
     const double far[9] = {1e30, 0, 0, 0, 1e30, 0, 0, 0, 1e30};
     const double large[3] = {1e30, 1e30, 1e30};
     CHECK_FAILS(cstk_body_builder_add_mesh(b, far, 3, NULL, 1, face, 3, NULL, large),
-                CSTK_INVALID_ARGUMENT, "face 0");
+                CSTK_ERROR_INVALID_ARGUMENT, "face 0");
     /* Turned out of the plane. */
     const double tilted[12] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0};
     cstk_body_builder *planar = NULL;
     cstk_body *body;
     CHECK_OK(cstk_body_builder_create(2, &planar));
     CHECK_FAILS(cstk_body_builder_add_mesh(planar, square, 4, NULL, 1, face, 3, tilted, NULL),
-                CSTK_NOT_PLANAR, "vertex 2");
-    CHECK_REFUSED(body, cstk_body_build(planar, NULL, NULL, NULL, &body), CSTK_EMPTY, "body");
+                CSTK_ERROR_NOT_PLANAR, "vertex 2");
+    CHECK_REFUSED(body, cstk_body_build(planar, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "body");
     CHECK_OK(cstk_body_builder_release(planar));
     fixture_unchanged(f);
 }
@@ -307,7 +307,7 @@ static void build(const fixture *f) {
         CHECK_REFUSED(out, cstk_body_build(bad->handle, &options, never, NULL, &out), bad->status,
                       "builder");
     }
-    CHECK_FAILS(cstk_body_build(b, &options, never, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_build(b, &options, never, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     EACH_BAD_OPTIONS(options, bad) {
         CHECK_REFUSED(out, cstk_body_build(b, bad->options, never, NULL, &out), bad->status,
                       "options");
@@ -315,12 +315,12 @@ static void build(const fixture *f) {
     const uint32_t limits[] = {0, 1, 7};
     for (int i = 0; i < 3; ++i) {
         options.hull_vertex_limit = limits[i];
-        CHECK_REFUSED(out, cstk_body_build(b, &options, never, NULL, &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_body_build(b, &options, never, NULL, &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "hull_vertex_limit");
     }
     cstk_body_builder *empty = NULL;
     CHECK_OK(cstk_body_builder_create(3, &empty));
-    CHECK_REFUSED(out, cstk_body_build(empty, NULL, never, NULL, &out), CSTK_EMPTY, "primitive");
+    CHECK_REFUSED(out, cstk_body_build(empty, NULL, never, NULL, &out), CSTK_ERROR_EMPTY, "primitive");
     CHECK_OK(cstk_body_builder_release(empty));
     fixture_unchanged(f);
 }
@@ -338,7 +338,7 @@ static void set_solid(const fixture *f) {
     CHECK_OK(cstk_body_builder_create(3, &builder));
     CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 3, faces, 9, NULL, NULL));
     CHECK_OK(cstk_body_builder_set_solid(builder, true));
-    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
+    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_ERROR_NOT_CLOSED,
                   "3 edges are open: the edge from (0, 1, 0) to (1, 0, 0) of primitive 0 (tag 0)");
     CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces + 9, 3, NULL, NULL));
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
@@ -348,7 +348,7 @@ static void set_solid(const fixture *f) {
     CHECK_OK(cstk_body_release(body));
     /* As a surface it may be anything. */
     CHECK_OK(cstk_body_builder_add_mesh(builder, corners, 4, NULL, 1, faces, 3, NULL, NULL));
-    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_NOT_CLOSED,
+    CHECK_REFUSED(out, cstk_body_build(builder, NULL, never, NULL, &out), CSTK_ERROR_NOT_CLOSED,
                   "primitive 4 (tag 0)");
     CHECK_OK(cstk_body_builder_set_solid(builder, false));
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
@@ -385,7 +385,7 @@ static void solid_around(const fixture *f) {
     bool within = false;
     CHECK_OK(cstk_query_create(&query));
     CHECK_OK(cstk_pair_distance(query, cubes[0], pose, cubes[1], pose, INFINITY, &d));
-    CHECK(d.kind == CSTK_EXACT && d.distance == 0 && d.lower == 0 && !d.has_contact);
+    CHECK(d.kind == CSTK_DISTANCE_EXACT && d.distance == 0 && d.lower == 0 && !d.has_contact);
     CHECK(d.has_witness && d.witness.contained && d.witness.overlapping);
     CHECK(memcmp(d.r_point, d.s_point, sizeof d.r_point) == 0 && fabs(d.r_point[0]) == 0.2);
     CHECK_OK(cstk_pair_within(query, cubes[1], pose, cubes[0], pose, 0, &within));
@@ -405,7 +405,7 @@ static void get_statistics(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         CHECK_REFUSED(out, cstk_body_get_statistics(bad->handle, &out), bad->status, "body");
     }
-    CHECK_FAILS(cstk_body_get_statistics(f->body, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_get_statistics(f->body, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -418,7 +418,7 @@ static void feature_vertices(const fixture *f) {
     vertices_out out;
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         CHECK_REFUSED(
-            out, cstk_body_feature_vertices(bad->handle, 0, CSTK_FACE, 0, 8, out.xyz, &out.count),
+            out, cstk_body_get_feature_vertices(bad->handle, 0, CSTK_FEATURE_FACE, 0, 8, out.xyz, &out.count),
             bad->status, "body");
     }
     const struct {
@@ -428,32 +428,32 @@ static void feature_vertices(const fixture *f) {
         cstk_status status;
         const char *culprit;
     } wrong[] = {
-        {1, CSTK_FACE, 0, CSTK_NOT_FOUND, "primitive 1"},
-        {UINT32_MAX, CSTK_FACE, 0, CSTK_NOT_FOUND, "primitive"},
-        {0, -1, 0, CSTK_INVALID_ARGUMENT, "kind"},
-        {0, 5, 0, CSTK_INVALID_ARGUMENT, "kind"},
-        {0, CSTK_SURFACE, 0, CSTK_NOT_FOUND, "Surface"},
-        {0, CSTK_VERTEX, 8, CSTK_NOT_FOUND, "8"},
-        {0, CSTK_EDGE, 12, CSTK_NOT_FOUND, "12"},
-        {0, CSTK_FACE, 6, CSTK_NOT_FOUND, "6"},
-        {0, CSTK_FACE, UINT32_MAX, CSTK_NOT_FOUND, "primitive 0"},
+        {1, CSTK_FEATURE_FACE, 0, CSTK_ERROR_NOT_FOUND, "primitive 1"},
+        {UINT32_MAX, CSTK_FEATURE_FACE, 0, CSTK_ERROR_NOT_FOUND, "primitive"},
+        {0, -1, 0, CSTK_ERROR_INVALID_ARGUMENT, "kind"},
+        {0, 5, 0, CSTK_ERROR_INVALID_ARGUMENT, "kind"},
+        {0, CSTK_FEATURE_SURFACE, 0, CSTK_ERROR_NOT_FOUND, "Surface"},
+        {0, CSTK_FEATURE_VERTEX, 8, CSTK_ERROR_NOT_FOUND, "8"},
+        {0, CSTK_FEATURE_EDGE, 12, CSTK_ERROR_NOT_FOUND, "12"},
+        {0, CSTK_FEATURE_FACE, 6, CSTK_ERROR_NOT_FOUND, "6"},
+        {0, CSTK_FEATURE_FACE, UINT32_MAX, CSTK_ERROR_NOT_FOUND, "primitive 0"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         CHECK_REFUSED(out,
-                      cstk_body_feature_vertices(f->body, wrong[i].primitive, wrong[i].kind,
+                      cstk_body_get_feature_vertices(f->body, wrong[i].primitive, wrong[i].kind,
                                                  wrong[i].feature, 8, out.xyz, &out.count),
                       wrong[i].status, wrong[i].culprit);
     }
-    CHECK_REFUSED(out, cstk_body_feature_vertices(f->body, 0, CSTK_FACE, 0, 8, NULL, &out.count),
-                  CSTK_NULL_ARGUMENT, "xyz");
-    CHECK_REFUSED(out, cstk_body_feature_vertices(f->body, 0, CSTK_FACE, 0, 8, out.xyz, NULL),
-                  CSTK_NULL_ARGUMENT, "count");
+    CHECK_REFUSED(out, cstk_body_get_feature_vertices(f->body, 0, CSTK_FEATURE_FACE, 0, 8, NULL, &out.count),
+                  CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_REFUSED(out, cstk_body_get_feature_vertices(f->body, 0, CSTK_FEATURE_FACE, 0, 8, out.xyz, NULL),
+                  CSTK_ERROR_NULL_ARGUMENT, "count");
     /* Room for fewer points than there are: no more than that is written, but all are counted. */
     memset(&out, CHECK_SENTINEL, sizeof out);
-    CHECK_OK(cstk_body_feature_vertices(f->body, 0, CSTK_FACE, 0, 1, out.xyz, &out.count));
+    CHECK_OK(cstk_body_get_feature_vertices(f->body, 0, CSTK_FEATURE_FACE, 0, 1, out.xyz, &out.count));
     CHECK(out.count == 4);
     check_untouched(out.xyz + 3, 21 * sizeof(double), "feature_vertices", __FILE__, __LINE__);
-    CHECK_OK(cstk_body_feature_vertices(f->body, 0, CSTK_FACE, 0, 0, NULL, &out.count));
+    CHECK_OK(cstk_body_get_feature_vertices(f->body, 0, CSTK_FEATURE_FACE, 0, 0, NULL, &out.count));
     CHECK(out.count == 4);
     fixture_unchanged(f);
 }
@@ -463,10 +463,10 @@ static void get_primitive(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         CHECK_REFUSED(out, cstk_body_get_primitive(bad->handle, 0, &out), bad->status, "body");
     }
-    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, 1, &out), CSTK_NOT_FOUND, "primitive 1");
-    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, UINT32_MAX, &out), CSTK_NOT_FOUND,
+    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, 1, &out), CSTK_ERROR_NOT_FOUND, "primitive 1");
+    CHECK_REFUSED(out, cstk_body_get_primitive(f->body, UINT32_MAX, &out), CSTK_ERROR_NOT_FOUND,
                   "primitive 4294967295");
-    CHECK_FAILS(cstk_body_get_primitive(f->body, 0, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_get_primitive(f->body, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 

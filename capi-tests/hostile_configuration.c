@@ -139,15 +139,15 @@ static void configurations(const fixture *f, const form *of) {
         a.space = bad->handle;
         refuse(of, &a, bad->status, "space");
     }
-    CHECK_FAILS(of->ask(&good, NULL), CSTK_NULL_ARGUMENT, of->output);
+    CHECK_FAILS(of->ask(&good, NULL), CSTK_ERROR_NULL_ARGUMENT, of->output);
     a = good;
     a.q = NULL;
-    refuse(of, &a, CSTK_NULL_ARGUMENT, of->null);
+    refuse(of, &a, CSTK_ERROR_NULL_ARGUMENT, of->null);
     a = good;
     const size_t counts[] = {0, 1, FIXTURE_NQ - 1, SIZE_MAX, SIZE_MAX / 8 + 2};
     for (int i = 0; i < 5; ++i) {
         a.nq = counts[i];
-        refuse(of, &a, CSTK_WRONG_SIZE, "");
+        refuse(of, &a, CSTK_ERROR_WRONG_SIZE, "");
     }
     a = good;
     double q[FIXTURE_NQ];
@@ -156,10 +156,10 @@ static void configurations(const fixture *f, const form *of) {
         EACH_NOT_FINITE(i) {
             memcpy(q, f->q, sizeof q);
             q[entry] = not_finite[i];
-            refuse(of, &a, CSTK_NOT_FINITE, of->bad);
+            refuse(of, &a, CSTK_ERROR_NOT_FINITE, of->bad);
         }
         q[entry] = entry == 1 ? -1e51 : 1e300;
-        refuse(of, &a, CSTK_INVALID_ARGUMENT, of->bad);
+        refuse(of, &a, CSTK_ERROR_INVALID_ARGUMENT, of->bad);
     }
     fixture_unchanged(f);
 }
@@ -179,7 +179,7 @@ static void quaternions(const fixture *f, const form *of) {
     question a = {space, NULL, FREE_NQ, neutral, still, FREE_NV};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         a.q = wrong[i];
-        refuse(of, &a, CSTK_NOT_A_ROTATION, of->bad);
+        refuse(of, &a, CSTK_ERROR_NOT_A_ROTATION, of->bad);
         CHECK(strstr(cstk_last_error_message(), "3 to 6") != NULL);
     }
     CHECK_OK(cstk_space_release(space));
@@ -191,21 +191,21 @@ static void step_velocities(const fixture *f) {
     const cstk_space *s = f->space;
     const double *q = f->q;
     const size_t n = FIXTURE_NQ;
-    CHECK_REFUSED(out, cstk_space_step(s, q, n, NULL, n, out), CSTK_NULL_ARGUMENT, "v is NULL");
+    CHECK_REFUSED(out, cstk_space_step(s, q, n, NULL, n, out), CSTK_ERROR_NULL_ARGUMENT, "v is NULL");
     const size_t counts[] = {0, 1, FIXTURE_NQ - 1, SIZE_MAX};
     for (int i = 0; i < 4; ++i) {
-        CHECK_REFUSED(out, cstk_space_step(s, q, n, still, counts[i], out), CSTK_WRONG_SIZE, "v");
+        CHECK_REFUSED(out, cstk_space_step(s, q, n, still, counts[i], out), CSTK_ERROR_WRONG_SIZE, "v");
     }
-    CHECK_REFUSED(out, cstk_space_step(s, q, n, still, n + 1, out), CSTK_WRONG_SIZE, "velocity");
+    CHECK_REFUSED(out, cstk_space_step(s, q, n, still, n + 1, out), CSTK_ERROR_WRONG_SIZE, "velocity");
     for (int entry = 0; entry < FIXTURE_NQ; ++entry) {
         double v[FIXTURE_NQ] = {0};
         EACH_NOT_FINITE(i) {
             v[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_space_step(s, q, n, v, n, out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, cstk_space_step(s, q, n, v, n, out), CSTK_ERROR_NOT_FINITE,
                           "velocity entry");
         }
         v[entry] = entry == 1 ? -1e51 : 1e300;
-        CHECK_REFUSED(out, cstk_space_step(s, q, n, v, n, out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_space_step(s, q, n, v, n, out), CSTK_ERROR_INVALID_ARGUMENT,
                       "velocity entry");
     }
     fixture_unchanged(f);
@@ -221,11 +221,11 @@ static void interpolate_parameters(const fixture *f) {
     EACH_NOT_FINITE(i) {
         CHECK_REFUSED(out,
                       cstk_space_interpolate(space, neutral, there, FREE_NQ, not_finite[i], out),
-                      CSTK_NOT_FINITE, "t 0");
+                      CSTK_ERROR_NOT_FINITE, "t 0");
     }
     for (int i = 0; i < 4; ++i) {
         CHECK_REFUSED(out, cstk_space_interpolate(space, neutral, there, FREE_NQ, far[i], out),
-                      CSTK_INVALID_ARGUMENT, "t");
+                      CSTK_ERROR_INVALID_ARGUMENT, "t");
     }
     CHECK_OK(cstk_space_release(space));
     fixture_unchanged(f);
@@ -239,14 +239,14 @@ static void distance_weights(const fixture *f) {
         EACH_NOT_FINITE(i) {
             weights[entry] = not_finite[i];
             CHECK_REFUSED(out, cstk_space_distance(f->space, f->q, far, FIXTURE_NQ, weights, &out),
-                          CSTK_NOT_FINITE, "weight");
+                          CSTK_ERROR_NOT_FINITE, "weight");
         }
         weights[entry] = -1e-300;
         CHECK_REFUSED(out, cstk_space_distance(f->space, f->q, far, FIXTURE_NQ, weights, &out),
-                      CSTK_INVALID_ARGUMENT, "weight");
+                      CSTK_ERROR_INVALID_ARGUMENT, "weight");
         weights[entry] = 1.7e308;
         CHECK_REFUSED(out, cstk_space_distance(f->space, f->q, far, FIXTURE_NQ, weights, &out),
-                      CSTK_INVALID_ARGUMENT, "weight");
+                      CSTK_ERROR_INVALID_ARGUMENT, "weight");
     }
     fixture_unchanged(f);
 }
@@ -255,23 +255,23 @@ static void jacobian_points(const fixture *f) {
     double out[6 * FIXTURE_NQ];
     const cstk_space *s = f->space;
     const double good[3] = {0.1, 0.2, 0.3};
-    CHECK_REFUSED(out, cstk_space_jacobian(s, f->q, FIXTURE_NQ, 1, NULL, out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_space_jacobian(s, f->q, FIXTURE_NQ, 1, NULL, out), CSTK_ERROR_NULL_ARGUMENT,
                   "point");
     const uint32_t links[] = {FIXTURE_LINKS, CSTK_NONE};
     for (int i = 0; i < 2; ++i) {
         CHECK_REFUSED(out, cstk_space_jacobian(s, f->q, FIXTURE_NQ, links[i], good, out),
-                      CSTK_NOT_FOUND, "link");
+                      CSTK_ERROR_NOT_FOUND, "link");
     }
     for (int entry = 0; entry < 3; ++entry) {
         double point[3] = {0.1, 0.2, 0.3};
         EACH_NOT_FINITE(i) {
             point[entry] = not_finite[i];
             CHECK_REFUSED(out, cstk_space_jacobian(s, f->q, FIXTURE_NQ, 1, point, out),
-                          CSTK_NOT_FINITE, "point");
+                          CSTK_ERROR_NOT_FINITE, "point");
         }
         point[entry] = 1.7e308;
         CHECK_REFUSED(out, cstk_space_jacobian(s, f->q, FIXTURE_NQ, 1, point, out),
-                      CSTK_INVALID_ARGUMENT, "point");
+                      CSTK_ERROR_INVALID_ARGUMENT, "point");
     }
     fixture_unchanged(f);
 }
@@ -279,9 +279,9 @@ static void jacobian_points(const fixture *f) {
 static void neutral(const fixture *f) {
     double out[FIXTURE_NQ];
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(out, cstk_space_neutral(bad->handle, out), bad->status, "space");
+        CHECK_REFUSED(out, cstk_space_get_neutral(bad->handle, out), bad->status, "space");
     }
-    CHECK_FAILS(cstk_space_neutral(f->space, NULL), CSTK_NULL_ARGUMENT, "q");
+    CHECK_FAILS(cstk_space_get_neutral(f->space, NULL), CSTK_ERROR_NULL_ARGUMENT, "q");
     fixture_unchanged(f);
 }
 
@@ -291,10 +291,10 @@ static void sample(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
         CHECK_REFUSED(out, cstk_space_sample(bad->handle, &state, out), bad->status, "space");
     }
-    CHECK_REFUSED(out, cstk_space_sample(f->space, NULL, out), CSTK_NULL_ARGUMENT, "state");
-    CHECK_FAILS(cstk_space_sample(f->space, &state, NULL), CSTK_NULL_ARGUMENT, "q");
+    CHECK_REFUSED(out, cstk_space_sample(f->space, NULL, out), CSTK_ERROR_NULL_ARGUMENT, "state");
+    CHECK_FAILS(cstk_space_sample(f->space, &state, NULL), CSTK_ERROR_NULL_ARGUMENT, "q");
     cstk_space *space = make_free_space();
-    CHECK_REFUSED(out, cstk_space_sample(space, &state, out), CSTK_UNSUPPORTED, "coordinate 0");
+    CHECK_REFUSED(out, cstk_space_sample(space, &state, out), CSTK_ERROR_UNSUPPORTED, "coordinate 0");
     CHECK_OK(cstk_space_release(space));
     /* A call that fails does not advance the stream. */
     CHECK(state == 7);

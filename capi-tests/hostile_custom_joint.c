@@ -81,7 +81,7 @@ typedef struct scene {
 
 static void scene_create(const fixture *f, const cstk_custom_joint *joint, scene *s) {
     cstk_link_def def;
-    cstk_cobject_options options;
+    cstk_induced_options options;
     memset(s, 0, sizeof *s);
     CHECK_OK(cstk_robot_builder_create(3, &s->builder));
     CHECK_OK(cstk_link_def_default(&def, sizeof def));
@@ -94,7 +94,7 @@ static void scene_create(const fixture *f, const cstk_custom_joint *joint, scene
     const cstk_robot *robot = s->robot;
     CHECK_OK(cstk_space_create(&robot, 1, NULL, 0, NULL, &s->space));
     /* Pictures show gradients of the contacts within the epsilon. */
-    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = 10.0;
     CHECK_OK(
         cstk_cobject_induced(s->space, NULL, 0, f->environment, NULL, 0, &options, &s->cobject));
@@ -127,31 +127,31 @@ static void bad_joints(const fixture *f) {
         refuse_link(f, &def, bad->status, "def->custom");
     }
     def.custom = NULL;
-    refuse_link(f, &def, CSTK_NULL_ARGUMENT, "def->custom");
+    refuse_link(f, &def, CSTK_ERROR_NULL_ARGUMENT, "def->custom");
     def.custom = &joint;
     for (int32_t kind = CSTK_JOINT_FIXED; kind < CSTK_JOINT_CUSTOM; ++kind) {
         def.joint = kind;
-        refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "def->custom");
+        refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "def->custom");
     }
     def.joint = CSTK_JOINT_CUSTOM;
     joint.pose = NULL;
-    refuse_link(f, &def, CSTK_NULL_ARGUMENT, "pose");
+    refuse_link(f, &def, CSTK_ERROR_NULL_ARGUMENT, "pose");
     joint = good;
     joint.jacobian = NULL;
-    refuse_link(f, &def, CSTK_NULL_ARGUMENT, "jacobian");
+    refuse_link(f, &def, CSTK_ERROR_NULL_ARGUMENT, "jacobian");
     joint = good;
     const uint32_t counts[] = {0, 65, UINT32_MAX};
     for (int i = 0; i < 3; ++i) {
         joint.coordinates = counts[i];
-        refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinates");
+        refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinates");
     }
     EACH_NOT_FINITE(i) {
         joint = good;
         joint.linear_speed = not_finite[i];
-        refuse_link(f, &def, CSTK_NOT_FINITE, "linear_speed");
+        refuse_link(f, &def, CSTK_ERROR_NOT_FINITE, "linear_speed");
         joint = good;
         joint.angular_speed = not_finite[i];
-        refuse_link(f, &def, CSTK_NOT_FINITE, "angular_speed");
+        refuse_link(f, &def, CSTK_ERROR_NOT_FINITE, "angular_speed");
     }
     CHECK(w.destroyed == 0);
     fixture_unchanged(f);
@@ -169,21 +169,21 @@ static void bad_links(const fixture *f) {
                       "builder");
     }
     def.name = "link1";
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "name");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "name");
     def = good;
     def.parent = FIXTURE_LINKS;
-    refuse_link(f, &def, CSTK_NOT_FOUND, "parent");
+    refuse_link(f, &def, CSTK_ERROR_NOT_FOUND, "parent");
     def = good;
     def.at[0] = NAN;
-    refuse_link(f, &def, CSTK_NOT_FINITE, "def->at");
+    refuse_link(f, &def, CSTK_ERROR_NOT_FINITE, "def->at");
     def = good;
     def.body = f->live[NOUN_ROBOT];
-    refuse_link(f, &def, CSTK_WRONG_HANDLE, "def->body");
+    refuse_link(f, &def, CSTK_ERROR_WRONG_HANDLE, "def->body");
     def = good;
     def.coordinate = 0; /* another joint's */
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
     def.coordinate = FIXTURE_NQ + 1;
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
     CHECK(w.destroyed == 0);
     fixture_unchanged(f);
 }
@@ -331,17 +331,17 @@ static void answers(const scene *s, const double *expected) {
 }
 
 static void bad_poses_given(const scene *s, wrist *w) {
-    const int32_t statuses[] = {1, CSTK_INVALID_ARGUMENT, CSTK_CALLBACK_FAILED, -1, INT32_MIN};
+    const int32_t statuses[] = {1, CSTK_ERROR_INVALID_ARGUMENT, CSTK_ERROR_CALLBACK_FAILED, -1, INT32_MIN};
     for (int i = 0; i < 5; ++i) {
         char returned[32];
         snprintf(returned, sizeof returned, "returned %d", (int)statuses[i]);
         w->pose_status = statuses[i];
-        refuse(s, false, CSTK_CALLBACK_FAILED, returned);
-        refuse(s, false, CSTK_CALLBACK_FAILED, "pose");
+        refuse(s, false, CSTK_ERROR_CALLBACK_FAILED, returned);
+        refuse(s, false, CSTK_ERROR_CALLBACK_FAILED, "pose");
     }
     w->pose_status = CSTK_OK;
     w->leaves_unwritten = true;
-    refuse(s, false, CSTK_NOT_A_ROTATION, "pose");
+    refuse(s, false, CSTK_ERROR_NOT_A_ROTATION, "pose");
     w->leaves_unwritten = false;
     EACH_BAD_POSE(bad) {
         w->pose = bad->pose;
@@ -352,17 +352,17 @@ static void bad_poses_given(const scene *s, wrist *w) {
 
 static void bad_jacobians_given(const scene *s, wrist *w) {
     w->jacobian_status = 7;
-    refuse(s, true, CSTK_CALLBACK_FAILED, "returned 7");
+    refuse(s, true, CSTK_ERROR_CALLBACK_FAILED, "returned 7");
     w->jacobian_status = CSTK_OK;
     for (int entry = 0; entry < 6; ++entry) {
         double bad[6] = {0, 0, 0, 0, 0, 1};
         w->jacobian = bad;
         EACH_NOT_FINITE(i) {
             bad[entry] = not_finite[i];
-            refuse(s, true, CSTK_NOT_FINITE, "Jacobian");
+            refuse(s, true, CSTK_ERROR_NOT_FINITE, "Jacobian");
         }
         bad[entry] = 1.7e308;
-        refuse(s, true, CSTK_INVALID_ARGUMENT, "Jacobian");
+        refuse(s, true, CSTK_ERROR_INVALID_ARGUMENT, "Jacobian");
     }
     w->jacobian = NULL;
 }
@@ -393,7 +393,7 @@ static void bad_functions(const fixture *f) {
     joint = good_joint(&w);
     joint.jacobian = no_jacobian;
     scene_create(f, &joint, &s);
-    refuse(&s, true, CSTK_NOT_FINITE, "Jacobian");
+    refuse(&s, true, CSTK_ERROR_NOT_FINITE, "Jacobian");
     scene_release(&s);
     CHECK(w.destroyed == 2);
     fixture_unchanged(f);
@@ -411,7 +411,7 @@ static void unknown_speeds(const fixture *f) {
         joint.angular_speed = speeds[i][1];
         joint.destroy = NULL;
         scene_create(f, &joint, &s);
-        CHECK_REFUSED(out, slide(&s, &out), CSTK_UNSUPPORTED, "speed");
+        CHECK_REFUSED(out, slide(&s, &out), CSTK_ERROR_UNSUPPORTED, "speed");
         CHECK_OK(gradients(&s, &out));
         scene_release(&s);
         CHECK(w.destroyed == 0);
@@ -436,9 +436,9 @@ static void planar_joint(const fixture *f) {
     CHECK_OK(cstk_robot_link_pose(robot, q, 1, 0, out));
     translation(0.0, 0.0, 0.1, above);
     w.pose = above;
-    CHECK_REFUSED(out, cstk_robot_link_pose(robot, q, 1, 0, out), CSTK_INVALID_ARGUMENT, "plane");
+    CHECK_REFUSED(out, cstk_robot_link_pose(robot, q, 1, 0, out), CSTK_ERROR_INVALID_ARGUMENT, "plane");
     w.pose = tilted;
-    CHECK_REFUSED(out, cstk_robot_link_pose(robot, q, 1, 0, out), CSTK_INVALID_ARGUMENT, "plane");
+    CHECK_REFUSED(out, cstk_robot_link_pose(robot, q, 1, 0, out), CSTK_ERROR_INVALID_ARGUMENT, "plane");
     CHECK_OK(cstk_robot_release(robot));
     CHECK_OK(cstk_robot_builder_release(builder));
     CHECK(w.destroyed == 1);
@@ -448,9 +448,9 @@ static void planar_joint(const fixture *f) {
 static void ask_same_query(wrist *w) {
     const scene *s = w->scene;
     answer out;
-    CHECK_REFUSED(out, distance(s, &out), CSTK_BUSY, "query");
-    CHECK_REFUSED(out, gradients(s, &out), CSTK_BUSY, "query");
-    CHECK_REFUSED(out, slide(s, &out), CSTK_BUSY, "query");
+    CHECK_REFUSED(out, distance(s, &out), CSTK_ERROR_BUSY, "query");
+    CHECK_REFUSED(out, gradients(s, &out), CSTK_ERROR_BUSY, "query");
+    CHECK_REFUSED(out, slide(s, &out), CSTK_ERROR_BUSY, "query");
     w->answered = distance(s, &out);
 }
 
@@ -476,11 +476,11 @@ static void calls_back(const fixture *f) {
     w.scene = &s;
     w.call = ask_same_query;
     CHECK_OK(distance(&s, &out));
-    CHECK(w.answered == CSTK_BUSY &&
+    CHECK(w.answered == CSTK_ERROR_BUSY &&
           memcmp(&out.distance.distance, &expected, sizeof expected) == 0);
     /* It hands on what it was answered. */
-    w.pose_status = CSTK_BUSY;
-    CHECK_REFUSED(out, distance(&s, &out), CSTK_CALLBACK_FAILED, CULPRIT);
+    w.pose_status = CSTK_ERROR_BUSY;
+    CHECK_REFUSED(out, distance(&s, &out), CSTK_ERROR_CALLBACK_FAILED, CULPRIT);
     w.pose_status = CSTK_OK;
     w.call = ask_other_query;
     CHECK_OK(distance(&s, &out));
@@ -537,7 +537,7 @@ static void destroyed_once(const fixture *f) {
     CHECK_OK(cstk_robot_link_pose(other, s.q, 1, WRIST, pose));
     CHECK_OK(cstk_robot_release(other));
     CHECK(w.destroyed == 1);
-    CHECK_FAILS(cstk_robot_release(other), CSTK_WRONG_HANDLE, "robot");
+    CHECK_FAILS(cstk_robot_release(other), CSTK_ERROR_WRONG_HANDLE, "robot");
     CHECK(w.destroyed == 1);
     fixture_unchanged(f);
 }
@@ -572,7 +572,7 @@ static void destroy_calls_back(const fixture *f) {
     scene_create(f, &joint, &s);
     scene_release(&s);
     CHECK(k.destroyed == 1);
-    CHECK_FAILS(cstk_body_retain(k.body), CSTK_WRONG_HANDLE, "body");
+    CHECK_FAILS(cstk_body_retain(k.body), CSTK_ERROR_WRONG_HANDLE, "body");
     fixture_unchanged(f);
 }
 

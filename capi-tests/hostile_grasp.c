@@ -35,21 +35,21 @@ static void attach_refusals(const fixture *f) {
     }
     change = good;
     change.id = f->box + 1000000;
-    refuse(f, &change, CSTK_NOT_FOUND, "s-object");
+    refuse(f, &change, CSTK_ERROR_NOT_FOUND, "s-object");
     change = good;
     change.link = FIXTURE_LINKS;
-    refuse(f, &change, CSTK_NOT_FOUND, "link 4");
+    refuse(f, &change, CSTK_ERROR_NOT_FOUND, "link 4");
     change = good;
     change.touch_links = nowhere;
-    refuse(f, &change, CSTK_NOT_FOUND, "touch link 4");
+    refuse(f, &change, CSTK_ERROR_NOT_FOUND, "touch link 4");
     change.touch_links = NULL;
-    refuse(f, &change, CSTK_NULL_ARGUMENT, "changes[0].touch_links");
+    refuse(f, &change, CSTK_ERROR_NULL_ARGUMENT, "changes[0].touch_links");
     change = good;
     change.pose[3] = NAN;
-    refuse(f, &change, CSTK_NOT_FINITE, "changes[0].pose");
+    refuse(f, &change, CSTK_ERROR_NOT_FINITE, "changes[0].pose");
     change = good;
     change.pose[0] = 2;
-    refuse(f, &change, CSTK_NOT_A_ROTATION, "changes[0].pose");
+    refuse(f, &change, CSTK_ERROR_NOT_A_ROTATION, "changes[0].pose");
     fixture_unchanged(f);
 }
 
@@ -70,7 +70,7 @@ static void attach_elsewhere(const fixture *f) {
     change.kind = CSTK_CHANGE_ATTACH;
     change.space = other;
     CHECK_OK(cstk_environment_apply(world, &change, 1, NULL, NULL));
-    CHECK_FAILS(cstk_classify(f->query, set, f->q, FIXTURE_NQ, &where), CSTK_UNSUPPORTED,
+    CHECK_FAILS(cstk_classify(f->query, set, f->q, FIXTURE_NQ, &where), CSTK_ERROR_UNSUPPORTED,
                 "another space");
     change.kind = CSTK_CHANGE_MOVE;
     CHECK_OK(cstk_environment_apply(world, &change, 1, NULL, NULL));
@@ -103,7 +103,7 @@ static void grasp_and_release(const fixture *f) {
         changes[i].destroy = count_destroyed;
     }
     changes[1].pose[0] = 7;
-    CHECK_FAILS(cstk_environment_apply(world, changes, 2, ids, NULL), CSTK_NOT_A_ROTATION,
+    CHECK_FAILS(cstk_environment_apply(world, changes, 2, ids, NULL), CSTK_ERROR_NOT_A_ROTATION,
                 "changes[1].pose");
     CHECK(destroyed == 0);
     changes[1].pose[0] = 1;
@@ -124,7 +124,7 @@ static void grasp_and_release(const fixture *f) {
     hold.pose[3] = 40.0;
     CHECK_OK(cstk_environment_apply(world, &hold, 1, NULL, NULL));
     double pose[12];
-    CHECK_OK(cstk_environment_object_pose(world, ids[0], pose));
+    CHECK_OK(cstk_environment_get_object_pose(world, ids[0], pose));
     CHECK(pose[3] == 40.0);
     CHECK_OK(cstk_distance(f->query, set, f->q, FIXTURE_NQ, INFINITY, &held_distance));
     CHECK(held_distance.has_witness);
@@ -140,9 +140,9 @@ static void grasp_and_release(const fixture *f) {
 
     /* The two may meet: named in the options of another set. */
     cstk_allowed_pair pair = {FIXTURE_TIP, 0, ids[0], ids[1]};
-    cstk_cobject_options options;
+    cstk_induced_options options;
     cstk_cobject *allowing = NULL;
-    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
     options.allowed = &pair;
     options.allowed_count = 1;
     CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, world, NULL, 0, &options, &allowing));
@@ -174,22 +174,22 @@ static void allowed_refusals(const fixture *f) {
     const uint32_t links[] = {1, 3};
     cstk_allowed_pair pair = {FIXTURE_LINKS, 0, 0, 1};
     cstk_cobject *out;
-    cstk_cobject_options options;
-    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
     options.allowed_count = 1;
     CHECK_REFUSED(out,
                   cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
-                  CSTK_NULL_ARGUMENT, "allowed");
+                  CSTK_ERROR_NULL_ARGUMENT, "allowed");
     options.allowed = &pair;
     CHECK_REFUSED(out,
                   cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
-                  CSTK_NOT_FOUND, "allowed[0]");
+                  CSTK_ERROR_NOT_FOUND, "allowed[0]");
     CHECK_REFUSED(out, cstk_cobject_induced_links(f->space, links, 1, &options, &out),
-                  CSTK_UNSUPPORTED, "allowed");
+                  CSTK_ERROR_UNSUPPORTED, "allowed");
     options.allowed_count = SIZE_MAX / 2;
     CHECK_REFUSED(out,
                   cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
-                  CSTK_WRONG_SIZE, "allowed");
+                  CSTK_ERROR_WRONG_SIZE, "allowed");
     fixture_unchanged(f);
 }
 
@@ -202,49 +202,49 @@ static int stop(double fraction, void *user) {
 static void refuse_pairs(const fixture *f, const cstk_link_pair_options *options,
                          cstk_status status, const char *culprit) {
     cstk_link_pair_list out;
-    CHECK_REFUSED(out, cstk_link_pairs(f->query, f->space, options, NULL, NULL, &out), status,
+    CHECK_REFUSED(out, cstk_find_link_pairs(f->query, f->space, options, NULL, NULL, &out), status,
                   culprit);
 }
 
 static void link_pairs(const fixture *f) {
     cstk_link_pair_list out;
     cstk_link_pair_options options;
-    CHECK_FAILS(cstk_link_pair_options_default(NULL, sizeof options), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_link_pair_options_default(&options, 7), CSTK_WRONG_SIZE, "size");
+    CHECK_FAILS(cstk_link_pair_options_default(NULL, sizeof options), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_link_pair_options_default(&options, 7), CSTK_ERROR_WRONG_SIZE, "size");
     CHECK_OK(cstk_link_pair_options_default(&options, sizeof options));
     EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
-        CHECK_REFUSED(out, cstk_link_pairs(bad->handle, f->space, NULL, NULL, NULL, &out),
+        CHECK_REFUSED(out, cstk_find_link_pairs(bad->handle, f->space, NULL, NULL, NULL, &out),
                       bad->status, "query");
     }
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(out, cstk_link_pairs(f->query, bad->handle, NULL, NULL, NULL, &out),
+        CHECK_REFUSED(out, cstk_find_link_pairs(f->query, bad->handle, NULL, NULL, NULL, &out),
                       bad->status, "space");
     }
     EACH_BAD_OPTIONS(options, bad) { refuse_pairs(f, bad->options, bad->status, "options"); }
-    CHECK_FAILS(cstk_link_pairs(f->query, f->space, NULL, NULL, NULL, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_find_link_pairs(f->query, f->space, NULL, NULL, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "out");
     cstk_link_pair_options changed = options;
     changed.samples = 0;
-    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "samples");
+    refuse_pairs(f, &changed, CSTK_ERROR_INVALID_ARGUMENT, "samples");
     changed.samples = UINT64_MAX;
-    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "samples");
+    refuse_pairs(f, &changed, CSTK_ERROR_INVALID_ARGUMENT, "samples");
     changed = options;
     changed.margin = -1;
-    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "margin");
+    refuse_pairs(f, &changed, CSTK_ERROR_INVALID_ARGUMENT, "margin");
     changed.margin = NAN;
-    refuse_pairs(f, &changed, CSTK_NOT_FINITE, "margin");
+    refuse_pairs(f, &changed, CSTK_ERROR_NOT_FINITE, "margin");
     changed = options;
     changed.always = 1.5;
-    refuse_pairs(f, &changed, CSTK_INVALID_ARGUMENT, "always");
+    refuse_pairs(f, &changed, CSTK_ERROR_INVALID_ARGUMENT, "always");
     const double rest[FIXTURE_NQ] = {0, NAN, 0};
     changed = options;
     changed.rest = rest;
-    refuse_pairs(f, &changed, CSTK_NOT_FINITE, "rest");
-    CHECK_REFUSED(out, cstk_link_pairs(f->query, f->space, NULL, stop, NULL, &out), CSTK_CANCELLED,
+    refuse_pairs(f, &changed, CSTK_ERROR_NOT_FINITE, "rest");
+    CHECK_REFUSED(out, cstk_find_link_pairs(f->query, f->space, NULL, stop, NULL, &out), CSTK_ERROR_CANCELLED,
                   "progress");
 
     /* Three links with bodies in a row: two joined pairs, and one of the first with the last. */
-    CHECK_OK(cstk_link_pairs(f->query, f->space, NULL, NULL, NULL, &out));
+    CHECK_OK(cstk_find_link_pairs(f->query, f->space, NULL, NULL, NULL, &out));
     CHECK(out.count == 3);
     CHECK(out.pairs[0].r_link == 1 && out.pairs[0].s_link == 2);
     CHECK(out.pairs[0].verdict == CSTK_PAIR_ADJACENT && out.pairs[2].verdict == CSTK_PAIR_ADJACENT);

@@ -57,11 +57,11 @@ static void options_numbers(const fixture *f) {
         double *value = (double *)((char *)&options + fields[i].offset);
         EACH_NOT_FINITE(k) {
             *value = not_finite[k];
-            refuse_options(f, &options, CSTK_NOT_FINITE, fields[i].name);
+            refuse_options(f, &options, CSTK_ERROR_NOT_FINITE, fields[i].name);
         }
         for (int k = 0; k < 3; ++k) {
             *value = negative[k];
-            refuse_options(f, &options, CSTK_INVALID_ARGUMENT, fields[i].name);
+            refuse_options(f, &options, CSTK_ERROR_INVALID_ARGUMENT, fields[i].name);
         }
     }
     const double steep[] = {16.000001, 17.0, 1e300};
@@ -69,10 +69,10 @@ static void options_numbers(const fixture *f) {
     for (int i = 0; i < 3; ++i) {
         cstk_hierarchy_options options = default_options();
         options.cost_diameter = steep[i];
-        refuse_options(f, &options, CSTK_INVALID_ARGUMENT, "cost_diameter");
+        refuse_options(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "cost_diameter");
         options = default_options();
         options.aspect_limit = square[i];
-        refuse_options(f, &options, CSTK_INVALID_ARGUMENT, "aspect_limit");
+        refuse_options(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "aspect_limit");
     }
     fixture_unchanged(f);
 }
@@ -102,7 +102,7 @@ static void options_choices(const fixture *f) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         cstk_hierarchy_options options = default_options();
         memcpy((char *)&options + wrong[i].of.offset, &wrong[i].value, sizeof wrong[i].value);
-        refuse_options(f, &options, CSTK_INVALID_ARGUMENT, wrong[i].of.name);
+        refuse_options(f, &options, CSTK_ERROR_INVALID_ARGUMENT, wrong[i].of.name);
     }
     fixture_unchanged(f);
 }
@@ -181,7 +181,7 @@ static void old_caller(const fixture *f) {
     CHECK(same_trees(&trees[0], &trees[1]) && same_trees(&trees[2], &trees[3]));
     CHECK(!same_trees(&trees[0], &trees[2]));
     words[2] = 7;
-    CHECK_REFUSED(out, cstk_body_build(builder, old, never, NULL, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_build(builder, old, never, NULL, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "hull_vertex_limit");
     for (int i = 0; i < 4; ++i) {
         free_tree(&trees[i]);
@@ -201,7 +201,7 @@ static void sizes_in_between(const fixture *f) {
         cstk_body *out;
         options.size = sizes[i];
         CHECK_REFUSED(out, cstk_body_build(f->body_builder, &options, NULL, NULL, &out),
-                      CSTK_NOT_INITIALISED, "options");
+                      CSTK_ERROR_NOT_INITIALISED, "options");
     }
     fixture_unchanged(f);
 }
@@ -215,11 +215,11 @@ static void options_elsewhere(const fixture *f) {
                   cstk_body_build(f->body_builder,
                                   (const cstk_hierarchy_options *)(const void *)(bytes + 1), never,
                                   NULL, &out),
-                  CSTK_INVALID_ARGUMENT, "options");
+                  CSTK_ERROR_INVALID_ARGUMENT, "options");
     CHECK_REFUSED(
         bytes,
         cstk_hierarchy_options_default((cstk_hierarchy_options *)(void *)(bytes + 1), sizeof good),
-        CSTK_INVALID_ARGUMENT, "out");
+        CSTK_ERROR_INVALID_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -248,17 +248,17 @@ static void describe_handles(const fixture *f) {
     answer out;
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         const cstk_body *body = bad->handle;
-        CHECK_REFUSED(out, cstk_body_get_hierarchy(body, &out.hierarchy), bad->status, "body");
-        CHECK_REFUSED(out, cstk_body_get_level(body, 0, &out.level), bad->status, "body");
-        CHECK_REFUSED(out, cstk_body_level(body, 0, ROOM, out.nodes.items, &out.nodes.count),
+        CHECK_REFUSED(out, cstk_body_get_hierarchy_statistics(body, &out.hierarchy), bad->status, "body");
+        CHECK_REFUSED(out, cstk_body_get_level_statistics(body, 0, &out.level), bad->status, "body");
+        CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, ROOM, out.nodes.items, &out.nodes.count),
                       bad->status, "body");
-        CHECK_REFUSED(out, cstk_body_cover(body, ROOM, out.nodes.items, &out.nodes.count),
+        CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, ROOM, out.nodes.items, &out.nodes.count),
                       bad->status, "body");
         CHECK_REFUSED(out, cstk_body_get_node(body, 0, &out.node), bad->status, "body");
         CHECK_REFUSED(out,
-                      cstk_body_node_corners(body, 0, ROOM, out.corners.items, &out.corners.count),
+                      cstk_body_get_node_corners(body, 0, ROOM, out.corners.items, &out.corners.count),
                       bad->status, "body");
-        CHECK_REFUSED(out, cstk_body_nodes_mesh(body, &root, 1, &out.mesh), bad->status, "body");
+        CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, &root, 1, &out.mesh), bad->status, "body");
         CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, "hostile_nodes.glb"), bad->status, "body");
         CHECK_FAILS(cstk_body_save(body, "hostile_body.cstk"), bad->status, "body");
     }
@@ -269,64 +269,64 @@ static void describe_handles(const fixture *f) {
 static void describe_null(const cstk_body *body) {
     const uint32_t root = 0;
     answer out;
-    CHECK_FAILS(cstk_body_get_hierarchy(body, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_body_get_level(body, 0, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_body_get_node(body, 0, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_body_nodes_mesh(body, &root, 1, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_body_load("missing", NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_body_level(body, 0, 1, NULL, &out.nodes.count), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_body_get_hierarchy_statistics(body, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_get_level_statistics(body, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_get_node(body, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_mesh_create_from_nodes(body, &root, 1, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_load("missing", NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, 1, NULL, &out.nodes.count), CSTK_ERROR_NULL_ARGUMENT,
                   "nodes");
-    CHECK_REFUSED(out, cstk_body_level(body, 0, SIZE_MAX, NULL, &out.nodes.count),
-                  CSTK_NULL_ARGUMENT, "nodes");
-    CHECK_REFUSED(out, cstk_body_level(body, 0, ROOM, out.nodes.items, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, SIZE_MAX, NULL, &out.nodes.count),
+                  CSTK_ERROR_NULL_ARGUMENT, "nodes");
+    CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, ROOM, out.nodes.items, NULL), CSTK_ERROR_NULL_ARGUMENT,
                   "count");
-    CHECK_REFUSED(out, cstk_body_cover(body, 1, NULL, &out.nodes.count), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, 1, NULL, &out.nodes.count), CSTK_ERROR_NULL_ARGUMENT,
                   "nodes");
-    CHECK_REFUSED(out, cstk_body_cover(body, ROOM, out.nodes.items, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, ROOM, out.nodes.items, NULL), CSTK_ERROR_NULL_ARGUMENT,
                   "count");
-    CHECK_REFUSED(out, cstk_body_node_corners(body, 0, 1, NULL, &out.corners.count),
-                  CSTK_NULL_ARGUMENT, "xyz");
-    CHECK_REFUSED(out, cstk_body_node_corners(body, 0, ROOM, out.corners.items, NULL),
-                  CSTK_NULL_ARGUMENT, "count");
-    CHECK_REFUSED(out, cstk_body_nodes_mesh(body, NULL, 1, &out.mesh), CSTK_NULL_ARGUMENT, "nodes");
-    CHECK_FAILS(cstk_body_show_nodes(body, NULL, 1, "a.glb"), CSTK_NULL_ARGUMENT, "nodes");
-    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, NULL), CSTK_NULL_ARGUMENT, "file");
-    CHECK_FAILS(cstk_body_save(body, NULL), CSTK_NULL_ARGUMENT, "file");
-    CHECK_REFUSED(out, cstk_body_load(NULL, &out.body), CSTK_NULL_ARGUMENT, "file");
+    CHECK_REFUSED(out, cstk_body_get_node_corners(body, 0, 1, NULL, &out.corners.count),
+                  CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_REFUSED(out, cstk_body_get_node_corners(body, 0, ROOM, out.corners.items, NULL),
+                  CSTK_ERROR_NULL_ARGUMENT, "count");
+    CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, NULL, 1, &out.mesh), CSTK_ERROR_NULL_ARGUMENT, "nodes");
+    CHECK_FAILS(cstk_body_show_nodes(body, NULL, 1, "a.glb"), CSTK_ERROR_NULL_ARGUMENT, "nodes");
+    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
+    CHECK_FAILS(cstk_body_save(body, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
+    CHECK_REFUSED(out, cstk_body_load(NULL, &out.body), CSTK_ERROR_NULL_ARGUMENT, "file");
 }
 
 static void describe_misaligned(const cstk_body *body) {
     const uint32_t nodes[4] = {0, 0, 0, 0};
     const uint32_t *off = OFF(nodes);
     answer out;
-    CHECK_REFUSED(out, cstk_body_get_hierarchy(body, OFF(&out)), CSTK_INVALID_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_body_get_level(body, 0, OFF(&out)), CSTK_INVALID_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_body_get_node(body, 0, OFF(&out)), CSTK_INVALID_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_body_nodes_mesh(body, nodes, 1, OFF(&out)), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_get_hierarchy_statistics(body, OFF(&out)), CSTK_ERROR_INVALID_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_body_get_level_statistics(body, 0, OFF(&out)), CSTK_ERROR_INVALID_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_body_get_node(body, 0, OFF(&out)), CSTK_ERROR_INVALID_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, nodes, 1, OFF(&out)), CSTK_ERROR_INVALID_ARGUMENT,
                   "out");
-    CHECK_REFUSED(out, cstk_body_load("missing", OFF(&out)), CSTK_INVALID_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_body_level(body, 0, 4, OFF(out.nodes.items), &out.nodes.count),
-                  CSTK_INVALID_ARGUMENT, "nodes");
-    CHECK_REFUSED(out, cstk_body_level(body, 0, 4, out.nodes.items, OFF(&out.nodes.count)),
-                  CSTK_INVALID_ARGUMENT, "count");
-    CHECK_REFUSED(out, cstk_body_cover(body, 4, OFF(out.nodes.items), &out.nodes.count),
-                  CSTK_INVALID_ARGUMENT, "nodes");
-    CHECK_REFUSED(out, cstk_body_cover(body, 4, out.nodes.items, OFF(&out.nodes.items[8])),
-                  CSTK_INVALID_ARGUMENT, "count");
+    CHECK_REFUSED(out, cstk_body_load("missing", OFF(&out)), CSTK_ERROR_INVALID_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, 4, OFF(out.nodes.items), &out.nodes.count),
+                  CSTK_ERROR_INVALID_ARGUMENT, "nodes");
+    CHECK_REFUSED(out, cstk_body_get_level_nodes(body, 0, 4, out.nodes.items, OFF(&out.nodes.count)),
+                  CSTK_ERROR_INVALID_ARGUMENT, "count");
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, 4, OFF(out.nodes.items), &out.nodes.count),
+                  CSTK_ERROR_INVALID_ARGUMENT, "nodes");
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, 4, out.nodes.items, OFF(&out.nodes.items[8])),
+                  CSTK_ERROR_INVALID_ARGUMENT, "count");
     CHECK_REFUSED(out,
-                  cstk_body_node_corners(body, 0, 4, OFF(out.corners.items), &out.corners.count),
-                  CSTK_INVALID_ARGUMENT, "xyz");
-    CHECK_REFUSED(out, cstk_body_node_corners(body, 0, 4, out.corners.items, OFF(&out)),
-                  CSTK_INVALID_ARGUMENT, "count");
-    CHECK_REFUSED(out, cstk_body_nodes_mesh(body, off, 1, &out.mesh), CSTK_INVALID_ARGUMENT,
+                  cstk_body_get_node_corners(body, 0, 4, OFF(out.corners.items), &out.corners.count),
+                  CSTK_ERROR_INVALID_ARGUMENT, "xyz");
+    CHECK_REFUSED(out, cstk_body_get_node_corners(body, 0, 4, out.corners.items, OFF(&out)),
+                  CSTK_ERROR_INVALID_ARGUMENT, "count");
+    CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, off, 1, &out.mesh), CSTK_ERROR_INVALID_ARGUMENT,
                   "nodes");
-    CHECK_FAILS(cstk_body_show_nodes(body, off, 1, "a.glb"), CSTK_INVALID_ARGUMENT, "nodes");
+    CHECK_FAILS(cstk_body_show_nodes(body, off, 1, "a.glb"), CSTK_ERROR_INVALID_ARGUMENT, "nodes");
 }
 
 static void numbers_out_of_range(const cstk_body *body) {
     cstk_hierarchy_statistics statistics;
     answer out;
-    CHECK_OK(cstk_body_get_hierarchy(body, &statistics));
+    CHECK_OK(cstk_body_get_hierarchy_statistics(body, &statistics));
     CHECK(statistics.node_count == NODES && statistics.leaf_count == LEAVES);
     const uint32_t levels[] = {(uint32_t)statistics.depth, (uint32_t)statistics.depth + 1,
                                0x7FFFFFFFu, UINT32_MAX};
@@ -337,29 +337,29 @@ static void numbers_out_of_range(const cstk_body *body) {
         snprintf(level, sizeof level, "level %u", (unsigned)levels[i]);
         snprintf(node, sizeof node, "node %u", (unsigned)nodes[i]);
         const uint32_t list[3] = {0, nodes[i], 1};
-        CHECK_REFUSED(out, cstk_body_get_level(body, levels[i], &out.level), CSTK_NOT_FOUND, level);
-        CHECK_REFUSED(out, cstk_body_level(body, levels[i], 4, out.nodes.items, &out.nodes.count),
-                      CSTK_NOT_FOUND, level);
-        CHECK_REFUSED(out, cstk_body_level(body, levels[i], 0, NULL, &out.nodes.count),
-                      CSTK_NOT_FOUND, level);
-        CHECK_REFUSED(out, cstk_body_get_node(body, nodes[i], &out.node), CSTK_NOT_FOUND, node);
+        CHECK_REFUSED(out, cstk_body_get_level_statistics(body, levels[i], &out.level), CSTK_ERROR_NOT_FOUND, level);
+        CHECK_REFUSED(out, cstk_body_get_level_nodes(body, levels[i], 4, out.nodes.items, &out.nodes.count),
+                      CSTK_ERROR_NOT_FOUND, level);
+        CHECK_REFUSED(out, cstk_body_get_level_nodes(body, levels[i], 0, NULL, &out.nodes.count),
+                      CSTK_ERROR_NOT_FOUND, level);
+        CHECK_REFUSED(out, cstk_body_get_node(body, nodes[i], &out.node), CSTK_ERROR_NOT_FOUND, node);
         CHECK_REFUSED(
-            out, cstk_body_node_corners(body, nodes[i], 4, out.corners.items, &out.corners.count),
-            CSTK_NOT_FOUND, node);
-        CHECK_REFUSED(out, cstk_body_nodes_mesh(body, list, 3, &out.mesh), CSTK_NOT_FOUND, node);
-        CHECK_FAILS(cstk_body_show_nodes(body, list, 3, "hostile_nodes.glb"), CSTK_NOT_FOUND, node);
+            out, cstk_body_get_node_corners(body, nodes[i], 4, out.corners.items, &out.corners.count),
+            CSTK_ERROR_NOT_FOUND, node);
+        CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, list, 3, &out.mesh), CSTK_ERROR_NOT_FOUND, node);
+        CHECK_FAILS(cstk_body_show_nodes(body, list, 3, "hostile_nodes.glb"), CSTK_ERROR_NOT_FOUND, node);
     }
     CHECK(access("hostile_nodes.glb", F_OK) != 0);
-    CHECK_REFUSED(out, cstk_body_cover(body, 0, out.nodes.items, &out.nodes.count),
-                  CSTK_INVALID_ARGUMENT, "max_count");
-    CHECK_REFUSED(out, cstk_body_cover(body, 0, NULL, &out.nodes.count), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, 0, out.nodes.items, &out.nodes.count),
+                  CSTK_ERROR_INVALID_ARGUMENT, "max_count");
+    CHECK_REFUSED(out, cstk_body_get_cover_nodes(body, 0, NULL, &out.nodes.count), CSTK_ERROR_INVALID_ARGUMENT,
                   "max_count");
     const size_t huge[] = {SIZE_MAX, SIZE_MAX / 4 + 1, SIZE_MAX / 8 + 1};
     for (int i = 0; i < 3; ++i) {
-        CHECK_REFUSED(out, cstk_body_nodes_mesh(body, nodes, huge[i], &out.mesh), CSTK_WRONG_SIZE,
+        CHECK_REFUSED(out, cstk_mesh_create_from_nodes(body, nodes, huge[i], &out.mesh), CSTK_ERROR_WRONG_SIZE,
                       "nodes");
         CHECK_FAILS(cstk_body_show_nodes(body, nodes, huge[i], "hostile_nodes.glb"),
-                    CSTK_WRONG_SIZE, "nodes");
+                    CSTK_ERROR_WRONG_SIZE, "nodes");
     }
 }
 
@@ -380,14 +380,14 @@ static void rooms(const cstk_body *body) {
         for (uint32_t level = 0; level < 2; ++level) {
             const size_t all = level + 1;
             memset(&out, CHECK_SENTINEL, sizeof out);
-            CHECK_OK(cstk_body_level(body, level, room, room > 0 ? out.nodes.items : NULL,
+            CHECK_OK(cstk_body_get_level_nodes(body, level, room, room > 0 ? out.nodes.items : NULL,
                                      &out.nodes.count));
             CHECK(out.nodes.count == all);
             check_rest_untouched(&out.nodes.items[room < all ? room : all], &out.nodes.items[ROOM],
                                  "level");
         }
         memset(&out, CHECK_SENTINEL, sizeof out);
-        CHECK_OK(cstk_body_node_corners(body, 0, room, room > 0 ? out.corners.items : NULL,
+        CHECK_OK(cstk_body_get_node_corners(body, 0, room, room > 0 ? out.corners.items : NULL,
                                         &out.corners.count));
         const size_t all = root.corner_count;
         CHECK(out.corners.count == all && all > 2 && all < ROOM);
@@ -395,7 +395,7 @@ static void rooms(const cstk_body *body) {
                              &out.corners.items[3 * ROOM], "node_corners");
         if (room > 0) {
             memset(&out, CHECK_SENTINEL, sizeof out);
-            CHECK_OK(cstk_body_cover(body, room, out.nodes.items, &out.nodes.count));
+            CHECK_OK(cstk_body_get_cover_nodes(body, room, out.nodes.items, &out.nodes.count));
             CHECK(out.nodes.count == (room < LEAVES ? room : LEAVES));
             check_rest_untouched(&out.nodes.items[out.nodes.count], &out.nodes.items[ROOM],
                                  "cover");
@@ -410,14 +410,14 @@ static void meshes(const fixture *f, const cstk_body *body) {
         if (bad->handle != NULL) {
             CHECK_FAILS(cstk_mesh_release(bad->handle), bad->status, "mesh");
         }
-        CHECK_REFUSED(view, cstk_mesh_get(bad->handle, &view), bad->status, "mesh");
+        CHECK_REFUSED(view, cstk_mesh_get_view(bad->handle, &view), bad->status, "mesh");
     }
-    CHECK_FAILS(cstk_mesh_get(f->mesh, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(view, cstk_mesh_get(f->mesh, OFF(&view)), CSTK_INVALID_ARGUMENT, "out");
+    CHECK_FAILS(cstk_mesh_get_view(f->mesh, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(view, cstk_mesh_get_view(f->mesh, OFF(&view)), CSTK_ERROR_INVALID_ARGUMENT, "out");
     /* No nodes, no faces. */
     cstk_mesh *empty = NULL;
-    CHECK_OK(cstk_body_nodes_mesh(body, NULL, 0, &empty));
-    CHECK_OK(cstk_mesh_get(empty, &view));
+    CHECK_OK(cstk_mesh_create_from_nodes(body, NULL, 0, &empty));
+    CHECK_OK(cstk_mesh_get_view(empty, &view));
     CHECK(view.vertex_count == 0 && view.face_count == 0 && view.index_count == 0);
     CHECK_OK(cstk_mesh_release(empty));
     fixture_unchanged(f);
@@ -437,28 +437,28 @@ static void file_names(const fixture *f, const cstk_body *body) {
     const uint32_t root = 0;
     memset(longest, 'x', sizeof longest);
     memcpy(longest + sizeof longest - 5, ".glb", 5);
-    refuse_picture(body, "", CSTK_UNSUPPORTED, ".glb");
-    refuse_picture(body, ".", CSTK_UNSUPPORTED, ".glb");
-    refuse_picture(body, "hostile_nodes", CSTK_UNSUPPORTED, "hostile_nodes");
-    refuse_picture(body, "hostile_nodes.gltf", CSTK_UNSUPPORTED, "hostile_nodes.gltf");
-    refuse_picture(body, "hostile_nodes.glb/", CSTK_IO, "hostile_nodes.glb");
-    refuse_picture(body, ".glb", CSTK_UNSUPPORTED, ".glb");
-    refuse_picture(body, "no_such_folder/a.glb", CSTK_IO, "no_such_folder");
-    refuse_picture(body, longest, CSTK_IO, "xxx");
+    refuse_picture(body, "", CSTK_ERROR_UNSUPPORTED, ".glb");
+    refuse_picture(body, ".", CSTK_ERROR_UNSUPPORTED, ".glb");
+    refuse_picture(body, "hostile_nodes", CSTK_ERROR_UNSUPPORTED, "hostile_nodes");
+    refuse_picture(body, "hostile_nodes.gltf", CSTK_ERROR_UNSUPPORTED, "hostile_nodes.gltf");
+    refuse_picture(body, "hostile_nodes.glb/", CSTK_ERROR_IO, "hostile_nodes.glb");
+    refuse_picture(body, ".glb", CSTK_ERROR_UNSUPPORTED, ".glb");
+    refuse_picture(body, "no_such_folder/a.glb", CSTK_ERROR_IO, "no_such_folder");
+    refuse_picture(body, longest, CSTK_ERROR_IO, "xxx");
     mkdir("hostile_folder.glb", 0777);
-    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, "hostile_folder.glb"), CSTK_IO,
+    CHECK_FAILS(cstk_body_show_nodes(body, &root, 1, "hostile_folder.glb"), CSTK_ERROR_IO,
                 "hostile_folder.glb");
-    CHECK_FAILS(cstk_body_save(body, "hostile_folder.glb"), CSTK_IO, "hostile_folder.glb");
-    CHECK_REFUSED(out, cstk_body_load("hostile_folder.glb", &out), CSTK_IO, "hostile_folder.glb");
+    CHECK_FAILS(cstk_body_save(body, "hostile_folder.glb"), CSTK_ERROR_IO, "hostile_folder.glb");
+    CHECK_REFUSED(out, cstk_body_load("hostile_folder.glb", &out), CSTK_ERROR_IO, "hostile_folder.glb");
     CHECK(rmdir("hostile_folder.glb") == 0);
-    CHECK_FAILS(cstk_body_save(body, ""), CSTK_IO, "");
-    CHECK_FAILS(cstk_body_save(body, "."), CSTK_IO, ".");
-    CHECK_FAILS(cstk_body_save(body, longest), CSTK_IO, "xxx");
-    CHECK_FAILS(cstk_body_save(body, "no_such_folder/a"), CSTK_IO, "no_such_folder");
-    CHECK_REFUSED(out, cstk_body_load("", &out), CSTK_IO, "");
-    CHECK_REFUSED(out, cstk_body_load("missing \xff.cstk", &out), CSTK_IO, "missing");
-    CHECK_REFUSED(out, cstk_body_load("no_such_folder/a", &out), CSTK_IO, "no_such_folder");
-    CHECK_REFUSED(out, cstk_body_load(longest, &out), CSTK_IO, "xxx");
+    CHECK_FAILS(cstk_body_save(body, ""), CSTK_ERROR_IO, "");
+    CHECK_FAILS(cstk_body_save(body, "."), CSTK_ERROR_IO, ".");
+    CHECK_FAILS(cstk_body_save(body, longest), CSTK_ERROR_IO, "xxx");
+    CHECK_FAILS(cstk_body_save(body, "no_such_folder/a"), CSTK_ERROR_IO, "no_such_folder");
+    CHECK_REFUSED(out, cstk_body_load("", &out), CSTK_ERROR_IO, "");
+    CHECK_REFUSED(out, cstk_body_load("missing \xff.cstk", &out), CSTK_ERROR_IO, "missing");
+    CHECK_REFUSED(out, cstk_body_load("no_such_folder/a", &out), CSTK_ERROR_IO, "no_such_folder");
+    CHECK_REFUSED(out, cstk_body_load(longest, &out), CSTK_ERROR_IO, "xxx");
     fixture_unchanged(f);
 }
 

@@ -84,16 +84,16 @@ static void handles(const fixture *f, const form *of) {
         refuse(of, &a, bad->status, "body_b");
     }
     a = good_question(f);
-    CHECK_FAILS(of->ask(&a, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(of->ask(&a, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
 }
 
 static void poses(const fixture *f, const form *of) {
     question a = good_question(f);
     a.pose_a = NULL;
-    refuse(of, &a, CSTK_NULL_ARGUMENT, "pose_a");
+    refuse(of, &a, CSTK_ERROR_NULL_ARGUMENT, "pose_a");
     a = good_question(f);
     a.pose_b = NULL;
-    refuse(of, &a, CSTK_NULL_ARGUMENT, "pose_b");
+    refuse(of, &a, CSTK_ERROR_NULL_ARGUMENT, "pose_b");
     EACH_BAD_POSE(bad) {
         a = good_question(f);
         a.pose_a = bad->pose;
@@ -109,7 +109,7 @@ static void numbers(const fixture *f, const form *of) {
     question a = good_question(f);
     for (int i = 0; i < 3 && of->number != NULL; ++i) {
         a.number = wrong[i];
-        refuse(of, &a, i == 0 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT, of->number);
+        refuse(of, &a, i == 0 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT, of->number);
     }
     answer out;
     a.number = INFINITY;
@@ -130,13 +130,13 @@ static void planar(const fixture *f, const form *of) {
     CHECK_OK(cstk_body_builder_release(builder));
     question a = good_question(f);
     a.body_b = flat;
-    refuse(of, &a, CSTK_INVALID_ARGUMENT, "dimension");
+    refuse(of, &a, CSTK_ERROR_INVALID_ARGUMENT, "dimension");
     a.body_a = flat;
     translation(0, 0, 1e-9, raised);
     a.pose_b = raised;
-    refuse(of, &a, CSTK_INVALID_ARGUMENT, "pose");
+    refuse(of, &a, CSTK_ERROR_INVALID_ARGUMENT, "pose");
     a.pose_b = upside_down;
-    refuse(of, &a, CSTK_INVALID_ARGUMENT, "pose");
+    refuse(of, &a, CSTK_ERROR_INVALID_ARGUMENT, "pose");
     CHECK_OK(cstk_body_release(flat));
 }
 
@@ -171,7 +171,7 @@ static void scales(const fixture *f) {
             CHECK(fabs(deep.penetrations[0].depth - s / sqrt(3)) <= 1e-12 * s);
             CHECK_OK(cstk_body_release(body));
         } else {
-            CHECK_FAILS(status, s < 1 ? CSTK_DEGENERATE : CSTK_INVALID_ARGUMENT, "polyhedron");
+            CHECK_FAILS(status, s < 1 ? CSTK_ERROR_DEGENERATE : CSTK_ERROR_INVALID_ARGUMENT, "polyhedron");
         }
         CHECK_OK(cstk_body_builder_release(builder));
     }

@@ -40,8 +40,8 @@ static int32_t class_of(const double *q, size_t nq, int32_t *out, void *user) {
     }
     if (!t->leaves_unwritten) {
         *out = t->written_class != NULL ? *t->written_class
-               : away(t, q) <= 0.0      ? CSTK_INSIDE
-                                        : CSTK_OUTSIDE;
+               : away(t, q) <= 0.0      ? CSTK_CLASS_INSIDE
+                                        : CSTK_CLASS_OUTSIDE;
     }
     return t->class_status;
 }
@@ -213,7 +213,7 @@ static void answers(const scene *s, double expected) {
 static double distance_now(const scene *s) {
     answer out;
     CHECK_OK(distance(s, s->sets[ALONE], &out));
-    CHECK(out.distance.kind == CSTK_EXACT);
+    CHECK(out.distance.kind == CSTK_DISTANCE_EXACT);
     return out.distance.distance;
 }
 
@@ -230,65 +230,65 @@ static void bad_predicates(const fixture *f) {
     cstk_pure_options options;
     const cstk_predicate good = good_predicate(&t);
     cstk_predicate predicate = good;
-    refuse_predicate(f, NULL, CSTK_NULL_ARGUMENT, "predicate");
+    refuse_predicate(f, NULL, CSTK_ERROR_NULL_ARGUMENT, "predicate");
     EACH_BAD_OPTIONS(good, bad) { refuse_predicate(f, bad->options, bad->status, "predicate"); }
     predicate.classify = NULL;
-    refuse_predicate(f, &predicate, CSTK_NULL_ARGUMENT, "classify");
+    refuse_predicate(f, &predicate, CSTK_ERROR_NULL_ARGUMENT, "classify");
     const uint32_t flags[] = {2, UINT32_MAX};
     for (int i = 0; i < 2; ++i) {
         predicate = good;
         predicate.distance_is_bound = flags[i];
-        refuse_predicate(f, &predicate, CSTK_INVALID_ARGUMENT, "distance_is_bound");
+        refuse_predicate(f, &predicate, CSTK_ERROR_INVALID_ARGUMENT, "distance_is_bound");
         predicate = good;
         predicate.knows_depth = flags[i];
-        refuse_predicate(f, &predicate, CSTK_INVALID_ARGUMENT, "knows_depth");
+        refuse_predicate(f, &predicate, CSTK_ERROR_INVALID_ARGUMENT, "knows_depth");
     }
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
         CHECK_REFUSED(out, cstk_cobject_predicate(bad->handle, &good, NULL, &out), bad->status,
                       "space");
     }
-    CHECK_FAILS(cstk_cobject_predicate(f->space, &good, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_cobject_predicate(f->space, &good, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     CHECK_OK(cstk_pure_options_default(&options, sizeof options));
     options.scale = NAN;
-    CHECK_REFUSED(out, cstk_cobject_predicate(f->space, &good, &options, &out), CSTK_NOT_FINITE,
+    CHECK_REFUSED(out, cstk_cobject_predicate(f->space, &good, &options, &out), CSTK_ERROR_NOT_FINITE,
                   "scale");
     options.cookie = 0;
     CHECK_REFUSED(out, cstk_cobject_predicate(f->space, &good, &options, &out),
-                  CSTK_NOT_INITIALISED, "options");
+                  CSTK_ERROR_NOT_INITIALISED, "options");
     CHECK(t.destroyed == 0);
     fixture_unchanged(f);
 }
 
 static void bad_statuses(const scene *s, trick *t) {
-    const int32_t statuses[] = {1, CSTK_NOT_FINITE, CSTK_CALLBACK_FAILED, -1, INT32_MIN};
+    const int32_t statuses[] = {1, CSTK_ERROR_NOT_FINITE, CSTK_ERROR_CALLBACK_FAILED, -1, INT32_MIN};
     for (int i = 0; i < 5; ++i) {
         char returned[32];
         snprintf(returned, sizeof returned, "returned %d", (int)statuses[i]);
         t->class_status = statuses[i];
-        refuse(s, ASKS_CLASS, CSTK_CALLBACK_FAILED, returned);
-        refuse(s, ASKS_CLASS, CSTK_CALLBACK_FAILED, "predicate's class");
+        refuse(s, ASKS_CLASS, CSTK_ERROR_CALLBACK_FAILED, returned);
+        refuse(s, ASKS_CLASS, CSTK_ERROR_CALLBACK_FAILED, "predicate's class");
         t->class_status = CSTK_OK;
         t->distance_status = statuses[i];
-        refuse(s, ASKS_DISTANCE, CSTK_CALLBACK_FAILED, returned);
-        refuse(s, ASKS_DISTANCE, CSTK_CALLBACK_FAILED, "predicate's distance");
+        refuse(s, ASKS_DISTANCE, CSTK_ERROR_CALLBACK_FAILED, returned);
+        refuse(s, ASKS_DISTANCE, CSTK_ERROR_CALLBACK_FAILED, "predicate's distance");
         t->distance_status = CSTK_OK;
         t->gradient_status = statuses[i];
-        refuse(s, ASKS_GRADIENT, CSTK_CALLBACK_FAILED, returned);
-        refuse(s, ASKS_GRADIENT, CSTK_CALLBACK_FAILED, "predicate's gradient");
+        refuse(s, ASKS_GRADIENT, CSTK_ERROR_CALLBACK_FAILED, returned);
+        refuse(s, ASKS_GRADIENT, CSTK_ERROR_CALLBACK_FAILED, "predicate's gradient");
         t->gradient_status = CSTK_OK;
     }
 }
 
 static void bad_numbers(const scene *s, trick *t) {
-    const int32_t classes[] = {-1, CSTK_INSIDE + 1, INT32_MIN, INT32_MAX};
+    const int32_t classes[] = {-1, CSTK_CLASS_INSIDE + 1, INT32_MIN, INT32_MAX};
     for (int i = 0; i < 4; ++i) {
         t->written_class = &classes[i];
-        refuse(s, ASKS_CLASS, CSTK_CALLBACK_FAILED, "class");
+        refuse(s, ASKS_CLASS, CSTK_ERROR_CALLBACK_FAILED, "class");
     }
     t->written_class = NULL;
     EACH_NOT_FINITE(i) {
         t->written_distance = &not_finite[i];
-        refuse(s, ASKS_DISTANCE, CSTK_CALLBACK_FAILED, "distance");
+        refuse(s, ASKS_DISTANCE, CSTK_ERROR_CALLBACK_FAILED, "distance");
     }
     t->written_distance = NULL;
     const double numbers[] = {NAN, INFINITY, -INFINITY, 1e300, -DBL_MAX};
@@ -297,12 +297,12 @@ static void bad_numbers(const scene *s, trick *t) {
             double row[NQ] = {unwritten, unwritten, unwritten};
             row[entry] = numbers[i];
             t->written_gradient = row;
-            refuse(s, ASKS_GRADIENT, CSTK_CALLBACK_FAILED, "gradient");
+            refuse(s, ASKS_GRADIENT, CSTK_ERROR_CALLBACK_FAILED, "gradient");
         }
     }
     t->written_gradient = NULL;
     t->leaves_unwritten = true;
-    refuse(s, ASKS_CLASS, CSTK_CALLBACK_FAILED, "predicate");
+    refuse(s, ASKS_CLASS, CSTK_ERROR_CALLBACK_FAILED, "predicate");
     t->leaves_unwritten = false;
 }
 
@@ -311,13 +311,13 @@ static void contradictions(const scene *s, trick *t) {
     const struct {
         int32_t point_class;
         double distance;
-    } wrong[] = {{CSTK_INSIDE, 1e-300}, {CSTK_INSIDE, 1.0},    {CSTK_CONTACT, 0.0},
-                 {CSTK_CONTACT, -1e-9}, {CSTK_OUTSIDE, -1.0},  {CSTK_OUTSIDE, 0.0},
-                 {CSTK_OUTSIDE, -0.0},  {CSTK_CONTACT, -1e300}};
+    } wrong[] = {{CSTK_CLASS_INSIDE, 1e-300}, {CSTK_CLASS_INSIDE, 1.0},    {CSTK_CLASS_CONTACT, 0.0},
+                 {CSTK_CLASS_CONTACT, -1e-9}, {CSTK_CLASS_OUTSIDE, -1.0},  {CSTK_CLASS_OUTSIDE, 0.0},
+                 {CSTK_CLASS_OUTSIDE, -0.0},  {CSTK_CLASS_CONTACT, -1e300}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         t->written_class = &wrong[i].point_class;
         t->written_distance = &wrong[i].distance;
-        refuse(s, ASKS_DISTANCE, CSTK_CALLBACK_FAILED, "C-object");
+        refuse(s, ASKS_DISTANCE, CSTK_ERROR_CALLBACK_FAILED, "C-object");
     }
     t->written_class = NULL;
     t->written_distance = NULL;
@@ -356,7 +356,7 @@ static void no_gradient(const fixture *f) {
     scene_create(f, &predicate, &s);
     const double expected = distance_now(&s);
     CHECK(expected > 0.1);
-    refuse(&s, ASKS_GRADIENT, CSTK_UNSUPPORTED, "gradient");
+    refuse(&s, ASKS_GRADIENT, CSTK_ERROR_UNSUPPORTED, "gradient");
     for (int k = ALONE; k < SETS; ++k) {
         CHECK_OK(witnesses(&s, s.sets[k], &out));
         if (k != COMPLEMENT) {
@@ -375,11 +375,11 @@ static void ask_same_query(trick *t) {
     for (int i = 0; i < FORMS; ++i) {
         if (forms[i].ask != show) {
             answer out;
-            CHECK_REFUSED(out, forms[i].ask(s, s->f->cobject, &out), CSTK_BUSY, "query");
-            CHECK_REFUSED(out, forms[i].ask(s, s->sets[UNION], &out), CSTK_BUSY, "query");
+            CHECK_REFUSED(out, forms[i].ask(s, s->f->cobject, &out), CSTK_ERROR_BUSY, "query");
+            CHECK_REFUSED(out, forms[i].ask(s, s->sets[UNION], &out), CSTK_ERROR_BUSY, "query");
         }
     }
-    t->answered = CSTK_BUSY;
+    t->answered = CSTK_ERROR_BUSY;
     t->call = call;
 }
 
@@ -410,11 +410,11 @@ static void calls_back(const fixture *f) {
         for (int k = 0; k < SETS; ++k) {
             t.answered = CSTK_OK;
             CHECK_OK(forms[i].ask(&s, s.sets[k], &out));
-            CHECK((t.answered == CSTK_BUSY) == (t.call != NULL));
+            CHECK((t.answered == CSTK_ERROR_BUSY) == (t.call != NULL));
             /* It hands on what it was answered. */
             t.class_status = t.answered;
             CHECK_STATUS(forms[i].ask(&s, s.sets[k], &out),
-                         t.call != NULL ? CSTK_CALLBACK_FAILED : CSTK_OK);
+                         t.call != NULL ? CSTK_ERROR_CALLBACK_FAILED : CSTK_OK);
             t.class_status = CSTK_OK;
         }
     }
@@ -445,7 +445,7 @@ static void scaled_away(const fixture *f) {
         CHECK_OK(cstk_cobject_predicate(f->space, &predicate, &options, &set));
         t.written_distance = &distances[i];
         const cstk_status status = cstk_distance(f->query, set, f->q, NQ, INFINITY, &d);
-        if (status == CSTK_OK && (d.kind == CSTK_EMPTY_SET || d.distance == 0.0)) {
+        if (status == CSTK_OK && (d.kind == CSTK_DISTANCE_EMPTY || d.distance == 0.0)) {
             fprintf(stderr, "distance %g, scale %g: kind %d, %g\n", distances[i], scales[i],
                     (int)d.kind, d.distance);
             ++check_failures;

@@ -5,7 +5,7 @@
 #include "fixture.h"
 
 static void query_create(const fixture *f) {
-    CHECK_FAILS(cstk_query_create(NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_query_create(NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
         CHECK_FAILS(cstk_query_retain(bad->handle), bad->status, "query");
         if (bad->handle != NULL) {
@@ -23,7 +23,7 @@ static void get_statistics(const fixture *f) {
         CHECK_REFUSED(out, cstk_query_get_statistics(bad->handle, true, &out), bad->status,
                       "query");
     }
-    CHECK_FAILS(cstk_query_get_statistics(f->query, true, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_query_get_statistics(f->query, true, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     /* The call that failed has not reset them either. */
     CHECK_OK(cstk_query_get_statistics(f->query, false, &out));
     CHECK(before.primitive_pairs > 0 && memcmp(&before, &out, sizeof out) == 0);
@@ -67,7 +67,7 @@ static cstk_status classify(const question *a, answer *out) {
 }
 
 static cstk_status classify_at(const question *a, answer *out) {
-    return cstk_classify_at(a->query, a->cobject, a->at, a->count, out ? &out->point_class : NULL);
+    return cstk_classify_at_link_poses(a->query, a->cobject, a->at, a->count, out ? &out->point_class : NULL);
 }
 
 static cstk_status within(const question *a, answer *out) {
@@ -75,7 +75,7 @@ static cstk_status within(const question *a, answer *out) {
 }
 
 static cstk_status within_at(const question *a, answer *out) {
-    return cstk_within_at(a->query, a->cobject, a->at, a->count, a->number,
+    return cstk_within_at_link_poses(a->query, a->cobject, a->at, a->count, a->number,
                           out ? &out->within : NULL);
 }
 
@@ -85,7 +85,7 @@ static cstk_status distance(const question *a, answer *out) {
 }
 
 static cstk_status distance_at(const question *a, answer *out) {
-    return cstk_distance_at(a->query, a->cobject, a->at, a->count, a->number,
+    return cstk_distance_at_link_poses(a->query, a->cobject, a->at, a->count, a->number,
                             out ? &out->distance : NULL);
 }
 
@@ -95,7 +95,7 @@ static cstk_status witnesses(const question *a, answer *out) {
 }
 
 static cstk_status witnesses_at(const question *a, answer *out) {
-    return cstk_witnesses_at(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
+    return cstk_witnesses_at_link_poses(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
                              out ? &out->list : NULL);
 }
 
@@ -162,9 +162,9 @@ static void query_handles(const fixture *f, const form *of) {
         refuse(of, &a, bad->status, "cobject");
     }
     a.cobject = f->cobject;
-    CHECK_FAILS(of->ask(&a, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(of->ask(&a, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     a.at = NULL;
-    refuse(of, &a, CSTK_NULL_ARGUMENT, of->by_poses ? "link_poses" : "q is NULL");
+    refuse(of, &a, CSTK_ERROR_NULL_ARGUMENT, of->by_poses ? "link_poses" : "q is NULL");
 }
 
 static void query_counts(const fixture *f, const form *of) {
@@ -173,7 +173,7 @@ static void query_counts(const fixture *f, const form *of) {
     const size_t counts[] = {0, 1, good - 1, SIZE_MAX, SIZE_MAX / 8 + 2};
     for (int i = 0; i < 5; ++i) {
         a.count = counts[i];
-        refuse(of, &a, CSTK_WRONG_SIZE, "");
+        refuse(of, &a, CSTK_ERROR_WRONG_SIZE, "");
     }
 }
 
@@ -183,7 +183,7 @@ static void query_numbers(const fixture *f, const form *of) {
         const double numbers[] = {NAN, -INFINITY, -1e-300};
         for (int i = 0; i < 3; ++i) {
             a.number = numbers[i];
-            refuse(of, &a, i == 0 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT, of->number);
+            refuse(of, &a, i == 0 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT, of->number);
         }
         /* The largest count there is asks for all, and takes no memory for those that are not
          * there. */
@@ -202,11 +202,11 @@ static void query_coordinates(const fixture *f, const form *of) {
         EACH_NOT_FINITE(i) {
             memcpy(q, f->q, sizeof q);
             q[entry] = not_finite[i];
-            refuse(of, &a, CSTK_NOT_FINITE, "configuration");
+            refuse(of, &a, CSTK_ERROR_NOT_FINITE, "configuration");
         }
     }
     q[FIXTURE_NQ - 1] = 1e300;
-    refuse(of, &a, CSTK_INVALID_ARGUMENT, "configuration");
+    refuse(of, &a, CSTK_ERROR_INVALID_ARGUMENT, "configuration");
 }
 
 static void query_poses(const fixture *f, const form *of) {
@@ -227,12 +227,12 @@ static void query_limits(const fixture *f, const form *of) {
     }
     const question a = good_question(f, of);
     answer out;
-    CHECK_FAILS(cstk_query_set_contacts(f->query, 3), CSTK_INVALID_ARGUMENT, "3 is none");
-    CHECK_FAILS(cstk_query_set_contacts(f->query, -1), CSTK_INVALID_ARGUMENT, "-1 is none");
+    CHECK_FAILS(cstk_query_set_contacts(f->query, 3), CSTK_ERROR_INVALID_ARGUMENT, "3 is none");
+    CHECK_FAILS(cstk_query_set_contacts(f->query, -1), CSTK_ERROR_INVALID_ARGUMENT, "-1 is none");
     CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_NEAREST));
     CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_ALL));
     CHECK_OK(cstk_query_set_limit(f->query, 1));
-    refuse(of, &a, CSTK_LIMIT, "limit of 1");
+    refuse(of, &a, CSTK_ERROR_LIMIT, "limit of 1");
     CHECK_OK(cstk_query_set_limit(f->query, UINT64_MAX));
     CHECK_OK(of->ask(&a, &out));
     CHECK_OK(cstk_query_set_limit(f->query, 0));
@@ -277,18 +277,18 @@ static void slide_arguments(const fixture *f, const cstk_slide_options *options)
         CHECK_REFUSED(out,
                       cstk_slide(f->query, f->cobject, null[i].q, nq, null[i].step, nq,
                                  null[i].options, null[i].reached, null[i].result),
-                      CSTK_NULL_ARGUMENT, null[i].culprit);
+                      CSTK_ERROR_NULL_ARGUMENT, null[i].culprit);
     }
     const size_t counts[] = {0, 1, FIXTURE_NQ - 1, SIZE_MAX};
     for (int i = 0; i < 4; ++i) {
         CHECK_REFUSED(out,
                       cstk_slide(f->query, f->cobject, q, counts[i], step, nq, options, out.reached,
                                  &out.result),
-                      CSTK_WRONG_SIZE, "");
+                      CSTK_ERROR_WRONG_SIZE, "");
         CHECK_REFUSED(out,
                       cstk_slide(f->query, f->cobject, q, nq, step, counts[i], options, out.reached,
                                  &out.result),
-                      CSTK_WRONG_SIZE, "step");
+                      CSTK_ERROR_WRONG_SIZE, "step");
     }
 }
 
@@ -305,11 +305,11 @@ static void slide_numbers(const fixture *f, const cstk_slide_options *good) {
             CHECK_REFUSED(out,
                           cstk_slide(f->query, f->cobject, bad, FIXTURE_NQ, step, FIXTURE_NQ, good,
                                      out.reached, &out.result),
-                          CSTK_NOT_FINITE, "configuration");
+                          CSTK_ERROR_NOT_FINITE, "configuration");
             CHECK_REFUSED(out,
                           cstk_slide(f->query, f->cobject, f->q, FIXTURE_NQ, bad, FIXTURE_NQ, good,
                                      out.reached, &out.result),
-                          CSTK_NOT_FINITE, "step");
+                          CSTK_ERROR_NOT_FINITE, "step");
         }
     }
     const double far[] = {1e60, 1e200, 1e300};
@@ -318,7 +318,7 @@ static void slide_numbers(const fixture *f, const cstk_slide_options *good) {
         CHECK_REFUSED(out,
                       cstk_slide(f->query, f->cobject, f->q, FIXTURE_NQ, too_far, FIXTURE_NQ, good,
                                  out.reached, &out.result),
-                      CSTK_INVALID_ARGUMENT, "step");
+                      CSTK_ERROR_INVALID_ARGUMENT, "step");
     }
 }
 
@@ -342,19 +342,19 @@ static void slide_options(const fixture *f, const cstk_slide_options *good) {
         cstk_status status;
         const char *culprit;
     } wrong[] = {
-        {NAN, -1, 256, 0.01, CSTK_NOT_FINITE, "max_shell"},
-        {INFINITY, -1, 256, 0.01, CSTK_NOT_FINITE, "max_shell"},
-        {0, -1, 256, 0.01, CSTK_INVALID_ARGUMENT, "max_shell"},
-        {-1, -1, 256, 0.01, CSTK_INVALID_ARGUMENT, "max_shell"},
-        {0.1, NAN, 256, 0.01, CSTK_NOT_FINITE, "desired_distance"},
-        {0.1, 0.2, 256, 0.01, CSTK_INVALID_ARGUMENT, "desired_distance"},
-        {0.1, -1, 0, 0.01, CSTK_INVALID_ARGUMENT, "max_witnesses"},
-        {0.1, -1, 256, NAN, CSTK_NOT_FINITE, "floor"},
-        {0.1, -1, 256, INFINITY, CSTK_NOT_FINITE, "floor"},
-        {0.1, -1, 256, 0, CSTK_INVALID_ARGUMENT, "floor"},
-        {0.1, -1, 256, -0.01, CSTK_INVALID_ARGUMENT, "floor"},
-        {0.1, -1, 256, 1e-300, CSTK_INVALID_ARGUMENT, "floor"},
-        {0.1, -1, 256, 1.01, CSTK_INVALID_ARGUMENT, "floor"},
+        {NAN, -1, 256, 0.01, CSTK_ERROR_NOT_FINITE, "max_shell"},
+        {INFINITY, -1, 256, 0.01, CSTK_ERROR_NOT_FINITE, "max_shell"},
+        {0, -1, 256, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "max_shell"},
+        {-1, -1, 256, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "max_shell"},
+        {0.1, NAN, 256, 0.01, CSTK_ERROR_NOT_FINITE, "desired_distance"},
+        {0.1, 0.2, 256, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "desired_distance"},
+        {0.1, -1, 0, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "max_witnesses"},
+        {0.1, -1, 256, NAN, CSTK_ERROR_NOT_FINITE, "floor"},
+        {0.1, -1, 256, INFINITY, CSTK_ERROR_NOT_FINITE, "floor"},
+        {0.1, -1, 256, 0, CSTK_ERROR_INVALID_ARGUMENT, "floor"},
+        {0.1, -1, 256, -0.01, CSTK_ERROR_INVALID_ARGUMENT, "floor"},
+        {0.1, -1, 256, 1e-300, CSTK_ERROR_INVALID_ARGUMENT, "floor"},
+        {0.1, -1, 256, 1.01, CSTK_ERROR_INVALID_ARGUMENT, "floor"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         cstk_slide_options options = *good;
@@ -404,22 +404,22 @@ static void refuse_list(const cstk_witness_list *list, size_t nv, cstk_status st
 }
 
 static void list_arrays(const cstk_witness_list *good) {
-    refuse_list(NULL, FIXTURE_NQ, CSTK_NULL_ARGUMENT, "list is NULL");
+    refuse_list(NULL, FIXTURE_NQ, CSTK_ERROR_NULL_ARGUMENT, "list is NULL");
     cstk_witness_list bad = *good;
     bad.contacts = NULL;
-    refuse_list(&bad, FIXTURE_NQ, CSTK_NULL_ARGUMENT, "contacts");
+    refuse_list(&bad, FIXTURE_NQ, CSTK_ERROR_NULL_ARGUMENT, "contacts");
     bad = *good;
     bad.gradients = NULL;
-    refuse_list(&bad, FIXTURE_NQ, CSTK_NULL_ARGUMENT, "gradients");
+    refuse_list(&bad, FIXTURE_NQ, CSTK_ERROR_NULL_ARGUMENT, "gradients");
     const size_t counts[] = {SIZE_MAX, SIZE_MAX / sizeof(cstk_contact) + 1};
     for (int i = 0; i < 2; ++i) {
         bad = *good;
         bad.contact_count = counts[i];
-        refuse_list(&bad, FIXTURE_NQ, CSTK_WRONG_SIZE, "list->");
+        refuse_list(&bad, FIXTURE_NQ, CSTK_ERROR_WRONG_SIZE, "list->");
     }
     const size_t lengths[] = {0, 1, FIXTURE_NQ - 1, FIXTURE_NQ + 1};
     for (int i = 0; i < 4; ++i) {
-        refuse_list(good, lengths[i], CSTK_WRONG_SIZE, "nv");
+        refuse_list(good, lengths[i], CSTK_ERROR_WRONG_SIZE, "nv");
     }
 }
 
@@ -434,14 +434,14 @@ static void list_numbers(const cstk_witness_list *good) {
     memcpy(gradient, good->gradients, sizeof gradient);
     EACH_NOT_FINITE(i) {
         contact.clearance = not_finite[i];
-        refuse_list(&bad, FIXTURE_NQ, CSTK_NOT_FINITE, "contacts[0]");
+        refuse_list(&bad, FIXTURE_NQ, CSTK_ERROR_NOT_FINITE, "contacts[0]");
     }
     contact.clearance = 0.05;
     for (int entry = 0; entry < FIXTURE_NQ; ++entry) {
         EACH_NOT_FINITE(i) {
             memcpy(gradient, good->gradients, sizeof gradient);
             gradient[entry] = not_finite[i];
-            refuse_list(&bad, FIXTURE_NQ, CSTK_NOT_FINITE, "gradients");
+            refuse_list(&bad, FIXTURE_NQ, CSTK_ERROR_NOT_FINITE, "gradients");
         }
     }
 }
@@ -450,18 +450,18 @@ static void list_arguments(const cstk_witness_list *list) {
     step_taken out;
     const size_t nv = FIXTURE_NQ;
     CHECK_REFUSED(out, cstk_slide_step(list, NULL, nv, 0.1, false, out.step, &out.found),
-                  CSTK_NULL_ARGUMENT, "step");
+                  CSTK_ERROR_NULL_ARGUMENT, "step");
     CHECK_REFUSED(out, cstk_slide_step(list, asked, nv, 0.1, false, NULL, &out.found),
-                  CSTK_NULL_ARGUMENT, "out");
+                  CSTK_ERROR_NULL_ARGUMENT, "out");
     CHECK_REFUSED(out, cstk_slide_step(list, asked, nv, 0.1, false, out.step, NULL),
-                  CSTK_NULL_ARGUMENT, "found");
-    CHECK_REFUSED(out, cstk_spring_step(list, nv, 0.1, NULL, &out.found), CSTK_NULL_ARGUMENT,
+                  CSTK_ERROR_NULL_ARGUMENT, "found");
+    CHECK_REFUSED(out, cstk_spring_step(list, nv, 0.1, NULL, &out.found), CSTK_ERROR_NULL_ARGUMENT,
                   "out");
-    CHECK_REFUSED(out, cstk_spring_step(list, nv, 0.1, out.step, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_spring_step(list, nv, 0.1, out.step, NULL), CSTK_ERROR_NULL_ARGUMENT,
                   "found");
     const double distances[] = {NAN, INFINITY, -INFINITY, -1e-300, -1};
     for (int i = 0; i < 5; ++i) {
-        const cstk_status status = i < 3 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT;
+        const cstk_status status = i < 3 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT;
         CHECK_REFUSED(out,
                       cstk_slide_step(list, asked, nv, distances[i], false, out.step, &out.found),
                       status, "desired_distance");
@@ -473,11 +473,11 @@ static void list_arguments(const cstk_witness_list *list) {
         EACH_NOT_FINITE(i) {
             step[entry] = not_finite[i];
             CHECK_REFUSED(out, cstk_slide_step(list, step, nv, 0.1, false, out.step, &out.found),
-                          CSTK_NOT_FINITE, "step");
+                          CSTK_ERROR_NOT_FINITE, "step");
         }
         step[entry] = entry == 1 ? -1e51 : 1e300;
         CHECK_REFUSED(out, cstk_slide_step(list, step, nv, 0.1, false, out.step, &out.found),
-                      CSTK_INVALID_ARGUMENT, "step");
+                      CSTK_ERROR_INVALID_ARGUMENT, "step");
     }
 }
 
@@ -490,19 +490,19 @@ static void steps_of_lists(const fixture *f) {
     list_arguments(&list);
     /* Without contacts too the length must be that of the list. */
     list = list_at(f, query, 1e-3);
-    refuse_list(&list, FIXTURE_NQ - 1, CSTK_WRONG_SIZE, "nv");
-    refuse_list(&list, FIXTURE_NQ + 1, CSTK_WRONG_SIZE, "nv");
+    refuse_list(&list, FIXTURE_NQ - 1, CSTK_ERROR_WRONG_SIZE, "nv");
+    refuse_list(&list, FIXTURE_NQ + 1, CSTK_ERROR_WRONG_SIZE, "nv");
     /* A list that came without gradients. */
     CHECK_OK(cstk_witnesses(query, f->cobject, f->q, FIXTURE_NQ, 10.0, 16, &list));
-    refuse_list(&list, FIXTURE_NQ, CSTK_INVALID_ARGUMENT, "without gradients");
+    refuse_list(&list, FIXTURE_NQ, CSTK_ERROR_INVALID_ARGUMENT, "without gradients");
     /* And lists without all contacts, by which nothing would stand in the way. */
     CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_NONE));
     CHECK_OK(cstk_gradients(query, f->cobject, f->q, FIXTURE_NQ, 10, 16, &list));
     CHECK(list.contacts_left_out && list.contact_count == 0);
-    refuse_list(&list, list.nv, CSTK_INVALID_ARGUMENT, "without all contacts");
+    refuse_list(&list, list.nv, CSTK_ERROR_INVALID_ARGUMENT, "without all contacts");
     CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_NEAREST));
     CHECK_OK(cstk_gradients(query, f->cobject, f->q, FIXTURE_NQ, 10, 16, &list));
-    refuse_list(&list, list.nv, CSTK_INVALID_ARGUMENT, "without all contacts");
+    refuse_list(&list, list.nv, CSTK_ERROR_INVALID_ARGUMENT, "without all contacts");
     CHECK_OK(cstk_query_set_contacts(query, CSTK_CONTACTS_ALL));
     CHECK_OK(cstk_query_release(query));
     fixture_unchanged(f);

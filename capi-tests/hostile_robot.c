@@ -8,10 +8,10 @@ static void builder_create(const fixture *f) {
     cstk_robot_builder *out;
     const uint32_t wrong[] = {0, 1, 4, UINT32_MAX};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        CHECK_REFUSED(out, cstk_robot_builder_create(wrong[i], &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_robot_builder_create(wrong[i], &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "dimension");
     }
-    CHECK_FAILS(cstk_robot_builder_create(3, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_robot_builder_create(3, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -53,7 +53,7 @@ static void add_link_handles(const fixture *f) {
         CHECK_REFUSED(out, cstk_robot_builder_add_link(bad->handle, &def, &out), bad->status,
                       "builder");
     }
-    refuse_link(f, NULL, CSTK_NULL_ARGUMENT, "def");
+    refuse_link(f, NULL, CSTK_ERROR_NULL_ARGUMENT, "def");
     EACH_BAD_OPTIONS(def, bad) { refuse_link(f, bad->options, bad->status, "def"); }
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         /* NULL is no body, and welcome. */
@@ -71,34 +71,34 @@ static void add_link_numbers(const fixture *f) {
     cstk_link_def def = good_link(f);
     for (int i = 0; i < 4; ++i) {
         def.joint = joints[i];
-        refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "joint");
+        refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "joint");
     }
     for (int i = 0; i < 2; ++i) {
         def = good_link(f);
         def.parent = negative[i];
-        refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "parent");
+        refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "parent");
         def = good_link(f);
         def.coordinate = negative[i];
-        refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+        refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
     }
     def = good_link(f);
     def.parent = FIXTURE_LINKS; /* itself */
-    refuse_link(f, &def, CSTK_NOT_FOUND, "parent");
+    refuse_link(f, &def, CSTK_ERROR_NOT_FOUND, "parent");
     def.parent = INT32_MAX;
-    refuse_link(f, &def, CSTK_NOT_FOUND, "parent");
+    refuse_link(f, &def, CSTK_ERROR_NOT_FOUND, "parent");
     def = good_link(f);
     def.coordinate = FIXTURE_NQ + 1; /* would leave a gap */
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
     def.coordinate = INT32_MAX;
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
     def = good_link(f);
     def.name = "link1"; /* the default name of another link */
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "name");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "name");
     def.name = "\xff\xfe";
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "name");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "name");
     def = good_link(f);
     def.joint_name = "\xff\xfe";
-    refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "joint_name");
+    refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "joint_name");
     fixture_unchanged(f);
 }
 
@@ -115,7 +115,7 @@ static cstk_robot *make_named(void) {
     def.joint_name = "elbow";
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     def.name = "other";
-    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "elbow");
     CHECK_OK(cstk_robot_build(builder, &robot));
     CHECK_OK(cstk_robot_builder_release(builder));
@@ -127,7 +127,7 @@ static void add_link_followers(const fixture *f) {
     cstk_link_def def = good_link(f);
     for (int i = 0; i < 6; ++i) {
         const double wrong = i < 3 ? not_finite[i] : i == 3 ? 1e51 : i == 4 ? -1e51 : 1e300;
-        const cstk_status status = i < 3 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT;
+        const cstk_status status = i < 3 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT;
         for (int k = 0; k < 2; ++k) {
             def = good_link(f);
             def.joint = joints[k];
@@ -144,12 +144,12 @@ static void add_link_followers(const fixture *f) {
         double upper;
         cstk_status status;
     } limits[] = {
-        {NAN, 1, CSTK_NOT_FINITE},
-        {-1, NAN, CSTK_NOT_FINITE},
-        {1, -1, CSTK_INVALID_ARGUMENT},
-        {INFINITY, INFINITY, CSTK_INVALID_ARGUMENT},
-        {-INFINITY, -INFINITY, CSTK_INVALID_ARGUMENT},
-        {INFINITY, -INFINITY, CSTK_INVALID_ARGUMENT},
+        {NAN, 1, CSTK_ERROR_NOT_FINITE},
+        {-1, NAN, CSTK_ERROR_NOT_FINITE},
+        {1, -1, CSTK_ERROR_INVALID_ARGUMENT},
+        {INFINITY, INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
+        {-INFINITY, -INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
+        {INFINITY, -INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
     };
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i) {
         def = good_link(f);
@@ -170,7 +170,7 @@ static void add_link_shared(const fixture *f) {
         for (int coordinate = 0; coordinate < FIXTURE_NQ; ++coordinate) {
             def.joint = joints[i];
             def.coordinate = coordinate;
-            refuse_link(f, &def, CSTK_INVALID_ARGUMENT, "coordinate");
+            refuse_link(f, &def, CSTK_ERROR_INVALID_ARGUMENT, "coordinate");
         }
     }
     /* Not with a quaternion, and not with the lengths that go with one. */
@@ -183,7 +183,7 @@ static void add_link_shared(const fixture *f) {
     def.joint = CSTK_JOINT_REVOLUTE;
     for (int coordinate = 0; coordinate < 7; ++coordinate) {
         def.coordinate = coordinate;
-        CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "coordinate");
     }
     CHECK_OK(cstk_robot_builder_release(builder));
@@ -200,12 +200,12 @@ static void add_link_geometry(const fixture *f) {
         EACH_NOT_FINITE(i) {
             def = good_link(f);
             def.axis[entry] = not_finite[i];
-            refuse_link(f, &def, CSTK_NOT_FINITE, "axis");
+            refuse_link(f, &def, CSTK_ERROR_NOT_FINITE, "axis");
         }
     }
     def = good_link(f);
     def.axis[2] = 0.0;
-    refuse_link(f, &def, CSTK_DEGENERATE, "axis");
+    refuse_link(f, &def, CSTK_ERROR_DEGENERATE, "axis");
     fixture_unchanged(f);
 }
 
@@ -218,28 +218,28 @@ static void planar_links(const fixture *f) {
     CHECK_OK(cstk_link_def_default(&def, sizeof def));
     def.joint = CSTK_JOINT_REVOLUTE;
     def.axis[0] = 1.0;
-    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "turn");
     def.joint = CSTK_JOINT_PRISMATIC;
-    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "shift");
     const int32_t spatial[] = {CSTK_JOINT_SPHERICAL, CSTK_JOINT_FREE, CSTK_JOINT_FREE_EULER};
     for (int i = 0; i < 3; ++i) {
         def.joint = spatial[i];
-        CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "planar");
     }
     def.joint = CSTK_JOINT_PRISMATIC;
     def.axis[2] = 0.0;
     def.at[11] = 0.1;
-    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "plane");
     def.at[11] = 0.0;
     def.body = f->body;
-    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_builder_add_link(builder, &def, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "dimension");
     cstk_robot *robot;
-    CHECK_REFUSED(robot, cstk_robot_build(builder, &robot), CSTK_EMPTY, "link");
+    CHECK_REFUSED(robot, cstk_robot_build(builder, &robot), CSTK_ERROR_EMPTY, "link");
     CHECK_OK(cstk_robot_builder_release(builder));
 }
 
@@ -248,17 +248,17 @@ static void build(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
         CHECK_REFUSED(out, cstk_robot_build(bad->handle, &out), bad->status, "builder");
     }
-    CHECK_FAILS(cstk_robot_build(f->robot_builder, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_robot_build(f->robot_builder, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
 static void size(const fixture *f) {
     size_t out[3];
     EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
-        CHECK_REFUSED(out, cstk_robot_size(bad->handle, &out[0], &out[1], &out[2]), bad->status,
+        CHECK_REFUSED(out, cstk_robot_get_size(bad->handle, &out[0], &out[1], &out[2]), bad->status,
                       "robot");
     }
-    CHECK_OK(cstk_robot_size(f->robot, NULL, NULL, NULL));
+    CHECK_OK(cstk_robot_get_size(f->robot, NULL, NULL, NULL));
     fixture_unchanged(f);
 }
 
@@ -268,9 +268,9 @@ static void get_body(const fixture *f) {
         CHECK_REFUSED(out, cstk_robot_get_body(bad->handle, FIXTURE_TIP, &out), bad->status,
                       "robot");
     }
-    CHECK_FAILS(cstk_robot_get_body(f->robot, FIXTURE_TIP, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_LINKS, &out), CSTK_NOT_FOUND, "link");
-    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_BASE, &out), CSTK_EMPTY, "no body");
+    CHECK_FAILS(cstk_robot_get_body(f->robot, FIXTURE_TIP, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_LINKS, &out), CSTK_ERROR_NOT_FOUND, "link");
+    CHECK_REFUSED(out, cstk_robot_get_body(f->robot, FIXTURE_BASE, &out), CSTK_ERROR_EMPTY, "no body");
     CHECK_OK(cstk_robot_get_body(f->robot, FIXTURE_TIP, &out));
     CHECK_OK(cstk_body_release(out));
     fixture_unchanged(f);
@@ -281,14 +281,14 @@ static void find_link(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
         CHECK_REFUSED(out, cstk_robot_find_link(bad->handle, "link0", &out), bad->status, "robot");
     }
-    CHECK_REFUSED(out, cstk_robot_find_link(f->robot, NULL, &out), CSTK_NULL_ARGUMENT, "name");
-    CHECK_FAILS(cstk_robot_find_link(f->robot, "link0", NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_robot_find_link(f->robot, NULL, &out), CSTK_ERROR_NULL_ARGUMENT, "name");
+    CHECK_FAILS(cstk_robot_find_link(f->robot, "link0", NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     const char *missing[] = {"", "link", "link4", "LINK0", "link0 "};
     for (int i = 0; i < 5; ++i) {
-        CHECK_REFUSED(out, cstk_robot_find_link(f->robot, missing[i], &out), CSTK_NOT_FOUND,
+        CHECK_REFUSED(out, cstk_robot_find_link(f->robot, missing[i], &out), CSTK_ERROR_NOT_FOUND,
                       missing[i]);
     }
-    CHECK_REFUSED(out, cstk_robot_find_link(f->robot, "\xff", &out), CSTK_INVALID_ARGUMENT, "name");
+    CHECK_REFUSED(out, cstk_robot_find_link(f->robot, "\xff", &out), CSTK_ERROR_INVALID_ARGUMENT, "name");
     fixture_unchanged(f);
 }
 
@@ -298,15 +298,15 @@ static void find_joint(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
         CHECK_REFUSED(out, cstk_robot_find_joint(bad->handle, "elbow", &out), bad->status, "robot");
     }
-    CHECK_REFUSED(out, cstk_robot_find_joint(named, NULL, &out), CSTK_NULL_ARGUMENT, "name");
-    CHECK_FAILS(cstk_robot_find_joint(named, "elbow", NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_robot_find_joint(named, NULL, &out), CSTK_ERROR_NULL_ARGUMENT, "name");
+    CHECK_FAILS(cstk_robot_find_joint(named, "elbow", NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     /* A joint without a name has not the empty one. */
     const char *missing[] = {"", "forearm", "ELBOW", "elbow ", "link0"};
     for (int i = 0; i < 5; ++i) {
-        CHECK_REFUSED(out, cstk_robot_find_joint(named, missing[i], &out), CSTK_NOT_FOUND,
+        CHECK_REFUSED(out, cstk_robot_find_joint(named, missing[i], &out), CSTK_ERROR_NOT_FOUND,
                       missing[i]);
     }
-    CHECK_REFUSED(out, cstk_robot_find_joint(named, "\xff", &out), CSTK_INVALID_ARGUMENT, "name");
+    CHECK_REFUSED(out, cstk_robot_find_joint(named, "\xff", &out), CSTK_ERROR_INVALID_ARGUMENT, "name");
     CHECK_OK(cstk_robot_release(named));
     fixture_unchanged(f);
 }
@@ -314,12 +314,12 @@ static void find_joint(const fixture *f) {
 static void link_info(const fixture *f) {
     cstk_link_info out;
     EACH_BAD_HANDLE(f, NOUN_ROBOT, bad) {
-        CHECK_REFUSED(out, cstk_robot_link_info(bad->handle, 0, &out), bad->status, "robot");
+        CHECK_REFUSED(out, cstk_robot_get_link_info(bad->handle, 0, &out), bad->status, "robot");
     }
-    CHECK_FAILS(cstk_robot_link_info(f->robot, 0, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_robot_get_link_info(f->robot, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     const uint32_t links[] = {FIXTURE_LINKS, CSTK_NONE};
     for (int i = 0; i < 2; ++i) {
-        CHECK_REFUSED(out, cstk_robot_link_info(f->robot, links[i], &out), CSTK_NOT_FOUND, "link");
+        CHECK_REFUSED(out, cstk_robot_get_link_info(f->robot, links[i], &out), CSTK_ERROR_NOT_FOUND, "link");
     }
     fixture_unchanged(f);
 }
@@ -339,14 +339,14 @@ static void names(const fixture *f, const char *name, name_fn name_of) {
     const uint32_t links[] = {FIXTURE_LINKS, CSTK_NONE};
     for (int i = 0; i < 2; ++i) {
         CHECK_REFUSED(out, name_of(r, links[i], out.buffer, sizeof out.buffer, &out.length),
-                      CSTK_NOT_FOUND, "link");
+                      CSTK_ERROR_NOT_FOUND, "link");
     }
-    CHECK_REFUSED(out, name_of(r, 1, NULL, 1, &out.length), CSTK_NULL_ARGUMENT, "buffer");
-    CHECK_REFUSED(out, name_of(r, 1, NULL, SIZE_MAX, &out.length), CSTK_NULL_ARGUMENT, "buffer");
+    CHECK_REFUSED(out, name_of(r, 1, NULL, 1, &out.length), CSTK_ERROR_NULL_ARGUMENT, "buffer");
+    CHECK_REFUSED(out, name_of(r, 1, NULL, SIZE_MAX, &out.length), CSTK_ERROR_NULL_ARGUMENT, "buffer");
     /* Room for the terminator is needed too. */
     const size_t capacities[] = {0, 1, strlen(name)};
     for (int i = 0; i < 3; ++i) {
-        CHECK_REFUSED(out, name_of(r, 1, out.buffer, capacities[i], &out.length), CSTK_WRONG_SIZE,
+        CHECK_REFUSED(out, name_of(r, 1, out.buffer, capacities[i], &out.length), CSTK_ERROR_WRONG_SIZE,
                       "name");
     }
     /* No byte beyond the terminator is written, whatever the capacity. */
@@ -367,27 +367,27 @@ static void link_pose(const fixture *f) {
         CHECK_REFUSED(out, cstk_robot_link_pose(bad->handle, f->q, FIXTURE_NQ, 0, out), bad->status,
                       "robot");
     }
-    CHECK_REFUSED(out, cstk_robot_link_pose(r, NULL, FIXTURE_NQ, 0, out), CSTK_NULL_ARGUMENT, "q");
-    CHECK_FAILS(cstk_robot_link_pose(r, f->q, FIXTURE_NQ, 0, NULL), CSTK_NULL_ARGUMENT, "pose");
+    CHECK_REFUSED(out, cstk_robot_link_pose(r, NULL, FIXTURE_NQ, 0, out), CSTK_ERROR_NULL_ARGUMENT, "q");
+    CHECK_FAILS(cstk_robot_link_pose(r, f->q, FIXTURE_NQ, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "pose");
     const size_t counts[] = {0, FIXTURE_NQ - 1, SIZE_MAX};
     for (int i = 0; i < 3; ++i) {
-        CHECK_REFUSED(out, cstk_robot_link_pose(r, f->q, counts[i], 0, out), CSTK_WRONG_SIZE, "");
+        CHECK_REFUSED(out, cstk_robot_link_pose(r, f->q, counts[i], 0, out), CSTK_ERROR_WRONG_SIZE, "");
     }
     const uint32_t links[] = {FIXTURE_LINKS, CSTK_NONE};
     for (int i = 0; i < 2; ++i) {
-        CHECK_REFUSED(out, cstk_robot_link_pose(r, f->q, FIXTURE_NQ, links[i], out), CSTK_NOT_FOUND,
+        CHECK_REFUSED(out, cstk_robot_link_pose(r, f->q, FIXTURE_NQ, links[i], out), CSTK_ERROR_NOT_FOUND,
                       "link");
     }
     for (int entry = 0; entry < FIXTURE_NQ; ++entry) {
         EACH_NOT_FINITE(i) {
             double q[FIXTURE_NQ] = {0};
             q[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_robot_link_pose(r, q, FIXTURE_NQ, 0, out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, cstk_robot_link_pose(r, q, FIXTURE_NQ, 0, out), CSTK_ERROR_NOT_FINITE,
                           "configuration");
         }
     }
     const double far[FIXTURE_NQ] = {0, 1e300, 0};
-    CHECK_REFUSED(out, cstk_robot_link_pose(r, far, FIXTURE_NQ, 0, out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_link_pose(r, far, FIXTURE_NQ, 0, out), CSTK_ERROR_INVALID_ARGUMENT,
                   "configuration");
     fixture_unchanged(f);
 }
@@ -401,30 +401,30 @@ static void jacobian(const fixture *f) {
         CHECK_REFUSED(out, cstk_robot_jacobian(bad->handle, q, FIXTURE_NQ, 1, point, out),
                       bad->status, "robot");
     }
-    CHECK_REFUSED(out, cstk_robot_jacobian(r, NULL, FIXTURE_NQ, 1, point, out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_jacobian(r, NULL, FIXTURE_NQ, 1, point, out), CSTK_ERROR_NULL_ARGUMENT,
                   "q");
-    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, NULL, out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, NULL, out), CSTK_ERROR_NULL_ARGUMENT,
                   "point");
-    CHECK_FAILS(cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, point, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, point, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "jacobian");
-    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ - 1, 1, point, out), CSTK_WRONG_SIZE,
+    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ - 1, 1, point, out), CSTK_ERROR_WRONG_SIZE,
                   "configuration");
-    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, SIZE_MAX, 1, point, out), CSTK_WRONG_SIZE, "q");
+    CHECK_REFUSED(out, cstk_robot_jacobian(r, q, SIZE_MAX, 1, point, out), CSTK_ERROR_WRONG_SIZE, "q");
     CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, FIXTURE_LINKS, point, out),
-                  CSTK_NOT_FOUND, "link");
+                  CSTK_ERROR_NOT_FOUND, "link");
     for (int entry = 0; entry < 3; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[3] = {0};
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, bad, out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, bad, out), CSTK_ERROR_NOT_FINITE,
                           "point");
             CHECK_REFUSED(out, cstk_robot_jacobian(r, bad, FIXTURE_NQ, 1, point, out),
-                          CSTK_NOT_FINITE, "configuration");
+                          CSTK_ERROR_NOT_FINITE, "configuration");
         }
         double far[3] = {0};
         far[entry] = 1.7e308;
         CHECK_REFUSED(out, cstk_robot_jacobian(r, q, FIXTURE_NQ, 1, far, out),
-                      CSTK_INVALID_ARGUMENT, "point");
+                      CSTK_ERROR_INVALID_ARGUMENT, "point");
     }
     fixture_unchanged(f);
 }
@@ -443,13 +443,13 @@ static void quaternions(const fixture *f) {
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     CHECK_OK(cstk_robot_build(builder, &robot));
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        CHECK_REFUSED(out, cstk_robot_link_pose(robot, wrong[i], 4, 0, out), CSTK_NOT_A_ROTATION,
+        CHECK_REFUSED(out, cstk_robot_link_pose(robot, wrong[i], 4, 0, out), CSTK_ERROR_NOT_A_ROTATION,
                       "entries 0 to 3");
         CHECK_REFUSED(out, cstk_robot_jacobian(robot, wrong[i], 4, 0, point, out),
-                      CSTK_NOT_A_ROTATION, "entries 0 to 3");
+                      CSTK_ERROR_NOT_A_ROTATION, "entries 0 to 3");
     }
     /* As many entries as velocities. */
-    CHECK_REFUSED(out, cstk_robot_link_pose(robot, wrong[0], 3, 0, out), CSTK_WRONG_SIZE,
+    CHECK_REFUSED(out, cstk_robot_link_pose(robot, wrong[0], 3, 0, out), CSTK_ERROR_WRONG_SIZE,
                   "configuration");
     CHECK_OK(cstk_robot_release(robot));
     CHECK_OK(cstk_robot_builder_release(builder));
@@ -473,8 +473,8 @@ int main(void) {
     find_link(&f);
     find_joint(&f);
     link_info(&f);
-    names(&f, "forearm", cstk_robot_link_name);
-    names(&f, "elbow", cstk_robot_joint_name);
+    names(&f, "forearm", cstk_robot_get_link_name);
+    names(&f, "elbow", cstk_robot_get_joint_name);
     link_pose(&f);
     jacobian(&f);
     quaternions(&f);

@@ -22,7 +22,7 @@ static void references(const fixture *f) {
 }
 
 static void environment_create(const fixture *f) {
-    CHECK_FAILS(cstk_environment_create(NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_environment_create(NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -54,7 +54,7 @@ static void apply_handles(const fixture *f) {
                       bad->status, "environment");
     }
     CHECK_REFUSED(out, cstk_environment_apply(f->environment, NULL, 1, out.ids, &out.version),
-                  CSTK_NULL_ARGUMENT, "changes");
+                  CSTK_ERROR_NULL_ARGUMENT, "changes");
     EACH_BAD_OPTIONS(change, bad) {
         CHECK_REFUSED(
             out, cstk_environment_apply(f->environment, bad->options, 1, out.ids, &out.version),
@@ -62,7 +62,7 @@ static void apply_handles(const fixture *f) {
     }
     cstk_environment_change zeroed;
     memset(&zeroed, 0, sizeof zeroed);
-    refuse_change(f, &zeroed, CSTK_NOT_INITIALISED, "changes[1]");
+    refuse_change(f, &zeroed, CSTK_ERROR_NOT_INITIALISED, "changes[1]");
     EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
         change.body = bad->handle;
         refuse_change(f, &change, bad->status, "changes[1].body");
@@ -79,7 +79,7 @@ static void apply_values(const fixture *f) {
     change = good;
     for (int i = 0; i < 4; ++i) {
         change.kind = kinds[i];
-        refuse_change(f, &change, CSTK_INVALID_ARGUMENT, "changes[1].kind");
+        refuse_change(f, &change, CSTK_ERROR_INVALID_ARGUMENT, "changes[1].kind");
     }
     EACH_BAD_POSE(bad) {
         change = good;
@@ -95,9 +95,9 @@ static void apply_values(const fixture *f) {
         change = good;
         change.id = ids[i];
         change.kind = CSTK_CHANGE_MOVE;
-        refuse_change(f, &change, CSTK_NOT_FOUND, "change");
+        refuse_change(f, &change, CSTK_ERROR_NOT_FOUND, "change");
         change.kind = CSTK_CHANGE_DELETE;
-        refuse_change(f, &change, CSTK_NOT_FOUND, "change");
+        refuse_change(f, &change, CSTK_ERROR_NOT_FOUND, "change");
     }
     fixture_unchanged(f);
 }
@@ -110,30 +110,30 @@ static void environment_others(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_ENVIRONMENT, bad) {
         CHECK_REFUSED(snapshot, cstk_environment_snapshot(bad->handle, &snapshot), bad->status,
                       "environment");
-        CHECK_REFUSED(state, cstk_environment_state(bad->handle, NULL, &state.version), bad->status,
+        CHECK_REFUSED(state, cstk_environment_get_state(bad->handle, NULL, &state.version), bad->status,
                       "environment");
-        CHECK_REFUSED(objects, cstk_environment_state(bad->handle, &objects, NULL), bad->status,
+        CHECK_REFUSED(objects, cstk_environment_get_state(bad->handle, &objects, NULL), bad->status,
                       "environment");
-        CHECK_REFUSED(pose, cstk_environment_object_pose(bad->handle, f->box, pose), bad->status,
+        CHECK_REFUSED(pose, cstk_environment_get_object_pose(bad->handle, f->box, pose), bad->status,
                       "environment");
     }
-    CHECK_OK(cstk_environment_state(f->environment, NULL, NULL));
-    CHECK_FAILS(cstk_environment_snapshot(f->environment, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_environment_object_pose(f->environment, f->box, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_OK(cstk_environment_get_state(f->environment, NULL, NULL));
+    CHECK_FAILS(cstk_environment_snapshot(f->environment, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_environment_get_object_pose(f->environment, f->box, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "pose");
     const uint64_t ids[] = {0, f->box + 1000, UINT64_MAX};
     for (int i = 0; i < 3; ++i) {
-        CHECK_REFUSED(pose, cstk_environment_object_pose(f->environment, ids[i], pose),
-                      CSTK_NOT_FOUND, "id");
+        CHECK_REFUSED(pose, cstk_environment_get_object_pose(f->environment, ids[i], pose),
+                      CSTK_ERROR_NOT_FOUND, "id");
     }
     fixture_unchanged(f);
 }
 
 static void cobject_options(const fixture *f) {
     cstk_cobject *out;
-    cstk_cobject_options good;
+    cstk_induced_options good;
     const uint32_t pair[2] = {1, 3};
-    CHECK_OK(cstk_cobject_options_default(&good, sizeof good));
+    CHECK_OK(cstk_induced_options_default(&good, sizeof good));
     EACH_BAD_OPTIONS(good, bad) {
         CHECK_REFUSED(
             out,
@@ -144,10 +144,10 @@ static void cobject_options(const fixture *f) {
     }
     const double values[] = {NAN, INFINITY, -INFINITY, -1e-9};
     for (int i = 0; i < 8; ++i) {
-        cstk_cobject_options options = good;
+        cstk_induced_options options = good;
         *(i < 4 ? &options.margin : &options.contact_epsilon) = values[i % 4];
         const char *culprit = i < 4 ? "margin" : "contact_epsilon";
-        const cstk_status status = i % 4 < 3 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT;
+        const cstk_status status = i % 4 < 3 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT;
         CHECK_REFUSED(
             out, cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
             status, culprit);
@@ -169,18 +169,18 @@ static void cobject_induced(const fixture *f) {
         CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, bad->handle, NULL, 0, NULL, &out),
                       bad->status, "environment");
     }
-    CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 1, e, NULL, 0, NULL, &out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 1, e, NULL, 0, NULL, &out), CSTK_ERROR_NULL_ARGUMENT,
                   "links");
-    CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, e, NULL, 1, NULL, &out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, e, NULL, 1, NULL, &out), CSTK_ERROR_NULL_ARGUMENT,
                   "ids");
-    CHECK_FAILS(cstk_cobject_induced(s, NULL, 0, e, NULL, 0, NULL, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_cobject_induced(s, NULL, 0, e, NULL, 0, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "out");
     const uint32_t links[] = {1, FIXTURE_BASE, FIXTURE_LINKS, CSTK_NONE};
     const uint64_t ids[] = {f->box, 0, f->box + 1000, UINT64_MAX};
     CHECK_REFUSED(out, cstk_cobject_induced(s, links, SIZE_MAX, e, NULL, 0, NULL, &out),
-                  CSTK_WRONG_SIZE, "links");
+                  CSTK_ERROR_WRONG_SIZE, "links");
     CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, e, ids, SIZE_MAX, NULL, &out),
-                  CSTK_WRONG_SIZE, "ids");
+                  CSTK_ERROR_WRONG_SIZE, "ids");
     /* The base has no body, but might hold something. */
     CHECK_OK(cstk_cobject_induced(s, links, 2, e, NULL, 0, NULL, &out));
     CHECK_OK(cstk_cobject_release(out));
@@ -188,8 +188,8 @@ static void cobject_induced(const fixture *f) {
         const uint32_t pair[2] = {1, links[i]};
         const uint64_t two[2] = {f->box, ids[i]};
         CHECK_REFUSED(out, cstk_cobject_induced(s, pair, 2, e, NULL, 0, NULL, &out),
-                      CSTK_NOT_FOUND, "link");
-        CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, e, two, 2, NULL, &out), CSTK_NOT_FOUND,
+                      CSTK_ERROR_NOT_FOUND, "link");
+        CHECK_REFUSED(out, cstk_cobject_induced(s, NULL, 0, e, two, 2, NULL, &out), CSTK_ERROR_NOT_FOUND,
                       "id");
     }
     fixture_unchanged(f);
@@ -203,28 +203,28 @@ static void cobject_induced_links(const fixture *f) {
         CHECK_REFUSED(out, cstk_cobject_induced_links(bad->handle, good, 1, NULL, &out),
                       bad->status, "space");
     }
-    CHECK_REFUSED(out, cstk_cobject_induced_links(s, NULL, 1, NULL, &out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_cobject_induced_links(s, NULL, 1, NULL, &out), CSTK_ERROR_NULL_ARGUMENT,
                   "pairs");
-    CHECK_FAILS(cstk_cobject_induced_links(s, good, 1, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
-    /* cstk_link_pairs may find none to test. */
+    CHECK_FAILS(cstk_cobject_induced_links(s, good, 1, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    /* cstk_find_link_pairs may find none to test. */
     cstk_distance_result found;
     CHECK_OK(cstk_cobject_induced_links(s, NULL, 0, NULL, &out));
     CHECK_OK(cstk_distance(f->query, out, f->q, FIXTURE_NQ, INFINITY, &found));
-    CHECK(found.kind == CSTK_EMPTY_SET);
+    CHECK(found.kind == CSTK_DISTANCE_EMPTY);
     CHECK_OK(cstk_cobject_release(out));
     const size_t counts[] = {SIZE_MAX, SIZE_MAX / 2 + 2, SIZE_MAX / 8 + 2};
     for (int i = 0; i < 3; ++i) {
         CHECK_REFUSED(out, cstk_cobject_induced_links(s, good, counts[i], NULL, &out),
-                      CSTK_WRONG_SIZE, "pairs");
+                      CSTK_ERROR_WRONG_SIZE, "pairs");
     }
     const struct {
         uint32_t pair[2];
         cstk_status status;
     } wrong[] = {
-        {{1, 1}, CSTK_INVALID_ARGUMENT},
-        {{1, FIXTURE_BASE}, CSTK_EMPTY},
-        {{FIXTURE_LINKS, 1}, CSTK_NOT_FOUND},
-        {{1, CSTK_NONE}, CSTK_NOT_FOUND},
+        {{1, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{1, FIXTURE_BASE}, CSTK_ERROR_EMPTY},
+        {{FIXTURE_LINKS, 1}, CSTK_ERROR_NOT_FOUND},
+        {{1, CSTK_NONE}, CSTK_ERROR_NOT_FOUND},
     };
     for (int i = 0; i < 4; ++i) {
         const uint32_t pairs[4] = {1, 3, wrong[i].pair[0], wrong[i].pair[1]};
@@ -244,14 +244,14 @@ static void cobject_union(const fixture *f) {
         CHECK_REFUSED(out, cstk_cobject_union(parts, 2, &out), bad->status, "parts[1]");
     }
     const cstk_cobject *good = f->cobject;
-    CHECK_REFUSED(out, cstk_cobject_union(NULL, 1, &out), CSTK_NULL_ARGUMENT, "parts");
-    CHECK_FAILS(cstk_cobject_union(&good, 1, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_cobject_union(&good, 0, &out), CSTK_EMPTY, "union");
-    CHECK_REFUSED(out, cstk_cobject_union(&good, SIZE_MAX, &out), CSTK_WRONG_SIZE, "parts");
+    CHECK_REFUSED(out, cstk_cobject_union(NULL, 1, &out), CSTK_ERROR_NULL_ARGUMENT, "parts");
+    CHECK_FAILS(cstk_cobject_union(&good, 1, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_cobject_union(&good, 0, &out), CSTK_ERROR_EMPTY, "union");
+    CHECK_REFUSED(out, cstk_cobject_union(&good, SIZE_MAX, &out), CSTK_ERROR_WRONG_SIZE, "parts");
     CHECK_OK(cstk_space_create(&robot, 1, NULL, 0, NULL, &space));
     CHECK_OK(cstk_cobject_induced(space, NULL, 0, f->environment, NULL, 0, NULL, &elsewhere));
     const cstk_cobject *parts[2] = {good, elsewhere};
-    CHECK_REFUSED(out, cstk_cobject_union(parts, 2, &out), CSTK_INVALID_ARGUMENT, "C-object 1");
+    CHECK_REFUSED(out, cstk_cobject_union(parts, 2, &out), CSTK_ERROR_INVALID_ARGUMENT, "C-object 1");
     CHECK_OK(cstk_cobject_release(elsewhere));
     CHECK_OK(cstk_space_release(space));
     fixture_unchanged(f);
@@ -269,22 +269,22 @@ static void show(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
         refuse_show(bad->handle, f->q, FIXTURE_NQ, file, bad->status, "cobject");
     }
-    refuse_show(f->cobject, NULL, FIXTURE_NQ, file, CSTK_NULL_ARGUMENT, "q");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, NULL, CSTK_NULL_ARGUMENT, "file");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ - 1, file, CSTK_WRONG_SIZE, "configuration");
-    refuse_show(f->cobject, f->q, SIZE_MAX, file, CSTK_WRONG_SIZE, "q");
+    refuse_show(f->cobject, NULL, FIXTURE_NQ, file, CSTK_ERROR_NULL_ARGUMENT, "q");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, NULL, CSTK_ERROR_NULL_ARGUMENT, "file");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ - 1, file, CSTK_ERROR_WRONG_SIZE, "configuration");
+    refuse_show(f->cobject, f->q, SIZE_MAX, file, CSTK_ERROR_WRONG_SIZE, "q");
     EACH_NOT_FINITE(i) {
         const double q[FIXTURE_NQ] = {0, 0, not_finite[i]};
-        refuse_show(f->cobject, q, FIXTURE_NQ, file, CSTK_NOT_FINITE, "configuration");
+        refuse_show(f->cobject, q, FIXTURE_NQ, file, CSTK_ERROR_NOT_FINITE, "configuration");
     }
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, "no_such_folder/a.glb", CSTK_IO, "no_such_folder");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, ".", CSTK_UNSUPPORTED, ".");
-    refuse_show(f->cobject, f->q, FIXTURE_NQ, "", CSTK_UNSUPPORTED, "");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, "no_such_folder/a.glb", CSTK_ERROR_IO, "no_such_folder");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, ".", CSTK_ERROR_UNSUPPORTED, ".");
+    refuse_show(f->cobject, f->q, FIXTURE_NQ, "", CSTK_ERROR_UNSUPPORTED, "");
     /* A file that is there stays as it is. */
     char kept[16] = "";
     FILE *other = fopen(file, "wb");
     CHECK(other != NULL && fputs("not a picture", other) >= 0 && fclose(other) == 0);
-    CHECK_FAILS(cstk_show(f->cobject, longer, FIXTURE_NQ + 1, file), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_show(f->cobject, longer, FIXTURE_NQ + 1, file), CSTK_ERROR_WRONG_SIZE,
                 "configuration");
     other = fopen(file, "rb");
     CHECK(other != NULL && fgets(kept, sizeof kept, other) != NULL && fclose(other) == 0);

@@ -62,7 +62,7 @@ static void scene_release(scene *s) {
 
 static int32_t nowhere(const double *q, size_t nq, int32_t *out, void *user) {
     (void)q, (void)nq, (void)user;
-    *out = CSTK_OUTSIDE;
+    *out = CSTK_CLASS_OUTSIDE;
     return CSTK_OK;
 }
 
@@ -73,9 +73,9 @@ static cstk_status make(const scene *s, kind kind, const cstk_space *space, size
     cstk_predicate predicate;
     switch (kind) {
     case LIMITS:
-        return cstk_cobject_limits(space, options, out);
+        return cstk_cobject_beyond_limits(space, options, out);
     case WORLD:
-        return cstk_cobject_world(space, options, out);
+        return cstk_cobject_beyond_world(space, options, out);
     case BOX:
         return cstk_cobject_box(space, s->low, s->high, nq, options, out);
     case HALF_SPACE:
@@ -102,13 +102,13 @@ static void pure_sets(const scene *s) {
         EACH_BAD_HANDLE(&s->f, NOUN_SPACE, bad) {
             CHECK_REFUSED(out, make(s, kind, bad->handle, NQ, NULL, &out), bad->status, "space");
         }
-        CHECK_FAILS(make(s, kind, s->space, NQ, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
+        CHECK_FAILS(make(s, kind, s->space, NQ, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
         EACH_BAD_OPTIONS(s->options, bad) {
             CHECK_REFUSED(out, make(s, kind, s->space, NQ, bad->options, &out), bad->status,
                           "options");
         }
         for (int i = 0; i < 5; ++i) {
-            const cstk_status status = i < 3 ? CSTK_NOT_FINITE : CSTK_INVALID_ARGUMENT;
+            const cstk_status status = i < 3 ? CSTK_ERROR_NOT_FINITE : CSTK_ERROR_INVALID_ARGUMENT;
             cstk_pure_options options = s->options;
             options.scale = values[i];
             CHECK_REFUSED(out, make(s, kind, s->space, NQ, &options, &out), status, "scale");
@@ -123,7 +123,7 @@ static void pure_sets(const scene *s) {
             const size_t counts[] = {
                 0, 1, NQ - 1, NQ + 1, SIZE_MAX, SIZE_MAX / 8 + 2, (size_t)1 << 40, SIZE_MAX / 16};
             for (int i = 0; i < 8; ++i) {
-                CHECK_REFUSED(out, make(s, kind, s->space, counts[i], NULL, &out), CSTK_WRONG_SIZE,
+                CHECK_REFUSED(out, make(s, kind, s->space, counts[i], NULL, &out), CSTK_ERROR_WRONG_SIZE,
                               kind == BOX          ? "low"
                               : kind == HALF_SPACE ? "normal"
                                                    : "center");
@@ -152,21 +152,21 @@ static void boxes(const scene *s) {
         double high;
         cstk_status status;
     } wrong[] = {
-        {SLIDER, NAN, 1.0, CSTK_NOT_FINITE},
-        {HINGE, 0.0, NAN, CSTK_NOT_FINITE},
-        {WHEEL, NAN, NAN, CSTK_NOT_FINITE},
-        {SLIDER, 0.5, 0.4, CSTK_INVALID_ARGUMENT},
-        {WHEEL, 3.0, -3.0, CSTK_INVALID_ARGUMENT},
-        {SLIDER, INFINITY, INFINITY, CSTK_INVALID_ARGUMENT},
-        {HINGE, -INFINITY, -INFINITY, CSTK_INVALID_ARGUMENT},
-        {SLIDER, INFINITY, -INFINITY, CSTK_INVALID_ARGUMENT},
-        {SLIDER, -1e300, 1.0, CSTK_INVALID_ARGUMENT},
-        {HINGE, 1.0, 1.7e308, CSTK_INVALID_ARGUMENT},
-        {WHEEL, -INFINITY, 1.0, CSTK_INVALID_ARGUMENT},
-        {WHEEL, 1.0, INFINITY, CSTK_INVALID_ARGUMENT},
+        {SLIDER, NAN, 1.0, CSTK_ERROR_NOT_FINITE},
+        {HINGE, 0.0, NAN, CSTK_ERROR_NOT_FINITE},
+        {WHEEL, NAN, NAN, CSTK_ERROR_NOT_FINITE},
+        {SLIDER, 0.5, 0.4, CSTK_ERROR_INVALID_ARGUMENT},
+        {WHEEL, 3.0, -3.0, CSTK_ERROR_INVALID_ARGUMENT},
+        {SLIDER, INFINITY, INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
+        {HINGE, -INFINITY, -INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
+        {SLIDER, INFINITY, -INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
+        {SLIDER, -1e300, 1.0, CSTK_ERROR_INVALID_ARGUMENT},
+        {HINGE, 1.0, 1.7e308, CSTK_ERROR_INVALID_ARGUMENT},
+        {WHEEL, -INFINITY, 1.0, CSTK_ERROR_INVALID_ARGUMENT},
+        {WHEEL, 1.0, INFINITY, CSTK_ERROR_INVALID_ARGUMENT},
     };
-    refuse_box(s->space, NULL, s->high, NQ, CSTK_NULL_ARGUMENT, "low");
-    refuse_box(s->space, s->low, NULL, NQ, CSTK_NULL_ARGUMENT, "high");
+    refuse_box(s->space, NULL, s->high, NQ, CSTK_ERROR_NULL_ARGUMENT, "low");
+    refuse_box(s->space, s->low, NULL, NQ, CSTK_ERROR_NULL_ARGUMENT, "high");
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         double low[NQ] = {0.0, 0.0, 0.0};
         double high[NQ] = {1.0, 1.0, 1.0};
@@ -178,9 +178,9 @@ static void boxes(const scene *s) {
         double low[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
         double high[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
         high[i] = 1.0;
-        refuse_box(s->turning, low, high, 4, CSTK_INVALID_ARGUMENT, "quaternion");
+        refuse_box(s->turning, low, high, 4, CSTK_ERROR_INVALID_ARGUMENT, "quaternion");
         low[i] = -1.0;
-        refuse_box(s->turning, low, high, 4, CSTK_INVALID_ARGUMENT, "quaternion");
+        refuse_box(s->turning, low, high, 4, CSTK_ERROR_INVALID_ARGUMENT, "quaternion");
     }
     fixture_unchanged(&s->f);
 }
@@ -194,28 +194,28 @@ static void refuse_half_space(const cstk_space *space, const double *normal, siz
 
 static void half_spaces(const scene *s) {
     const double none[4] = {0};
-    refuse_half_space(s->space, NULL, NQ, 0.0, CSTK_NULL_ARGUMENT, "normal");
-    refuse_half_space(s->space, none, NQ, 1.0, CSTK_DEGENERATE, "normal");
-    refuse_half_space(s->turning, none, 4, 1.0, CSTK_DEGENERATE, "normal");
+    refuse_half_space(s->space, NULL, NQ, 0.0, CSTK_ERROR_NULL_ARGUMENT, "normal");
+    refuse_half_space(s->space, none, NQ, 1.0, CSTK_ERROR_DEGENERATE, "normal");
+    refuse_half_space(s->turning, none, 4, 1.0, CSTK_ERROR_DEGENERATE, "normal");
     EACH_NOT_FINITE(i) {
-        refuse_half_space(s->space, s->normal, NQ, not_finite[i], CSTK_NOT_FINITE, "offset");
+        refuse_half_space(s->space, s->normal, NQ, not_finite[i], CSTK_ERROR_NOT_FINITE, "offset");
         for (int entry = 0; entry < NQ; ++entry) {
             double bad[NQ] = {1.0, 0.0, 1.0};
             bad[entry] = not_finite[i];
-            refuse_half_space(s->space, bad, NQ, 0.0, CSTK_NOT_FINITE, "normal");
+            refuse_half_space(s->space, bad, NQ, 0.0, CSTK_ERROR_NOT_FINITE, "normal");
         }
     }
-    refuse_half_space(s->space, s->normal, NQ, -1e300, CSTK_INVALID_ARGUMENT, "offset");
+    refuse_half_space(s->space, s->normal, NQ, -1e300, CSTK_ERROR_INVALID_ARGUMENT, "offset");
     const double huge[NQ] = {1.0, 0.0, 1e300};
     const double tiny[NQ] = {5e-324, 0.0, -5e-324};
     const double on_a_circle[NQ] = {1.0, 1e-9, 0.0};
-    refuse_half_space(s->space, huge, NQ, 0.0, CSTK_INVALID_ARGUMENT, "normal");
-    refuse_half_space(s->space, tiny, NQ, 0.0, CSTK_DEGENERATE, "normal");
-    refuse_half_space(s->space, on_a_circle, NQ, 0.0, CSTK_INVALID_ARGUMENT, "circle");
+    refuse_half_space(s->space, huge, NQ, 0.0, CSTK_ERROR_INVALID_ARGUMENT, "normal");
+    refuse_half_space(s->space, tiny, NQ, 0.0, CSTK_ERROR_DEGENERATE, "normal");
+    refuse_half_space(s->space, on_a_circle, NQ, 0.0, CSTK_ERROR_INVALID_ARGUMENT, "circle");
     for (int i = 0; i < 4; ++i) {
         double bad[4] = {0};
         bad[i] = 1.0;
-        refuse_half_space(s->turning, bad, 4, 0.0, CSTK_INVALID_ARGUMENT, "quaternion");
+        refuse_half_space(s->turning, bad, 4, 0.0, CSTK_ERROR_INVALID_ARGUMENT, "quaternion");
     }
     fixture_unchanged(&s->f);
 }
@@ -227,22 +227,22 @@ static void refuse_ball(const cstk_space *space, const double *center, size_t nq
 }
 
 static void balls(const scene *s) {
-    refuse_ball(s->space, NULL, NQ, 1.0, CSTK_NULL_ARGUMENT, "center");
+    refuse_ball(s->space, NULL, NQ, 1.0, CSTK_ERROR_NULL_ARGUMENT, "center");
     EACH_NOT_FINITE(i) {
-        refuse_ball(s->space, s->center, NQ, not_finite[i], CSTK_NOT_FINITE, "radius");
+        refuse_ball(s->space, s->center, NQ, not_finite[i], CSTK_ERROR_NOT_FINITE, "radius");
         for (int entry = 0; entry < NQ; ++entry) {
             double bad[NQ] = {0};
             bad[entry] = not_finite[i];
-            refuse_ball(s->space, bad, NQ, 1.0, CSTK_NOT_FINITE, "center");
+            refuse_ball(s->space, bad, NQ, 1.0, CSTK_ERROR_NOT_FINITE, "center");
         }
     }
     const double far[NQ] = {0.0, 0.0, 1e300};
     const double not_unit[2][4] = {{0, 0, 0, 1.0001}, {0, 0, 0, 0}};
-    refuse_ball(s->space, far, NQ, 1.0, CSTK_INVALID_ARGUMENT, "center");
-    refuse_ball(s->space, s->center, NQ, -1e-300, CSTK_INVALID_ARGUMENT, "radius");
-    refuse_ball(s->space, s->center, NQ, 1e300, CSTK_INVALID_ARGUMENT, "radius");
+    refuse_ball(s->space, far, NQ, 1.0, CSTK_ERROR_INVALID_ARGUMENT, "center");
+    refuse_ball(s->space, s->center, NQ, -1e-300, CSTK_ERROR_INVALID_ARGUMENT, "radius");
+    refuse_ball(s->space, s->center, NQ, 1e300, CSTK_ERROR_INVALID_ARGUMENT, "radius");
     for (int i = 0; i < 2; ++i) {
-        refuse_ball(s->turning, not_unit[i], 4, 1.0, CSTK_NOT_A_ROTATION, "center");
+        refuse_ball(s->turning, not_unit[i], 4, 1.0, CSTK_ERROR_NOT_A_ROTATION, "center");
     }
     fixture_unchanged(&s->f);
 }
@@ -261,13 +261,13 @@ static void combinations(const scene *s) {
             CHECK_REFUSED(out, all[i](parts, 2, &out), bad->status, "parts[1]");
         }
         const cstk_cobject *parts[3] = {here, here, elsewhere};
-        CHECK_REFUSED(out, all[i](NULL, 1, &out), CSTK_NULL_ARGUMENT, "parts");
-        CHECK_FAILS(all[i](parts, 1, NULL), CSTK_NULL_ARGUMENT, "out");
-        CHECK_REFUSED(out, all[i](parts, 0, &out), CSTK_EMPTY, names[i]);
-        CHECK_REFUSED(out, all[i](NULL, 0, &out), CSTK_EMPTY, names[i]);
-        CHECK_REFUSED(out, all[i](parts, SIZE_MAX, &out), CSTK_WRONG_SIZE, "parts");
-        CHECK_REFUSED(out, all[i](parts, SIZE_MAX / 8 + 2, &out), CSTK_WRONG_SIZE, "parts");
-        CHECK_REFUSED(out, all[i](parts, 3, &out), CSTK_INVALID_ARGUMENT, "C-object 2");
+        CHECK_REFUSED(out, all[i](NULL, 1, &out), CSTK_ERROR_NULL_ARGUMENT, "parts");
+        CHECK_FAILS(all[i](parts, 1, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+        CHECK_REFUSED(out, all[i](parts, 0, &out), CSTK_ERROR_EMPTY, names[i]);
+        CHECK_REFUSED(out, all[i](NULL, 0, &out), CSTK_ERROR_EMPTY, names[i]);
+        CHECK_REFUSED(out, all[i](parts, SIZE_MAX, &out), CSTK_ERROR_WRONG_SIZE, "parts");
+        CHECK_REFUSED(out, all[i](parts, SIZE_MAX / 8 + 2, &out), CSTK_ERROR_WRONG_SIZE, "parts");
+        CHECK_REFUSED(out, all[i](parts, 3, &out), CSTK_ERROR_INVALID_ARGUMENT, "C-object 2");
     }
     EACH_BAD_HANDLE(&s->f, NOUN_COBJECT, bad) {
         CHECK_REFUSED(out, cstk_cobject_complement(bad->handle, &out), bad->status, "part");
@@ -275,9 +275,9 @@ static void combinations(const scene *s) {
         CHECK_REFUSED(out, cstk_cobject_difference(here, bad->handle, &out), bad->status,
                       "without");
     }
-    CHECK_FAILS(cstk_cobject_complement(here, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_cobject_difference(here, here, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_cobject_difference(here, elsewhere, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_FAILS(cstk_cobject_complement(here, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_cobject_difference(here, here, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_cobject_difference(here, elsewhere, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "space");
     CHECK_OK(cstk_cobject_release(here));
     fixture_unchanged(&s->f);
@@ -299,7 +299,7 @@ static void small_scales(const scene *s) {
         }
         CHECK_OK(cstk_classify(s->f.query, set, q, NQ, &point_class));
         CHECK_OK(cstk_distance(s->f.query, set, q, NQ, INFINITY, &d));
-        if (point_class != CSTK_OUTSIDE || !(d.distance > 0.0)) {
+        if (point_class != CSTK_CLASS_OUTSIDE || !(d.distance > 0.0)) {
             fprintf(stderr, "scale %g: class %d, distance %g\n", scales[i], (int)point_class,
                     d.distance);
             ++check_failures;
@@ -324,7 +324,7 @@ static void data(const scene *s) {
         CHECK_REFUSED(got, cstk_cobject_get_data(bad->handle, &got.data, &got.number), bad->status,
                       "cobject");
     }
-    CHECK_FAILS(cstk_cobject_with_data(s->f.cobject, &destroyed, count, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_cobject_with_data(s->f.cobject, &destroyed, count, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "out");
     CHECK(destroyed == 0);
     CHECK_OK(cstk_cobject_get_data(s->f.cobject, NULL, NULL));
@@ -342,14 +342,14 @@ static void shells(const scene *s) {
         CHECK_REFUSED(out, cstk_cobject_with_shell(bad->handle, 0.1, &out), bad->status, "cobject");
     }
     for (size_t i = 0; i < sizeof bad_shells / sizeof bad_shells[0]; ++i) {
-        const cstk_status status = isfinite(bad_shells[i]) ? CSTK_INVALID_ARGUMENT : CSTK_NOT_FINITE;
+        const cstk_status status = isfinite(bad_shells[i]) ? CSTK_ERROR_INVALID_ARGUMENT : CSTK_ERROR_NOT_FINITE;
         CHECK_REFUSED(out, cstk_cobject_with_shell(s->f.cobject, bad_shells[i], &out), status, "shell");
     }
-    CHECK_FAILS(cstk_cobject_with_shell(s->f.cobject, 0.1, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_cobject_with_shell(s->f.cobject, 0.1, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     /* What is combined has no shell of its own. */
     const cstk_cobject *one[1] = {s->f.cobject};
     CHECK_OK(cstk_cobject_union(one, 1, &parts));
-    CHECK_REFUSED(out, cstk_cobject_with_shell(parts, 0.1, &out), CSTK_UNSUPPORTED, "shell");
+    CHECK_REFUSED(out, cstk_cobject_with_shell(parts, 0.1, &out), CSTK_ERROR_UNSUPPORTED, "shell");
     CHECK_OK(cstk_cobject_release(parts));
     /* The data stay; a second shell takes the place of the first. */
     CHECK_OK(cstk_cobject_with_data(s->f.cobject, &mark, NULL, &parts));

@@ -12,8 +12,8 @@ static const struct {
     double value;
     cstk_status status;
 } bad_sizes[] = {
-    {NAN, CSTK_NOT_FINITE},      {INFINITY, CSTK_NOT_FINITE},   {-INFINITY, CSTK_NOT_FINITE},
-    {-1, CSTK_INVALID_ARGUMENT}, {1e60, CSTK_INVALID_ARGUMENT}, {1e-60, CSTK_DEGENERATE},
+    {NAN, CSTK_ERROR_NOT_FINITE},      {INFINITY, CSTK_ERROR_NOT_FINITE},   {-INFINITY, CSTK_ERROR_NOT_FINITE},
+    {-1, CSTK_ERROR_INVALID_ARGUMENT}, {1e60, CSTK_ERROR_INVALID_ARGUMENT}, {1e-60, CSTK_ERROR_DEGENERATE},
 };
 
 #define EACH_BAD_SIZE(i) for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i)
@@ -43,7 +43,7 @@ static void handles(const fixture *f) {
 static void null_arguments(const fixture *f) {
     cstk_body_builder *b = f->body_builder;
     const double *at = identity_pose;
-    const cstk_status null = CSTK_NULL_ARGUMENT;
+    const cstk_status null = CSTK_ERROR_NULL_ARGUMENT;
     CHECK_FAILS(cstk_body_builder_add_sphere(b, NULL, 1, 0), null, "center");
     CHECK_FAILS(cstk_body_builder_add_capsule(b, NULL, one, 1, 0), null, "a is NULL");
     CHECK_FAILS(cstk_body_builder_add_capsule(b, one, NULL, 1, 0), null, "b is NULL");
@@ -58,15 +58,15 @@ static void null_arguments(const fixture *f) {
     CHECK_FAILS(cstk_body_builder_add_points(b, NULL, 4, 1), null, "xyz");
     CHECK_FAILS(cstk_body_builder_add_height_field(b, 2, 2, NULL, 1, 1, NAN), null, "heights");
     CHECK_FAILS(cstk_body_builder_add_support(b, NULL, NULL, NULL, 0), null, "support");
-    CHECK_FAILS(cstk_body_builder_add_rounded_polygon(b, square, SIZE_MAX, 1, 0), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_body_builder_add_rounded_polygon(b, square, SIZE_MAX, 1, 0), CSTK_ERROR_WRONG_SIZE,
                 "xyz");
     CHECK_FAILS(cstk_body_builder_add_rounded_polyhedron(b, square, SIZE_MAX, 1, 0),
-                CSTK_WRONG_SIZE, "xyz");
-    CHECK_FAILS(cstk_body_builder_add_points(b, square, SIZE_MAX / 24 + 1, 1), CSTK_WRONG_SIZE,
+                CSTK_ERROR_WRONG_SIZE, "xyz");
+    CHECK_FAILS(cstk_body_builder_add_points(b, square, SIZE_MAX / 24 + 1, 1), CSTK_ERROR_WRONG_SIZE,
                 "xyz");
-    CHECK_FAILS(cstk_body_builder_add_rounded_polygon(b, square, 2, 1, 0), CSTK_DEGENERATE,
+    CHECK_FAILS(cstk_body_builder_add_rounded_polygon(b, square, 2, 1, 0), CSTK_ERROR_DEGENERATE,
                 "rounded polygon");
-    CHECK_FAILS(cstk_body_builder_add_rounded_polyhedron(b, square, 0, 1, 0), CSTK_EMPTY,
+    CHECK_FAILS(cstk_body_builder_add_rounded_polyhedron(b, square, 0, 1, 0), CSTK_ERROR_EMPTY,
                 "rounded polyhedron");
     fixture_unchanged(f);
 }
@@ -96,12 +96,12 @@ static void sizes(const fixture *f) {
             double cloud[6] = {0, 0, 0, 0, 0, 0};
             point[entry] = not_finite[i];
             cloud[3 + entry] = not_finite[i];
-            CHECK_FAILS(cstk_body_builder_add_sphere(b, point, 1, 0), CSTK_NOT_FINITE, "center");
-            CHECK_FAILS(cstk_body_builder_add_capsule(b, point, one, 1, 0), CSTK_NOT_FINITE,
+            CHECK_FAILS(cstk_body_builder_add_sphere(b, point, 1, 0), CSTK_ERROR_NOT_FINITE, "center");
+            CHECK_FAILS(cstk_body_builder_add_capsule(b, point, one, 1, 0), CSTK_ERROR_NOT_FINITE,
                         "end a");
-            CHECK_FAILS(cstk_body_builder_add_capsule(b, one, point, 1, 0), CSTK_NOT_FINITE,
+            CHECK_FAILS(cstk_body_builder_add_capsule(b, one, point, 1, 0), CSTK_ERROR_NOT_FINITE,
                         "end b");
-            CHECK_FAILS(cstk_body_builder_add_points(b, cloud, 2, 1), CSTK_NOT_FINITE, "point 1");
+            CHECK_FAILS(cstk_body_builder_add_points(b, cloud, 2, 1), CSTK_ERROR_NOT_FINITE, "point 1");
         }
     }
     EACH_BAD_POSE(bad) {
@@ -122,17 +122,17 @@ static void height_fields(const fixture *f) {
         cstk_status status;
         const char *culprit;
     } bad[] = {
-        {0, 2, 1, 1, NAN, CSTK_INVALID_ARGUMENT, "nodes"},
-        {1, 6, 1, 1, NAN, CSTK_INVALID_ARGUMENT, "nodes"},
-        {SIZE_MAX, 2, 1, 1, NAN, CSTK_WRONG_SIZE, "heights"},
-        {SIZE_MAX / 2 + 2, 2, 1, 1, NAN, CSTK_WRONG_SIZE, "heights"},
-        {3, 2, 0, 1, NAN, CSTK_INVALID_ARGUMENT, "along x"},
-        {3, 2, 1, -1, NAN, CSTK_INVALID_ARGUMENT, "along y"},
-        {3, 2, 1, NAN, NAN, CSTK_NOT_FINITE, "along y"},
-        {3, 2, 1, 1, 1, CSTK_INVALID_ARGUMENT, "height 0"},
-        {3, 2, 1, 1, INFINITY, CSTK_NOT_FINITE, "base"},
-        {3, 2, 1e60, 1, NAN, CSTK_INVALID_ARGUMENT, "along x"},
-        {3, 2, 1e50, 1, NAN, CSTK_DEGENERATE, "cell (0, 0)"},
+        {0, 2, 1, 1, NAN, CSTK_ERROR_INVALID_ARGUMENT, "nodes"},
+        {1, 6, 1, 1, NAN, CSTK_ERROR_INVALID_ARGUMENT, "nodes"},
+        {SIZE_MAX, 2, 1, 1, NAN, CSTK_ERROR_WRONG_SIZE, "heights"},
+        {SIZE_MAX / 2 + 2, 2, 1, 1, NAN, CSTK_ERROR_WRONG_SIZE, "heights"},
+        {3, 2, 0, 1, NAN, CSTK_ERROR_INVALID_ARGUMENT, "along x"},
+        {3, 2, 1, -1, NAN, CSTK_ERROR_INVALID_ARGUMENT, "along y"},
+        {3, 2, 1, NAN, NAN, CSTK_ERROR_NOT_FINITE, "along y"},
+        {3, 2, 1, 1, 1, CSTK_ERROR_INVALID_ARGUMENT, "height 0"},
+        {3, 2, 1, 1, INFINITY, CSTK_ERROR_NOT_FINITE, "base"},
+        {3, 2, 1e60, 1, NAN, CSTK_ERROR_INVALID_ARGUMENT, "along x"},
+        {3, 2, 1e50, 1, NAN, CSTK_ERROR_DEGENERATE, "cell (0, 0)"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         CHECK_FAILS(cstk_body_builder_add_height_field(b, bad[i].nx, bad[i].ny, heights,
@@ -140,7 +140,7 @@ static void height_fields(const fixture *f) {
                     bad[i].status, bad[i].culprit);
     }
     heights[4] = NAN;
-    CHECK_FAILS(cstk_body_builder_add_height_field(b, 3, 2, heights, 1, 1, 0), CSTK_NOT_FINITE,
+    CHECK_FAILS(cstk_body_builder_add_height_field(b, 3, 2, heights, 1, 1, 0), CSTK_ERROR_NOT_FINITE,
                 "height 4");
     fixture_unchanged(f);
 }
@@ -166,8 +166,8 @@ static void count_destroyed(void *user) { ++((behaviour *)user)->destroyed; }
 static void supports(const fixture *f) {
     behaviour refused[] = {
         {1, 1, 3, 0}, {0, NAN, 3, 0}, {0, 1, 2, 0}, {0, -1, 3, 0}, {0, 1e60, 3, 0}};
-    const cstk_status status[] = {CSTK_CALLBACK_FAILED, CSTK_NOT_FINITE, CSTK_NOT_FINITE,
-                                  CSTK_NOT_CONVEX, CSTK_INVALID_ARGUMENT};
+    const cstk_status status[] = {CSTK_ERROR_CALLBACK_FAILED, CSTK_ERROR_NOT_FINITE, CSTK_ERROR_NOT_FINITE,
+                                  CSTK_ERROR_NOT_CONVEX, CSTK_ERROR_INVALID_ARGUMENT};
     for (int i = 0; i < 5; ++i) {
         CHECK_FAILS(
             cstk_body_builder_add_support(f->body_builder, ball, &refused[i], count_destroyed, 0),
@@ -182,7 +182,7 @@ static void supports(const fixture *f) {
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
     CHECK_OK(cstk_body_builder_release(builder));
     CHECK(good.destroyed == 0);
-    CHECK_FAILS(cstk_body_save(body, "support.cstk"), CSTK_UNSUPPORTED, "primitive 0");
+    CHECK_FAILS(cstk_body_save(body, "support.cstk"), CSTK_ERROR_UNSUPPORTED, "primitive 0");
     /* It fails, or answers nonsense, when it is asked: no call does. */
     double away[12];
     translation(9, 0, 0, away);

@@ -12,16 +12,16 @@ static void create_ranges(const fixture *f) {
         cstk_range range;
         cstk_status status;
     } wrong[] = {
-        {{-1, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_QUATERNION + 1, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{INT32_MIN, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{INT32_MAX, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_QUATERNION, 0, 0, 1}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, NAN, 1}, CSTK_NOT_FINITE},
-        {{CSTK_RANGE_INTERVAL, 0, 0, NAN}, CSTK_NOT_FINITE},
-        {{CSTK_RANGE_INTERVAL, 0, 1, 0}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, INFINITY, INFINITY}, CSTK_INVALID_ARGUMENT},
-        {{CSTK_RANGE_INTERVAL, 0, -INFINITY, -INFINITY}, CSTK_INVALID_ARGUMENT},
+        {{-1, 0, 0, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{CSTK_RANGE_QUATERNION + 1, 0, 0, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{INT32_MIN, 0, 0, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{INT32_MAX, 0, 0, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{CSTK_RANGE_QUATERNION, 0, 0, 1}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{CSTK_RANGE_INTERVAL, 0, NAN, 1}, CSTK_ERROR_NOT_FINITE},
+        {{CSTK_RANGE_INTERVAL, 0, 0, NAN}, CSTK_ERROR_NOT_FINITE},
+        {{CSTK_RANGE_INTERVAL, 0, 1, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{CSTK_RANGE_INTERVAL, 0, INFINITY, INFINITY}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{CSTK_RANGE_INTERVAL, 0, -INFINITY, -INFINITY}, CSTK_ERROR_INVALID_ARGUMENT},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         const cstk_range ranges[FIXTURE_NQ] = {circle, wrong[i].range, circle};
@@ -31,11 +31,11 @@ static void create_ranges(const fixture *f) {
     }
     const cstk_range ranges[FIXTURE_NQ + 1] = {circle, circle, circle, circle};
     CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, FIXTURE_NQ, NULL, &out),
-                  CSTK_NULL_ARGUMENT, "ranges");
+                  CSTK_ERROR_NULL_ARGUMENT, "ranges");
     const size_t counts[] = {1, FIXTURE_NQ - 1, FIXTURE_NQ + 1, SIZE_MAX};
     for (int i = 0; i < 4; ++i) {
         CHECK_REFUSED(out, cstk_space_create(&robot, 1, ranges, counts[i], NULL, &out),
-                      CSTK_WRONG_SIZE, "ranges");
+                      CSTK_ERROR_WRONG_SIZE, "ranges");
     }
     fixture_unchanged(f);
 }
@@ -59,7 +59,7 @@ static void create_ranges_of_joints(const fixture *f) {
     def.coordinate = -1;
     def.joint = CSTK_JOINT_SPHERICAL;
     /* A turn by three angles has no multiple. */
-    CHECK_FAILS(cstk_robot_builder_add_link(builder, &def, NULL), CSTK_INVALID_ARGUMENT,
+    CHECK_FAILS(cstk_robot_builder_add_link(builder, &def, NULL), CSTK_ERROR_INVALID_ARGUMENT,
                 "multiplier");
     def.multiplier = 1.0;
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
@@ -82,7 +82,7 @@ static void create_ranges_of_joints(const fixture *f) {
         }
         ranges[wrong[i].coordinate] = wrong[i].range;
         CHECK_REFUSED(out, cstk_space_create(&robot, 1, ranges, 6, NULL, &out),
-                      CSTK_INVALID_ARGUMENT, wrong[i].culprit);
+                      CSTK_ERROR_INVALID_ARGUMENT, wrong[i].culprit);
     }
     CHECK_OK(cstk_robot_release(made));
     CHECK_OK(cstk_robot_builder_release(builder));
@@ -97,24 +97,24 @@ static void create(const fixture *f) {
         CHECK_REFUSED(out, cstk_space_create(robots, 2, NULL, 0, NULL, &out), bad->status,
                       "robots[1]");
     }
-    CHECK_REFUSED(out, cstk_space_create(NULL, 1, NULL, 0, NULL, &out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_space_create(NULL, 1, NULL, 0, NULL, &out), CSTK_ERROR_NULL_ARGUMENT,
                   "robots");
-    CHECK_FAILS(cstk_space_create(&robot, 1, NULL, 0, NULL, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_space_create(&robot, 0, NULL, 0, NULL, &out), CSTK_EMPTY, "robot");
-    CHECK_REFUSED(out, cstk_space_create(NULL, 0, NULL, 0, NULL, &out), CSTK_EMPTY, "robot");
-    CHECK_REFUSED(out, cstk_space_create(&robot, SIZE_MAX, NULL, 0, NULL, &out), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_space_create(&robot, 1, NULL, 0, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_space_create(&robot, 0, NULL, 0, NULL, &out), CSTK_ERROR_EMPTY, "robot");
+    CHECK_REFUSED(out, cstk_space_create(NULL, 0, NULL, 0, NULL, &out), CSTK_ERROR_EMPTY, "robot");
+    CHECK_REFUSED(out, cstk_space_create(&robot, SIZE_MAX, NULL, 0, NULL, &out), CSTK_ERROR_WRONG_SIZE,
                   "robots");
     for (int entry = 0; entry < 6; ++entry) {
         double box[6] = {-1, -1, -1, 1, 1, 1};
         box[entry] = NAN;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_NOT_FINITE,
+        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_ERROR_NOT_FINITE,
                       "box");
         box[entry] = entry < 3 ? 2.0 : -2.0;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "box");
         /* An end at infinity is none, but on the wrong side it shuts everything out. */
         box[entry] = entry < 3 ? INFINITY : -INFINITY;
-        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_INVALID_ARGUMENT,
+        CHECK_REFUSED(out, cstk_space_create(&robot, 1, NULL, 0, box, &out), CSTK_ERROR_INVALID_ARGUMENT,
                       "box");
     }
     fixture_unchanged(f);
@@ -131,7 +131,7 @@ static void two_dimensions(const fixture *f) {
     CHECK_OK(cstk_robot_builder_add_link(builder, &def, NULL));
     CHECK_OK(cstk_robot_build(builder, &planar));
     const cstk_robot *robots[2] = {f->robot, planar};
-    CHECK_REFUSED(out, cstk_space_create(robots, 2, NULL, 0, NULL, &out), CSTK_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_space_create(robots, 2, NULL, 0, NULL, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "robots");
     CHECK_OK(cstk_robot_release(planar));
     CHECK_OK(cstk_robot_builder_release(builder));
@@ -152,20 +152,20 @@ static void sizes(const fixture *f) {
     cstk_space_offset offset;
     cstk_range range;
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(out, cstk_space_size(bad->handle, &out[0], &out[1], &out[2]), bad->status,
+        CHECK_REFUSED(out, cstk_space_get_size(bad->handle, &out[0], &out[1], &out[2]), bad->status,
                       "space");
         CHECK_REFUSED(offset, cstk_space_get_offset(bad->handle, 0, &offset), bad->status, "space");
         CHECK_REFUSED(range, cstk_space_get_range(bad->handle, 0, &range), bad->status, "space");
     }
-    CHECK_OK(cstk_space_size(f->space, NULL, NULL, NULL));
-    CHECK_FAILS(cstk_space_get_offset(f->space, 0, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_FAILS(cstk_space_get_range(f->space, 0, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_OK(cstk_space_get_size(f->space, NULL, NULL, NULL));
+    CHECK_FAILS(cstk_space_get_offset(f->space, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_space_get_range(f->space, 0, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     const size_t robots[] = {1, (size_t)UINT32_MAX + 1, SIZE_MAX};
     const size_t coordinates[] = {FIXTURE_NQ, (size_t)UINT32_MAX + 1, SIZE_MAX};
     for (int i = 0; i < 3; ++i) {
-        CHECK_REFUSED(offset, cstk_space_get_offset(f->space, robots[i], &offset), CSTK_NOT_FOUND,
+        CHECK_REFUSED(offset, cstk_space_get_offset(f->space, robots[i], &offset), CSTK_ERROR_NOT_FOUND,
                       "robot");
-        CHECK_REFUSED(range, cstk_space_get_range(f->space, coordinates[i], &range), CSTK_NOT_FOUND,
+        CHECK_REFUSED(range, cstk_space_get_range(f->space, coordinates[i], &range), CSTK_ERROR_NOT_FOUND,
                       "coordinate");
     }
     fixture_unchanged(f);

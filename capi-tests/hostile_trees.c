@@ -80,19 +80,19 @@ static cstk_status show(const question *a, answer *out) {
 }
 
 static cstk_status classify_at(const question *a, answer *out) {
-    return cstk_classify_at(a->query, a->set, a->at, a->count, &out->point_class);
+    return cstk_classify_at_link_poses(a->query, a->set, a->at, a->count, &out->point_class);
 }
 
 static cstk_status within_at(const question *a, answer *out) {
-    return cstk_within_at(a->query, a->set, a->at, a->count, 0.1, &out->within);
+    return cstk_within_at_link_poses(a->query, a->set, a->at, a->count, 0.1, &out->within);
 }
 
 static cstk_status distance_at(const question *a, answer *out) {
-    return cstk_distance_at(a->query, a->set, a->at, a->count, INFINITY, &out->distance);
+    return cstk_distance_at_link_poses(a->query, a->set, a->at, a->count, INFINITY, &out->distance);
 }
 
 static cstk_status witnesses_at(const question *a, answer *out) {
-    return cstk_witnesses_at(a->query, a->set, a->at, a->count, 10.0, 16, &out->list);
+    return cstk_witnesses_at_link_poses(a->query, a->set, a->at, a->count, 10.0, 16, &out->list);
 }
 
 /* Those that only compare classes come first (pictures leave out what has no place in the world), then those that measure, then those at link poses. */
@@ -168,9 +168,9 @@ static void nesting(const cube *c, bool with_complements) {
     for (int again = 0; again < 2; ++again) {
         answers(&a, 0, SLIDE);
         const cstk_cobject *parts[2] = {leaf, set};
-        CHECK_REFUSED(out, hows[(DEEPEST + 1) % 2](parts, 2, &out), CSTK_UNSUPPORTED, "256");
-        CHECK_REFUSED(out, cstk_cobject_difference(leaf, set, &out), CSTK_UNSUPPORTED, "256");
-        CHECK_REFUSED(out, cstk_cobject_complement(set, &out), CSTK_UNSUPPORTED, "256");
+        CHECK_REFUSED(out, hows[(DEEPEST + 1) % 2](parts, 2, &out), CSTK_ERROR_UNSUPPORTED, "256");
+        CHECK_REFUSED(out, cstk_cobject_difference(leaf, set, &out), CSTK_ERROR_UNSUPPORTED, "256");
+        CHECK_REFUSED(out, cstk_cobject_complement(set, &out), CSTK_ERROR_UNSUPPORTED, "256");
     }
     /* To carry data is no deeper. */
     CHECK_OK(cstk_cobject_with_data(set, NULL, NULL, &out));
@@ -206,7 +206,7 @@ static void flat_nesting(const cube *c) {
 static int32_t counted(const double *at, size_t nq, int32_t *out, void *user) {
     (void)at, (void)nq;
     ++*(int *)user;
-    *out = CSTK_CONTACT;
+    *out = CSTK_CLASS_CONTACT;
     return CSTK_OK;
 }
 
@@ -260,7 +260,7 @@ static void sharing(const cube *c) {
         CHECK_OK(forms[i](&a, &out));
         CHECK(0 < calls && calls < 100);
         if (i == 0) {
-            CHECK(out.point_class == CSTK_CONTACT);
+            CHECK(out.point_class == CSTK_CLASS_CONTACT);
         }
     }
     remove(picture);
@@ -291,9 +291,9 @@ static void mixed_units(const cube *c) {
         for (int k = 0; k < 5; ++k) {
             const question a = {c->query, mixed[k], q, NQ};
             answers(&a, 0, BY_CLASS);
-            refuse(&a, BY_CLASS, SLIDE, CSTK_UNSUPPORTED, culprit);
-            refuse(&a, BY_CLASS, SLIDE, CSTK_UNSUPPORTED, "scale");
-            refuse(&a, SLIDE, SLIDE + 1, CSTK_UNSUPPORTED, k == 0 ? culprit : "slides");
+            refuse(&a, BY_CLASS, SLIDE, CSTK_ERROR_UNSUPPORTED, culprit);
+            refuse(&a, BY_CLASS, SLIDE, CSTK_ERROR_UNSUPPORTED, "scale");
+            refuse(&a, SLIDE, SLIDE + 1, CSTK_ERROR_UNSUPPORTED, k == 0 ? culprit : "slides");
         }
         for (int k = 0; k < 5; ++k) {
             CHECK_OK(cstk_cobject_release(mixed[k]));
@@ -324,16 +324,16 @@ static void at_poses(const cube *c) {
             answers(&a, BY_POSES, FORMS);
             continue;
         }
-        refuse(&a, BY_POSES, FORMS, CSTK_UNSUPPORTED, names[leaf]);
-        refuse(&a, BY_POSES, FORMS, CSTK_UNSUPPORTED, "coordinates");
+        refuse(&a, BY_POSES, FORMS, CSTK_ERROR_UNSUPPORTED, names[leaf]);
+        refuse(&a, BY_POSES, FORMS, CSTK_ERROR_UNSUPPORTED, "coordinates");
         cstk_cobject *both =
             combine(cstk_cobject_union, c->leaves[OBSTACLE].set, c->leaves[leaf].set);
         cstk_cobject *complement = NULL;
         CHECK_OK(cstk_cobject_complement(both, &complement));
         const question of_both = {c->query, both, poses, LINKS};
         const question of_complement = {c->query, complement, poses, LINKS};
-        refuse(&of_both, BY_POSES, FORMS, CSTK_UNSUPPORTED, names[leaf]);
-        refuse(&of_complement, BY_POSES, FORMS, CSTK_UNSUPPORTED, names[leaf]);
+        refuse(&of_both, BY_POSES, FORMS, CSTK_ERROR_UNSUPPORTED, names[leaf]);
+        refuse(&of_complement, BY_POSES, FORMS, CSTK_ERROR_UNSUPPORTED, names[leaf]);
         CHECK_OK(cstk_cobject_release(complement));
         CHECK_OK(cstk_cobject_release(both));
     }
@@ -341,7 +341,7 @@ static void at_poses(const cube *c) {
     const question a = {c->query, both, poses, LINKS};
     answers(&a, BY_POSES, FORMS);
     poses[3] = NAN;
-    refuse(&a, BY_POSES, FORMS, CSTK_NOT_FINITE, "link_poses[0]");
+    refuse(&a, BY_POSES, FORMS, CSTK_ERROR_NOT_FINITE, "link_poses[0]");
     CHECK_OK(cstk_cobject_release(both));
 }
 
@@ -359,7 +359,7 @@ static void poses_in_any_order(const cube *c) {
             cstk_cobject *set =
                 combine(hows[i / 2], i % 2 == 0 ? world : round, i % 2 == 0 ? round : world);
             const question a = {c->query, set, poses, LINKS};
-            refuse(&a, BY_POSES, FORMS, CSTK_UNSUPPORTED, "a ball");
+            refuse(&a, BY_POSES, FORMS, CSTK_ERROR_UNSUPPORTED, "a ball");
             CHECK_OK(cstk_cobject_release(set));
         }
     }
@@ -379,7 +379,7 @@ static void slides(const cube *c) {
     all[6] = c->leaves[POLE].set;
     for (int i = 0; i < 7; ++i) {
         const question a = {c->query, all[i], q, NQ};
-        refuse(&a, SLIDE, SLIDE + 1, CSTK_UNSUPPORTED, "slides");
+        refuse(&a, SLIDE, SLIDE + 1, CSTK_ERROR_UNSUPPORTED, "slides");
     }
     for (int i = 0; i < 6; ++i) {
         CHECK_OK(cstk_cobject_release(all[i]));
@@ -396,27 +396,27 @@ static void explanations(const cube *c, const fixture *f) {
         CHECK_REFUSED(out, cstk_explain(c->query, bad->handle, q, NQ, 16, &out), bad->status,
                       "cobject");
     }
-    CHECK_FAILS(cstk_explain(c->query, set, q, NQ, 16, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(out, cstk_explain(c->query, set, NULL, NQ, 16, &out), CSTK_NULL_ARGUMENT, "q");
+    CHECK_FAILS(cstk_explain(c->query, set, q, NQ, 16, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_explain(c->query, set, NULL, NQ, 16, &out), CSTK_ERROR_NULL_ARGUMENT, "q");
     const size_t counts[] = {0, 1, NQ - 1, SIZE_MAX, SIZE_MAX / 8 + 2};
     for (int i = 0; i < 5; ++i) {
-        CHECK_REFUSED(out, cstk_explain(c->query, set, q, counts[i], 16, &out), CSTK_WRONG_SIZE,
+        CHECK_REFUSED(out, cstk_explain(c->query, set, q, counts[i], 16, &out), CSTK_ERROR_WRONG_SIZE,
                       "");
     }
     for (int entry = 0; entry < NQ; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[NQ] = {0.0, 0.0, 0.0};
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_explain(c->query, set, bad, NQ, 16, &out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, cstk_explain(c->query, set, bad, NQ, 16, &out), CSTK_ERROR_NOT_FINITE,
                           "configuration");
         }
     }
     /* The largest count asks for all; with none, the verdicts stay. */
     const double inside[NQ] = {0.7, -0.3, 0.2};
     CHECK_OK(cstk_explain(c->query, set, inside, NQ, SIZE_MAX, &out));
-    CHECK(out.point_class == CSTK_INSIDE && out.list.witness_count == 1 && !out.list.truncated);
+    CHECK(out.point_class == CSTK_CLASS_INSIDE && out.list.witness_count == 1 && !out.list.truncated);
     CHECK_OK(cstk_explain(c->query, set, inside, NQ, 0, &out));
-    CHECK(out.point_class == CSTK_INSIDE && out.leaf_count == 1 && out.leaves[0].decisive);
+    CHECK(out.point_class == CSTK_CLASS_INSIDE && out.leaf_count == 1 && out.leaves[0].decisive);
     CHECK(out.list.witness_count == 0 && out.list.truncated && out.leaves[0].witness_count == 0);
 }
 

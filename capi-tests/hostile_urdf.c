@@ -37,9 +37,9 @@ static void refuse(const fixture *f, const cstk_urdf_options *options, cstk_stat
 
 static void defaults(void) {
     cstk_urdf_options options;
-    CHECK_FAILS(cstk_urdf_options_default(NULL, sizeof options), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(options, cstk_urdf_options_default(&options, 0), CSTK_WRONG_SIZE, "size");
-    CHECK_REFUSED(options, cstk_urdf_options_default(&options, sizeof options - 1), CSTK_WRONG_SIZE,
+    CHECK_FAILS(cstk_urdf_options_default(NULL, sizeof options), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(options, cstk_urdf_options_default(&options, 0), CSTK_ERROR_WRONG_SIZE, "size");
+    CHECK_REFUSED(options, cstk_urdf_options_default(&options, sizeof options - 1), CSTK_ERROR_WRONG_SIZE,
                   "size");
     /* The size that the structure had without cache_folder. */
     CHECK_OK(cstk_urdf_options_default(&options, offsetof(cstk_urdf_options, cache_folder)));
@@ -55,14 +55,14 @@ static void arguments(const fixture *f) {
     }
     CHECK_REFUSED(root,
                   cstk_robot_builder_load_urdf(f->robot_builder, NULL, &options, NULL, NULL, &root),
-                  CSTK_NULL_ARGUMENT, "file");
+                  CSTK_ERROR_NULL_ARGUMENT, "file");
     CHECK_REFUSED(root,
                   cstk_robot_builder_load_urdf(f->robot_builder, "/nowhere/r.urdf", &options, NULL,
                                                NULL, &root),
-                  CSTK_IO, "/nowhere/r.urdf");
+                  CSTK_ERROR_IO, "/nowhere/r.urdf");
     CHECK_REFUSED(root,
                   cstk_robot_builder_load_urdf(f->robot_builder, "/", &options, NULL, NULL, &root),
-                  CSTK_IO, "/");
+                  CSTK_ERROR_IO, "/");
     EACH_BAD_OPTIONS(options, bad) {
         /* NULL stands for the defaults. */
         if (bad->options != NULL) {
@@ -72,7 +72,7 @@ static void arguments(const fixture *f) {
     cstk_robot_builder *planar = NULL;
     CHECK_OK(cstk_robot_builder_create(2, &planar));
     CHECK_REFUSED(root, cstk_robot_builder_load_urdf(planar, file, NULL, NULL, NULL, &root),
-                  CSTK_INVALID_ARGUMENT, "dimension 3");
+                  CSTK_ERROR_INVALID_ARGUMENT, "dimension 3");
     CHECK_OK(cstk_robot_builder_release(planar));
     fixture_unchanged(f);
 }
@@ -84,22 +84,22 @@ static void fields(const fixture *f) {
     for (int i = 0; i < 4; ++i) {
         cstk_urdf_options options = good_options();
         options.geometry = numbers[i];
-        refuse(f, &options, CSTK_INVALID_ARGUMENT, "geometry");
+        refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "geometry");
         options = good_options();
         options.sides = sides[i];
-        refuse(f, &options, CSTK_INVALID_ARGUMENT, "sides");
+        refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "sides");
     }
     const int32_t bases[] = {-1, CSTK_JOINT_REVOLUTE, CSTK_JOINT_CUSTOM, INT32_MAX};
     for (int i = 0; i < 4; ++i) {
         cstk_urdf_options options = good_options();
         options.base = bases[i];
-        refuse(f, &options, CSTK_INVALID_ARGUMENT, "base");
+        refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "base");
     }
     cstk_urdf_options options = good_options();
     options.parent = -2;
-    refuse(f, &options, CSTK_INVALID_ARGUMENT, "parent");
+    refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "parent");
     options.parent = FIXTURE_LINKS;
-    refuse(f, &options, CSTK_NOT_FOUND, "parent");
+    refuse(f, &options, CSTK_ERROR_NOT_FOUND, "parent");
     options = good_options();
     EACH_BAD_POSE(bad) {
         memcpy(options.at, bad->pose, sizeof options.at);
@@ -107,25 +107,25 @@ static void fields(const fixture *f) {
     }
     options = good_options();
     options.prefix = "\xff";
-    refuse(f, &options, CSTK_INVALID_ARGUMENT, "prefix");
+    refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "prefix");
     options = good_options();
     options.package_path_count = 1;
-    refuse(f, &options, CSTK_NULL_ARGUMENT, "package_paths");
+    refuse(f, &options, CSTK_ERROR_NULL_ARGUMENT, "package_paths");
     options.package_paths = paths;
     options.package_path_count = 2;
-    refuse(f, &options, CSTK_NULL_ARGUMENT, "package_paths[1]");
+    refuse(f, &options, CSTK_ERROR_NULL_ARGUMENT, "package_paths[1]");
     cstk_hierarchy_options damaged;
     memset(&damaged, 0, sizeof damaged);
     options = good_options();
     options.hierarchy = &damaged;
-    refuse(f, &options, CSTK_NOT_INITIALISED, "urdf_options->hierarchy");
+    refuse(f, &options, CSTK_ERROR_NOT_INITIALISED, "urdf_options->hierarchy");
     options = good_options();
     options.cache_folder = file;
-    refuse(f, &options, CSTK_IO, file);
+    refuse(f, &options, CSTK_ERROR_IO, file);
     options.cache_folder = "/dev/null/folder";
-    refuse(f, &options, CSTK_IO, "/dev/null/folder");
+    refuse(f, &options, CSTK_ERROR_IO, "/dev/null/folder");
     options.cache_folder = "";
-    refuse(f, &options, CSTK_IO, file);
+    refuse(f, &options, CSTK_ERROR_IO, file);
     fixture_unchanged(f);
 }
 
@@ -134,21 +134,21 @@ static void reports(const fixture *f) {
     cstk_urdf_report report;
     cstk_robot_builder *builder = NULL;
     EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
-        CHECK_REFUSED(report, cstk_robot_builder_urdf_report(bad->handle, &report), bad->status,
+        CHECK_REFUSED(report, cstk_robot_builder_get_urdf_report(bad->handle, &report), bad->status,
                       "builder");
     }
     CHECK_OK(cstk_robot_builder_create(3, &builder));
-    CHECK_FAILS(cstk_robot_builder_urdf_report(builder, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(report, cstk_robot_builder_urdf_report(builder, &report), CSTK_EMPTY, "URDF");
+    CHECK_FAILS(cstk_robot_builder_get_urdf_report(builder, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(report, cstk_robot_builder_get_urdf_report(builder, &report), CSTK_ERROR_EMPTY, "URDF");
     CHECK_OK(cstk_robot_builder_load_urdf(builder, file, NULL, NULL, NULL, NULL));
     for (int i = 0; i < 2; ++i) {
-        CHECK_OK(cstk_robot_builder_urdf_report(builder, &report));
+        CHECK_OK(cstk_robot_builder_get_urdf_report(builder, &report));
         CHECK(report.root == 0 && report.link_count == 1 && report.joint_count == 0);
         CHECK(report.links_with_body == 1 && report.body_count == 1);
         CHECK(report.shape_count == 1 && report.primitive_count == 1);
         CHECK(report.links_with_other_shapes == 0 && report.skipped_elements == 0);
         CHECK_FAILS(cstk_robot_builder_load_urdf(builder, file, NULL, NULL, NULL, NULL),
-                    CSTK_INVALID_ARGUMENT, "name");
+                    CSTK_ERROR_INVALID_ARGUMENT, "name");
     }
     CHECK_OK(cstk_robot_builder_release(builder));
 }
@@ -166,13 +166,13 @@ static void devices(const fixture *f) {
     for (int i = 0; i < 2; ++i) {
         cstk_body *body;
         CHECK_FAILS(cstk_robot_builder_load_urdf(builder, names[i], NULL, NULL, NULL, NULL),
-                    CSTK_IO, names[i]);
-        CHECK_REFUSED(body, cstk_body_load(names[i], &body), CSTK_IO, names[i]);
-        CHECK_FAILS(cstk_body_builder_add_mesh_file(f->body_builder, names[i], NULL, NULL), CSTK_IO, names[i]);
-        CHECK_FAILS(cstk_body_save(f->body, names[i]), CSTK_IO, names[i]);
+                    CSTK_ERROR_IO, names[i]);
+        CHECK_REFUSED(body, cstk_body_load(names[i], &body), CSTK_ERROR_IO, names[i]);
+        CHECK_FAILS(cstk_body_builder_add_mesh_file(f->body_builder, names[i], NULL, NULL), CSTK_ERROR_IO, names[i]);
+        CHECK_FAILS(cstk_body_save(f->body, names[i]), CSTK_ERROR_IO, names[i]);
         snprintf(text, sizeof text, robot, names[i]);
         write_file(text);
-        refuse(f, NULL, CSTK_NOT_FOUND, names[i]);
+        refuse(f, NULL, CSTK_ERROR_NOT_FOUND, names[i]);
         CHECK(remove(names[i]) == 0);
     }
     write_file(good);
@@ -190,21 +190,21 @@ static void files(const fixture *f) {
         cstk_status status;
         const char *culprit;
     } wrong[] = {
-        {"", CSTK_PARSE, file},
-        {"<robot>", CSTK_PARSE, file},
-        {"<!DOCTYPE r [<!ENTITY a 'aaaa'>]><robot>&a;</robot>", CSTK_PARSE, file},
-        {"<sdf/>", CSTK_PARSE, "<sdf>"},
-        {"<robot/>", CSTK_EMPTY, "no link"},
-        {"<robot><link name='link0'/></robot>", CSTK_INVALID_ARGUMENT, "link0"},
+        {"", CSTK_ERROR_PARSE, file},
+        {"<robot>", CSTK_ERROR_PARSE, file},
+        {"<!DOCTYPE r [<!ENTITY a 'aaaa'>]><robot>&a;</robot>", CSTK_ERROR_PARSE, file},
+        {"<sdf/>", CSTK_ERROR_PARSE, "<sdf>"},
+        {"<robot/>", CSTK_ERROR_EMPTY, "no link"},
+        {"<robot><link name='link0'/></robot>", CSTK_ERROR_INVALID_ARGUMENT, "link0"},
         {"<robot>\n<link name='a'><collision><geometry><box size='nan 1 1'/></geometry></collision>"
          "</link></robot>",
-         CSTK_NOT_FINITE, "line 2, <box>"},
+         CSTK_ERROR_NOT_FINITE, "line 2, <box>"},
         {"<robot><link name='a'><collision><geometry><box size='1e99 1 1'/></geometry></collision>"
          "</link></robot>",
-         CSTK_INVALID_ARGUMENT, "\"a\""},
+         CSTK_ERROR_INVALID_ARGUMENT, "\"a\""},
         {"<robot><link name='a'><collision><geometry><mesh filename='package://p/none.stl'/>"
          "</geometry></collision></link></robot>",
-         CSTK_NOT_FOUND, "package://p/none.stl"},
+         CSTK_ERROR_NOT_FOUND, "package://p/none.stl"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         write_file(wrong[i].text);
@@ -215,7 +215,7 @@ static void files(const fixture *f) {
     uint32_t root;
     CHECK_REFUSED(root,
                   cstk_robot_builder_load_urdf(f->robot_builder, file, NULL, stop, &told, &root),
-                  CSTK_CANCELLED, "progress");
+                  CSTK_ERROR_CANCELLED, "progress");
     CHECK(told == 1.0);
     fixture_unchanged(f);
 }

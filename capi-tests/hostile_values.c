@@ -11,8 +11,8 @@ static void texts(void) {
     CHECK(strcmp(cstk_version(), expected) == 0);
     CHECK(cstk_last_error_message() != NULL);
     CHECK(strcmp(cstk_status_name(CSTK_OK), "CSTK_OK") == 0);
-    CHECK(strcmp(cstk_status_name(CSTK_INTERNAL), "CSTK_INTERNAL") == 0);
-    const int32_t none[] = {-1, CSTK_OUT_OF_MEMORY + 1, INT32_MIN, INT32_MAX};
+    CHECK(strcmp(cstk_status_name(CSTK_ERROR_INTERNAL), "CSTK_ERROR_INTERNAL") == 0);
+    const int32_t none[] = {-1, CSTK_ERROR_OUT_OF_MEMORY + 1, INT32_MIN, INT32_MAX};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; ++i) {
         CHECK(strcmp(cstk_status_name(none[i]), "unknown status") == 0);
     }
@@ -20,7 +20,7 @@ static void texts(void) {
     char before[256];
     double pose[12];
     const double here[6] = {0};
-    CHECK_FAILS(cstk_pose_from_euler(NULL, pose), CSTK_NULL_ARGUMENT, "xyz_ypr");
+    CHECK_FAILS(cstk_pose_from_euler(NULL, pose), CSTK_ERROR_NULL_ARGUMENT, "xyz_ypr");
     snprintf(before, sizeof before, "%s", cstk_last_error_message());
     CHECK_OK(cstk_pose_from_euler(here, pose));
     CHECK(strcmp(before, cstk_last_error_message()) == 0);
@@ -29,14 +29,14 @@ static void texts(void) {
 static void pose_from_euler(void) {
     double good[6] = {1, 2, 3, 0.1, 0.2, 0.3};
     double pose[12];
-    CHECK_REFUSED(pose, cstk_pose_from_euler(NULL, pose), CSTK_NULL_ARGUMENT, "xyz_ypr");
-    CHECK_FAILS(cstk_pose_from_euler(good, NULL), CSTK_NULL_ARGUMENT, "pose");
+    CHECK_REFUSED(pose, cstk_pose_from_euler(NULL, pose), CSTK_ERROR_NULL_ARGUMENT, "xyz_ypr");
+    CHECK_FAILS(cstk_pose_from_euler(good, NULL), CSTK_ERROR_NULL_ARGUMENT, "pose");
     for (int entry = 0; entry < 6; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[6];
             memcpy(bad, good, sizeof bad);
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(pose, cstk_pose_from_euler(bad, pose), CSTK_NOT_FINITE, "xyz_ypr");
+            CHECK_REFUSED(pose, cstk_pose_from_euler(bad, pose), CSTK_ERROR_NOT_FINITE, "xyz_ypr");
         }
     }
 }
@@ -44,28 +44,28 @@ static void pose_from_euler(void) {
 static void pose_from_quaternion(void) {
     double good[7] = {1, 2, 3, 0.6, 0, 0, 0.8};
     double pose[12];
-    CHECK_REFUSED(pose, cstk_pose_from_quaternion(NULL, pose), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(pose, cstk_pose_from_quaternion(NULL, pose), CSTK_ERROR_NULL_ARGUMENT,
                   "xyz_quaternion");
-    CHECK_FAILS(cstk_pose_from_quaternion(good, NULL), CSTK_NULL_ARGUMENT, "pose");
+    CHECK_FAILS(cstk_pose_from_quaternion(good, NULL), CSTK_ERROR_NULL_ARGUMENT, "pose");
     for (int entry = 0; entry < 7; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[7];
             memcpy(bad, good, sizeof bad);
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(pose, cstk_pose_from_quaternion(bad, pose), CSTK_NOT_FINITE,
+            CHECK_REFUSED(pose, cstk_pose_from_quaternion(bad, pose), CSTK_ERROR_NOT_FINITE,
                           "xyz_quaternion");
         }
     }
     double off[7] = {1, 2, 3, 0.6, 0, 0, 0.80001};
-    CHECK_REFUSED(pose, cstk_pose_from_quaternion(off, pose), CSTK_NOT_A_ROTATION, "norm");
+    CHECK_REFUSED(pose, cstk_pose_from_quaternion(off, pose), CSTK_ERROR_NOT_A_ROTATION, "norm");
     double zero[7] = {1, 2, 3, 0, 0, 0, 0};
-    CHECK_REFUSED(pose, cstk_pose_from_quaternion(zero, pose), CSTK_NOT_A_ROTATION, "norm");
+    CHECK_REFUSED(pose, cstk_pose_from_quaternion(zero, pose), CSTK_ERROR_NOT_A_ROTATION, "norm");
 }
 
 static void pose_to_euler(void) {
     double out[6];
-    CHECK_REFUSED(out, cstk_pose_to_euler(NULL, out), CSTK_NULL_ARGUMENT, "pose_12");
-    CHECK_FAILS(cstk_pose_to_euler(identity_pose, NULL), CSTK_NULL_ARGUMENT, "xyz_ypr");
+    CHECK_REFUSED(out, cstk_pose_to_euler(NULL, out), CSTK_ERROR_NULL_ARGUMENT, "pose_12");
+    CHECK_FAILS(cstk_pose_to_euler(identity_pose, NULL), CSTK_ERROR_NULL_ARGUMENT, "xyz_ypr");
     EACH_BAD_POSE(bad) {
         CHECK_REFUSED(out, cstk_pose_to_euler(bad->pose, out), bad->status, "pose_12");
     }
@@ -74,9 +74,9 @@ static void pose_to_euler(void) {
 static void pose_compose(void) {
     double out[12];
     const double *good = identity_pose;
-    CHECK_REFUSED(out, cstk_pose_compose(NULL, good, out), CSTK_NULL_ARGUMENT, "a is NULL");
-    CHECK_REFUSED(out, cstk_pose_compose(good, NULL, out), CSTK_NULL_ARGUMENT, "b is NULL");
-    CHECK_FAILS(cstk_pose_compose(good, good, NULL), CSTK_NULL_ARGUMENT, "out is NULL");
+    CHECK_REFUSED(out, cstk_pose_compose(NULL, good, out), CSTK_ERROR_NULL_ARGUMENT, "a is NULL");
+    CHECK_REFUSED(out, cstk_pose_compose(good, NULL, out), CSTK_ERROR_NULL_ARGUMENT, "b is NULL");
+    CHECK_FAILS(cstk_pose_compose(good, good, NULL), CSTK_ERROR_NULL_ARGUMENT, "out is NULL");
     EACH_BAD_POSE(bad) {
         CHECK_REFUSED(out, cstk_pose_compose(bad->pose, good, out), bad->status, "a: ");
         CHECK_REFUSED(out, cstk_pose_compose(good, bad->pose, out), bad->status, "b: ");
@@ -85,8 +85,8 @@ static void pose_compose(void) {
 
 static void pose_inverse(void) {
     double out[12];
-    CHECK_REFUSED(out, cstk_pose_inverse(NULL, out), CSTK_NULL_ARGUMENT, "pose_12");
-    CHECK_FAILS(cstk_pose_inverse(identity_pose, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_pose_inverse(NULL, out), CSTK_ERROR_NULL_ARGUMENT, "pose_12");
+    CHECK_FAILS(cstk_pose_inverse(identity_pose, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     EACH_BAD_POSE(bad) {
         CHECK_REFUSED(out, cstk_pose_inverse(bad->pose, out), bad->status, "pose_12");
     }
@@ -95,10 +95,10 @@ static void pose_inverse(void) {
 static void pose_transform_point(void) {
     const double good[3] = {1, 2, 3};
     double out[3];
-    CHECK_REFUSED(out, cstk_pose_transform_point(NULL, good, out), CSTK_NULL_ARGUMENT, "pose_12");
-    CHECK_REFUSED(out, cstk_pose_transform_point(identity_pose, NULL, out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, cstk_pose_transform_point(NULL, good, out), CSTK_ERROR_NULL_ARGUMENT, "pose_12");
+    CHECK_REFUSED(out, cstk_pose_transform_point(identity_pose, NULL, out), CSTK_ERROR_NULL_ARGUMENT,
                   "point");
-    CHECK_FAILS(cstk_pose_transform_point(identity_pose, good, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_pose_transform_point(identity_pose, good, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     EACH_BAD_POSE(bad) {
         CHECK_REFUSED(out, cstk_pose_transform_point(bad->pose, good, out), bad->status, "pose_12");
     }
@@ -106,19 +106,19 @@ static void pose_transform_point(void) {
         double bad[3] = {1, 2, 3};
         EACH_NOT_FINITE(i) {
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_pose_transform_point(identity_pose, bad, out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, cstk_pose_transform_point(identity_pose, bad, out), CSTK_ERROR_NOT_FINITE,
                           "point");
         }
         bad[entry] = 1.7e308;
         CHECK_REFUSED(out, cstk_pose_transform_point(identity_pose, bad, out),
-                      CSTK_INVALID_ARGUMENT, "point");
+                      CSTK_ERROR_INVALID_ARGUMENT, "point");
     }
 }
 
 static void pose_to_quaternion(void) {
     double out[7];
-    CHECK_REFUSED(out, cstk_pose_to_quaternion(NULL, out), CSTK_NULL_ARGUMENT, "pose_12");
-    CHECK_FAILS(cstk_pose_to_quaternion(identity_pose, NULL), CSTK_NULL_ARGUMENT, "xyz_quaternion");
+    CHECK_REFUSED(out, cstk_pose_to_quaternion(NULL, out), CSTK_ERROR_NULL_ARGUMENT, "pose_12");
+    CHECK_FAILS(cstk_pose_to_quaternion(identity_pose, NULL), CSTK_ERROR_NULL_ARGUMENT, "xyz_quaternion");
     EACH_BAD_POSE(bad) {
         CHECK_REFUSED(out, cstk_pose_to_quaternion(bad->pose, out), bad->status, "pose_12");
     }
@@ -147,14 +147,14 @@ static void nearly_a_rotation(void) {
 static void euler_to_rotation(void) {
     double good[3] = {0.1, 0.2, 0.3};
     double out[9];
-    CHECK_REFUSED(out, cstk_euler_to_rotation(NULL, out), CSTK_NULL_ARGUMENT, "yaw_pitch_roll");
-    CHECK_FAILS(cstk_euler_to_rotation(good, NULL), CSTK_NULL_ARGUMENT, "rotation");
+    CHECK_REFUSED(out, cstk_euler_to_rotation(NULL, out), CSTK_ERROR_NULL_ARGUMENT, "yaw_pitch_roll");
+    CHECK_FAILS(cstk_euler_to_rotation(good, NULL), CSTK_ERROR_NULL_ARGUMENT, "rotation");
     for (int entry = 0; entry < 3; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[3];
             memcpy(bad, good, sizeof bad);
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(out, cstk_euler_to_rotation(bad, out), CSTK_NOT_FINITE, "yaw_pitch_roll");
+            CHECK_REFUSED(out, cstk_euler_to_rotation(bad, out), CSTK_ERROR_NOT_FINITE, "yaw_pitch_roll");
         }
     }
 }
@@ -162,8 +162,8 @@ static void euler_to_rotation(void) {
 static void euler_from_rotation(void) {
     const double good[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     double out[3];
-    CHECK_REFUSED(out, cstk_euler_from_rotation(NULL, out), CSTK_NULL_ARGUMENT, "rotation");
-    CHECK_FAILS(cstk_euler_from_rotation(good, NULL), CSTK_NULL_ARGUMENT, "yaw_pitch_roll");
+    CHECK_REFUSED(out, cstk_euler_from_rotation(NULL, out), CSTK_ERROR_NULL_ARGUMENT, "rotation");
+    CHECK_FAILS(cstk_euler_from_rotation(good, NULL), CSTK_ERROR_NULL_ARGUMENT, "yaw_pitch_roll");
     EACH_BAD_POSE(bad) {
         const double *p = bad->pose;
         const double rotation[9] = {p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]};
@@ -181,17 +181,17 @@ static void rates(rates_fn rates_at) {
     const double good[3] = {0.1, 0.2, 0.3};
     const int32_t frames[] = {-1, CSTK_ANGULAR_BODY + 1, INT32_MIN, INT32_MAX};
     double out[9];
-    CHECK_REFUSED(out, rates_at(NULL, CSTK_ANGULAR_WORLD, out), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(out, rates_at(NULL, CSTK_ANGULAR_WORLD, out), CSTK_ERROR_NULL_ARGUMENT,
                   "yaw_pitch_roll");
-    CHECK_FAILS(rates_at(good, CSTK_ANGULAR_WORLD, NULL), CSTK_NULL_ARGUMENT, "matrix");
+    CHECK_FAILS(rates_at(good, CSTK_ANGULAR_WORLD, NULL), CSTK_ERROR_NULL_ARGUMENT, "matrix");
     for (int i = 0; i < 4; ++i) {
-        CHECK_REFUSED(out, rates_at(good, frames[i], out), CSTK_INVALID_ARGUMENT, "frame");
+        CHECK_REFUSED(out, rates_at(good, frames[i], out), CSTK_ERROR_INVALID_ARGUMENT, "frame");
     }
     for (int entry = 0; entry < 3; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[3] = {0.1, 0.2, 0.3};
             bad[entry] = not_finite[i];
-            CHECK_REFUSED(out, rates_at(bad, CSTK_ANGULAR_BODY, out), CSTK_NOT_FINITE,
+            CHECK_REFUSED(out, rates_at(bad, CSTK_ANGULAR_BODY, out), CSTK_ERROR_NOT_FINITE,
                           "yaw_pitch_roll");
         }
     }
@@ -205,7 +205,7 @@ static void euler_rates(void) {
         for (int turns = -3; turns <= 3; turns += 2) {
             const double singular[3] = {0.1, turns * quarter_turn, 0.3};
             CHECK_OK(cstk_euler_rates(singular, frame, out));
-            CHECK_REFUSED(out, cstk_euler_rates_inverse(singular, frame, out), CSTK_DEGENERATE,
+            CHECK_REFUSED(out, cstk_euler_rates_inverse(singular, frame, out), CSTK_ERROR_DEGENERATE,
                           "pitch");
         }
     }
@@ -228,24 +228,24 @@ static void refuse_jacobian(convert_fn convert, const double *angles, const doub
 static void jacobians(convert_fn convert) {
     const double angles[3] = {0.1, 1.5, 0.3};
     double given[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-    refuse_jacobian(convert, NULL, given, 2, CSTK_NULL_ARGUMENT, "yaw_pitch_roll");
-    CHECK_FAILS(convert(angles, NULL, 2), CSTK_NULL_ARGUMENT, "jacobian");
+    refuse_jacobian(convert, NULL, given, 2, CSTK_ERROR_NULL_ARGUMENT, "yaw_pitch_roll");
+    CHECK_FAILS(convert(angles, NULL, 2), CSTK_ERROR_NULL_ARGUMENT, "jacobian");
     const size_t counts[] = {SIZE_MAX, SIZE_MAX / 6 + 1, SIZE_MAX / 48 + 1};
     for (int i = 0; i < 3; ++i) {
-        refuse_jacobian(convert, angles, given, counts[i], CSTK_WRONG_SIZE, "jacobian");
+        refuse_jacobian(convert, angles, given, counts[i], CSTK_ERROR_WRONG_SIZE, "jacobian");
     }
     for (int entry = 0; entry < 3; ++entry) {
         EACH_NOT_FINITE(i) {
             double bad[3] = {0.1, 0.2, 0.3};
             bad[entry] = not_finite[i];
-            refuse_jacobian(convert, bad, given, 2, CSTK_NOT_FINITE, "yaw_pitch_roll");
+            refuse_jacobian(convert, bad, given, 2, CSTK_ERROR_NOT_FINITE, "yaw_pitch_roll");
         }
     }
     for (int entry = 0; entry < 12; ++entry) {
         const double good = given[entry];
         EACH_NOT_FINITE(i) {
             given[entry] = not_finite[i];
-            refuse_jacobian(convert, angles, given, 2, CSTK_NOT_FINITE, "jacobian");
+            refuse_jacobian(convert, angles, given, 2, CSTK_ERROR_NOT_FINITE, "jacobian");
         }
         given[entry] = good;
     }
@@ -253,7 +253,7 @@ static void jacobians(convert_fn convert) {
     for (int entry = 6; entry < 12; ++entry) {
         given[entry] = 1.7e308;
     }
-    refuse_jacobian(convert, angles, given, 2, CSTK_INVALID_ARGUMENT, "jacobian");
+    refuse_jacobian(convert, angles, given, 2, CSTK_ERROR_INVALID_ARGUMENT, "jacobian");
 }
 
 static void euler_jacobians(void) {
@@ -261,7 +261,7 @@ static void euler_jacobians(void) {
     jacobians(cstk_jacobian_from_euler);
     const double singular[3] = {0.1, -quarter_turn, 0.3};
     double given[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-    refuse_jacobian(cstk_jacobian_to_euler, singular, given, 2, CSTK_DEGENERATE, "pitch");
+    refuse_jacobian(cstk_jacobian_to_euler, singular, given, 2, CSTK_ERROR_DEGENERATE, "pitch");
     CHECK_OK(cstk_jacobian_from_euler(singular, given, 2));
     /* A Jacobian by no coordinates has no entries. */
     CHECK_OK(cstk_jacobian_to_euler(identity_pose, NULL, 0));
@@ -277,9 +277,9 @@ static void euler_jacobians(void) {
             unsigned char bytes[sizeof(type) + 16];                                                \
         } out;                                                                                     \
         const size_t wrong[] = {0, 1, 4, 8, sizeof(type) - 1, SIZE_MAX, (size_t)UINT32_MAX + 1};   \
-        CHECK_FAILS(write(NULL, sizeof(type)), CSTK_NULL_ARGUMENT, "out");                         \
+        CHECK_FAILS(write(NULL, sizeof(type)), CSTK_ERROR_NULL_ARGUMENT, "out");                         \
         for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {                              \
-            CHECK_REFUSED(out, write(&out.options, wrong[i]), CSTK_WRONG_SIZE, "size");            \
+            CHECK_REFUSED(out, write(&out.options, wrong[i]), CSTK_ERROR_WRONG_SIZE, "size");            \
         }                                                                                          \
         memset(&out, CHECK_SENTINEL, sizeof out);                                                  \
         CHECK_OK(write(&out.options, sizeof(type) + 8));                                           \
@@ -293,7 +293,7 @@ DEFAULTS_OF(cstk_hierarchy_options, cstk_hierarchy_options_default)
 DEFAULTS_OF(cstk_link_def, cstk_link_def_default)
 DEFAULTS_OF(cstk_custom_joint, cstk_custom_joint_default)
 DEFAULTS_OF(cstk_environment_change, cstk_environment_change_default)
-DEFAULTS_OF(cstk_cobject_options, cstk_cobject_options_default)
+DEFAULTS_OF(cstk_induced_options, cstk_induced_options_default)
 DEFAULTS_OF(cstk_pure_options, cstk_pure_options_default)
 DEFAULTS_OF(cstk_predicate, cstk_predicate_default)
 DEFAULTS_OF(cstk_slide_options, cstk_slide_options_default)

@@ -10,7 +10,7 @@ static void refuse_floor(const cstk_space *space, const uint32_t *links, size_t 
                          const double *normal, double offset, const cstk_pure_options *options,
                          cstk_status status, const char *culprit) {
     cstk_cobject *out;
-    CHECK_REFUSED(out, cstk_cobject_floor(space, links, count, normal, offset, options, &out),
+    CHECK_REFUSED(out, cstk_cobject_below_floor(space, links, count, normal, offset, options, &out),
                   status, culprit);
 }
 
@@ -27,28 +27,28 @@ static void floors(const fixture *f) {
     EACH_BAD_OPTIONS(options, bad) {
         refuse_floor(f->space, NULL, 0, up, 0, bad->options, bad->status, "options");
     }
-    refuse_floor(f->space, NULL, 1, up, 0, NULL, CSTK_NULL_ARGUMENT, "links");
-    refuse_floor(f->space, links, 2, up, 0, NULL, CSTK_NOT_FOUND, "link 4");
-    refuse_floor(f->space, links, SIZE_MAX, up, 0, NULL, CSTK_WRONG_SIZE, "links");
-    refuse_floor(f->space, NULL, 0, NULL, 0, NULL, CSTK_NULL_ARGUMENT, "normal");
-    refuse_floor(f->space, NULL, 0, none, 0, NULL, CSTK_DEGENERATE, "normal");
-    refuse_floor(f->space, NULL, 0, huge, 0, NULL, CSTK_INVALID_ARGUMENT, "normal");
+    refuse_floor(f->space, NULL, 1, up, 0, NULL, CSTK_ERROR_NULL_ARGUMENT, "links");
+    refuse_floor(f->space, links, 2, up, 0, NULL, CSTK_ERROR_NOT_FOUND, "link 4");
+    refuse_floor(f->space, links, SIZE_MAX, up, 0, NULL, CSTK_ERROR_WRONG_SIZE, "links");
+    refuse_floor(f->space, NULL, 0, NULL, 0, NULL, CSTK_ERROR_NULL_ARGUMENT, "normal");
+    refuse_floor(f->space, NULL, 0, none, 0, NULL, CSTK_ERROR_DEGENERATE, "normal");
+    refuse_floor(f->space, NULL, 0, huge, 0, NULL, CSTK_ERROR_INVALID_ARGUMENT, "normal");
     EACH_NOT_FINITE(i) {
         double bad[3] = {0, 0, 1};
         bad[i] = not_finite[i];
-        refuse_floor(f->space, NULL, 0, bad, 0, NULL, CSTK_NOT_FINITE, "normal");
-        refuse_floor(f->space, NULL, 0, up, not_finite[i], NULL, CSTK_NOT_FINITE, "offset");
+        refuse_floor(f->space, NULL, 0, bad, 0, NULL, CSTK_ERROR_NOT_FINITE, "normal");
+        refuse_floor(f->space, NULL, 0, up, not_finite[i], NULL, CSTK_ERROR_NOT_FINITE, "offset");
     }
-    CHECK_FAILS(cstk_cobject_floor(f->space, NULL, 0, up, 0, NULL, NULL), CSTK_NULL_ARGUMENT,
+    CHECK_FAILS(cstk_cobject_below_floor(f->space, NULL, 0, up, 0, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT,
                 "out");
 
     cstk_cobject *ground = NULL;
     cstk_distance_result found;
-    CHECK_OK(cstk_cobject_floor(f->space, NULL, 0, up, -20, NULL, &ground));
+    CHECK_OK(cstk_cobject_below_floor(f->space, NULL, 0, up, -20, NULL, &ground));
     CHECK_OK(cstk_distance(f->query, ground, f->q, FIXTURE_NQ, INFINITY, &found));
     CHECK(found.distance > 8 && found.distance < 10 && found.has_contact);
     CHECK(found.witness.r_link != CSTK_NONE && found.witness.coordinate == CSTK_NONE);
-    CHECK(found.contact.mode == CSTK_PURE_SET && found.s_point[2] == -10);
+    CHECK(found.contact.mode == CSTK_MODE_PURE_SET && found.s_point[2] == -10);
     CHECK_OK(cstk_cobject_release(ground));
     fixture_unchanged(f);
 }
@@ -64,7 +64,7 @@ static void body_data(const fixture *f) {
         CHECK_FAILS(cstk_body_set_data(bad->handle, &one, count), bad->status, "body");
         CHECK_REFUSED(out, cstk_body_get_data(bad->handle, &out), bad->status, "body");
     }
-    CHECK_FAILS(cstk_body_get_data(f->body, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_body_get_data(f->body, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     CHECK_OK(cstk_body_get_data(f->body, &out));
     CHECK(out == NULL);
     CHECK(destroyed == 0);
@@ -76,7 +76,7 @@ static void body_data(const fixture *f) {
     CHECK_OK(cstk_body_set_data(body, NULL, NULL));
     CHECK_OK(cstk_body_set_data(body, &one, count));
     int other = 100;
-    CHECK_FAILS(cstk_body_set_data(body, &other, count), CSTK_INVALID_ARGUMENT, "data already");
+    CHECK_FAILS(cstk_body_set_data(body, &other, count), CSTK_ERROR_INVALID_ARGUMENT, "data already");
     CHECK_OK(cstk_body_get_data(body, &out));
     CHECK(out == &one);
     CHECK_OK(cstk_environment_create(&world));
@@ -97,16 +97,16 @@ static void link_names(const fixture *f) {
     char same[64];
     size_t length;
     EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
-        CHECK_REFUSED(length, cstk_space_link_name(bad->handle, 0, NULL, 0, &length), bad->status,
+        CHECK_REFUSED(length, cstk_space_get_link_name(bad->handle, 0, NULL, 0, &length), bad->status,
                       "space");
     }
-    CHECK_REFUSED(length, cstk_space_link_name(f->space, FIXTURE_LINKS, NULL, 0, &length),
-                  CSTK_NOT_FOUND, "link 4");
-    CHECK_REFUSED(length, cstk_space_link_name(f->space, 0, NULL, 9, &length), CSTK_NULL_ARGUMENT,
+    CHECK_REFUSED(length, cstk_space_get_link_name(f->space, FIXTURE_LINKS, NULL, 0, &length),
+                  CSTK_ERROR_NOT_FOUND, "link 4");
+    CHECK_REFUSED(length, cstk_space_get_link_name(f->space, 0, NULL, 9, &length), CSTK_ERROR_NULL_ARGUMENT,
                   "buffer");
     for (uint32_t link = 0; link < FIXTURE_LINKS; ++link) {
-        CHECK_OK(cstk_space_link_name(f->space, link, name, sizeof name, NULL));
-        CHECK_OK(cstk_robot_link_name(f->robot, link, same, sizeof same, NULL));
+        CHECK_OK(cstk_space_get_link_name(f->space, link, name, sizeof name, NULL));
+        CHECK_OK(cstk_robot_get_link_name(f->robot, link, same, sizeof same, NULL));
         CHECK(strcmp(name, same) == 0);
     }
     fixture_unchanged(f);
@@ -117,24 +117,24 @@ static void objects(const fixture *f) {
     size_t count = 0;
     cstk_object_info info;
     EACH_BAD_HANDLE(f, NOUN_ENVIRONMENT, bad) {
-        CHECK_REFUSED(count, cstk_environment_objects(bad->handle, 0, NULL, &count), bad->status,
+        CHECK_REFUSED(count, cstk_environment_get_objects(bad->handle, 0, NULL, &count), bad->status,
                       "environment");
-        CHECK_REFUSED(info, cstk_environment_object_info(bad->handle, f->box, &info), bad->status,
+        CHECK_REFUSED(info, cstk_environment_get_object_info(bad->handle, f->box, &info), bad->status,
                       "environment");
     }
     const cstk_environment *e = f->environment;
-    CHECK_REFUSED(count, cstk_environment_objects(e, 1, NULL, &count), CSTK_NULL_ARGUMENT, "ids");
-    CHECK_FAILS(cstk_environment_objects(e, 2, ids, NULL), CSTK_NULL_ARGUMENT, "count");
-    CHECK_FAILS(cstk_environment_object_info(e, f->box, NULL), CSTK_NULL_ARGUMENT, "out");
-    CHECK_REFUSED(info, cstk_environment_object_info(e, f->box + 1000, &info), CSTK_NOT_FOUND,
+    CHECK_REFUSED(count, cstk_environment_get_objects(e, 1, NULL, &count), CSTK_ERROR_NULL_ARGUMENT, "ids");
+    CHECK_FAILS(cstk_environment_get_objects(e, 2, ids, NULL), CSTK_ERROR_NULL_ARGUMENT, "count");
+    CHECK_FAILS(cstk_environment_get_object_info(e, f->box, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(info, cstk_environment_get_object_info(e, f->box + 1000, &info), CSTK_ERROR_NOT_FOUND,
                   "id");
-    CHECK_OK(cstk_environment_objects(e, 0, NULL, &count));
+    CHECK_OK(cstk_environment_get_objects(e, 0, NULL, &count));
     CHECK(count == 1);
-    CHECK_OK(cstk_environment_objects(e, 2, ids, &count));
+    CHECK_OK(cstk_environment_get_objects(e, 2, ids, &count));
     CHECK(count == 1 && ids[0] == f->box && ids[1] == 7);
-    CHECK_OK(cstk_environment_objects(e, SIZE_MAX, ids, &count));
+    CHECK_OK(cstk_environment_get_objects(e, SIZE_MAX, ids, &count));
     CHECK(count == 1 && ids[1] == 7);
-    CHECK_OK(cstk_environment_object_info(e, f->box, &info));
+    CHECK_OK(cstk_environment_get_object_info(e, f->box, &info));
     CHECK(info.id == f->box && info.link == CSTK_NONE && info.touch_count == 0 && !info.data);
     fixture_unchanged(f);
 }
@@ -151,9 +151,9 @@ static void versions(const fixture *f) {
         CHECK_REFUSED(out, cstk_query_get_version(f->query, bad->handle, &out), bad->status,
                       "environment");
     }
-    CHECK_FAILS(cstk_query_get_version(f->query, f->environment, NULL), CSTK_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_query_get_version(f->query, f->environment, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     CHECK_OK(cstk_query_create(&fresh));
-    CHECK_REFUSED(out, cstk_query_get_version(fresh, f->environment, &out), CSTK_NOT_FOUND,
+    CHECK_REFUSED(out, cstk_query_get_version(fresh, f->environment, &out), CSTK_ERROR_NOT_FOUND,
                   "environment");
     CHECK_OK(cstk_classify(fresh, f->cobject, f->q, FIXTURE_NQ, &where));
     CHECK_OK(cstk_query_get_version(fresh, f->environment, &out));
@@ -192,7 +192,7 @@ static void destroy_changes_the_world(const fixture *f) {
     CHECK_OK(cstk_environment_apply(u.environment, &change, 1, NULL, NULL));
     CHECK(u.calls == 1);
     size_t objects = 0;
-    CHECK_OK(cstk_environment_state(u.environment, &objects, NULL));
+    CHECK_OK(cstk_environment_get_state(u.environment, &objects, NULL));
     CHECK(objects == 1);
     CHECK_OK(cstk_environment_release(u.environment));
     fixture_unchanged(f);
@@ -212,7 +212,7 @@ static void progress_releases_the_space(const fixture *f) {
     cstk_space *space = NULL;
     cstk_link_pair_list out;
     CHECK_OK(cstk_space_create((const cstk_robot *const *)&f->robot, 1, NULL, 0, NULL, &space));
-    CHECK_OK(cstk_link_pairs(f->query, space, NULL, let_go, &space, &out));
+    CHECK_OK(cstk_find_link_pairs(f->query, space, NULL, let_go, &space, &out));
     CHECK(space == NULL && out.count == 3 && out.pairs[0].s_robot == 0);
     fixture_unchanged(f);
 }

@@ -58,7 +58,7 @@ static void infos(const cstk_robot *robot) {
     CHECK_OK(cstk_pose_from_euler(offset_at, at));
     for (uint32_t link = 0; link < KINDS; ++link) {
         cstk_link_info info;
-        CHECK_OK(cstk_robot_link_info(robot, link, &info));
+        CHECK_OK(cstk_robot_get_link_info(robot, link, &info));
         CHECK(info.parent == (int32_t)link - 1 && info.joint == (cstk_joint_kind)link);
         CHECK(info.nq == nq[link] && info.nv == nv[link]);
         CHECK(info.nq == 0 || (info.coordinate == coordinate && info.velocity == velocity));
@@ -73,7 +73,7 @@ static void infos(const cstk_robot *robot) {
         velocity += info.nv;
     }
     size_t size[3];
-    CHECK_OK(cstk_robot_size(robot, &size[0], &size[1], &size[2]));
+    CHECK_OK(cstk_robot_get_size(robot, &size[0], &size[1], &size[2]));
     CHECK(size[0] == NQ && size[1] == NV && size[2] == KINDS);
     CHECK(coordinate == NQ && velocity == NV);
 }
@@ -82,15 +82,15 @@ static void names(const cstk_robot *robot) {
     char buffer[16];
     size_t length = 0;
     uint32_t link = CSTK_NONE;
-    CHECK_OK(cstk_robot_link_name(robot, CSTK_JOINT_FREE, NULL, 0, &length));
+    CHECK_OK(cstk_robot_get_link_name(robot, CSTK_JOINT_FREE, NULL, 0, &length));
     CHECK(length == 5);
-    CHECK_OK(cstk_robot_link_name(robot, CSTK_JOINT_FREE, buffer, 6, &length));
+    CHECK_OK(cstk_robot_get_link_name(robot, CSTK_JOINT_FREE, buffer, 6, &length));
     CHECK(length == 5 && strcmp(buffer, "drone") == 0);
-    CHECK_OK(cstk_robot_joint_name(robot, CSTK_JOINT_FREE, buffer, sizeof buffer, &length));
+    CHECK_OK(cstk_robot_get_joint_name(robot, CSTK_JOINT_FREE, buffer, sizeof buffer, &length));
     CHECK(length == 0 && buffer[0] == '\0');
-    CHECK_OK(cstk_robot_link_name(robot, CSTK_JOINT_PLANAR, buffer, sizeof buffer, NULL));
+    CHECK_OK(cstk_robot_get_link_name(robot, CSTK_JOINT_PLANAR, buffer, sizeof buffer, NULL));
     CHECK(strcmp(buffer, "link3") == 0);
-    CHECK_OK(cstk_robot_joint_name(robot, CSTK_JOINT_PLANAR, buffer, sizeof buffer, NULL));
+    CHECK_OK(cstk_robot_get_joint_name(robot, CSTK_JOINT_PLANAR, buffer, sizeof buffer, NULL));
     CHECK(strcmp(buffer, "wheels") == 0);
     CHECK_OK(cstk_robot_find_joint(robot, "wheels", &link));
     CHECK(link == CSTK_JOINT_PLANAR);
@@ -223,13 +223,13 @@ static void offsets(void) {
     size_t size[3];
     double q[NQ + 4];
     CHECK_OK(cstk_space_create(robots, 2, NULL, 0, NULL, &space));
-    CHECK_OK(cstk_space_size(space, &size[0], &size[1], &size[2]));
+    CHECK_OK(cstk_space_get_size(space, &size[0], &size[1], &size[2]));
     CHECK(size[0] == NQ + 4 && size[1] == NV + 3 && size[2] == KINDS + 1);
     CHECK_OK(cstk_space_get_offset(space, 0, &offset));
     CHECK(offset.link == 0 && offset.coordinate == 0 && offset.velocity == 0);
     CHECK_OK(cstk_space_get_offset(space, 1, &offset));
     CHECK(offset.link == KINDS && offset.coordinate == NQ && offset.velocity == NV);
-    CHECK_OK(cstk_space_neutral(space, q));
+    CHECK_OK(cstk_space_get_neutral(space, q));
     for (int i = 0; i < NQ + 4; ++i) {
         CHECK(q[i] == (i == 8 || i == 15 || i == NQ + 3 ? 1.0 : 0.0));
     }
@@ -262,8 +262,8 @@ static void mimic(void) {
     double all[12 * 3];
     const double q = 0.5;
     size_t nq = 0;
-    CHECK_OK(cstk_robot_size(robot, &nq, NULL, NULL));
-    CHECK_OK(cstk_robot_link_info(robot, 1, &info));
+    CHECK_OK(cstk_robot_get_size(robot, &nq, NULL, NULL));
+    CHECK_OK(cstk_robot_get_link_info(robot, 1, &info));
     CHECK(nq == 1 && info.coordinate == 0 && info.multiplier == -1.0 && info.offset == 0.25);
     CHECK_OK(cstk_space_get_range(space, 0, &range));
     CHECK(range.kind == CSTK_RANGE_INTERVAL && range.lower == 0.0 && range.upper == 0.5);

@@ -85,10 +85,10 @@ static void check_root_mesh(const cstk_body *body, int32_t wrapper) {
     cstk_mesh_view view;
     cstk_hierarchy_node node;
     cstk_level_statistics level;
-    CHECK_OK(cstk_body_nodes_mesh(body, &root, 1, &mesh));
-    CHECK_OK(cstk_mesh_get(mesh, &view));
+    CHECK_OK(cstk_mesh_create_from_nodes(body, &root, 1, &mesh));
+    CHECK_OK(cstk_mesh_get_view(mesh, &view));
     CHECK_OK(cstk_body_get_node(body, root, &node));
-    CHECK_OK(cstk_body_get_level(body, 0, &level));
+    CHECK_OK(cstk_body_get_level_statistics(body, 0, &level));
     CHECK(level.volume > 0.0 && level.surface > 0.0 && level.leaves_above == 0);
     const double exact = wrapper_volume(&node, wrapper);
     const double drawn = enclosed(&view);
@@ -121,8 +121,8 @@ static void check_leaf_meshes(const cstk_body *body, const tree *t) {
         if (!is_leaf(t, i)) {
             continue;
         }
-        CHECK_OK(cstk_body_nodes_mesh(body, &i, 1, &mesh));
-        CHECK_OK(cstk_mesh_get(mesh, &view));
+        CHECK_OK(cstk_mesh_create_from_nodes(body, &i, 1, &mesh));
+        CHECK_OK(cstk_mesh_get_view(mesh, &view));
         check_mesh(&view, &i, 1);
         const size_t count = primitive_vertices(body, t->nodes[i].primitive, xyz);
         CHECK(view.vertex_count == count);
@@ -163,9 +163,9 @@ static void check_shown(const cstk_body *body, const tree *t, int32_t wrapper) {
     size_t count = 0;
     cstk_mesh *mesh = NULL;
     cstk_mesh_view view;
-    CHECK_OK(cstk_body_cover(body, 24, nodes, &count));
-    CHECK_OK(cstk_body_nodes_mesh(body, nodes, count, &mesh));
-    CHECK_OK(cstk_mesh_get(mesh, &view));
+    CHECK_OK(cstk_body_get_cover_nodes(body, 24, nodes, &count));
+    CHECK_OK(cstk_mesh_create_from_nodes(body, nodes, count, &mesh));
+    CHECK_OK(cstk_mesh_get_view(mesh, &view));
     CHECK(view.face_count > 0);
     check_mesh(&view, nodes, count);
     CHECK_OK(cstk_mesh_release(mesh));

@@ -13,11 +13,11 @@
         CHECK_OK(cstk_##noun##_release(handle));                                                   \
         CHECK_OK(alive);                                                                           \
         CHECK_OK(cstk_##noun##_release(handle));                                                   \
-        CHECK_FAILS(cstk_##noun##_release(handle), CSTK_WRONG_HANDLE, argument);                   \
-        CHECK_FAILS(cstk_##noun##_retain(handle), CSTK_WRONG_HANDLE, "released");                  \
-        CHECK_FAILS(alive, CSTK_WRONG_HANDLE, argument);                                           \
+        CHECK_FAILS(cstk_##noun##_release(handle), CSTK_ERROR_WRONG_HANDLE, argument);                   \
+        CHECK_FAILS(cstk_##noun##_retain(handle), CSTK_ERROR_WRONG_HANDLE, "released");                  \
+        CHECK_FAILS(alive, CSTK_ERROR_WRONG_HANDLE, argument);                                           \
         CHECK_OK(cstk_##noun##_release(NULL));                                                     \
-        CHECK_FAILS(cstk_##noun##_retain(NULL), CSTK_NULL_ARGUMENT, argument);                     \
+        CHECK_FAILS(cstk_##noun##_retain(NULL), CSTK_ERROR_NULL_ARGUMENT, argument);                     \
     } while (0)
 
 static void every_noun(void) {
@@ -36,14 +36,14 @@ static void every_noun(void) {
     TWO_REFERENCES(body_builder, "builder", f.body_builder,
                    cstk_body_builder_add_polygon(f.body_builder, square, 4, 0));
     TWO_REFERENCES(body, "body", f.body, cstk_body_get_statistics(f.body, &counts));
-    TWO_REFERENCES(mesh, "mesh", f.mesh, cstk_mesh_get(f.mesh, &view));
+    TWO_REFERENCES(mesh, "mesh", f.mesh, cstk_mesh_get_view(f.mesh, &view));
     TWO_REFERENCES(robot_builder, "builder", f.robot_builder,
                    cstk_robot_builder_add_link(f.robot_builder, &def, NULL));
-    TWO_REFERENCES(robot, "robot", f.robot, cstk_robot_size(f.robot, NULL, NULL, NULL));
+    TWO_REFERENCES(robot, "robot", f.robot, cstk_robot_get_size(f.robot, NULL, NULL, NULL));
     TWO_REFERENCES(space, "space", f.space,
                    cstk_space_contains(f.space, f.q, FIXTURE_NQ, &in_range));
     TWO_REFERENCES(environment, "environment", f.environment,
-                   cstk_environment_state(f.environment, NULL, NULL));
+                   cstk_environment_get_state(f.environment, NULL, NULL));
     TWO_REFERENCES(query, "query", f.query, cstk_query_get_statistics(f.query, false, &done));
     TWO_REFERENCES(cobject, "cobject", f.cobject,
                    cstk_classify(other, f.cobject, f.q, FIXTURE_NQ, &class_of));
@@ -55,11 +55,11 @@ static void wrong_kind(void) {
     fixture f;
     fixture_create(&f);
     for (int i = 0; i < 3; ++i) {
-        CHECK_FAILS(cstk_robot_release(f.live[NOUN_BODY]), CSTK_WRONG_HANDLE, "robot");
-        CHECK_FAILS(cstk_body_release(f.live[NOUN_ROBOT]), CSTK_WRONG_HANDLE, "body");
-        CHECK_FAILS(cstk_query_release(f.live[NOUN_COBJECT]), CSTK_WRONG_HANDLE, "query");
-        CHECK_FAILS(cstk_mesh_release(f.live[NOUN_BODY]), CSTK_WRONG_HANDLE, "mesh");
-        CHECK_FAILS(cstk_space_release(f.live[NOUN_ENVIRONMENT]), CSTK_WRONG_HANDLE, "space");
+        CHECK_FAILS(cstk_robot_release(f.live[NOUN_BODY]), CSTK_ERROR_WRONG_HANDLE, "robot");
+        CHECK_FAILS(cstk_body_release(f.live[NOUN_ROBOT]), CSTK_ERROR_WRONG_HANDLE, "body");
+        CHECK_FAILS(cstk_query_release(f.live[NOUN_COBJECT]), CSTK_ERROR_WRONG_HANDLE, "query");
+        CHECK_FAILS(cstk_mesh_release(f.live[NOUN_BODY]), CSTK_ERROR_WRONG_HANDLE, "mesh");
+        CHECK_FAILS(cstk_space_release(f.live[NOUN_ENVIRONMENT]), CSTK_ERROR_WRONG_HANDLE, "space");
     }
     fixture_unchanged(&f);
     fixture_release(&f);
@@ -79,12 +79,12 @@ static void mesh_after_its_body(void) {
     const uint32_t root = 0;
     cstk_mesh *mesh = NULL;
     cstk_body *body = make_box(1, 2, 3);
-    CHECK_OK(cstk_body_nodes_mesh(body, &root, 1, &mesh));
-    CHECK_OK(cstk_mesh_get(mesh, &before));
+    CHECK_OK(cstk_mesh_create_from_nodes(body, &root, 1, &mesh));
+    CHECK_OK(cstk_mesh_get_view(mesh, &before));
     CHECK_OK(cstk_body_release(body));
     fixture_create(&f); /* may take the memory that is free now */
     fixture_release(&f);
-    CHECK_OK(cstk_mesh_get(mesh, &after));
+    CHECK_OK(cstk_mesh_get_view(mesh, &after));
     CHECK(memcmp(&before, &after, sizeof before) == 0);
     CHECK(after.vertex_count == 8 && after.face_count == 6 && after.index_count == 24);
     for (size_t i = 0; i < 3 * after.vertex_count; ++i) {
@@ -206,7 +206,7 @@ static void progress(void) {
     /* Stopped at each call, with any number but 0, and whole again afterwards. */
     for (int stop = 0; stop < all.calls; ++stop) {
         listener some = {0, stop, stop % 2 ? -1 : 1, 0.0};
-        CHECK_REFUSED(body, cstk_body_build(builder, NULL, listen, &some, &body), CSTK_CANCELLED,
+        CHECK_REFUSED(body, cstk_body_build(builder, NULL, listen, &some, &body), CSTK_ERROR_CANCELLED,
                       "progress");
         CHECK(some.calls == stop + 1);
     }
@@ -225,13 +225,13 @@ static int32_t call_back(double fraction, void *user) {
     const double triangle[9] = {0, 0, 9, 1, 0, 9, 0, 1, 9};
     const uint32_t indices[3] = {0, 1, 2};
     (void)fraction;
-    CHECK_FAILS(cstk_body_builder_add_polygon(builder, triangle, 3, 0), CSTK_BUSY, "builder");
-    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, triangle, 3, 0), CSTK_BUSY, "builder");
+    CHECK_FAILS(cstk_body_builder_add_polygon(builder, triangle, 3, 0), CSTK_ERROR_BUSY, "builder");
+    CHECK_FAILS(cstk_body_builder_add_polyhedron(builder, triangle, 3, 0), CSTK_ERROR_BUSY, "builder");
     CHECK_FAILS(cstk_body_builder_add_mesh(builder, triangle, 3, NULL, 1, indices, 3, NULL, NULL),
-                CSTK_BUSY, "builder");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, "missing.obj", NULL, NULL), CSTK_BUSY,
+                CSTK_ERROR_BUSY, "builder");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(builder, "missing.obj", NULL, NULL), CSTK_ERROR_BUSY,
                 "builder");
-    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_BUSY, "builder");
+    CHECK_REFUSED(body, cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_BUSY, "builder");
     CHECK_OK(cstk_body_builder_retain(builder));
     CHECK_OK(cstk_body_builder_release(builder));
     CHECK_OK(cstk_body_release(make_box(1, 1, 1)));

@@ -61,7 +61,7 @@ static void check_faces(const cstk_body *body, const double *at, const double *s
         cstk_primitive p;
         CHECK_OK(cstk_body_get_primitive(body, face, &p));
         CHECK(p.kind == CSTK_PRIMITIVE_POLYGON && p.vertex_count == 3 && p.tag == face);
-        CHECK_OK(cstk_body_feature_vertices(body, face, CSTK_FACE, 0, 3, xyz, &count));
+        CHECK_OK(cstk_body_get_feature_vertices(body, face, CSTK_FEATURE_FACE, 0, 3, xyz, &count));
         CHECK(count == 3);
         for (int k = 0; k < 3; ++k) {
             int found = 0;

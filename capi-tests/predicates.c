@@ -31,7 +31,7 @@ static int32_t sphere_class(const double *q, size_t nq, int32_t *out, void *user
     const sphere *r = user;
     double away;
     CHECK(sphere_distance(q, nq, &away, user) == CSTK_OK);
-    *out = away <= 0.0 ? CSTK_INSIDE : away <= r->epsilon ? CSTK_CONTACT : CSTK_OUTSIDE;
+    *out = away <= 0.0 ? CSTK_CLASS_INSIDE : away <= r->epsilon ? CSTK_CLASS_CONTACT : CSTK_CLASS_OUTSIDE;
     return CSTK_OK;
 }
 
@@ -88,7 +88,7 @@ static void same_answers(const cube *c, const cstk_cobject *a, const cstk_cobjec
         CHECK_OK(cstk_pseudo_normal(c->query, sets[i], q, NQ, 100.0, 16, false, &found[i]));
         CHECK(found[i].list.contact_count == 1 && found[i].list.nv == NQ);
         memcpy(rows[i], found[i].list.gradients, sizeof rows[i]);
-        CHECK(found[i].list.contacts[0].mode == CSTK_PURE_SET);
+        CHECK(found[i].list.contacts[0].mode == CSTK_MODE_PURE_SET);
         CHECK_OK(cstk_within(c->query, sets[i], q, NQ, 0.5, &within[i]));
     }
     CHECK(found[0].point_class == found[1].point_class && within[0] == within[1]);
@@ -178,15 +178,15 @@ static void less_known(const cube *c) {
             const bool inside = away <= 0.0;
             /* Where only the class is known, contact is neither in nor out. */
             const bool is_doubtful = part == 2 && away <= options.scale * r.epsilon;
-            const expected here = {CSTK_EXACT, 0.0, 0.0, 1, part == 0};
-            const expected is_known = {CSTK_EXACT, fabs(away), fabs(away), 1, 1};
-            const expected is_bound = {CSTK_LOWER_BOUND, fabs(away), INFINITY, 1, 1};
-            const expected unknown = {CSTK_LOWER_BOUND, 0.0, INFINITY, 0, 0};
+            const expected here = {CSTK_DISTANCE_EXACT, 0.0, 0.0, 1, part == 0};
+            const expected is_known = {CSTK_DISTANCE_EXACT, fabs(away), fabs(away), 1, 1};
+            const expected is_bound = {CSTK_DISTANCE_LOWER_BOUND, fabs(away), INFINITY, 1, 1};
+            const expected unknown = {CSTK_DISTANCE_LOWER_BOUND, 0.0, INFINITY, 0, 0};
             const expected far[3] = {is_bound, is_known, unknown};
             const expected deep[3] = {is_known, unknown, unknown};
             expect(c, set, q, inside ? here : far[part]);
             /* Deep in the complement is as far from the set, where that is known. */
-            const expected beyond = {CSTK_EXACT, 0.0, 0.0, 1, part == 1};
+            const expected beyond = {CSTK_DISTANCE_EXACT, 0.0, 0.0, 1, part == 1};
             expect(c, complement, q, inside || is_doubtful ? deep[part] : beyond);
         }
         CHECK_OK(cstk_cobject_release(set));
@@ -206,8 +206,8 @@ static void own_contact(const cube *c) {
     CHECK_OK(cstk_cobject_predicate(c->space, &p, NULL, &set));
     CHECK_OK(cstk_classify(c->query, set, q, NQ, &point_class));
     CHECK_OK(cstk_explain(c->query, set, q, NQ, 16, &why));
-    CHECK(point_class == CSTK_CONTACT && why.point_class == CSTK_CONTACT && why.leaf_count == 1);
-    CHECK(why.leaves[0].leaf_class == CSTK_CONTACT && why.leaves[0].decisive);
+    CHECK(point_class == CSTK_CLASS_CONTACT && why.point_class == CSTK_CLASS_CONTACT && why.leaf_count == 1);
+    CHECK(why.leaves[0].leaf_class == CSTK_CLASS_CONTACT && why.leaves[0].decisive);
     CHECK_OK(cstk_cobject_release(set));
 }
 

@@ -77,11 +77,11 @@ static cstk_body *build(void) {
 static void check_vertices(const cstk_body *body, uint32_t index, const expected *e) {
     double all[3 * MAX_VERTICES];
     size_t count = 0;
-    CHECK_OK(cstk_body_feature_vertices(body, index, CSTK_INTERIOR, 0, MAX_VERTICES, all, &count));
+    CHECK_OK(cstk_body_get_feature_vertices(body, index, CSTK_FEATURE_INTERIOR, 0, MAX_VERTICES, all, &count));
     CHECK(count == e->vertices);
     for (uint32_t v = 0; v < e->vertices; ++v) {
         double xyz[3];
-        CHECK_OK(cstk_body_feature_vertices(body, index, CSTK_VERTEX, v, 1, xyz, &count));
+        CHECK_OK(cstk_body_get_feature_vertices(body, index, CSTK_FEATURE_VERTEX, v, 1, xyz, &count));
         CHECK(count == 1 && memcmp(xyz, all + 3 * v, sizeof xyz) == 0);
         int found = 0;
         for (uint32_t i = 0; e->xyz != NULL && i < e->vertices; ++i) {
@@ -92,8 +92,8 @@ static void check_vertices(const cstk_body *body, uint32_t index, const expected
         CHECK(e->xyz == NULL || found == 1);
     }
     CHECK_STATUS(
-        cstk_body_feature_vertices(body, index, CSTK_FACE, e->faces, 0, NULL, &count),
-        CSTK_NOT_FOUND);
+        cstk_body_get_feature_vertices(body, index, CSTK_FEATURE_FACE, e->faces, 0, NULL, &count),
+        CSTK_ERROR_NOT_FOUND);
 }
 
 int main(void) {

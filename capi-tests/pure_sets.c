@@ -147,7 +147,7 @@ static cstk_cobject *make_set(const ground *g, const shape *s) {
     cstk_cobject *set = NULL;
     switch (s->kind) {
     case LIMITS:
-        CHECK_OK(cstk_cobject_limits(g->space, &s->options, &set));
+        CHECK_OK(cstk_cobject_beyond_limits(g->space, &s->options, &set));
         break;
     case BOX:
         CHECK_OK(cstk_cobject_box(g->space, s->low, s->high, NQ, &s->options, &set));
@@ -234,7 +234,7 @@ static double signed_distance(const shape *s, const double *q) {
 static double scale_of(const shape *s) { return s->options.scale == 0.0 ? 1.0 : s->options.scale; }
 
 static cstk_class class_at(double distance, double epsilon) {
-    return distance <= 0.0 ? CSTK_INSIDE : distance <= epsilon ? CSTK_CONTACT : CSTK_OUTSIDE;
+    return distance <= 0.0 ? CSTK_CLASS_INSIDE : distance <= epsilon ? CSTK_CLASS_CONTACT : CSTK_CLASS_OUTSIDE;
 }
 
 /* The distance, all that comes with it, and the questions that are answered by it. `away` is the
@@ -244,7 +244,7 @@ static void check_distance(const ground *g, const cstk_cobject *set, const doubl
     bool within = false;
     const double truth = fmax(0.0, away);
     CHECK_OK(cstk_distance(g->query, set, q, NQ, INFINITY, &d));
-    CHECK(d.kind == CSTK_EXACT && fabs(d.distance - truth) < 1e-12 * fmax(1.0, truth));
+    CHECK(d.kind == CSTK_DISTANCE_EXACT && fabs(d.distance - truth) < 1e-12 * fmax(1.0, truth));
     CHECK(d.lower <= d.distance && d.distance <= d.upper && d.upper - d.lower < 1e-12);
     CHECK((d.distance == 0.0) == (away < 0.0) && (d.lower == 0.0) == (d.distance == 0.0));
     CHECK(d.has_witness && d.has_contact && d.environment_version == 0);
@@ -252,12 +252,12 @@ static void check_distance(const ground *g, const cstk_cobject *set, const doubl
     CHECK(fabs(d.contact.clearance - away) < 1e-12 * fmax(1.0, fabs(away)));
     if (truth > 0.0) {
         CHECK_OK(cstk_distance(g->query, set, q, NQ, 0.9 * truth, &d));
-        CHECK(d.kind == CSTK_BEYOND_MAX && d.lower == 0.9 * truth && d.upper == INFINITY);
+        CHECK(d.kind == CSTK_DISTANCE_BEYOND_MAX && d.lower == 0.9 * truth && d.upper == INFINITY);
         CHECK_OK(cstk_within(g->query, set, q, NQ, 0.9 * truth, &within));
         CHECK(!within);
     }
     CHECK_OK(cstk_distance(g->query, set, q, NQ, 1.1 * truth, &d));
-    CHECK(d.kind == CSTK_EXACT);
+    CHECK(d.kind == CSTK_DISTANCE_EXACT);
     CHECK_OK(cstk_within(g->query, set, q, NQ, 1.1 * truth, &within));
     CHECK(within);
 }
@@ -299,7 +299,7 @@ static int check_witness(const ground *g, const shape *s, const cstk_cobject *se
     CHECK(w->r_primitive == 0 && w->s_primitive == 0 && w->r_tag == 0 && w->s_tag == 0);
     const cstk_contact *c = list.contacts;
     const double zero[3] = {0};
-    CHECK(c->mode == CSTK_PURE_SET && fabs(c->clearance - away) < 1e-12 * fmax(1.0, fabs(away)));
+    CHECK(c->mode == CSTK_MODE_PURE_SET && fabs(c->clearance - away) < 1e-12 * fmax(1.0, fabs(away)));
     CHECK(c->distance == w->distance && near(c->r_point, zero, 3, 0.0));
     CHECK(near(c->s_point, zero, 3, 0.0) && near(c->normal, zero, 3, 0.0));
     for (int k = 0; k < NV; ++k) {
@@ -342,7 +342,7 @@ static int check_set(const ground *g, const shape *s, const cstk_cobject *set, c
     CHECK_OK(cstk_cobject_complement(set, &complement));
     CHECK_OK(cstk_classify(g->query, set, q, NQ, &classes[0]));
     CHECK_OK(cstk_classify(g->query, complement, q, NQ, &classes[1]));
-    CHECK(classes[0] == expected && classes[0] + classes[1] == CSTK_INSIDE);
+    CHECK(classes[0] == expected && classes[0] + classes[1] == CSTK_CLASS_INSIDE);
     check_distance(g, set, q, away);
     check_distance(g, complement, q, -away);
     check_pseudo_normal(g, set, q);
@@ -380,7 +380,7 @@ static void expect(const ground *g, const cstk_cobject *set, const double *q, cs
     CHECK_OK(cstk_classify(g->query, set, q, NQ, &point_class));
     CHECK_OK(cstk_distance(g->query, set, q, NQ, INFINITY, &d));
     CHECK(point_class == expected && d.distance == distance);
-    CHECK(d.kind == (distance == INFINITY ? CSTK_EMPTY_SET : CSTK_EXACT));
+    CHECK(d.kind == (distance == INFINITY ? CSTK_DISTANCE_EMPTY : CSTK_DISTANCE_EXACT));
     CHECK(d.has_witness == (distance < INFINITY) && (d.lower == 0.0) == (distance == 0.0));
 }
 
@@ -402,37 +402,37 @@ static void boundaries(const ground *g) {
     double q[NQ];
     shape s = random_shape(HALF_SPACE);
     CHECK_OK(cstk_pure_options_default(&s.options, sizeof s.options));
-    CHECK_OK(cstk_space_neutral(g->space, q));
+    CHECK_OK(cstk_space_get_neutral(g->space, q));
     q[RAIL] = 2.0;
     memset(s.normal, 0, sizeof s.normal);
     s.normal[RAIL] = -4.0;
     s.offset = -8.0;
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, 0.0);
     s.kind = BOX;
     for (int i = 0; i < NQ; ++i) {
         s.low[i] = -INFINITY;
         s.high[i] = INFINITY;
     }
     /* All there is: nothing is left for the complement. */
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, INFINITY);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, INFINITY);
     s.low[WHEEL] = 1.0;
     s.high[WHEEL] = 8.0;
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, INFINITY);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, INFINITY);
     s.low[RAIL] = s.high[RAIL] = 2.0;
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, 0.0);
     s.kind = ROUND;
     memcpy(s.center, q, sizeof q);
     s.radius = 0.0;
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, 0.0);
     s.kind = LIMITS;
     q[HINGE] = 0.5;
-    expect_both(g, &s, q, CSTK_OUTSIDE, 0.0, CSTK_INSIDE, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_OUTSIDE, 0.0, CSTK_CLASS_INSIDE, 0.0);
     s.options.contact_epsilon = 1e-300;
-    expect_both(g, &s, q, CSTK_CONTACT, 0.0, CSTK_CONTACT, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_CONTACT, 0.0, CSTK_CLASS_CONTACT, 0.0);
     q[RAIL] = 1.5;
-    expect_both(g, &s, q, CSTK_OUTSIDE, 0.5, CSTK_INSIDE, 0.0);
+    expect_both(g, &s, q, CSTK_CLASS_OUTSIDE, 0.5, CSTK_CLASS_INSIDE, 0.0);
     q[RAIL] = 2.5;
-    expect_both(g, &s, q, CSTK_INSIDE, 0.0, CSTK_OUTSIDE, 0.5);
+    expect_both(g, &s, q, CSTK_CLASS_INSIDE, 0.0, CSTK_CLASS_OUTSIDE, 0.5);
 }
 
 /* Without limits, and without a world box, nothing is beyond them. */
@@ -444,9 +444,9 @@ static void without_limits(void) {
     cstk_space *space = space_of(robot, NULL, 0);
     cstk_cobject *sets[4] = {NULL};
     CHECK_OK(cstk_query_create(&query));
-    CHECK_OK(cstk_space_neutral(space, q));
-    CHECK_OK(cstk_cobject_limits(space, NULL, &sets[0]));
-    CHECK_OK(cstk_cobject_world(space, NULL, &sets[1]));
+    CHECK_OK(cstk_space_get_neutral(space, q));
+    CHECK_OK(cstk_cobject_beyond_limits(space, NULL, &sets[0]));
+    CHECK_OK(cstk_cobject_beyond_world(space, NULL, &sets[1]));
     for (int i = 0; i < 4; ++i) {
         cstk_class point_class;
         cstk_distance_result d;
@@ -457,8 +457,8 @@ static void without_limits(void) {
         CHECK_OK(cstk_classify(query, sets[i], q, 4, &point_class));
         CHECK_OK(cstk_distance(query, sets[i], q, 4, INFINITY, &d));
         CHECK_OK(cstk_gradients(query, sets[i], q, 4, INFINITY, 16, &list));
-        CHECK(point_class == (i < 2 ? CSTK_OUTSIDE : CSTK_INSIDE));
-        CHECK(d.kind == (i < 2 ? CSTK_EMPTY_SET : CSTK_EXACT));
+        CHECK(point_class == (i < 2 ? CSTK_CLASS_OUTSIDE : CSTK_CLASS_INSIDE));
+        CHECK(d.kind == (i < 2 ? CSTK_DISTANCE_EMPTY : CSTK_DISTANCE_EXACT));
         CHECK(d.distance == (i < 2 ? INFINITY : 0.0) && d.has_witness == (i >= 2));
         CHECK(list.witness_count == (i < 2 ? 0 : 1) && list.contact_count == 0);
     }

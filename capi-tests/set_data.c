@@ -125,7 +125,7 @@ static void destroyed_last(const cube *c, const cstk_cobject *plain) {
         CHECK_OK(cstk_distance(c->query, all[last], origin, NQ, INFINITY, &d));
         CHECK_OK(cstk_cobject_release(all[last]));
         CHECK(destroyed == 1);
-        CHECK_FAILS(cstk_cobject_release(all[last]), CSTK_WRONG_HANDLE, "cobject");
+        CHECK_FAILS(cstk_cobject_release(all[last]), CSTK_ERROR_WRONG_HANDLE, "cobject");
         CHECK(destroyed == 1);
     }
 }
@@ -180,7 +180,7 @@ static void let_go(void *user) {
 
 static int32_t nowhere(const double *q, size_t nq, int32_t *out, void *user) {
     (void)q, (void)nq, (void)user;
-    *out = CSTK_OUTSIDE;
+    *out = CSTK_CLASS_OUTSIDE;
     return CSTK_OK;
 }
 

@@ -102,11 +102,11 @@ static cstk_class class_of(const tree *t, const double *q) {
     if (t->operation == LEAF) {
         return leaf_class(t->leaf, q);
     }
-    int most = CSTK_OUTSIDE;
-    int least = CSTK_INSIDE;
+    int most = CSTK_CLASS_OUTSIDE;
+    int least = CSTK_CLASS_INSIDE;
     for (int i = 0; i < t->count; ++i) {
         const int part = class_of(t->parts[i], q);
-        const int meant = turns(t, i) ? CSTK_INSIDE - part : part;
+        const int meant = turns(t, i) ? CSTK_CLASS_INSIDE - part : part;
         most = meant > most ? meant : most;
         least = meant < least ? meant : least;
     }
@@ -160,21 +160,21 @@ static void check_distance(const cube *c, const tree *t, const double *q) {
     bool within = false;
     const reach expected = reach_of(t, q, false);
     CHECK_OK(cstk_distance(c->query, t->set, q, NQ, INFINITY, &d));
-    CHECK(d.kind == (expected.is_exact ? CSTK_EXACT : CSTK_LOWER_BOUND));
+    CHECK(d.kind == (expected.is_exact ? CSTK_DISTANCE_EXACT : CSTK_DISTANCE_LOWER_BOUND));
     CHECK(fabs(d.distance - expected.distance) < 1e-13);
     CHECK(d.lower <= d.distance && d.distance <= d.upper && d.distance - d.lower < 1e-13);
     CHECK((d.lower == 0.0) == (expected.distance == 0.0));
-    CHECK(d.kind == CSTK_LOWER_BOUND || d.upper - d.distance < 1e-13);
+    CHECK(d.kind == CSTK_DISTANCE_LOWER_BOUND || d.upper - d.distance < 1e-13);
     for (int i = 0; i < 5; ++i) {
         const double threshold = 0.15 * (double)random_below(8);
         CHECK_OK(cstk_within(c->query, t->set, q, NQ, threshold, &within));
         CHECK(within == (expected.distance <= threshold));
         CHECK_OK(cstk_distance(c->query, t->set, q, NQ, threshold, &d));
         if (within) {
-            CHECK(d.kind == (expected.is_exact ? CSTK_EXACT : CSTK_LOWER_BOUND));
+            CHECK(d.kind == (expected.is_exact ? CSTK_DISTANCE_EXACT : CSTK_DISTANCE_LOWER_BOUND));
             CHECK(fabs(d.distance - expected.distance) < 1e-13);
         } else {
-            CHECK(d.kind == CSTK_BEYOND_MAX && d.distance == INFINITY && d.upper == INFINITY);
+            CHECK(d.kind == CSTK_DISTANCE_BEYOND_MAX && d.distance == INFINITY && d.upper == INFINITY);
             CHECK(fabs(d.lower - threshold) < 1e-13 && !d.has_witness && !d.has_contact);
         }
     }
@@ -196,7 +196,7 @@ static int places_of(const tree *t, const double *q, bool complemented, bool dec
     const int class_here = class_of(t, q);
     for (int i = 0; i < t->count; ++i) {
         const int part = class_of(t->parts[i], q);
-        const int meant = turns(t, i) ? CSTK_INSIDE - part : part;
+        const int meant = turns(t, i) ? CSTK_CLASS_INSIDE - part : part;
         count += places_of(t->parts[i], q, complemented != turns(t, i),
                            decides && meant == class_here, out + count);
     }
@@ -219,7 +219,7 @@ static void check_rows(const cstk_witness_list *list, const cstk_witness *w, con
                        const double *q) {
     const double sign = leaf_is_pure(at->leaf) && at->complemented ? -1.0 : 1.0;
     for (uint32_t i = w->first_contact; i < w->first_contact + w->contact_count; ++i) {
-        CHECK((list->contacts[i].mode == CSTK_PURE_SET) == leaf_is_pure(at->leaf));
+        CHECK((list->contacts[i].mode == CSTK_MODE_PURE_SET) == leaf_is_pure(at->leaf));
         for (int k = 0; k < NQ; ++k) {
             double expected;
             if (leaf_slope(at->leaf, q, k, &expected)) {
@@ -285,7 +285,7 @@ static size_t check_explanation(const cube *c, const tree *t, const double *q) {
         CHECK(said != NULL && said->data == c->leaves[at->leaf].data);
         CHECK(said->leaf_class == leaf_class(at->leaf, q));
         CHECK(said->complemented == at->complemented && said->decisive == at->decisive);
-        const bool has_reason = at->decisive && said->leaf_class != CSTK_OUTSIDE;
+        const bool has_reason = at->decisive && said->leaf_class != CSTK_CLASS_OUTSIDE;
         CHECK(said->witness_count == has_reason);
         if (has_reason) {
             const cstk_witness *w = &why.list.witnesses[said->first_witness];
@@ -329,7 +329,7 @@ static void random_trees(const cube *c) {
         }
         release_tree(nodes, count);
     }
-    CHECK(seen[CSTK_OUTSIDE] > 100 && seen[CSTK_CONTACT] > 50 && seen[CSTK_INSIDE] > 100);
+    CHECK(seen[CSTK_CLASS_OUTSIDE] > 100 && seen[CSTK_CLASS_CONTACT] > 50 && seen[CSTK_CLASS_INSIDE] > 100);
     CHECK(reasons > 500);
 }
 

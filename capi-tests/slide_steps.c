@@ -17,13 +17,13 @@ static hover make_hover(double margin) {
     cstk_body *cube = make_box(0.5, 0.5, 0.5);
     cstk_body *floor = make_box(10.0, 10.0, 0.5);
     cstk_environment *environment = NULL;
-    cstk_cobject_options options;
+    cstk_induced_options options;
     cstk_link_def def = link_of(CSTK_JOINT_FREE);
     def.body = cube;
     cstk_robot *robot = make_robot(&def);
     CHECK_OK(cstk_environment_create(&environment));
     add_object(environment, floor, 0.0, 0.0, -0.5);
-    CHECK_OK(cstk_cobject_options_default(&options, sizeof options));
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
     options.margin = margin;
     h.space = space_of(robot, NULL, 0);
     CHECK_OK(cstk_cobject_induced(h.space, NULL, 0, environment, NULL, 0, &options, &h.cobject));

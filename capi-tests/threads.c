@@ -46,7 +46,7 @@ static answer ask(const scene *s, cstk_query *query, int i) {
     CHECK_OK(cstk_pair_distance(query, s->f.body, s->poses[i], s->f.body, identity_pose, INFINITY,
                                 &pair));
     CHECK_OK(cstk_gradients(query, s->all, q, FIXTURE_NQ, 1.5, 5, &list));
-    CHECK(d.kind == CSTK_EXACT && d.has_witness);
+    CHECK(d.kind == CSTK_DISTANCE_EXACT && d.has_witness);
     const double numbers[9] = {d.distance,   d.lower,      d.upper,      d.r_point[0], d.r_point[1],
                                d.r_point[2], d.s_point[0], d.s_point[1], d.s_point[2]};
     memcpy(a.numbers, numbers, sizeof numbers);
@@ -142,7 +142,7 @@ static void *contend(void *user) {
             w->failures += memcmp(&d.distance, w->s->expected[i].numbers, sizeof d.distance) != 0;
         } else {
             ++w->busy;
-            w->failures += status != CSTK_BUSY || !strstr(cstk_last_error_message(), "query");
+            w->failures += status != CSTK_ERROR_BUSY || !strstr(cstk_last_error_message(), "query");
             sched_yield();
         }
     }
@@ -171,9 +171,9 @@ static void *fail_on(void *user) {
     CHECK(cstk_last_error_message()[0] == '\0');
     for (int n = 0; n < QUERIES; ++n) {
         if (w->number % 2 == 0) {
-            w->failures += cstk_pose_from_euler(NULL, pose) != CSTK_NULL_ARGUMENT;
+            w->failures += cstk_pose_from_euler(NULL, pose) != CSTK_ERROR_NULL_ARGUMENT;
         } else {
-            w->failures += cstk_pose_from_euler(here, NULL) != CSTK_NULL_ARGUMENT;
+            w->failures += cstk_pose_from_euler(here, NULL) != CSTK_ERROR_NULL_ARGUMENT;
         }
         sched_yield();
         const char *expected = w->number % 2 == 0 ? "xyz_ypr is NULL" : "pose is NULL";

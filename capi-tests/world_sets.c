@@ -23,7 +23,7 @@ static void ground_create(ground *g, const cstk_pure_options *options) {
     fixture_create(&g->f);
     const cstk_robot *robot = g->f.robot;
     CHECK_OK(cstk_space_create(&robot, 1, NULL, 0, world_box, &g->space));
-    CHECK_OK(cstk_cobject_world(g->space, options, &g->beyond));
+    CHECK_OK(cstk_cobject_beyond_world(g->space, options, &g->beyond));
     CHECK_OK(cstk_cobject_complement(g->beyond, &g->within));
     CHECK_OK(cstk_cobject_get_data(g->beyond, NULL, &g->number));
 }
@@ -73,16 +73,16 @@ static void check_class(const ground *g, const double *q, double epsilon) {
     cstk_class classes[4];
     double poses[12 * LINKS];
     const double clear = clearance(g, q);
-    const cstk_class expected = clear < 0.0        ? CSTK_INSIDE
-                                : clear <= epsilon ? CSTK_CONTACT
-                                                   : CSTK_OUTSIDE;
+    const cstk_class expected = clear < 0.0        ? CSTK_CLASS_INSIDE
+                                : clear <= epsilon ? CSTK_CLASS_CONTACT
+                                                   : CSTK_CLASS_OUTSIDE;
     CHECK_OK(cstk_space_link_poses(g->space, q, NQ, poses));
     CHECK_OK(cstk_classify(g->f.query, g->beyond, q, NQ, &classes[0]));
-    CHECK_OK(cstk_classify_at(g->f.query, g->beyond, poses, LINKS, &classes[1]));
+    CHECK_OK(cstk_classify_at_link_poses(g->f.query, g->beyond, poses, LINKS, &classes[1]));
     CHECK_OK(cstk_classify(g->f.query, g->within, q, NQ, &classes[2]));
-    CHECK_OK(cstk_classify_at(g->f.query, g->within, poses, LINKS, &classes[3]));
+    CHECK_OK(cstk_classify_at_link_poses(g->f.query, g->within, poses, LINKS, &classes[3]));
     for (int i = 0; i < 2; ++i) {
-        CHECK(classes[i] == expected && classes[2 + i] == CSTK_INSIDE - expected);
+        CHECK(classes[i] == expected && classes[2 + i] == CSTK_CLASS_INSIDE - expected);
     }
 }
 
@@ -95,19 +95,19 @@ static void check_distance(const ground *g, const double *q) {
     const double clear = clearance(g, q);
     CHECK_OK(cstk_space_link_poses(g->space, q, NQ, poses));
     CHECK_OK(cstk_distance(g->f.query, g->beyond, q, NQ, INFINITY, &d));
-    CHECK_OK(cstk_distance_at(g->f.query, g->beyond, poses, LINKS, INFINITY, &at));
-    CHECK(d.kind == CSTK_EXACT && fabs(d.distance - fmax(0.0, clear)) < 1e-14);
+    CHECK_OK(cstk_distance_at_link_poses(g->f.query, g->beyond, poses, LINKS, INFINITY, &at));
+    CHECK(d.kind == CSTK_DISTANCE_EXACT && fabs(d.distance - fmax(0.0, clear)) < 1e-14);
     CHECK(d.lower <= d.distance && d.distance <= d.upper && d.has_witness);
     CHECK(d.has_contact == (clear > 0.0) && d.witness.overlapping == false);
     CHECK(at.distance == d.distance && at.lower == d.lower && at.upper == d.upper);
     const double thresholds[] = {0.9 * d.distance, 1.1 * d.distance};
     for (int i = 0; i < 2; ++i) {
         CHECK_OK(cstk_within(g->f.query, g->beyond, q, NQ, thresholds[i], &within[0]));
-        CHECK_OK(cstk_within_at(g->f.query, g->beyond, poses, LINKS, thresholds[i], &within[1]));
+        CHECK_OK(cstk_within_at_link_poses(g->f.query, g->beyond, poses, LINKS, thresholds[i], &within[1]));
         CHECK(within[0] == within[1] && within[0] == (clear < 0.0 || i == 1));
     }
     CHECK_OK(cstk_distance(g->f.query, g->within, q, NQ, INFINITY, &d));
-    CHECK(d.kind == (clear > 0.0 ? CSTK_EXACT : CSTK_LOWER_BOUND));
+    CHECK(d.kind == (clear > 0.0 ? CSTK_DISTANCE_EXACT : CSTK_DISTANCE_LOWER_BOUND));
     CHECK(d.distance == 0.0 && d.lower == 0.0 && (clear > 0.0 || d.upper == INFINITY));
 }
 
@@ -134,7 +134,7 @@ static int check_contact(const ground *g, const double *q) {
         apart[i] = c->r_point[i] - c->s_point[i];
         CHECK(fabs(apart[i] - clear * c->normal[i]) < 1e-14);
     }
-    CHECK(c->mode == CSTK_PURE_SET && fabs(c->clearance - clear) < 1e-14);
+    CHECK(c->mode == CSTK_MODE_PURE_SET && fabs(c->clearance - clear) < 1e-14);
     CHECK(fabs(length_of(c->normal, 3) - 1.0) < 1e-14);
     for (int k = 0; k < NQ; ++k) {
         double expected;
@@ -179,10 +179,10 @@ static void at_the_wall(void) {
     ground_create(&g, NULL);
     const cstk_robot *robot = g.f.robot;
     CHECK_OK(cstk_space_create(&robot, 1, NULL, 0, box, &space));
-    CHECK_OK(cstk_cobject_world(space, NULL, &beyond));
+    CHECK_OK(cstk_cobject_beyond_world(space, NULL, &beyond));
     CHECK_OK(cstk_classify(g.f.query, beyond, q, NQ, &point_class));
     CHECK_OK(cstk_distance(g.f.query, beyond, q, NQ, INFINITY, &d));
-    CHECK(point_class == CSTK_OUTSIDE && d.kind == CSTK_EXACT && d.distance == 0.0);
+    CHECK(point_class == CSTK_CLASS_OUTSIDE && d.kind == CSTK_DISTANCE_EXACT && d.distance == 0.0);
     CHECK_OK(cstk_cobject_release(beyond));
     CHECK_OK(cstk_space_release(space));
     ground_release(&g);
@@ -231,7 +231,7 @@ static void planar(void) {
         cstk_cobject *beyond = NULL;
         cstk_distance_result d;
         CHECK_OK(cstk_space_create(robots, 1, NULL, 0, boxes[i], &space));
-        CHECK_OK(cstk_cobject_world(space, NULL, &beyond));
+        CHECK_OK(cstk_cobject_beyond_world(space, NULL, &beyond));
         CHECK_OK(cstk_distance(query, beyond, q, 3, INFINITY, &d));
         if (fabs(d.distance - 4.0) > 1e-14) {
             fprintf(stderr, "planar box %d: distance %g, not 4\n", i, d.distance);

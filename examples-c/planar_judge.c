@@ -16,7 +16,7 @@ static bool is_clear(const world *w, cstk_query *query, const slide *s) {
                                          (double)i / POINTS, q));
             check(cstk_classify(query, w->cobject, q, LINKS, &where));
             check(cstk_space_contains(w->space, q, LINKS, &contained));
-            if (where == CSTK_INSIDE || !contained) {
+            if (where == CSTK_CLASS_INSIDE || !contained) {
                 return false;
             }
         }
@@ -32,7 +32,7 @@ static int first_collision(const world *w, cstk_query *query) {
         check(cstk_space_step(w->space, q, LINKS, asked, LINKS, q));
         cstk_class where;
         check(cstk_classify(query, w->sets[S0], q, LINKS, &where));
-        if (where == CSTK_INSIDE) {
+        if (where == CSTK_CLASS_INSIDE) {
             return step;
         }
     }

@@ -101,7 +101,7 @@ static void draw_workspace(FILE *svg, const panel *p, const scene *s, const worl
     svg_text(svg, x_of(p, reach) - 10, y_of(p, reach) + 28, 20, "end", "world box");
     for (int i = 0; i < OBSTACLES; ++i) {
         double pose[12];
-        check(cstk_environment_object_pose(s->environment, s->ids[i], pose));
+        check(cstk_environment_get_object_pose(s->environment, s->ids[i], pose));
         draw_shape(svg, p, &s->obstacles[i], pose, colours[i]);
         char name[8];
         snprintf(name, sizeof name, "S%d", i);
@@ -136,12 +136,12 @@ enum { FREE = SETS, BAND, COLUMNS = 420, MAX_ROWS = 1000 };
 static int part_at(const world *w, cstk_query *query, const double *q) {
     cstk_class where;
     check(cstk_classify(query, w->cobject, q, LINKS, &where));
-    if (where != CSTK_INSIDE) {
-        return where == CSTK_CONTACT ? BAND : FREE;
+    if (where != CSTK_CLASS_INSIDE) {
+        return where == CSTK_CLASS_CONTACT ? BAND : FREE;
     }
     for (int i = 0; i < SETS; ++i) {
         check(cstk_classify(query, w->sets[i], q, LINKS, &where));
-        if (where == CSTK_INSIDE) {
+        if (where == CSTK_CLASS_INSIDE) {
             return i;
         }
     }

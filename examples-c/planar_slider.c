@@ -90,8 +90,8 @@ static world make_world(const scene *s, bool held) {
     const cstk_robot *robots[] = {s->robot};
     check(cstk_space_create(robots, 1, ranges, LINKS, box, &w.space));
 
-    cstk_cobject_options options;
-    check(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    check(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = max_shell;
     cstk_cobject *parts[LINKS + 1];
     for (uint32_t i = 0; i < LINKS; ++i) {

@@ -73,8 +73,8 @@ static void add_object(cstk_environment *environment, cstk_body *body, const dou
 static cstk_cobject *union_over_links(const scene *s, const uint32_t *links, size_t count) {
     cstk_cobject *parts[8];
     cstk_cobject *all = NULL;
-    cstk_cobject_options options;
-    check(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    check(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = s->max_shell;
     for (size_t i = 0; i < count; ++i) {
         check(cstk_cobject_induced(s->space, &links[i], 1, s->environment, NULL, 0, &options,
@@ -95,7 +95,7 @@ static void finish_robot(scene *s, cstk_robot_builder *builder, const cstk_range
     check(cstk_robot_builder_release(builder));
     const cstk_robot *robots[] = {robot};
     check(cstk_space_create(robots, 1, ranges, range_count, world, &s->space));
-    check(cstk_space_size(s->space, &s->nq, NULL, NULL));
+    check(cstk_space_get_size(s->space, &s->nq, NULL, NULL));
     check(cstk_robot_release(robot));
 }
 

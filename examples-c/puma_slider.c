@@ -31,7 +31,7 @@ static int first_collision(const scene *s, cstk_query *query, double *joint) {
         }
         cstk_class where;
         check(cstk_classify(query, s->cobject, q, s->nq, &where));
-        if (where == CSTK_INSIDE) {
+        if (where == CSTK_CLASS_INSIDE) {
             *joint = q[0];
             return step;
         }

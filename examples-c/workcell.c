@@ -47,17 +47,17 @@ typedef struct configuration {
 } configuration;
 
 static const configuration configurations[] = {
-    {"both at home", {HOME, HOME}, {CSTK_OUTSIDE, {NULL}}, "workcell_free.glb"},
-    {"left elbow folded", {FOLDED, HOME}, {CSTK_INSIDE, {names[LEFT_ITSELF]}}, NULL},
-    {"wrists near", {NEAR_MIDDLE, NEAR_MIDDLE}, {CSTK_CONTACT, {names[ARM_BY_ARM]}}, NULL},
+    {"both at home", {HOME, HOME}, {CSTK_CLASS_OUTSIDE, {NULL}}, "workcell_free.glb"},
+    {"left elbow folded", {FOLDED, HOME}, {CSTK_CLASS_INSIDE, {names[LEFT_ITSELF]}}, NULL},
+    {"wrists near", {NEAR_MIDDLE, NEAR_MIDDLE}, {CSTK_CLASS_CONTACT, {names[ARM_BY_ARM]}}, NULL},
     {"wrists meeting",
      {IN_MIDDLE, IN_MIDDLE},
-     {CSTK_INSIDE, {names[ARM_BY_ARM]}},
+     {CSTK_CLASS_INSIDE, {names[ARM_BY_ARM]}},
      "workcell_wrists.glb"},
-    {"left hand turned", {TURNED_TOO_FAR, HOME}, {CSTK_INSIDE, {names[LIMITS]}}, NULL},
+    {"left hand turned", {TURNED_TOO_FAR, HOME}, {CSTK_CLASS_INSIDE, {names[LIMITS]}}, NULL},
     {"two reasons",
      {TURNED_TOO_FAR, AT_FIXTURE},
-     {CSTK_INSIDE, {names[LIMITS], names[CELL]}},
+     {CSTK_CLASS_INSIDE, {names[LIMITS], names[CELL]}},
      NULL},
 };
 
@@ -72,7 +72,7 @@ static cstk_cobject *named(cstk_cobject *set, char *name) {
 /* Links against links. Left out are pairs that always touch, such as joined ones, and those that no
  * sample brought together. That is no proof that they stay apart: without skip_never they are kept.
  */
-static void make_link_sets(const cell *c, cstk_query *query, const cstk_cobject_options *options,
+static void make_link_sets(const cell *c, cstk_query *query, const cstk_induced_options *options,
                            cstk_cobject *sets[SETS]) {
     cstk_link_pair_options choice;
     check(cstk_link_pair_options_default(&choice, sizeof choice));
@@ -80,7 +80,7 @@ static void make_link_sets(const cell *c, cstk_query *query, const cstk_cobject_
     choice.margin = margin;
     choice.skip_never = 1;
     cstk_link_pair_list list;
-    check(cstk_link_pairs(query, c->space, &choice, NULL, NULL, &list));
+    check(cstk_find_link_pairs(query, c->space, &choice, NULL, NULL, &list));
 
     uint32_t pairs[SETS][LINKS * LINKS][2];
     size_t counts[SETS] = {0};
@@ -101,7 +101,7 @@ static void make_link_sets(const cell *c, cstk_query *query, const cstk_cobject_
 }
 
 /* Links against what is in the cell, now or later; but for the bases, which stand on the table. */
-static cstk_cobject *make_cell_set(const cell *c, const cstk_cobject_options *options) {
+static cstk_cobject *make_cell_set(const cell *c, const cstk_induced_options *options) {
     uint32_t links[ARMS * LINKS];
     size_t count = 0;
     for (int arm = 0; arm < ARMS; ++arm) {
@@ -120,13 +120,13 @@ static cstk_cobject *make_limit_set(const cell *c) {
     check(cstk_pure_options_default(&options, sizeof options));
     options.scale = radian;
     cstk_cobject *made = NULL;
-    check(cstk_cobject_limits(c->space, &options, &made));
+    check(cstk_cobject_beyond_limits(c->space, &options, &made));
     return named(made, names[LIMITS]);
 }
 
 static cstk_cobject *make_union(const cell *c, cstk_query *query) {
-    cstk_cobject_options options;
-    check(cstk_cobject_options_default(&options, sizeof options));
+    cstk_induced_options options;
+    check(cstk_induced_options_default(&options, sizeof options));
     options.margin = margin;
     options.contact_epsilon = contact_epsilon;
     cstk_cobject *sets[SETS], *all = NULL;
@@ -167,14 +167,14 @@ static uint64_t change_bin(cell *c, int32_t kind, double x) {
  * follows: the environment is changed, and the C-object need not be made anew. */
 static bool run_bin(cell *c, cstk_query *query, const cstk_cobject *set) {
     const double q[NQ] = {AT_TABLE, HOME};
-    const expectation outside = {CSTK_OUTSIDE, {NULL}}, inside = {CSTK_INSIDE, {names[CELL]}};
+    const expectation outside = {CSTK_CLASS_OUTSIDE, {NULL}}, inside = {CSTK_CLASS_INSIDE, {names[CELL]}};
     cstk_distance_result before, after;
     bool good = report(c, query, set, "left hand low", q, &outside);
     check(cstk_distance(query, set, q, NQ, INFINITY, &before));
 
     int seen[3] = {0}; /* how often each class was */
-    cstk_class where = CSTK_INSIDE;
-    for (int i = 0; i < 20 && where != CSTK_OUTSIDE; ++i) {
+    cstk_class where = CSTK_CLASS_INSIDE;
+    for (int i = 0; i < 20 && where != CSTK_CLASS_OUTSIDE; ++i) {
         double x = -.28 - .02 * i;
         uint64_t version = change_bin(c, i == 0 ? CSTK_CHANGE_ADD : CSTK_CHANGE_MOVE, x);
         if (i == 0) {
@@ -186,7 +186,7 @@ static bool run_bin(cell *c, cstk_query *query, const cstk_cobject *set) {
         good = good && where <= last; /* it goes away, and so the class never rises */
         ++seen[where];
     }
-    good = good && seen[CSTK_INSIDE] > 0 && seen[CSTK_CONTACT] > 0 && seen[CSTK_OUTSIDE] > 0;
+    good = good && seen[CSTK_CLASS_INSIDE] > 0 && seen[CSTK_CLASS_CONTACT] > 0 && seen[CSTK_CLASS_OUTSIDE] > 0;
 
     uint64_t version = change_bin(c, CSTK_CHANGE_DELETE, 0);
     good = report(c, query, set, "bin deleted", q, &outside) && good;

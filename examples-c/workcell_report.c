@@ -6,13 +6,13 @@
 enum { MAX_PAIRS = 32, MAX_NAME = 64 };
 
 const char *class_name(cstk_class where) {
-    return where == CSTK_INSIDE ? "INSIDE" : where == CSTK_CONTACT ? "CONTACT" : "OUTSIDE";
+    return where == CSTK_CLASS_INSIDE ? "INSIDE" : where == CSTK_CLASS_CONTACT ? "CONTACT" : "OUTSIDE";
 }
 
 /* The arm that a link of the space belongs to is asked for its name. */
 static void link_name(const cell *c, uint32_t link, char name[MAX_NAME]) {
     int arm = arm_of(c, link);
-    check(cstk_robot_link_name(c->arms[arm], link - c->first[arm].link, name, MAX_NAME, NULL));
+    check(cstk_robot_get_link_name(c->arms[arm], link - c->first[arm].link, name, MAX_NAME, NULL));
 }
 
 static const char *object_name(const cell *c, uint64_t id) {
@@ -32,7 +32,7 @@ static void print_joint_beyond(const cell *c, const double q[NQ]) {
     if (!within) {
         int arm = i < c->first[RIGHT].coordinate ? LEFT : RIGHT;
         char name[MAX_NAME];
-        check(cstk_robot_joint_name(c->arms[arm], i - c->first[arm].coordinate + SHOULDER, name,
+        check(cstk_robot_get_joint_name(c->arms[arm], i - c->first[arm].coordinate + SHOULDER, name,
                                     MAX_NAME, NULL));
         printf("%s at %.3f", name, q[i]);
     } else {
@@ -99,8 +99,8 @@ bool report(const cell *c, cstk_query *query, const cstk_cobject *set, const cha
     }
     printf("\n");
     bool good =
-        why.point_class == expected->where && (d.distance == 0) == (expected->where == CSTK_INSIDE);
-    if (why.point_class != CSTK_OUTSIDE) { /* there, it rests on all of them */
+        why.point_class == expected->where && (d.distance == 0) == (expected->where == CSTK_CLASS_INSIDE);
+    if (why.point_class != CSTK_CLASS_OUTSIDE) { /* there, it rests on all of them */
         good = print_reasons(c, q, &why, expected) && good;
     }
     if (!good) {

@@ -206,9 +206,9 @@ inline cstk_hierarchy_options hierarchy_options() {
     return options;
 }
 
-inline cstk_cobject_options cobject_options(double contact_epsilon = 0, double margin = 0) {
-    cstk_cobject_options options;
-    check(cstk_cobject_options_default(&options, sizeof options));
+inline cstk_induced_options induced_options(double contact_epsilon = 0, double margin = 0) {
+    cstk_induced_options options;
+    check(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = contact_epsilon;
     options.margin = margin;
     return options;
@@ -287,7 +287,7 @@ public:
 
     cstk_mesh_view view() const {
         cstk_mesh_view out;
-        check(cstk_mesh_get(get(), &out));
+        check(cstk_mesh_get_view(get(), &out));
         return out;
     }
 };
@@ -317,36 +317,36 @@ public:
         return data;
     }
 
-    cstk_hierarchy_statistics hierarchy() const {
+    cstk_hierarchy_statistics hierarchy_statistics() const {
         cstk_hierarchy_statistics out;
-        check(cstk_body_get_hierarchy(get(), &out));
+        check(cstk_body_get_hierarchy_statistics(get(), &out));
         return out;
     }
 
     cstk_level_statistics level_statistics(std::uint32_t level) const {
         cstk_level_statistics out;
-        check(cstk_body_get_level(get(), level, &out));
+        check(cstk_body_get_level_statistics(get(), level, &out));
         return out;
     }
 
     /// The nodes of a level and the leaves above it.
-    std::vector<std::uint32_t> level(std::uint32_t level) const {
+    std::vector<std::uint32_t> level_nodes(std::uint32_t level) const {
         std::size_t count = 0;
-        check(cstk_body_level(get(), level, 0, nullptr, &count));
+        check(cstk_body_get_level_nodes(get(), level, 0, nullptr, &count));
         std::vector<std::uint32_t> nodes(count);
-        check(cstk_body_level(get(), level, count, nodes.data(), &count));
+        check(cstk_body_get_level_nodes(get(), level, count, nodes.data(), &count));
         return nodes;
     }
 
     /// At most `max_count` nodes that cover the body.
-    std::vector<std::uint32_t> cover(std::size_t max_count) const {
+    std::vector<std::uint32_t> cover_nodes(std::size_t max_count) const {
         cstk_body_statistics statistics = this->statistics();
         if (max_count > statistics.node_count) {
             max_count = static_cast<std::size_t>(statistics.node_count);
         }
         std::vector<std::uint32_t> nodes(max_count);
         std::size_t count = 0;
-        check(cstk_body_cover(get(), max_count, nodes.data(), &count));
+        check(cstk_body_get_cover_nodes(get(), max_count, nodes.data(), &count));
         nodes.resize(count);
         return nodes;
     }
@@ -360,15 +360,15 @@ public:
     /// The corners of a node's wrapper, three doubles each.
     std::vector<double> node_corners(std::uint32_t node) const {
         std::size_t count = 0;
-        check(cstk_body_node_corners(get(), node, 0, nullptr, &count));
+        check(cstk_body_get_node_corners(get(), node, 0, nullptr, &count));
         std::vector<double> xyz(3 * count);
-        check(cstk_body_node_corners(get(), node, count, xyz.data(), &count));
+        check(cstk_body_get_node_corners(get(), node, count, xyz.data(), &count));
         return xyz;
     }
 
-    Mesh nodes_mesh(Span<std::uint32_t> nodes) const {
+    Mesh mesh_of_nodes(Span<std::uint32_t> nodes) const {
         cstk_mesh *out = nullptr;
-        check(cstk_body_nodes_mesh(get(), nodes.data(), nodes.size(), &out));
+        check(cstk_mesh_create_from_nodes(get(), nodes.data(), nodes.size(), &out));
         return Mesh(out);
     }
 
@@ -394,9 +394,9 @@ public:
     std::vector<double> feature_vertices(std::uint32_t primitive, cstk_feature_kind kind,
                                          std::uint32_t feature) const {
         std::size_t count = 0;
-        check(cstk_body_feature_vertices(get(), primitive, kind, feature, 0, nullptr, &count));
+        check(cstk_body_get_feature_vertices(get(), primitive, kind, feature, 0, nullptr, &count));
         std::vector<double> xyz(3 * count);
-        check(cstk_body_feature_vertices(get(), primitive, kind, feature, count, xyz.data(), &count));
+        check(cstk_body_get_feature_vertices(get(), primitive, kind, feature, count, xyz.data(), &count));
         return xyz;
     }
 };
@@ -404,7 +404,7 @@ public:
 class BodyBuilder
     : public Handle<cstk_body_builder, cstk_body_builder_retain, cstk_body_builder_release> {
 public:
-    /// Return false to end the build with CSTK_CANCELLED. Exceptions pass through to the caller of build().
+    /// Return false to end the build with CSTK_ERROR_CANCELLED. Exceptions pass through to the caller of build().
     using Progress = std::function<bool(double fraction)>;
 
     explicit BodyBuilder(std::uint32_t dimension = 3) : Handle(create(dimension)) {}
@@ -613,19 +613,19 @@ public:
 
     std::size_t nq() const {
         std::size_t nq = 0;
-        check(cstk_robot_size(get(), &nq, nullptr, nullptr));
+        check(cstk_robot_get_size(get(), &nq, nullptr, nullptr));
         return nq;
     }
 
     std::size_t nv() const {
         std::size_t nv = 0;
-        check(cstk_robot_size(get(), nullptr, &nv, nullptr));
+        check(cstk_robot_get_size(get(), nullptr, &nv, nullptr));
         return nv;
     }
 
     std::size_t link_count() const {
         std::size_t count = 0;
-        check(cstk_robot_size(get(), nullptr, nullptr, &count));
+        check(cstk_robot_get_size(get(), nullptr, nullptr, &count));
         return count;
     }
 
@@ -651,14 +651,14 @@ public:
 
     cstk_link_info link_info(std::uint32_t link) const {
         cstk_link_info out;
-        check(cstk_robot_link_info(get(), link, &out));
+        check(cstk_robot_get_link_info(get(), link, &out));
         return out;
     }
 
-    std::string link_name(std::uint32_t link) const { return name(cstk_robot_link_name, link); }
+    std::string link_name(std::uint32_t link) const { return name(cstk_robot_get_link_name, link); }
 
     /// The name of the joint that moves the link.
-    std::string joint_name(std::uint32_t link) const { return name(cstk_robot_joint_name, link); }
+    std::string joint_name(std::uint32_t link) const { return name(cstk_robot_get_joint_name, link); }
 
     Pose link_pose(Span<double> q, std::uint32_t link) const {
         Pose pose;
@@ -730,7 +730,7 @@ public:
     /// What became of the URDF file added last.
     cstk_urdf_report urdf_report() const {
         cstk_urdf_report report;
-        check(cstk_robot_builder_urdf_report(get(), &report));
+        check(cstk_robot_builder_get_urdf_report(get(), &report));
         return report;
     }
 
@@ -767,28 +767,28 @@ public:
 
     std::size_t nq() const {
         std::size_t nq = 0;
-        check(cstk_space_size(get(), &nq, nullptr, nullptr));
+        check(cstk_space_get_size(get(), &nq, nullptr, nullptr));
         return nq;
     }
 
     std::size_t nv() const {
         std::size_t nv = 0;
-        check(cstk_space_size(get(), nullptr, &nv, nullptr));
+        check(cstk_space_get_size(get(), nullptr, &nv, nullptr));
         return nv;
     }
 
     std::size_t link_count() const {
         std::size_t count = 0;
-        check(cstk_space_size(get(), nullptr, nullptr, &count));
+        check(cstk_space_get_size(get(), nullptr, nullptr, &count));
         return count;
     }
 
     /// The name of a link, numbered through the space.
     std::string link_name(std::uint32_t link) const {
         std::size_t length = 0;
-        check(cstk_space_link_name(get(), link, nullptr, 0, &length));
+        check(cstk_space_get_link_name(get(), link, nullptr, 0, &length));
         std::string out(length + 1, '\0');
-        check(cstk_space_link_name(get(), link, out.data(), out.size(), nullptr));
+        check(cstk_space_get_link_name(get(), link, out.data(), out.size(), nullptr));
         out.resize(length);
         return out;
     }
@@ -843,7 +843,7 @@ public:
 
     std::vector<double> neutral() const {
         std::vector<double> out(nq());
-        check(cstk_space_neutral(get(), out.data()));
+        check(cstk_space_get_neutral(get(), out.data()));
         return out;
     }
 
@@ -975,13 +975,13 @@ public:
 
     std::size_t object_count() const {
         std::size_t count = 0;
-        check(cstk_environment_state(get(), &count, nullptr));
+        check(cstk_environment_get_state(get(), &count, nullptr));
         return count;
     }
 
     std::uint64_t version() const {
         std::uint64_t version = 0;
-        check(cstk_environment_state(get(), nullptr, &version));
+        check(cstk_environment_get_state(get(), nullptr, &version));
         return version;
     }
 
@@ -989,7 +989,7 @@ public:
     std::vector<std::uint64_t> objects() const {
         std::vector<std::uint64_t> ids(object_count());
         std::size_t count = 0;
-        check(cstk_environment_objects(get(), ids.size(), ids.data(), &count));
+        check(cstk_environment_get_objects(get(), ids.size(), ids.data(), &count));
         /* Others may have gone meanwhile. */
         ids.resize(count < ids.size() ? count : ids.size());
         return ids;
@@ -997,13 +997,13 @@ public:
 
     cstk_object_info object(std::uint64_t id) const {
         cstk_object_info out;
-        check(cstk_environment_object_info(get(), id, &out));
+        check(cstk_environment_get_object_info(get(), id, &out));
         return out;
     }
 
     Pose object_pose(std::uint64_t id) const {
         Pose pose;
-        check(cstk_environment_object_pose(get(), id, pose.data()));
+        check(cstk_environment_get_object_pose(get(), id, pose.data()));
         return pose;
     }
 
@@ -1024,7 +1024,7 @@ private:
 };
 
 /// A set by functions of yours; see cstk_predicate. Threads may call them at once. What they throw
-/// ends the query with CSTK_CALLBACK_FAILED.
+/// ends the query with CSTK_ERROR_CALLBACK_FAILED.
 struct Predicate {
     using Configuration = Span<double>;
 
@@ -1043,7 +1043,7 @@ public:
 
     /// No links: all that have a body. No ids: all objects of the environment.
     static CObject induced(const Space &space, const Environment &environment,
-                           const cstk_cobject_options &options = cobject_options(),
+                           const cstk_induced_options &options = induced_options(),
                            Span<std::uint32_t> links = {}, Span<std::uint64_t> ids = {}) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_induced(space.get(), links.data(), links.size(), environment.get(),
@@ -1053,7 +1053,7 @@ public:
 
     static CObject induced_links(const Space &space,
                                  const std::vector<std::array<std::uint32_t, 2>> &pairs,
-                                 const cstk_cobject_options &options = cobject_options()) {
+                                 const cstk_induced_options &options = induced_options()) {
         std::vector<std::uint32_t> flat;
         for (const auto &pair : pairs) {
             flat.insert(flat.end(), pair.begin(), pair.end());
@@ -1084,16 +1084,16 @@ public:
     }
 
     /// Where a coordinate is beyond its range.
-    static CObject limits(const Space &space, const cstk_pure_options &options = pure_options()) {
+    static CObject beyond_limits(const Space &space, const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
-        check(cstk_cobject_limits(space.get(), &options, &out));
+        check(cstk_cobject_beyond_limits(space.get(), &options, &out));
         return CObject(out);
     }
 
     /// Where a link's origin is outside the world box.
-    static CObject world(const Space &space, const cstk_pure_options &options = pure_options()) {
+    static CObject beyond_world(const Space &space, const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
-        check(cstk_cobject_world(space.get(), &options, &out));
+        check(cstk_cobject_beyond_world(space.get(), &options, &out));
         return CObject(out);
     }
 
@@ -1115,11 +1115,11 @@ public:
     }
 
     /// Where a link's body reaches normal . x <= offset of the world; no links for all.
-    static CObject floor(const Space &space, const std::array<double, 3> &normal, double offset,
+    static CObject below_floor(const Space &space, const std::array<double, 3> &normal, double offset,
                          Span<std::uint32_t> links = {},
                          const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
-        check(cstk_cobject_floor(space.get(), links.data(), links.size(), normal.data(), offset,
+        check(cstk_cobject_below_floor(space.get(), links.data(), links.size(), normal.data(), offset,
                                  &options, &out));
         return CObject(out);
     }
@@ -1268,7 +1268,7 @@ public:
     Query() : Handle(create()) {}
 
     cstk_class classify(const CObject &cobject, Span<double> q) const {
-        cstk_class out = CSTK_OUTSIDE;
+        cstk_class out = CSTK_CLASS_OUTSIDE;
         check(cstk_classify(get(), cobject.get(), q.data(), q.size(), &out));
         return out;
     }
@@ -1322,17 +1322,17 @@ public:
         check(cstk_query_set_contacts(get(), listed));
     }
 
-    /// Limits the work of each query from now on; 0 for no limit. A query that needs more fails with CSTK_LIMIT.
+    /// Limits the work of each query from now on; 0 for no limit. A query that needs more fails with CSTK_ERROR_LIMIT.
     void set_limit(std::uint64_t node_and_primitive_pairs) const {
         check(cstk_query_set_limit(get(), node_and_primitive_pairs));
     }
 
     /// Which pairs of links to test for self-collision, for CObject::induced_links().
     std::vector<std::array<std::uint32_t, 2>>
-    link_pairs(const Space &space,
+    find_link_pairs(const Space &space,
                const cstk_link_pair_options &options = link_pair_options()) const {
         cstk_link_pair_list list;
-        check(cstk_link_pairs(get(), space.get(), &options, nullptr, nullptr, &list));
+        check(cstk_find_link_pairs(get(), space.get(), &options, nullptr, nullptr, &list));
         std::vector<std::array<std::uint32_t, 2>> pairs(list.tested_count);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             pairs[i] = {list.tested[2 * i], list.tested[2 * i + 1]};
@@ -1349,30 +1349,30 @@ public:
     }
 
     /// The same queries at given link poses: 12 doubles for every link of the space.
-    cstk_class classify_at(const CObject &cobject, Span<Pose> links) const {
-        cstk_class out = CSTK_OUTSIDE;
-        check(cstk_classify_at(get(), cobject.get(), flat(links), links.size(), &out));
+    cstk_class classify_at_link_poses(const CObject &cobject, Span<Pose> links) const {
+        cstk_class out = CSTK_CLASS_OUTSIDE;
+        check(cstk_classify_at_link_poses(get(), cobject.get(), flat(links), links.size(), &out));
         return out;
     }
 
-    bool within_at(const CObject &cobject, Span<Pose> links, double threshold) const {
+    bool within_at_link_poses(const CObject &cobject, Span<Pose> links, double threshold) const {
         bool out = false;
-        check(cstk_within_at(get(), cobject.get(), flat(links), links.size(), threshold, &out));
+        check(cstk_within_at_link_poses(get(), cobject.get(), flat(links), links.size(), threshold, &out));
         return out;
     }
 
     cstk_distance_result
-    distance_at(const CObject &cobject, Span<Pose> links,
+    distance_at_link_poses(const CObject &cobject, Span<Pose> links,
                 double max_distance = std::numeric_limits<double>::infinity()) const {
         cstk_distance_result out;
-        check(cstk_distance_at(get(), cobject.get(), flat(links), links.size(), max_distance, &out));
+        check(cstk_distance_at_link_poses(get(), cobject.get(), flat(links), links.size(), max_distance, &out));
         return out;
     }
 
-    cstk_witness_list witnesses_at(const CObject &cobject, Span<Pose> links, double epsilon,
+    cstk_witness_list witnesses_at_link_poses(const CObject &cobject, Span<Pose> links, double epsilon,
                                    std::size_t max_count = 4096) const {
         cstk_witness_list out;
-        check(cstk_witnesses_at(get(), cobject.get(), flat(links), links.size(), epsilon, max_count,
+        check(cstk_witnesses_at_link_poses(get(), cobject.get(), flat(links), links.size(), epsilon, max_count,
                                 &out));
         return out;
     }

@@ -24,3 +24,7 @@ build_and_test() {
 }
 build_and_test examples-c build/examples
 build_and_test capi-tests build/capi-tests
+
+echo "== the reference pages"
+mkdir -p build/doxygen
+doxygen docs/Doxyfile && echo "build/doxygen/html: no warnings"

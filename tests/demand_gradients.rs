@@ -6,7 +6,7 @@ use cstk::cobject::Class;
 use cstk::convex::ContactMode;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
-use cstk::robot::{JointKind, LinkDefinition, Posture};
+use cstk::robot::{JointKind, LinkDefinition, RobotState};
 
 use common::differences::{distance, moved};
 use common::random::Random;
@@ -64,7 +64,7 @@ fn a36_points_and_gradients_belong_to_the_configuration_asked_about() {
         let own = poses[r_link].inverse().transform_point(&contact.points[0]);
         let (length, half) = [(1.0, 0.05), (0.8, 0.04)][r_link];
         assert!((-1e-12..=length + 1e-12).contains(&own.x) && own.y.abs() <= half + 1e-12);
-        let posture = Posture {
+        let posture = RobotState {
             q: &q,
             poses: &poses,
         };

@@ -17,13 +17,13 @@ use common::random::Random;
 use common::trees::models;
 
 /// A body of a scene at a pose.
-type Placed<'a> = (&'a Body, &'a Pose);
+type PlacedPrimitive<'a> = (&'a Body, &'a Pose);
 
 /// Answers in words: numbers are printed so that different bits read differently.
 type Answers = Vec<String>;
 
 /// All queries about two bodies, with thresholds around their distance.
-fn answers(context: &mut QueryContext, a: Placed, b: Placed) -> Answers {
+fn answers(context: &mut QueryContext, a: PlacedPrimitive, b: PlacedPrimitive) -> Answers {
     let found = context.pair_distance(a, b, f64::INFINITY).unwrap();
     assert_eq!(found.kind, DistanceKind::Exact);
     let d = found.distance;
@@ -74,7 +74,7 @@ fn same(found: &Answers, expected: &Answers, what: impl Fn() -> String) {
 }
 
 /// All distances of primitives by brute force: what every tree must find. Sorted as witnesses are.
-fn all_pairs(a: Placed, b: Placed) -> Vec<(f64, [u32; 2])> {
+fn all_pairs(a: PlacedPrimitive, b: PlacedPrimitive) -> Vec<(f64, [u32; 2])> {
     let pairing = Pairing::new(a.0, a.1, b.0, b.1);
     let mut scratch = PrimitiveScratch::default();
     let mut pairs = Vec::new();
@@ -93,7 +93,7 @@ fn all_pairs(a: Placed, b: Placed) -> Vec<(f64, [u32; 2])> {
 }
 
 /// The distance, the witness and the list of witnesses are those of brute force.
-fn agrees_with_brute_force(a: Placed, b: Placed) -> f64 {
+fn agrees_with_brute_force(a: PlacedPrimitive, b: PlacedPrimitive) -> f64 {
     let pairs = all_pairs(a, b);
     let mut context = QueryContext::new();
     let found = context.pair_distance(a, b, f64::INFINITY).unwrap();
@@ -153,7 +153,7 @@ fn pose_apart(random: &mut Random, a: &Body, b: &Body, apart: f64) -> Pose {
 }
 
 /// `pose` with `a` moved so that it just touches `b`, or nearly.
-fn pose_touching(pose: &Pose, a: &Body, b: Placed) -> Pose {
+fn pose_touching(pose: &Pose, a: &Body, b: PlacedPrimitive) -> Pose {
     let mut pose = *pose;
     for _ in 0..3 {
         let found = QueryContext::new()
@@ -165,7 +165,12 @@ fn pose_touching(pose: &Pose, a: &Body, b: Placed) -> Pose {
 }
 
 /// Poses of `a` that overlap `b`, touch it, are near it and far from it.
-fn poses_around(random: &mut Random, a: &Body, b: Placed, overlapping: &[f64]) -> Vec<Pose> {
+fn poses_around(
+    random: &mut Random,
+    a: &Body,
+    b: PlacedPrimitive,
+    overlapping: &[f64],
+) -> Vec<Pose> {
     let mut poses = Vec::new();
     for &apart in overlapping {
         poses.push(pose_apart(random, a, b.0, apart));

@@ -6,9 +6,9 @@ mod common;
 use cstk::body::{Body, BodyBuilder};
 use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
 use cstk::gjk::DistanceLimits;
-use cstk::hierarchy::{Grouping, Held, PackedBox, PackedTree, Unit, WideNode};
+use cstk::hierarchy::{ChildPoints, Grouping, NodeRef, PackedBox, PackedTree, WideNode};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
-use cstk::pair::{Pairing, PrimitiveScratch, ROUNDING, Sharper, bounds, sharper_bounds};
+use cstk::pair::{BoundRefinement, Pairing, PrimitiveScratch, ROUNDING, bounds, sharper_bounds};
 use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::query::QueryContext;
 use cstk::tolerance::DISTANCE_ERROR;
@@ -47,7 +47,7 @@ impl Work for Decoded<'_> {
 fn check_boxes(
     body: &Body,
     tree: &PackedTree,
-    unit: Unit,
+    unit: NodeRef,
     ancestors: &mut Vec<PackedBox>,
 ) -> usize {
     ancestors.push(tree.bounding_box(unit));
@@ -251,7 +251,7 @@ impl Work for Bounded<'_> {
 
     fn run<I: Instructions>(self, lanes: I) -> Self::Output {
         let eight = self.0.boxes(lanes, 1.0);
-        let wanted = Sharper {
+        let wanted = BoundRefinement {
             direction: None,
             cutoff: f32::INFINITY,
             among: 255,
@@ -281,13 +281,13 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
         let mut held = || {
             let center = random.point(0.5);
             let points = random.points(6, half);
-            Held {
+            ChildPoints {
                 points: points.into_iter().map(|p| center + p).collect(),
                 excess: 0.0,
                 axes: random.rotation(),
             }
         };
-        let all: Vec<Held> = (0..1 + step % 8).map(|_| held()).collect();
+        let all: Vec<ChildPoints> = (0..1 + step % 8).map(|_| held()).collect();
         let node = WideNode::new(&all);
         let one = WideNode::new(&[held()]).get(0);
         let found = [

@@ -11,7 +11,7 @@ use cstk::euler::{
     euler_to_basic_jacobian, euler_to_rotation, rotation_to_euler,
 };
 use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
-use cstk::robot::{CustomJoint, JointKind, LinkDefinition, Posture, Robot, Speeds, Twist};
+use cstk::robot::{CustomJoint, JointKind, LinkDefinition, Robot, RobotState, Speeds, Twist};
 
 use common::random::Random;
 use common::robots::{Screw, link, robot, space};
@@ -157,7 +157,7 @@ fn the_reports_two_link_arm() {
         assert!((tip - poses[0].translation - p0).amax() < 1e-15);
         assert!((tip - poses[1].translation - p1).amax() < 1e-15);
         // (37), its columns from joint 0 on (E5).
-        let posture = Posture {
+        let posture = RobotState {
             q: &q,
             poses: &poses,
         };
@@ -261,7 +261,7 @@ fn jacobians_agree_with_differences_for_every_joint() {
         let q = space.step(&space.neutral(), &v);
         space.check_configuration(&q).unwrap();
         let poses = space.link_poses(&q).unwrap();
-        let posture = Posture {
+        let posture = RobotState {
             q: &q,
             poses: &poses,
         };
@@ -313,7 +313,7 @@ fn the_euler_jacobian_is_the_derivative_of_the_placement() {
         compared += 1;
         let basic = space
             .jacobian(
-                Posture {
+                RobotState {
                     q: &q,
                     poses: &poses,
                 },
@@ -392,7 +392,7 @@ fn faulty_maps_are_named() {
             Err(error) => error,
             Ok(()) => robot
                 .jacobian(
-                    Posture {
+                    RobotState {
                         q: &[0.0],
                         poses: &poses,
                     },

@@ -10,7 +10,7 @@ use cstk::cobject::{CObject, Class, InducedOptions};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, Distance, DistanceKind, QueryContext, SSide};
 
-use common::placed::{Placed, cold, dented, hull_at, shifted, size_of};
+use common::placed::{PlacedPrimitive, cold, dented, hull_at, shifted, size_of};
 use common::random::Random;
 use common::robots::{against_with, environment, free_body, link, robot, space};
 use common::shapes::{hull, hulls, mesh};
@@ -36,8 +36,8 @@ fn warm_answers_are_cold_answers() {
         if step % 50 == 49 {
             poses[i] = random.pose(1.5);
         }
-        let a = Placed::new(shapes[i].clone(), poses[i]);
-        let b = Placed::new(shapes[j].clone(), poses[j]);
+        let a = PlacedPrimitive::new(shapes[i].clone(), poses[i]);
+        let b = PlacedPrimitive::new(shapes[j].clone(), poses[j]);
         let limit = [f64::INFINITY, 0.4][step % 2];
         // Other questions in between leave other memories.
         warm.pair_within(a.side(), b.side(), random.within(0.0, 1.0))
@@ -69,7 +69,11 @@ fn said(found: &Distance) -> (DistanceKind, Vec<u64>, Option<[u32; 2]>, bool) {
 }
 
 /// A robot of one link, and the C-object it makes with some objects.
-fn one_link(body: &Arc<Body>, objects: &[&Placed], options: InducedOptions) -> (CObject, Vec<u64>) {
+fn one_link(
+    body: &Arc<Body>,
+    objects: &[&PlacedPrimitive],
+    options: InducedOptions,
+) -> (CObject, Vec<u64>) {
     let mut links = vec![link(None, cstk::robot::JointKind::Prismatic, Vec3::x())];
     links[0].body = Some(body.clone());
     let placed: Vec<(&Arc<Body>, Pose)> = objects.iter().map(|o| (&o.shape.body, o.pose)).collect();
@@ -139,13 +143,13 @@ fn class_threshold_and_distance_agree() {
 fn no_witness_is_missing_and_none_is_there_twice() {
     let mut random = Random::new(12);
     for i in 0..8 {
-        let a = Placed::new(dented(&mut random), random.pose(0.3));
+        let a = PlacedPrimitive::new(dented(&mut random), random.pose(0.3));
         let parts: Vec<Vec<Vec3>> = (0..8)
             .map(|_| shifted(&random.points(5, 0.4), random.point(1.0)))
             .collect();
-        let b = Placed::new(hulls(&parts), random.pose([2.5, 1.2][i % 2]));
+        let b = PlacedPrimitive::new(hulls(&parts), random.pose([2.5, 1.2][i % 2]));
         let size = size_of(&a, &b);
-        let single = |placed: &Placed| -> Vec<Placed> {
+        let single = |placed: &PlacedPrimitive| -> Vec<PlacedPrimitive> {
             let alone = |part: &Vec<Vec3>| match part.len() {
                 3 => mesh(part, &[[0, 1, 2]]),
                 _ => hull(part),
@@ -154,7 +158,7 @@ fn no_witness_is_missing_and_none_is_there_twice() {
                 .shape
                 .parts
                 .iter()
-                .map(|part| Placed::new(alone(part), placed.pose))
+                .map(|part| PlacedPrimitive::new(alone(part), placed.pose))
                 .collect()
         };
         let (singles_a, singles_b) = (single(&a), single(&b));
@@ -198,7 +202,7 @@ fn no_witness_is_missing_and_none_is_there_twice() {
 }
 
 /// Of more witnesses than asked for, the nearest are kept, and it says so.
-fn truncates(a: &Placed, b: &Placed, epsilon: f64) {
+fn truncates(a: &PlacedPrimitive, b: &PlacedPrimitive, epsilon: f64) {
     let ask = |count: usize| {
         QueryContext::new()
             .pair_witnesses(a.side(), b.side(), epsilon, count)
@@ -224,8 +228,8 @@ fn truncates(a: &Placed, b: &Placed, epsilon: f64) {
 #[test]
 fn truncation_keeps_the_nearest_of_many() {
     let mut random = Random::new(13);
-    let a = Placed::new(dented(&mut random), random.pose(0.1));
-    let b = Placed::new(dented(&mut random), random.pose(3.0));
+    let a = PlacedPrimitive::new(dented(&mut random), random.pose(0.1));
+    let b = PlacedPrimitive::new(dented(&mut random), random.pose(3.0));
     truncates(&a, &b, 10.0);
 }
 
@@ -233,10 +237,10 @@ fn truncation_keeps_the_nearest_of_many() {
 fn a_union_is_the_minimum_of_its_parts() {
     let mut random = Random::new(14);
     for _ in 0..40 {
-        let objects: Vec<Placed> = (0..6)
+        let objects: Vec<PlacedPrimitive> = (0..6)
             .map(|_| hull_at(&random.points(6, 0.8), random.pose(4.0)))
             .collect();
-        let refs: Vec<&Placed> = objects.iter().collect();
+        let refs: Vec<&PlacedPrimitive> = objects.iter().collect();
         let body = hull(&random.points(8, 0.6)).body;
         let robot_space = space(vec![free_body(&body)]);
         let placed: Vec<(&Arc<Body>, Pose)> =
@@ -277,10 +281,10 @@ fn a_union_is_the_minimum_of_its_parts() {
 fn a_margin_shifts_distances() {
     let mut random = Random::new(15);
     for _ in 0..60 {
-        let objects: Vec<Placed> = (0..3)
+        let objects: Vec<PlacedPrimitive> = (0..3)
             .map(|_| hull_at(&random.points(6, 0.8), random.pose(3.0)))
             .collect();
-        let refs: Vec<&Placed> = objects.iter().collect();
+        let refs: Vec<&PlacedPrimitive> = objects.iter().collect();
         let body = hull(&random.points(8, 0.6)).body;
         let margin = random.within(0.0, 2.0);
         let with = |margin: f64| InducedOptions {

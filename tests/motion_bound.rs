@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use cstk::body::Body;
 use cstk::pose::Vec3;
-use cstk::robot::{JointKind, LinkDefinition, Posture};
+use cstk::robot::{JointKind, LinkDefinition, RobotState};
 
 use common::random::Random;
 use common::robots::{Screw, link, robot, space};
@@ -163,12 +163,12 @@ fn no_point_moves_farther_along_a_direction_than_the_directed_bound() {
             .map(|_| random.within(-size, size))
             .collect();
         let poses = &space.link_poses(&q).unwrap();
-        let posture = Posture { q: &q, poses };
+        let posture = RobotState { q: &q, poses };
         for direction in [Vec3::z(), random.unit()] {
             let point = random.point(0.5);
             let link = length - 1;
             let bound = space.directed_motion_bound(link, point.norm(), &direction, posture, &v);
-            let whole = space.reach_motion_bound(link, point.norm(), &q, &v);
+            let whole = space.motion_bound_of_radius(link, point.norm(), &q, &v);
             assert!(bound <= whole * (1.0 + 1e-12), "{bound} > {whole}");
             for k in 1..=20 {
                 let share = f64::from(k) / 20.0;
@@ -198,7 +198,7 @@ fn what_moves_level_has_no_motion_upwards() {
     let q = [0.3, -2.0, 1.0, 0.4, 0.7];
     let v = [0.5, 0.2, 2.0, -1.0, 3.0];
     let poses = &space.link_poses(&q).unwrap();
-    let posture = Posture { q: &q, poses };
+    let posture = RobotState { q: &q, poses };
     for link in 0..3 {
         let bound = space.directed_motion_bound(link, 1.0, &Vec3::z(), posture, &v);
         assert!(bound < 1e-14, "{bound}");

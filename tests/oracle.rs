@@ -7,12 +7,12 @@ use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::query::{Distance, DistanceKind};
 
 use common::oracle::{Bounds, gap_along, hull_distance, moved_exactly};
-use common::placed::{Placed, cold, dented, hull_at, shifted, size_of};
+use common::placed::{PlacedPrimitive, cold, dented, hull_at, shifted, size_of};
 use common::random::Random;
 use common::shapes::{Shape, box_corners, mesh, planar};
 
 /// Bounds of the distance of two unions, by brute force over their parts.
-fn brute_force(a: &Placed, b: &Placed) -> Bounds {
+fn brute_force(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Bounds {
     let origin = a.pose.transform_point(a.shape.body.center());
     let parts_a = a.shape.placed(&a.pose, &origin);
     let parts_b = b.shape.placed(&b.pose, &origin);
@@ -32,7 +32,7 @@ fn brute_force(a: &Placed, b: &Placed) -> Bounds {
 
 /// The distance lies within the brute-force bounds, which leave no room; its points are as far apart and lie in the
 /// bodies; the contact's normal proves it.
-fn certified(a: &Placed, b: &Placed) -> Distance {
+fn certified(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Distance {
     let found = cold(a, b);
     let size = size_of(a, b);
     let accepted = 1e-12 * size;
@@ -62,7 +62,7 @@ fn certified(a: &Placed, b: &Placed) -> Distance {
     let slack = accepted + 4.0 * f64::EPSILON * p.amax().max(q.amax());
     assert!(((p - q).norm() - d).abs() <= slack);
     let origin = a.pose.transform_point(a.shape.body.center());
-    let part = |placed: &Placed, k: usize| {
+    let part = |placed: &PlacedPrimitive, k: usize| {
         placed.shape.placed(&placed.pose, &origin)[witness.primitives[k] as usize].clone()
     };
     let parts = [part(a, 0), part(b, 1)];
@@ -94,7 +94,7 @@ fn certified(a: &Placed, b: &Placed) -> Distance {
 }
 
 /// [`certified`], and the same in either order and after a common rigid motion.
-fn lawful(a: &Placed, b: &Placed, random: &mut Random) -> Distance {
+fn lawful(a: &PlacedPrimitive, b: &PlacedPrimitive, random: &mut Random) -> Distance {
     let found = certified(a, b);
     let size = size_of(a, b);
     let accepted = 1e-12 * size;
@@ -185,8 +185,8 @@ fn needles_and_slivers() {
         };
         let reach = [2.0, 0.3, 1e-3][i % 3];
         let (pose_a, pose_b) = (random.pose(0.2), random.pose(reach));
-        let a = Placed::new(mesh(&one, &[[0, 1, 2]]), pose_a);
-        let b = Placed::new(mesh(&other, &[[0, 1, 2]]), pose_b);
+        let a = PlacedPrimitive::new(mesh(&one, &[[0, 1, 2]]), pose_a);
+        let b = PlacedPrimitive::new(mesh(&other, &[[0, 1, 2]]), pose_b);
         lawful(&a, &b, &mut random);
         let (a, b) = (
             hull_at(&one, pose_a),
@@ -338,14 +338,14 @@ fn coplanar_triangles() {
         } else {
             random.pose(1.0)
         };
-        let a = Placed::new(mesh(&one, &[[0, 1, 2]]), common);
-        let b = Placed::new(mesh(&other, &[[0, 1, 2]]), common);
+        let a = PlacedPrimitive::new(mesh(&one, &[[0, 1, 2]]), common);
+        let b = PlacedPrimitive::new(mesh(&other, &[[0, 1, 2]]), common);
         let found = lawful(&a, &b, &mut random);
         overlapping += usize::from(found.distance == 0.0);
         // The same triangles as solids of the plane.
         if i % 2 == 0 {
-            let a = Placed::new(planar(&[one]), common);
-            let b = Placed::new(planar(&[other]), common);
+            let a = PlacedPrimitive::new(planar(&[one]), common);
+            let b = PlacedPrimitive::new(planar(&[other]), common);
             assert_eq!(certified(&a, &b).distance == 0.0, found.distance == 0.0);
         }
     }
@@ -366,8 +366,8 @@ fn planar_unions() {
             planar(&parts)
         };
         let (one, other) = (union(3), union(6));
-        let a = Placed::new(one, random.planar_pose(0.5));
-        let b = Placed::new(other, random.planar_pose([1.0, 3.0, 10.0][i % 3]));
+        let a = PlacedPrimitive::new(one, random.planar_pose(0.5));
+        let b = PlacedPrimitive::new(other, random.planar_pose([1.0, 3.0, 10.0][i % 3]));
         certified(&a, &b);
         let common = random.planar_pose(1.0);
         let apart = cold(&a.moved(&common), &b.moved(&common)).distance;
@@ -428,8 +428,8 @@ fn dented_meshes() {
     let mut random = Random::new(9);
     for i in 0..12 {
         let (one, other) = (dented(&mut random), dented(&mut random));
-        let a = Placed::new(one, random.pose(0.5));
-        let b = Placed::new(other, random.pose([6.0, 2.5, 1.0][i % 3]));
+        let a = PlacedPrimitive::new(one, random.pose(0.5));
+        let b = PlacedPrimitive::new(other, random.pose([6.0, 2.5, 1.0][i % 3]));
         lawful(&a, &b, &mut random);
     }
 }

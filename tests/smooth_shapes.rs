@@ -205,7 +205,9 @@ fn a_gap_is_never_taken_for_contact() {
         let found =
             QueryContext::new().pair_distance((&a, &Pose::identity()), (&b, &pose), f64::INFINITY);
         let found = found.unwrap();
-        let rounding = 1e-14 * a.reach().max(pose.translation.norm() + b.reach());
+        let rounding = 1e-14
+            * a.radius_from_origin()
+                .max(pose.translation.norm() + b.radius_from_origin());
         assert!(
             found.lower <= gap + rounding && gap - rounding <= found.upper && found.lower > 0.0,
             "{smooth:?} {flat:?} {pose:?} {gap:e} {found:?}"

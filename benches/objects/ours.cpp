@@ -16,7 +16,7 @@ std::vector<cstk_environment_change> additions(const Scene &scene) {
     return changes;
 }
 
-double number_of(cstk_class found) { return found == CSTK_INSIDE ? 1 : 0; }
+double number_of(cstk_class found) { return found == CSTK_CLASS_INSIDE ? 1 : 0; }
 
 } // namespace
 
@@ -25,7 +25,7 @@ Ours::Ours(const cstk::Space &space, const Scene &scene)
       cobject_(cstk::CObject::induced(space, environment_)) {}
 
 bool Ours::within(const LinkPoses &at, double threshold) const {
-    return query_.within_at(cobject_, at, threshold);
+    return query_.within_at_link_poses(cobject_, at, threshold);
 }
 
 Asked Ours::classify(const std::vector<Station> &at) {
@@ -84,7 +84,7 @@ Asked Ours::listed(const std::vector<Station> &at, double epsilon, bool primitiv
 
 Asked Ours::after_moves(const std::vector<Station> &at, const std::vector<Step> &steps,
                         const Step &home, Timed timed) {
-    const auto found = std::make_shared<cstk_class>(CSTK_OUTSIDE);
+    const auto found = std::make_shared<cstk_class>(CSTK_CLASS_OUTSIDE);
     const auto changes = std::make_shared<std::vector<Changes>>();
     for (const Step &step : steps) {
         changes->push_back(moves(step));
@@ -116,7 +116,7 @@ void Ours::apply(const Changes &changes) const {
 }
 
 cstk_class Ours::class_at(const Station &at) const {
-    cstk_class found = CSTK_OUTSIDE;
+    cstk_class found = CSTK_CLASS_OUTSIDE;
     cstk::check(cstk_classify(query_.get(), cobject_.get(), at.q.data(), at.q.size(), &found));
     return found;
 }

@@ -61,7 +61,7 @@ cstk::CObject Ours::among(const Obstacles &obstacles,
     for (const std::string &link : links) {
         numbers.push_back(robot_.find_link(link));
     }
-    return cstk::CObject::induced(space_, environment, cstk::cobject_options(), numbers);
+    return cstk::CObject::induced(space_, environment, cstk::induced_options(), numbers);
 }
 
 std::vector<Way> Ours::ways(const cstk::CObject &cobject, Query query,
@@ -74,7 +74,7 @@ std::vector<Way> Ours::ways(const cstk::CObject &cobject, Query query,
     }
     return {{"classify",
              [=, &at](std::size_t i) {
-                 return context->classify(cobject, at[i]) == CSTK_INSIDE ? 1.0 : 0.0;
+                 return context->classify(cobject, at[i]) == CSTK_CLASS_INSIDE ? 1.0 : 0.0;
              }},
             {"within", [=, &at](std::size_t i) {
                  return context->within(cobject, at[i], 0) ? 1.0 : 0.0;

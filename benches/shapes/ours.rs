@@ -4,15 +4,15 @@ use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 
-use cstk::capi::body::{cstk_body, cstk_body_release};
-use cstk::capi::body_builder::*;
+use cstk::capi::body::body::{cstk_body, cstk_body_release};
+use cstk::capi::body::builder::*;
+use cstk::capi::body::shapes::*;
 use cstk::capi::pair::{cstk_pair_distance, cstk_pair_within, cstk_pair_witnesses};
 use cstk::capi::query::{cstk_query, cstk_query_create, cstk_query_release};
-use cstk::capi::shapes::*;
-use cstk::capi::status::cstk_status;
+use cstk::capi::status::status::cstk_status;
 use cstk_scenes::Pose;
 
-use super::poses::Placed;
+use super::poses::PlacedPrimitive;
 use super::shape::{Kind, Shape};
 
 /// Two bodies and a context that all queries of a row share.
@@ -42,14 +42,14 @@ impl Ours {
         }
     }
 
-    pub fn distance(&self, at: &Placed) -> f64 {
+    pub fn distance(&self, at: &PlacedPrimitive) -> f64 {
         let [a, b] = self.bodies;
         let ([p, q], far) = (at.pointers(), f64::INFINITY);
         // SAFETY: handles of ours, and poses of 12 numbers.
         written(|out| unsafe { cstk_pair_distance(self.query, a, p, b, q, far, out) }).distance
     }
 
-    pub fn within(&self, at: &Placed, threshold: f64) -> bool {
+    pub fn within(&self, at: &PlacedPrimitive, threshold: f64) -> bool {
         let [a, b] = self.bodies;
         let [p, q] = at.pointers();
         // SAFETY: as above.
@@ -57,7 +57,7 @@ impl Ours {
     }
 
     /// How many pairs of primitives that meet are listed.
-    pub fn witnesses(&self, at: &Placed, most: usize) -> usize {
+    pub fn witnesses(&self, at: &PlacedPrimitive, most: usize) -> usize {
         let [a, b] = self.bodies;
         let [p, q] = at.pointers();
         // SAFETY: as above.

@@ -15,11 +15,11 @@ const TOUCH: f64 = 1e-9;
 /// The poses of both bodies in the world.
 #[derive(Clone, Copy)]
 #[repr(C)]
-pub struct Placed {
+pub struct PlacedPrimitive {
     pub poses: [[f64; 12]; 2],
 }
 
-impl Placed {
+impl PlacedPrimitive {
     pub fn pointers(&self) -> [*const f64; 2] {
         [self.poses[0].as_ptr(), self.poses[1].as_ptr()]
     }
@@ -50,7 +50,7 @@ pub fn placements(
     gaps: [f64; 2],
     count: usize,
     seed: u64,
-) -> Vec<Placed> {
+) -> Vec<PlacedPrimitive> {
     let random = &mut Random::new(seed);
     let first = Approach::drawn(random, gaps);
     let axes = [random.direction(), random.direction()];
@@ -95,11 +95,11 @@ impl Approach {
         }
     }
 
-    fn placed(&self, ours: &Ours) -> Placed {
+    fn placed(&self, ours: &Ours) -> PlacedPrimitive {
         let at = |away: f64| {
             let offset = self.direction.map(|x| away * x);
             let relative = Pose::translation(offset).compose(&self.turn);
-            Placed {
+            PlacedPrimitive {
                 poses: [self.at.compose(&relative).0, self.at.0],
             }
         };

@@ -15,7 +15,7 @@ std::vector<double> free_start(const Cell &cell, const cstk::Query &query,
                                const cstk::CObject &all, std::uint64_t &random) {
     for (;;) {
         std::vector<double> q = cell.space.sample(random);
-        if (query.classify(all, q) == CSTK_OUTSIDE) {
+        if (query.classify(all, q) == CSTK_CLASS_OUTSIDE) {
             return q;
         }
     }

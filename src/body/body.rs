@@ -108,7 +108,7 @@ impl Body {
     }
 
     /// No point is farther from the origin of the caller's frame.
-    pub fn reach(&self) -> f64 {
+    pub fn radius_from_origin(&self) -> f64 {
         self.center.norm() + self.radius
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::mesh_file::read_mesh_file;
-use super::solid::{Scrap, Solid};
+use super::solid::{DegenerateFace, Solid};
 use super::{Body, BodyStatistics, Mesh};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{HierarchyOptions, build_hierarchy};
@@ -20,7 +20,7 @@ pub struct BodyBuilder {
     /// Which of the shapes among the primitives are polygons, that may bound a solid; the others were given as polyhedra.
     is_face: Vec<bool>,
     /// What of the meshes' faces had no area.
-    scraps: Vec<Scrap>,
+    scraps: Vec<DegenerateFace>,
     is_solid: bool,
     faces_split: u64,
     faces_dropped: u64,
@@ -72,7 +72,7 @@ impl BodyBuilder {
     pub fn add_mesh(&mut self, mesh: &Mesh) -> Result<()> {
         self.require_planar(&mesh.vertices)?;
         let mut added: Vec<(Convex, u64)> = Vec::new();
-        let mut scraps: Vec<Scrap> = Vec::new();
+        let mut scraps: Vec<DegenerateFace> = Vec::new();
         let (mut split, mut dropped) = (0, 0);
         let mut rest = &mesh.indices[..];
         for (f, &size) in mesh.face_sizes.iter().enumerate() {
@@ -103,7 +103,7 @@ impl BodyBuilder {
                     )
                 })?;
             let tag = f as u64;
-            let mut drop = |vertices: Vec<Vec3>| scraps.push(Scrap { vertices, tag });
+            let mut drop = |vertices: Vec<Vec3>| scraps.push(DegenerateFace { vertices, tag });
             match split_face(&corners).map_err(named)? {
                 FaceSplit::Convex => added.push((convex_polygon(&corners)?, tag)),
                 FaceSplit::Degenerate => {

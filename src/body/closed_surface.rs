@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use foldhash::fast::RandomState;
 
-use super::surface_edges::{Outline, SurfaceEdges, Use};
+use super::surface_edges::{EdgeUse, Outline, SurfaceEdges};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
 
@@ -27,7 +27,7 @@ pub fn closed_surface(faces: &[Outline]) -> Result<Vec<i8>> {
     surface.refuse_open(is_fillable, "open")?;
     let turned = surface.turned()?;
     let sign = |face: usize| if turned[face] { -1 } else { 1 };
-    let is_even = |family: &[Use]| {
+    let is_even = |family: &[EdgeUse]| {
         let sum: i32 = family.iter().map(|u| u.net * sign(u.face as usize)).sum();
         sum == 0
     };
@@ -40,7 +40,7 @@ pub fn closed_surface(faces: &[Outline]) -> Result<Vec<i8>> {
 }
 
 /// Whether the faces along an edge could balance.
-fn is_fillable(family: &[Use]) -> bool {
+fn is_fillable(family: &[EdgeUse]) -> bool {
     let sum: i32 = family.iter().map(|used| used.net.abs()).sum();
     let largest = family.iter().map(|used| used.net.abs()).max();
     sum % 2 == 0 && largest.is_none_or(|largest| 2 * largest <= sum)
@@ -85,8 +85,8 @@ impl Surface<'_> {
         Ok(found.iter().map(is_turned).collect())
     }
 
-    fn refuse_open(&self, is_closed: impl Fn(&[Use]) -> bool, what: &str) -> Result<()> {
-        let open: Vec<&[Use]> = self.edges.families().filter(|f| !is_closed(f)).collect();
+    fn refuse_open(&self, is_closed: impl Fn(&[EdgeUse]) -> bool, what: &str) -> Result<()> {
+        let open: Vec<&[EdgeUse]> = self.edges.families().filter(|f| !is_closed(f)).collect();
         if open.is_empty() {
             return Ok(());
         }
@@ -106,7 +106,7 @@ impl Surface<'_> {
     }
 
     /// An edge, and the faces that use it.
-    fn name(&self, family: &[Use]) -> String {
+    fn name(&self, family: &[EdgeUse]) -> String {
         let [from, to] = family[0].edge.map(|i| self.edges.points[i as usize]);
         let point = |p: Vec3| format!("({}, {}, {})", p.x, p.y, p.z);
         let mut name = format!("the edge from {} to {} of", point(from), point(to));

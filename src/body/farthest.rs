@@ -1,7 +1,7 @@
 //! How far a body reaches along a direction.
 
 use super::Body;
-use crate::hierarchy::{PackedBox, Unit};
+use crate::hierarchy::{NodeRef, PackedBox};
 use crate::pose::Vec3;
 
 /// The point of a body that is farthest along a direction, and its primitive.
@@ -51,8 +51,8 @@ impl Body {
             let index = tree.index(unit);
             let children = tree.children(index);
             let first = open.len();
-            let below = |lane: usize| -> (f64, Unit) {
-                let bound = reach(&tree.node(index).get(lane), direction);
+            let below = |lane: usize| -> (f64, NodeRef) {
+                let bound = extent_along(&tree.node(index).get(lane), direction);
                 // For the rounding of the point's place.
                 let slack = 1e-14 * self.radius();
                 (bound * tree.scale() + slack, children.units[lane])
@@ -66,7 +66,7 @@ impl Body {
 }
 
 /// No point of a box is farther along a direction.
-fn reach(given: &PackedBox, direction: &Vec3) -> f64 {
+fn extent_along(given: &PackedBox, direction: &Vec3) -> f64 {
     let along = |v: &[f32; 3]| direction.dot(&Vec3::from(v.map(f64::from)));
     let sides = given.axes.iter().zip(&given.half);
     let sides: f64 = sides

@@ -20,7 +20,7 @@ pub struct Solid {
 
 /// A face without area, which became no primitive.
 #[derive(Clone, Debug)]
-pub(super) struct Scrap {
+pub(super) struct DegenerateFace {
     pub vertices: Vec<Vec3>,
     pub tag: u64,
 }
@@ -31,7 +31,7 @@ impl Solid {
     pub(super) fn checked(
         primitives: &Primitives,
         is_face: &[bool],
-        scraps: &[Scrap],
+        scraps: &[DegenerateFace],
     ) -> Result<(Vec<i8>, Vec<Vec<Vec3>>)> {
         let shapes = primitives.shapes().zip(is_face);
         let outlines: Vec<Outline> = shapes

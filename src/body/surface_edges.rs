@@ -13,7 +13,7 @@ pub struct Outline<'a> {
 
 /// How a face uses an edge.
 #[derive(Clone, Copy)]
-pub struct Use {
+pub struct EdgeUse {
     /// The numbers of its ends, the lower first.
     pub edge: [u32; 2],
     pub face: u32,
@@ -23,7 +23,7 @@ pub struct Use {
 
 /// The edges of faces, those with the same ends side by side.
 pub struct SurfaceEdges {
-    pub uses: Vec<Use>,
+    pub uses: Vec<EdgeUse>,
     /// The vertices by their numbers.
     pub points: Vec<Vec3>,
     /// The numbers of the vertices of each face.
@@ -45,19 +45,19 @@ impl SurfaceEdges {
             .iter()
             .map(|face| face.vertices.iter().map(&mut number).collect())
             .collect();
-        let mut runs: Vec<Use> = Vec::new();
+        let mut runs: Vec<EdgeUse> = Vec::new();
         for (face, ring) in (0..).zip(&rings) {
             for (i, &a) in ring.iter().enumerate() {
                 let b = ring[(i + 1) % ring.len()];
                 if a != b {
                     let (edge, net) = ([a.min(b), a.max(b)], if a < b { 1 } else { -1 });
-                    runs.push(Use { edge, face, net });
+                    runs.push(EdgeUse { edge, face, net });
                 }
             }
         }
         runs.sort_unstable_by_key(|run| (run.edge, run.face));
         let of_one = runs.chunk_by(|a, b| (a.edge, a.face) == (b.edge, b.face));
-        let uses = of_one.map(|runs| Use {
+        let uses = of_one.map(|runs| EdgeUse {
             net: runs.iter().map(|run| run.net).sum(),
             ..runs[0]
         });
@@ -69,7 +69,7 @@ impl SurfaceEdges {
     }
 
     /// The uses of each edge.
-    pub fn families(&self) -> impl Iterator<Item = &[Use]> {
+    pub fn families(&self) -> impl Iterator<Item = &[EdgeUse]> {
         self.uses.chunk_by(|a, b| a.edge == b.edge)
     }
 
@@ -85,7 +85,7 @@ impl SurfaceEdges {
         if !is_kept.contains(&false) {
             return is_kept;
         }
-        let families: Vec<&[Use]> = self.families().collect();
+        let families: Vec<&[EdgeUse]> = self.families().collect();
         let mut families_of: Vec<Vec<(u32, bool)>> = vec![Vec::new(); faces.len()];
         let mut is_open = vec![false; families.len()];
         for (i, family) in families.iter().enumerate() {
@@ -107,7 +107,7 @@ impl SurfaceEdges {
             if !is_open[i as usize] {
                 continue;
             }
-            let fills = |used: &Use| !is_kept[used.face as usize] && used.net % 2 != 0;
+            let fills = |used: &EdgeUse| !is_kept[used.face as usize] && used.net % 2 != 0;
             let left = &families[i as usize][passed[i as usize]..];
             passed[i as usize] += left.iter().position(fills).unwrap_or(left.len());
             let Some(filling) = families[i as usize].get(passed[i as usize]) else {

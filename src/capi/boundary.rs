@@ -5,7 +5,7 @@ use std::ffi::{CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
-use super::status::cstk_status;
+use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 
 /// A failure at the boundary: the status and the message.
@@ -51,7 +51,7 @@ pub fn guard(call: impl FnOnce() -> Result<(), Failure>) -> cstk_status {
                 .or_else(|| payload.downcast_ref::<String>().cloned())
                 .unwrap_or_default();
             Failure::new(
-                cstk_status::CSTK_INTERNAL,
+                cstk_status::CSTK_ERROR_INTERNAL,
                 format!("internal fault: {text}"),
             )
         }
@@ -75,10 +75,8 @@ fn silence_guarded_panics() {
     });
 }
 
-/// The message of this thread's last failed call; empty if none has failed. Valid until the next failure on this thread.
-/// Never NULL; UTF-8.
-#[unsafe(no_mangle)]
-pub extern "C" fn cstk_last_error_message() -> *const c_char {
+/// The message of this thread's last failed call; empty if none has failed.
+pub fn last_message() -> *const c_char {
     MESSAGE
         .try_with(|message| message.borrow().as_ptr())
         .unwrap_or(c"".as_ptr())
@@ -92,9 +90,9 @@ mod tests {
     #[test]
     fn a_panic_comes_back_as_a_status() {
         let status = guard(|| panic!("deliberate {}", 7));
-        assert_eq!(status, cstk_status::CSTK_INTERNAL);
+        assert_eq!(status, cstk_status::CSTK_ERROR_INTERNAL);
         // SAFETY: the message is a C string owned by this thread.
-        let message = unsafe { CStr::from_ptr(cstk_last_error_message()) };
+        let message = unsafe { CStr::from_ptr(last_message()) };
         assert_eq!(message.to_str().unwrap(), "internal fault: deliberate 7");
     }
 }

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::boundary::Failure;
 use super::input::null;
-use super::status::cstk_status;
+use crate::capi::status::status::cstk_status;
 
 /// A type that C holds by handle.
 pub trait Noun: Send + Sync + 'static {
@@ -35,16 +35,16 @@ struct Slot {
     value: AtomicPtr<()>,
 }
 
-struct Waiting(VecDeque<*mut Slot>);
+struct Quarantine(VecDeque<*mut Slot>);
 // SAFETY: slots in the queue belong to the queue alone, and all their fields are atomic.
-unsafe impl Send for Waiting {}
+unsafe impl Send for Quarantine {}
 
-static WAITING: Mutex<Waiting> = Mutex::new(Waiting(VecDeque::new()));
+static QUARANTINED: Mutex<Quarantine> = Mutex::new(Quarantine(VecDeque::new()));
 
 /// A new handle with one reference.
 pub fn create<T: Noun>(value: Arc<T>) -> *mut T::Handle {
     let value = Arc::into_raw(value).cast_mut().cast();
-    let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut waiting = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
     let reused = (waiting.0.len() > QUARANTINE)
         .then(|| waiting.0.pop_front())
         .flatten();
@@ -84,7 +84,7 @@ fn slot_of<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a 
 #[cold]
 fn wrong<T: Noun>(argument: &str, what: &str) -> Failure {
     Failure::new(
-        cstk_status::CSTK_WRONG_HANDLE,
+        cstk_status::CSTK_ERROR_WRONG_HANDLE,
         format!("{argument} is not a {}: {what}", T::NAME),
     )
 }
@@ -115,7 +115,7 @@ pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), F
     if references.fetch_add(1, Ordering::Relaxed) > u32::MAX / 2 {
         references.fetch_sub(1, Ordering::Relaxed);
         return Err(Failure::new(
-            cstk_status::CSTK_INVALID_ARGUMENT,
+            cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
             format!("{argument} has been retained two thousand million times"),
         ));
     }
@@ -137,7 +137,7 @@ pub fn release<T: Noun>(handle: *mut T::Handle, argument: &str) -> Result<(), Fa
         // SAFETY: the slot held this Arc, and the last reference to the slot is gone.
         drop(unsafe { Arc::from_raw(value.cast::<T>()) });
     }
-    let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut waiting = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
     waiting.0.push_back(handle.cast());
     Ok(())
 }

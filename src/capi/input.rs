@@ -5,7 +5,7 @@ use std::fmt::{self, Display};
 use std::ops::Deref;
 
 use super::boundary::Failure;
-use super::status::cstk_status;
+use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 
@@ -13,7 +13,7 @@ use crate::pose::{Pose, Vec3};
 #[cold]
 pub fn null(argument: &str) -> Failure {
     Failure::new(
-        cstk_status::CSTK_NULL_ARGUMENT,
+        cstk_status::CSTK_ERROR_NULL_ARGUMENT,
         format!("{argument} is NULL"),
     )
 }
@@ -21,7 +21,7 @@ pub fn null(argument: &str) -> Failure {
 #[cold]
 fn misaligned(argument: &str) -> Failure {
     Failure::new(
-        cstk_status::CSTK_INVALID_ARGUMENT,
+        cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
         format!("{argument} is not aligned for its type"),
     )
 }
@@ -43,7 +43,7 @@ pub unsafe fn slice<'a, T>(
     }
     if count > isize::MAX as usize / size_of::<T>().max(1) {
         return Err(Failure::new(
-            cstk_status::CSTK_WRONG_SIZE,
+            cstk_status::CSTK_ERROR_WRONG_SIZE,
             format!("{argument} cannot have {count} entries"),
         ));
     }
@@ -105,7 +105,7 @@ pub unsafe fn text<'a>(string: *const c_char, argument: &str) -> Result<&'a str,
     let string = unsafe { c_string(string, argument)? };
     string.to_str().map_err(|_| {
         Failure::new(
-            cstk_status::CSTK_INVALID_ARGUMENT,
+            cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
             format!("{argument} is not UTF-8"),
         )
     })
@@ -129,7 +129,7 @@ pub unsafe fn path<'a>(
     {
         let text = string.to_str().map_err(|_| {
             Failure::new(
-                cstk_status::CSTK_INVALID_ARGUMENT,
+                cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
                 format!("{argument} is not UTF-8"),
             )
         })?;
@@ -237,7 +237,7 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
     Output::checked(out, "out")?;
     if !is_version::<T>(size) {
         return Err(Failure::new(
-            cstk_status::CSTK_WRONG_SIZE,
+            cstk_status::CSTK_ERROR_WRONG_SIZE,
             format!("size is {size}; pass sizeof({})", T::NAME),
         ));
     }
@@ -254,18 +254,18 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
 }
 
 /// A structure of the caller's: as it is where it has this library's layout, else a copy that has.
-pub enum Given<'a, T> {
+pub enum CallerStruct<'a, T> {
     Theirs(&'a T),
     Ours(T),
 }
 
-impl<T> Deref for Given<'_, T> {
+impl<T> Deref for CallerStruct<'_, T> {
     type Target = T;
 
     fn deref(&self) -> &T {
         match self {
-            Given::Theirs(given) => given,
-            Given::Ours(copy) => copy,
+            CallerStruct::Theirs(given) => given,
+            CallerStruct::Ours(copy) => copy,
         }
     }
 }
@@ -277,8 +277,8 @@ pub unsafe fn options<T: OptionsStruct>(
 ) -> Result<T, Failure> {
     // SAFETY: as the caller states.
     Ok(match unsafe { options_in_place(given, argument)? } {
-        Given::Theirs(given) => *given,
-        Given::Ours(copy) => copy,
+        CallerStruct::Theirs(given) => *given,
+        CallerStruct::Ours(copy) => copy,
     })
 }
 
@@ -286,13 +286,13 @@ pub unsafe fn options<T: OptionsStruct>(
 pub unsafe fn options_in_place<'a, T: OptionsStruct>(
     given: *const T,
     argument: impl fmt::Display,
-) -> Result<Given<'a, T>, Failure> {
+) -> Result<CallerStruct<'a, T>, Failure> {
     // SAFETY: as the caller states.
     let size = unsafe { checked_size(given, &argument)? };
     if size == size_of::<T>() {
         // SAFETY: not NULL and aligned; the cookie and size were written together by the _default function, so `size` bytes are
         // readable, and valid whatever they are.
-        return Ok(Given::Theirs(unsafe { &*given }));
+        return Ok(CallerStruct::Theirs(unsafe { &*given }));
     }
     let mut read = T::defaults();
     let known = size.min(size_of::<T>());
@@ -302,12 +302,12 @@ pub unsafe fn options_in_place<'a, T: OptionsStruct>(
         let beyond = std::slice::from_raw_parts(given.cast::<u8>().add(known), size - known);
         if beyond.iter().any(|&byte| byte != 0) {
             return Err(Failure::new(
-                cstk_status::CSTK_UNSUPPORTED,
+                cstk_status::CSTK_ERROR_UNSUPPORTED,
                 format!("{argument} sets a field this version of the library does not know"),
             ));
         }
     }
-    Ok(Given::Ours(read))
+    Ok(CallerStruct::Ours(read))
 }
 
 /// The size of the caller's structure, which was written by its _default function.
@@ -323,7 +323,7 @@ unsafe fn checked_size<T: OptionsStruct>(
     }
     let not_initialised = |what: String| {
         Failure::new(
-            cstk_status::CSTK_NOT_INITIALISED,
+            cstk_status::CSTK_ERROR_NOT_INITIALISED,
             format!("{argument} was not written by {}_default: {what}", T::NAME),
         )
     };
@@ -362,7 +362,7 @@ pub fn index_or_none(value: i32, argument: &str) -> Result<Option<usize>, Failur
         -1 => Ok(None),
         0.. => Ok(Some(value as usize)),
         _ => Err(Failure::new(
-            cstk_status::CSTK_INVALID_ARGUMENT,
+            cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
             format!("{argument} is {value}; it must be -1 or an index"),
         )),
     }

@@ -1,13 +1,24 @@
-//! Queries of two bodies at two poses.
+//! Pair queries.
+//!
+//! Two bodies at two poses: what is asked of FCL or Coal.
+//!
+//! ```c
+//! cstk_distance_result nearest;
+//! bool meet;
+//! check(cstk_pair_distance(query, body, pose_a, body, pose_b, INFINITY, &nearest));
+//! check(cstk_pair_within(query, body, pose_a, body, pose_b, 0, &meet));
+//! ```
 
-use super::answers::{cstk_distance_result, cstk_penetration_list, cstk_witness_list};
-use super::body::cstk_body;
 use super::boundary::{Failure, guard};
 use super::handle;
 use super::input::{Output, pose};
 use super::query::{State, cstk_query, with_borrowed_query, with_query};
-use super::status::cstk_status;
 use crate::body::Body;
+use crate::capi::at_configuration::answers::{
+    cstk_distance_result, cstk_penetration_list, cstk_witness_list,
+};
+use crate::capi::body::body::cstk_body;
+use crate::capi::status::status::cstk_status;
 use crate::pose::Pose;
 
 type Placement<'a> = (&'a Body, &'a Pose);
@@ -43,7 +54,7 @@ unsafe fn run<T>(
 
 /// Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
 /// doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
-/// all) are not computed; the answer is then CSTK_BEYOND_MAX.
+/// all) are not computed; the answer is then CSTK_DISTANCE_BEYOND_MAX.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_distance(
     query: *mut cstk_query,
@@ -136,7 +147,7 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
 /// translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
 /// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
 /// pair of polyhedra grows with the number of their edges and with that of the pairs of edges that face each other.
-/// CSTK_UNSUPPORTED where a cylinder, cone, ellipsoid
+/// CSTK_ERROR_UNSUPPORTED where a cylinder, cone, ellipsoid
 /// or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
 /// of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
 /// set. The array stays valid until the next call with this query context.

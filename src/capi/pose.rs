@@ -1,8 +1,18 @@
-//! Poses, the report's Euler angles (§4.1) and their rates (§4.3).
+//! Poses.
+//!
+//! Poses are 12 doubles, row-major [R | t]. They are made from quaternions, or from the report's Euler angles (§4.1), whose
+//! rates are those of §4.3, and composed.
+//!
+//! ```c
+//! const double above[7] = {0, 0, 0.5, 0, 0, 0, 1}; // x, y, z, and the quaternion x, y, z, w
+//! double lifted[12], both[12];
+//! check(cstk_pose_from_quaternion(above, lifted));
+//! check(cstk_pose_compose(lifted, pose_a, both));
+//! ```
 
 use super::boundary::{Failure, guard};
 use super::input::{OutputSlice, array, pose, slice};
-use super::status::cstk_status;
+use crate::capi::status::status::cstk_status;
 use crate::error::{require_coordinates, require_finite};
 use crate::euler::{
     AngularFrame, basic_to_euler_jacobian, euler_rates, euler_rates_inverse,
@@ -173,7 +183,7 @@ impl cstk_angular_frame {
             0 => Ok(AngularFrame::World),
             1 => Ok(AngularFrame::Body),
             _ => Err(Failure::new(
-                cstk_status::CSTK_INVALID_ARGUMENT,
+                cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
                 format!("frame {value} is no cstk_angular_frame"),
             )),
         }
@@ -197,7 +207,7 @@ pub unsafe extern "C" fn cstk_euler_rates(
     })
 }
 
-/// The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_DEGENERATE where cos(pitch) =
+/// The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_ERROR_DEGENERATE where cos(pitch) =
 /// 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_rates_inverse(
@@ -225,7 +235,7 @@ unsafe fn rates(
 }
 
 /// Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,
-/// 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_DEGENERATE where
+/// 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_ERROR_DEGENERATE where
 /// cos(pitch) = 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_jacobian_to_euler(

@@ -1,18 +1,29 @@
 //! Query contexts.
+//!
+//! A query context holds one thread's caches and scratch memory, and the lists that its last call wrote. What it remembers
+//! changes how long an answer takes, never the answer (§2.3.4).
+//!
+//! ```c
+//! cstk_query_statistics work;
+//! check(cstk_query_create(&query));
+//! check(cstk_query_set_limit(query, 1000000));
+//! check(cstk_query_get_statistics(query, true, &work));
+//! check(cstk_query_release(query));
+//! ```
 
 use std::sync::{Arc, Mutex};
 
-use super::answers::{
-    cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
-};
 use super::boundary::{Failure, guard};
-use super::environment::cstk_environment;
 use super::exclusive::exclusively;
-use super::explain::cstk_verdict;
 use super::handle::{self, Noun};
 use super::input::Output;
-use super::link_pairs::cstk_link_pair;
-use super::status::cstk_status;
+use crate::capi::at_configuration::answers::{
+    cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
+};
+use crate::capi::at_configuration::explain::cstk_verdict;
+use crate::capi::at_configuration::link_pairs::cstk_link_pair;
+use crate::capi::environment::environment::cstk_environment;
+use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
@@ -21,7 +32,7 @@ use crate::query::{
 };
 
 /// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
-/// time and answers CSTK_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
+/// time and answers CSTK_ERROR_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
 pub struct cstk_query {
     _opaque: [u8; 0],
 }
@@ -165,7 +176,7 @@ pub unsafe extern "C" fn cstk_query_release(query: *mut cstk_query) -> cstk_stat
 }
 
 /// Writes the version of an environment that the last query with this context saw: of each environment that its C-object
-/// refers to. CSTK_NOT_FOUND if it refers to others only, or nothing was asked yet.
+/// refers to. CSTK_ERROR_NOT_FOUND if it refers to others only, or nothing was asked yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_get_version(
     query: *mut cstk_query,
@@ -202,7 +213,7 @@ pub enum cstk_contacts_listed {
 /// Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
 /// their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
 /// the same with each. cstk_slide asks for what it needs itself; cstk_slide_step and cstk_spring_step need lists with all
-/// contacts. CSTK_INVALID_ARGUMENT for another number.
+/// contacts. CSTK_ERROR_INVALID_ARGUMENT for another number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_set_contacts(
     query: *mut cstk_query,
@@ -226,7 +237,7 @@ pub unsafe extern "C" fn cstk_query_set_contacts(
 }
 
 /// Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the
-/// context and answers, or slides, from cstk_pair_within to cstk_link_pairs. A query that needs more returns CSTK_LIMIT and
+/// context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns CSTK_ERROR_LIMIT and
 /// writes nothing; the context can be asked again at once. 0 stands for no limit, with which a context begins.
 ///
 /// What counts is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10

@@ -1,19 +1,25 @@
 //! Pictures.
+//!
+//! Robots among obstacles as glTF files.
+//!
+//! ```c
+//! check(cstk_show(cobject, q, nq, "cell.glb"));
+//! ```
 
 use std::ffi::c_char;
 
 use super::boundary::guard;
-use super::cobject::cstk_cobject;
 use super::handle;
 use super::input::{path, slice};
-use super::status::cstk_status;
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::show::show;
 
 /// Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
 /// pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
 /// along the gradient (blue). Distances and gradients stand in the nodes' extras. The name must end in .glb
-/// (CSTK_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_IO if that fails.
+/// (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_show(
     cobject: *const cstk_cobject,

@@ -1,12 +1,23 @@
-//! The step that slides, and its two halves for callers who put them together themselves.
+//! Slides.
+//!
+//! The step that slides along contact, proved free on its whole way, and its two halves for callers who put them together
+//! themselves (§2.2.4, Appendix A).
+//!
+//! ```c
+//! cstk_slide_options options;
+//! cstk_slide_result slid;
+//! check(cstk_slide_options_default(&options, sizeof options));
+//! options.max_shell = 0.05;
+//! check(cstk_slide(query, cobject, q, nq, step, nv, &options, q, &slid));
+//! ```
 
-use super::answers::cstk_witness_list;
 use super::boundary::{Failure, guard};
-use super::cobject::cstk_cobject;
 use super::handle;
 use super::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
 use super::query::{cstk_query, with_query};
-use super::status::cstk_status;
+use crate::capi::at_configuration::answers::cstk_witness_list;
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, require_coordinates};
 use crate::query::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step};
@@ -109,7 +120,7 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
 /// than 1 % a step; who wants to stop then looks at what was gained. The C-object is an induced or pure set or a union of
 /// such, without predicates: else, and where a custom joint that changes some distance does not state its speeds,
-/// CSTK_UNSUPPORTED.
+/// CSTK_ERROR_UNSUPPORTED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,

@@ -1,17 +1,26 @@
-//! Robots from URDF files.
+//! URDF.
+//!
+//! Robots from URDF files: links, joints, limits, and the meshes and shapes of their collision geometry.
+//!
+//! ```c
+//! uint32_t root;
+//! check(cstk_robot_builder_create(3, &robot_builder));
+//! check(cstk_robot_builder_load_urdf(robot_builder, "arm.urdf", NULL, NULL, NULL, &root));
+//! check(cstk_robot_build(robot_builder, &robot));
+//! ```
 
 use std::ffi::{c_char, c_void};
 use std::path::{Path, PathBuf};
 
-use super::body_builder::{cstk_progress_fn, reporter};
 use super::boundary::{Failure, guard};
-use super::hierarchy::cstk_hierarchy_options;
 use super::input::{
     OptionsStruct, Output, index_or_none, options_or_default, path, slice, text, write_defaults,
 };
-use super::joint::cstk_joint_kind;
-use super::robot_builder::{cstk_robot_builder, with_builder};
-use super::status::cstk_status;
+use crate::capi::hierarchy::options::cstk_hierarchy_options;
+use crate::capi::robot::builder::{cstk_robot_builder, with_builder};
+use crate::capi::robot::joint::cstk_joint_kind;
+use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
+use crate::capi::status::status::cstk_status;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
 use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file};
@@ -20,9 +29,9 @@ use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_fil
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_urdf_geometry {
-    /// The <collision> elements.
+    /// The `collision` elements.
     CSTK_URDF_COLLISION = 0,
-    /// The <visual> elements.
+    /// The `visual` elements.
     CSTK_URDF_VISUAL = 1,
     /// None: the links have frames only, and no mesh file is looked for.
     CSTK_URDF_NO_GEOMETRY = 2,
@@ -90,12 +99,12 @@ unsafe impl OptionsStruct for cstk_urdf_options {
 pub struct cstk_urdf_report {
     /// The number of the root link in the builder.
     pub root: u32,
-    /// The <link> and <joint> elements.
+    /// The `link` and `joint` elements.
     pub link_count: u32,
     pub joint_count: u32,
     /// Links that have a body. A robot without any meets nothing.
     pub links_with_body: u32,
-    /// Links without a body that have shapes of the kind that was not asked for: <visual> with CSTK_URDF_COLLISION, and so
+    /// Links without a body that have shapes of the kind that was not asked for: `visual` with CSTK_URDF_COLLISION, and so
     /// on. Where it is not 0, ask for that kind, or for both in two robots.
     pub links_with_other_shapes: u32,
     /// The links' bodies: links of equal shapes share one.
@@ -161,10 +170,10 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 /// box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
 /// are surfaces: what is wholly inside one does not meet it. A mesh file is read once, and links of equal shapes share one
 /// body: cstk_body_set_data then is for all of them. Whatever else the file says is passed over;
-/// cstk_robot_builder_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
+/// cstk_robot_builder_get_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
 /// then as it was.
 ///
-/// Limits, beyond which a file is CSTK_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
+/// Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
 /// and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
 /// that are made by referring to a mesh or a geometry again; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
 /// namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
@@ -194,9 +203,9 @@ pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     })
 }
 
-/// Writes what became of the URDF file that was last added to the builder. CSTK_EMPTY if there is none.
+/// Writes what became of the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_robot_builder_urdf_report(
+pub unsafe extern "C" fn cstk_robot_builder_get_urdf_report(
     builder: *mut cstk_robot_builder,
     out: *mut cstk_urdf_report,
 ) -> cstk_status {

@@ -4,11 +4,11 @@ use std::ffi::c_void;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::custom_joint::cstk_destroy_fn;
+use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::user_data::UserData;
 
 /// The caller's address and how to give it back.
-pub(super) struct Kept {
+pub(super) struct CallerData {
     data: *mut c_void,
     destroy: cstk_destroy_fn,
     /// Whether the data are the library's to give back.
@@ -16,11 +16,11 @@ pub(super) struct Kept {
 }
 
 // SAFETY: the address is only handed back, and the header says that any thread may give it back.
-unsafe impl Send for Kept {}
+unsafe impl Send for CallerData {}
 // SAFETY: as above.
-unsafe impl Sync for Kept {}
+unsafe impl Sync for CallerData {}
 
-impl Kept {
+impl CallerData {
     pub fn new(data: *mut c_void, destroy: cstk_destroy_fn) -> Arc<Self> {
         Arc::new(Self {
             data,
@@ -41,7 +41,7 @@ impl Kept {
     }
 }
 
-impl Drop for Kept {
+impl Drop for CallerData {
     fn drop(&mut self) {
         if let Some(destroy) = self.destroy
             && self.owned.load(Ordering::Acquire)

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::joined::{Compound, Joined};
+use super::compound::{Compound, CompoundKind};
 use super::leaf::next_serial;
 use super::{
     AllowedPair, BodyPairs, Induced, InducedOptions, Leaf, PureOptions, PureSet, PureShape,
@@ -33,7 +33,7 @@ pub enum Set {
 
 /// The unit in which a set measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Unit {
+enum Metric {
     /// It does not.
     None,
     Length,
@@ -57,14 +57,14 @@ pub struct CObject {
 #[derive(Clone, Debug)]
 pub(super) enum Content {
     Flat(Flat),
-    Joined(Arc<Joined>),
+    Compound(Arc<Compound>),
 }
 
 /// A set, and what follows from its parts.
 #[derive(Clone, Debug)]
 pub(super) struct Flat {
     pub set: Set,
-    unit: Unit,
+    metric: Metric,
     /// A pure set that asks for coordinates: its number, and what it is.
     needs_coordinates: Option<(u64, &'static str)>,
     /// Each once, in order of serials.
@@ -77,7 +77,7 @@ impl Flat {
         environments.sort_by_key(|environment| environment.serial());
         environments.dedup_by_key(|environment| environment.serial());
         Self {
-            unit: set.unit(),
+            metric: set.metric(),
             needs_coordinates: set.needs_coordinates(),
             set,
             environments,
@@ -147,13 +147,13 @@ impl CObject {
     /// The union of C-objects over one space.
     pub fn union(parts: &[Arc<CObject>]) -> Result<Self> {
         let space = common_space(parts, "a union")?;
-        Self::joined(space, Joined::new(Compound::Union, parts))
+        Self::of_compound(space, Compound::new(CompoundKind::Union, parts))
     }
 
     /// The intersection of C-objects over one space.
     pub fn intersection(parts: &[Arc<CObject>]) -> Result<Self> {
         let space = common_space(parts, "an intersection")?;
-        Self::joined(space, Joined::new(Compound::Intersection, parts))
+        Self::of_compound(space, Compound::new(CompoundKind::Intersection, parts))
     }
 
     /// All configurations that are not in a C-object.
@@ -178,12 +178,12 @@ impl CObject {
         Self::intersection(&[of.clone(), Arc::new(Self::complement(without)?)])
     }
 
-    fn joined(space: Arc<Space>, joined: Joined) -> Result<Self> {
+    fn of_compound(space: Arc<Space>, compound: Compound) -> Result<Self> {
         let made = Self {
             serial: next_serial(),
             space,
-            depth: 1 + joined.depth(),
-            content: Content::Joined(Arc::new(joined)),
+            depth: 1 + compound.depth(),
+            content: Content::Compound(Arc::new(compound)),
             data: None,
         };
         made.limited()
@@ -323,7 +323,7 @@ impl CObject {
     fn flat(&self) -> &Flat {
         match &self.content {
             Content::Flat(flat) => flat,
-            Content::Joined(joined) => joined.flat(),
+            Content::Compound(compound) => compound.flat(),
         }
     }
 
@@ -359,9 +359,9 @@ impl CObject {
     }
 
     /// Refuses to measure lengths together with units of C-space.
-    pub fn require_one_unit(&self) -> Result<()> {
-        match self.flat().unit {
-            Unit::Mixed(pure) => Err(Error::new(
+    pub fn require_one_metric(&self) -> Result<()> {
+        match self.flat().metric {
+            Metric::Mixed(pure) => Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
                     "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths; give it one (scale)"
@@ -427,24 +427,24 @@ impl Set {
         }
     }
 
-    fn unit(&self) -> Unit {
+    fn metric(&self) -> Metric {
         let own = match self {
-            Self::Union { induced, .. } if !induced.is_empty() => Unit::Length,
+            Self::Union { induced, .. } if !induced.is_empty() => Metric::Length,
             Self::Pure(pure) if pure.shape.is_in_world() || pure.options.scale.is_some() => {
-                Unit::Length
+                Metric::Length
             }
             Self::Pure(pure) => match &pure.shape {
-                PureShape::Predicate(predicate) if !predicate.measures() => Unit::None,
-                _ => Unit::CSpace(pure.leaf.serial),
+                PureShape::Predicate(predicate) if !predicate.measures() => Metric::None,
+                _ => Metric::CSpace(pure.leaf.serial),
             },
-            _ => Unit::None,
+            _ => Metric::None,
         };
-        let parts = self.parts().iter().map(|part| part.flat().unit);
-        parts.fold(own, |unit, next| match (unit, next) {
-            (Unit::None, other) | (other, Unit::None) => other,
-            (Unit::Mixed(pure), _) | (_, Unit::Mixed(pure)) => Unit::Mixed(pure),
-            (Unit::CSpace(pure), Unit::Length) | (Unit::Length, Unit::CSpace(pure)) => {
-                Unit::Mixed(pure)
+        let parts = self.parts().iter().map(|part| part.flat().metric);
+        parts.fold(own, |metric, next| match (metric, next) {
+            (Metric::None, other) | (other, Metric::None) => other,
+            (Metric::Mixed(pure), _) | (_, Metric::Mixed(pure)) => Metric::Mixed(pure),
+            (Metric::CSpace(pure), Metric::Length) | (Metric::Length, Metric::CSpace(pure)) => {
+                Metric::Mixed(pure)
             }
             (same, _) => same,
         })

@@ -7,16 +7,16 @@
 use std::f64::consts::TAU;
 
 use super::spans::{Span, largest, measure_of, slopes_of, span};
-use super::world_place::{beyond_world, over_floor, reach_of};
-use super::{Class, Measure, PureSet, PureShape, Stand, WorldPlace};
+use super::world_place::{beyond_world, largest_coordinate_of, over_floor};
+use super::{Class, Measure, PureSet, PureShape, SpaceState, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
-use crate::robot::{Coordinate, Posture};
+use crate::robot::{Coordinate, RobotState};
 use crate::space::Space;
 use crate::tolerance::{DISTANCE_ERROR, EPSILON, LARGEST_COORDINATE};
 
 impl PureSet {
     /// Where the configuration stands.
-    pub fn classify(&self, at: &Stand) -> Result<Class> {
+    pub fn classify(&self, at: &SpaceState) -> Result<Class> {
         if let PureShape::Predicate(predicate) = &self.shape {
             let class = predicate.classify(self.coordinates(at)?);
             return class.map_err(|e| self.named(e));
@@ -48,7 +48,7 @@ impl PureSet {
     }
 
     /// The signed distance; `None` of a predicate that does not measure.
-    pub fn measure(&self, at: &Stand) -> Result<Option<Measure>> {
+    pub fn measure(&self, at: &SpaceState) -> Result<Option<Measure>> {
         let scale = self.scale();
         let scaled = |x: f64| match x * scale {
             // What is not 0 stays so.
@@ -63,7 +63,7 @@ impl PureSet {
         }))
     }
 
-    fn unscaled(&self, at: &Stand) -> Result<Option<Measure>> {
+    fn unscaled(&self, at: &SpaceState) -> Result<Option<Measure>> {
         let found = match &self.shape {
             PureShape::Predicate(predicate) => {
                 let q = self.coordinates(at)?;
@@ -86,10 +86,10 @@ impl PureSet {
                 offset,
             } => {
                 let (signed, _) = over_floor(at, links, normal, *offset);
-                let reach = links.iter().map(|&link| reach_of(at, link));
+                let largest = links.iter().map(|&link| largest_coordinate_of(at, link));
                 Measure {
                     signed,
-                    error: DISTANCE_ERROR * reach.fold(offset.abs(), f64::max),
+                    error: DISTANCE_ERROR * largest.fold(offset.abs(), f64::max),
                     is_bound: false,
                     knows_depth: false,
                 }
@@ -119,7 +119,7 @@ impl PureSet {
     }
 
     /// Where in the world, for sets that are there.
-    pub fn place(&self, at: &Stand) -> Option<WorldPlace> {
+    pub fn place(&self, at: &SpaceState) -> Option<WorldPlace> {
         match &self.shape {
             PureShape::BeyondWorld { links } => beyond_world(at, links).1,
             PureShape::Floor {
@@ -133,7 +133,7 @@ impl PureSet {
 
     /// The coordinate that decides the measure of limits or a box: the one farthest beyond its interval, or nearest to an end
     /// of it.
-    pub fn coordinate(&self, at: &Stand) -> Option<usize> {
+    pub fn coordinate(&self, at: &SpaceState) -> Option<usize> {
         let mut spans = self.spans(at.space, at.q?);
         let most = largest(spans.clone());
         let (i, _) = spans.find(|(_, span)| span.beyond == most)?;
@@ -141,7 +141,7 @@ impl PureSet {
     }
 
     /// The derivative of the measure, one entry a velocity.
-    pub fn gradient(&self, at: &Stand) -> Result<Vec<f64>> {
+    pub fn gradient(&self, at: &SpaceState) -> Result<Vec<f64>> {
         let space = at.space;
         let q = self.coordinates(at)?;
         let mut row = match &self.shape {
@@ -165,14 +165,8 @@ impl PureSet {
                 let place = self.place(at);
                 let mut row = vec![0.0; space.nv()];
                 if let Some(place) = place {
-                    let posture = Posture { q, poses: at.poses };
-                    space.add_gradient(
-                        posture,
-                        place.link,
-                        &place.point,
-                        &place.normal,
-                        &mut row,
-                    )?;
+                    let state = RobotState { q, poses: at.poses };
+                    space.add_gradient(state, place.link, &place.point, &place.normal, &mut row)?;
                 }
                 return Ok(row);
             }
@@ -257,7 +251,7 @@ impl PureSet {
         })
     }
 
-    fn coordinates<'a>(&self, at: &Stand<'a>) -> Result<&'a [f64]> {
+    fn coordinates<'a>(&self, at: &SpaceState<'a>) -> Result<&'a [f64]> {
         at.q.ok_or_else(|| {
             Error::new(
                 ErrorKind::Unsupported,

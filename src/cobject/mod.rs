@@ -1,26 +1,26 @@
 //! C-objects: sets in C-space, induced by contact or interference, given by coordinates, or combined of others (§2.2.4).
 
+mod bounded_distance;
 mod class;
 #[allow(clippy::module_inception)]
 mod cobject;
+mod compound;
 mod induced;
-mod joined;
 mod leaf;
 mod measure;
 mod predicate;
 mod pure;
 mod pure_motion;
-mod reach;
+mod space_state;
 mod spans;
-mod stand;
 mod world_place;
 
+pub use bounded_distance::{BoundedDistance, Measure};
 pub use class::Class;
 pub use cobject::{CObject, Set};
 pub use induced::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 pub use leaf::Leaf;
 pub use predicate::Predicate;
 pub use pure::{PureOptions, PureSet, PureShape};
-pub use reach::{Measure, Reach};
-pub use stand::Stand;
+pub use space_state::SpaceState;
 pub use world_place::WorldPlace;

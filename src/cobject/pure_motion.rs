@@ -57,7 +57,7 @@ impl PureSet {
                 links.fold(0.0, f64::max)
             }
             PureShape::BeyondWorld { links } => {
-                let origin = |&link: &usize| space.reach_motion_bound(link, 0.0, q, v);
+                let origin = |&link: &usize| space.motion_bound_of_radius(link, 0.0, q, v);
                 links.iter().map(origin).fold(0.0, f64::max)
             }
             PureShape::BeyondLimits => {

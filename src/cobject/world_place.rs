@@ -1,6 +1,6 @@
 //! Sets of the world that links must keep out of: beyond the world box, and floors.
 
-use super::Stand;
+use super::SpaceState;
 use crate::pose::Vec3;
 use crate::tolerance::DISTANCE_ERROR;
 
@@ -16,7 +16,7 @@ pub struct WorldPlace {
 
 /// How far within the world box the links' origins are: the least of all, negative where one is outside, and there minus the
 /// most that one is. With the place that decides.
-pub(super) fn beyond_world(at: &Stand, links: &[usize]) -> (f64, Option<WorldPlace>) {
+pub(super) fn beyond_world(at: &SpaceState, links: &[usize]) -> (f64, Option<WorldPlace>) {
     let world = at.space.world();
     let mut least = f64::INFINITY;
     let mut place = None;
@@ -57,7 +57,7 @@ pub(super) fn beyond_world(at: &Stand, links: &[usize]) -> (f64, Option<WorldPla
 
 /// How far over a floor the lowest point of some links is, and that point.
 pub(super) fn over_floor(
-    at: &Stand,
+    at: &SpaceState,
     links: &[usize],
     normal: &Vec3,
     offset: f64,
@@ -86,8 +86,10 @@ pub(super) fn over_floor(
 }
 
 /// No coordinate that goes into the points of a link is larger.
-pub(super) fn reach_of(at: &Stand, link: usize) -> f64 {
+pub(super) fn largest_coordinate_of(at: &SpaceState, link: usize) -> f64 {
     let body = at.space.link(link).and_then(|link| link.body.as_deref());
-    let body = body.map_or(0.0, |body| body.reach() + body.deviation() / DISTANCE_ERROR);
+    let body = body.map_or(0.0, |body| {
+        body.radius_from_origin() + body.deviation() / DISTANCE_ERROR
+    });
     at.poses[link].translation.norm() + body
 }

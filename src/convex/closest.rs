@@ -3,7 +3,7 @@
 //! Every candidate is a pair of points on the two primitives, so the minimum is an upper bound whatever the rounding;
 //! it is the distance when the features that hold the closest points are among those enumerated.
 
-use super::placed::Placed;
+use super::placed::PlacedPrimitive;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
@@ -60,12 +60,12 @@ impl Closest {
 }
 
 /// The closest points of two hulls of one vertex or two each.
-pub fn closest_segments(a: &Placed, b: &Placed) -> Closest {
+pub fn closest_segments(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Closest {
     if a.vertex_count() == 1 && b.vertex_count() == 1 {
         let points = [a.vertex(0), b.vertex(0)];
         return Closest::between(points, [Feature::vertex(0); 2]);
     }
-    let segment = |placed: &Placed| match placed.shape.edges.first() {
+    let segment = |placed: &PlacedPrimitive| match placed.shape.edges.first() {
         Some(&ends) => (Segment::new(placed.edge_ends(ends)), ends, Some(0)),
         None => (Segment::point(placed.vertex(0)), [0, 0], None),
     };
@@ -95,7 +95,7 @@ impl FeatureSet {
         self.faces.clear();
     }
 
-    pub fn set_all(&mut self, placed: &Placed) {
+    pub fn set_all(&mut self, placed: &PlacedPrimitive) {
         self.clear();
         self.vertices.extend(0..placed.vertex_count() as u32);
         self.edges.extend(0..placed.shape.edges.len() as u32);
@@ -103,13 +103,13 @@ impl FeatureSet {
     }
 
     /// All edges; a planar primitive's outline.
-    pub fn set_outline(&mut self, placed: &Placed) {
+    pub fn set_outline(&mut self, placed: &PlacedPrimitive) {
         self.clear();
         self.edges.extend(0..placed.shape.edges.len() as u32);
     }
 
     /// The features all of whose vertices lie within `tolerance` of the farthest along `direction`.
-    pub fn set_supporting(&mut self, placed: &Placed, direction: &Vec3, tolerance: f64) {
+    pub fn set_supporting(&mut self, placed: &PlacedPrimitive, direction: &Vec3, tolerance: f64) {
         self.clear();
         self.heights.clear();
         let heights = placed.vertices().iter().map(|v| direction.dot(v));
@@ -139,7 +139,7 @@ impl FeatureSet {
     /// The edges as pairs of vertices with the feature they stand for; lone vertices stand as edges of length 0.
     fn segments<'a>(
         &'a self,
-        placed: &'a Placed,
+        placed: &'a PlacedPrimitive,
     ) -> impl Iterator<Item = (Segment, [u32; 2], Option<u32>)> + 'a {
         let edges = self.edges.iter().map(|&e| {
             let ends = placed.shape.edges[e as usize];
@@ -159,9 +159,9 @@ impl FeatureSet {
 
 /// The least distance over the enumerated features. With `crossings`, edges that pass through faces count as meeting.
 pub fn closest_features(
-    a: &Placed,
+    a: &PlacedPrimitive,
     features_a: &FeatureSet,
-    b: &Placed,
+    b: &PlacedPrimitive,
     features_b: &FeatureSet,
     crossings: bool,
 ) -> Closest {
@@ -208,9 +208,9 @@ fn on_edge(parameter: f64, ends: [u32; 2], edge: Option<u32>) -> Feature {
 }
 
 fn vertices_over_faces(
-    a: &Placed,
+    a: &PlacedPrimitive,
     features_a: &FeatureSet,
-    b: &Placed,
+    b: &PlacedPrimitive,
     features_b: &FeatureSet,
     mut offer: impl FnMut(Closest),
 ) {
@@ -235,9 +235,9 @@ fn vertices_over_faces(
 
 /// The first edge of A that passes through a face of B: the point, the edge and the face.
 fn crossing(
-    a: &Placed,
+    a: &PlacedPrimitive,
     features_a: &FeatureSet,
-    b: &Placed,
+    b: &PlacedPrimitive,
     features_b: &FeatureSet,
 ) -> Option<(Vec3, u32, u32)> {
     for &f in &features_b.faces {

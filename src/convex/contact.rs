@@ -6,8 +6,8 @@ use super::closest::{Closest, Segment, closest_parameters};
 use super::contact_normal::ContactPair;
 use super::curved::is_curved;
 use super::curved_contact::{curved_contacts, first_curved_contact};
-use super::distance::Measured;
-use super::placed::{Placed, Precision};
+use super::distance::PrimitiveDistance;
+use super::placed::{PlacedPrimitive, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
@@ -42,9 +42,9 @@ pub struct Contact {
 ///
 /// Curved primitives have those of their cores: smooth ones one contact only, whatever touches them along a line or a face.
 pub fn contacts(
-    r: &Placed,
-    s: &Placed,
-    measured: &Measured,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Vec<Contact> {
     if is_curved(r, s) {
@@ -56,9 +56,9 @@ pub fn contacts(
 
 /// The first of these contacts.
 pub fn first_contact(
-    r: &Placed,
-    s: &Placed,
-    measured: &Measured,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Option<Contact> {
     let first = if is_curved(r, s) {
@@ -74,8 +74,8 @@ pub fn first_contact(
 
 /// The contact at the closest points of two hulls that are apart, if their features say one.
 pub(super) fn first_polytope_contact(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     closest: &Closest,
     precision: &Precision,
 ) -> Option<Contact> {
@@ -121,8 +121,8 @@ fn contact_between(
 
 /// The contacts of the hulls of two primitives' vertices.
 pub(super) fn polytope_contacts(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     closest: &Closest,
     precision: &Precision,
 ) -> Vec<Contact> {
@@ -146,8 +146,8 @@ pub(super) fn polytope_contacts(
         let (points, features) = (closest.points, closest.features);
         return vec![contact_between(points, features, normal, mode, precision)];
     }
-    let on_r = Supporting::new(r, &-normal, slack);
-    let on_s = Supporting::new(s, &normal, slack);
+    let on_r = SupportFeature::new(r, &-normal, slack);
+    let on_s = SupportFeature::new(s, &normal, slack);
     let mut found: Vec<Contact> = Vec::new();
     let mut offer = |points: [Vec3; 2], features: [Feature; 2]| {
         let near = |other: &Contact| {
@@ -217,7 +217,7 @@ pub(super) fn polytope_contacts(
 }
 
 /// Whether only one vertex is within `slack` of the farthest along a direction.
-fn has_lone_extreme(placed: &Placed, direction: &Vec3, slack: f64) -> bool {
+fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> bool {
     let (_, farthest) = placed.extent_along(direction);
     let heights = placed.vertices().iter().map(|v| direction.dot(v));
     heights.filter(|height| *height >= farthest - slack).count() == 1
@@ -249,15 +249,15 @@ pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
 }
 
 /// The feature of a primitive that is farthest along a direction: its corners in order around the direction.
-struct Supporting<'a> {
-    placed: Placed<'a>,
+struct SupportFeature<'a> {
+    placed: PlacedPrimitive<'a>,
     ring: Vec<u32>,
     normal: Vec3,
     feature: Feature,
 }
 
-impl<'a> Supporting<'a> {
-    fn new(placed: &Placed<'a>, direction: &Vec3, slack: f64) -> Self {
+impl<'a> SupportFeature<'a> {
+    fn new(placed: &PlacedPrimitive<'a>, direction: &Vec3, slack: f64) -> Self {
         let (_, farthest) = placed.extent_along(direction);
         let level: Vec<u32> = (0..placed.vertex_count() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
@@ -330,7 +330,7 @@ impl<'a> Supporting<'a> {
 }
 
 /// Those of some vertices that are corners of their outline, seen along a direction, in order around it.
-fn outline(placed: &Placed, level: &[u32], direction: &Vec3, slack: f64) -> Vec<u32> {
+fn outline(placed: &PlacedPrimitive, level: &[u32], direction: &Vec3, slack: f64) -> Vec<u32> {
     let (x, y) = plane_axes(direction);
     let points = level.iter().map(|&i| placed.vertex(i));
     let flat: Vec<_> = points.map(|p| Vector2::new(x.dot(&p), y.dot(&p))).collect();
@@ -338,7 +338,7 @@ fn outline(placed: &Placed, level: &[u32], direction: &Vec3, slack: f64) -> Vec<
     corners.iter().map(|&i| level[i as usize]).collect()
 }
 
-fn edge_between(placed: &Placed, ends: [u32; 2]) -> Option<u32> {
+fn edge_between(placed: &PlacedPrimitive, ends: [u32; 2]) -> Option<u32> {
     placed
         .shape
         .edges
@@ -348,7 +348,7 @@ fn edge_between(placed: &Placed, ends: [u32; 2]) -> Option<u32> {
 }
 
 /// The feature with these corners: the edge that joins two, the face that holds most of more.
-fn feature_of(placed: &Placed, ring: &[u32]) -> Feature {
+fn feature_of(placed: &PlacedPrimitive, ring: &[u32]) -> Feature {
     match ring {
         [i] => Feature::vertex(*i),
         [i, j] => {

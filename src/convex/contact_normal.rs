@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{feature_normal, gap_along};
 use super::penetration::polytope_penetration;
-use super::placed::{Placed, Precision};
+use super::placed::{PlacedPrimitive, Precision};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
@@ -26,8 +26,8 @@ type Few = SmallVec<[Vec3; 16]>;
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
 pub struct ContactPair<'a> {
-    pub r: &'a Placed<'a>,
-    pub s: &'a Placed<'a>,
+    pub r: &'a PlacedPrimitive<'a>,
+    pub s: &'a PlacedPrimitive<'a>,
     pub closest: &'a Closest,
     pub precision: &'a Precision,
 }
@@ -176,7 +176,7 @@ impl ContactPair<'_> {
 }
 
 /// How far a point is from the outside of a set; 0 or less where it is not inside, or the set has no inside.
-fn depth_below(placed: &Placed, point: &Vec3, planar: bool) -> f64 {
+fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
     let faces = 0..placed.shape.faces.len();
     if faces.is_empty() {
         return 0.0;
@@ -212,7 +212,7 @@ struct Local {
 }
 
 impl Local {
-    fn around(placed: &Placed, point: &Vec3, near: f64) -> Self {
+    fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
         let mut directions = Few::new();
         for &ends in &placed.shape.edges {
             let (p, q) = placed.edge_ends(ends);

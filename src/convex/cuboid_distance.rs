@@ -1,12 +1,16 @@
 //! The distance of a point or a segment from a box, in closed form.
 
 use super::closest::Closest;
-use super::placed::Placed;
+use super::placed::PlacedPrimitive;
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Cuboid, Feature};
 
 /// The closest points of a hull of one or two vertices and a box; `None` where they meet.
-pub fn segment_to_cuboid(segment: &Placed, other: &Placed, cuboid: &Cuboid) -> Option<Closest> {
+pub fn segment_to_cuboid(
+    segment: &PlacedPrimitive,
+    other: &PlacedPrimitive,
+    cuboid: &Cuboid,
+) -> Option<Closest> {
     let start = segment.vertex(0);
     let from = cuboid.seen(&other.seen(&start));
     let (point, seen, feature) = if segment.vertex_count() == 1 {

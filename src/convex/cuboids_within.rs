@@ -1,7 +1,7 @@
 //! Whether two boxes are within a distance of one another, told by the directions that can part them: those of their edges, and
 //! the common perpendiculars of two.
 
-use super::placed::Placed;
+use super::placed::PlacedPrimitive;
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::{turned, turned_axes, turned_back};
@@ -18,7 +18,7 @@ const NEARLY_PARALLEL: f64 = 1e-6;
 /// Whether two boxes meet, or are farther apart than the cutoff; `None` of others. `size` is no less than any coordinate of
 /// the two.
 pub fn cuboids_within(
-    placed: [&Placed; 2],
+    placed: [&PlacedPrimitive; 2],
     cuboids: [&Cuboid; 2],
     size: f64,
     limits: DistanceLimits,
@@ -33,7 +33,7 @@ pub fn cuboids_within(
 }
 
 struct Axes<'a> {
-    placed: [&'a Placed<'a>; 2],
+    placed: [&'a PlacedPrimitive<'a>; 2],
     cuboids: [&'a Cuboid; 2],
     size: f64,
     error: f64,
@@ -53,17 +53,17 @@ impl Work for Axes<'_> {
         let between = turned(&axes, &between);
         let turn = turned_axes(&axes, &b.turned_axes(&on_b.axes));
         let (half_a, half_b) = (on_a.half, on_b.half);
-        let reach_of_b = each3(|i| {
+        let extent_of_b = each3(|i| {
             let part = |j: usize| turn[(i, j)].abs() * half_b[j];
             part(0) + part(1) + part(2)
         });
-        let reach_of_a = each3(|j| {
+        let extent_of_a = each3(|j| {
             let part = |i: usize| turn[(i, j)].abs() * half_a[i];
             part(0) + part(1) + part(2)
         });
         let seen_by_b = turned_back(&turn, &between);
-        let across_a = each3(|k| between[k].abs() - half_a[k] - reach_of_b[k]);
-        let across_b = each3(|k| seen_by_b[k].abs() - half_b[k] - reach_of_a[k]);
+        let across_a = each3(|k| between[k].abs() - half_a[k] - extent_of_b[k]);
+        let across_b = each3(|k| seen_by_b[k].abs() - half_b[k] - extent_of_a[k]);
         let most = |gaps: [f64; 3]| gaps[0].max(gaps[1]).max(gaps[2]);
         let across = most(across_a).max(most(across_b));
         if across > self.cutoff + self.error {
@@ -83,11 +83,11 @@ impl Work for Axes<'_> {
                 }
                 let apart = (between[last] * up - between[next] * down).abs();
                 let (next_b, last_b) = ((j + 1) % 3, (j + 2) % 3);
-                let reach = half_a[next] * down.abs()
+                let extent = half_a[next] * down.abs()
                     + half_a[last] * up.abs()
                     + half_b[next_b] * turn[(i, last_b)].abs()
                     + half_b[last_b] * turn[(i, next_b)].abs();
-                let gap = apart - reach;
+                let gap = apart - extent;
                 if gap > length * self.cutoff + self.error {
                     return Some(false);
                 }

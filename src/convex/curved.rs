@@ -4,23 +4,23 @@
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{DistanceScratch, closest_polytopes};
 use super::nearest_parts::NearestParts;
-use super::placed::{Placed, Precision};
+use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
-use crate::gjk::{DistanceLimits, Extreme, Refined, Support, refined};
+use crate::gjk::{DistanceLimits, Extreme, RefinedBounds, Support, refined};
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{Feature, Smooth};
 use crate::tolerance;
 
 /// A core as GJK asks it.
 pub struct Core<'a> {
-    placed: &'a Placed<'a>,
+    placed: &'a PlacedPrimitive<'a>,
     smooth: Option<(&'a Smooth, Mat3)>,
     shift: Vec3,
 }
 
 impl<'a> Core<'a> {
     /// The core moved by `shift`.
-    pub fn shifted(placed: &'a Placed<'a>, shift: Vec3) -> Self {
+    pub fn shifted(placed: &'a PlacedPrimitive<'a>, shift: Vec3) -> Self {
         let smooth = placed.shape.smooth();
         Self {
             placed,
@@ -29,7 +29,7 @@ impl<'a> Core<'a> {
         }
     }
 
-    pub fn of(placed: &'a Placed<'a>) -> Self {
+    pub fn of(placed: &'a PlacedPrimitive<'a>) -> Self {
         Self::shifted(placed, Vec3::zeros())
     }
 
@@ -66,20 +66,20 @@ impl Support for Core<'_> {
 }
 
 /// Whether one of two primitives is more than the hull of its vertices.
-pub fn is_curved(a: &Placed, b: &Placed) -> bool {
+pub fn is_curved(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
     a.shape.curve.is_some() || b.shape.curve.is_some()
 }
 
 /// Whether one of two cores is known by its support function alone.
-pub fn is_smooth(a: &Placed, b: &Placed) -> bool {
+pub fn is_smooth(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
     a.shape.smooth().is_some() || b.shape.smooth().is_some()
 }
 
 /// The closest points of the cores, and the unit direction from B to A that bounds their distance where one is smooth and a
 /// direction does; `None` where they are proved to be farther apart than the cutoff.
 pub fn core_closest(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
@@ -93,8 +93,8 @@ pub fn core_closest(
 }
 
 fn smooth_closest(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
 ) -> Option<(Closest, Vec3)> {
@@ -136,7 +136,7 @@ fn smooth_closest(
 }
 
 /// The closest points of a lone point and a smooth core in closed form, where these are far enough apart to tell a direction.
-fn from_point(point: &Placed, core: &Core, pair: &Precision) -> Option<Closest> {
+fn from_point(point: &PlacedPrimitive, core: &Core, pair: &Precision) -> Option<Closest> {
     let is_point = point.vertex_count() == 1 && point.shape.smooth().is_none();
     if !is_point {
         return None;
@@ -149,7 +149,7 @@ pub const APART: f64 = 1e-6;
 
 /// How much more than the pair's error the upper bound may be above the distance: all of it where no direction proves that
 /// the sets are apart, so that everything reads a lower bound of 0.
-fn doubt(found: &Refined, pair: &Precision) -> f64 {
+fn doubt(found: &RefinedBounds, pair: &Precision) -> f64 {
     if found.lower == 0.0 {
         return found.upper;
     }
@@ -159,12 +159,12 @@ fn doubt(found: &Refined, pair: &Precision) -> f64 {
 
 /// The distance of the cores where A's has moved by `shift`.
 pub fn refined_cores(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     start: Vec3,
     shift: Vec3,
     pair: &Precision,
-) -> Refined {
+) -> RefinedBounds {
     let (a, b) = (Core::shifted(a, shift), Core::of(b));
     refined_pair(&a, &b, start, pair, DistanceLimits::EXACT)
 }
@@ -175,7 +175,7 @@ fn refined_pair(
     start: Vec3,
     pair: &Precision,
     limits: DistanceLimits,
-) -> Refined {
+) -> RefinedBounds {
     let accepted = tolerance::CERTIFIED_GAP * pair.size;
     refined(a, b, start, pair.size, limits, |names, direction| {
         let [(on_a, len_a), (on_b, len_b)] = [names.of(0), names.of(1)];
@@ -189,7 +189,12 @@ fn refined_pair(
 const HOLDS: f64 = 1e-7;
 
 /// The feature of a polytope that holds the point found on it.
-fn holding_feature(placed: &Placed, found: &Refined, side: usize, slack: f64) -> Feature {
+fn holding_feature(
+    placed: &PlacedPrimitive,
+    found: &RefinedBounds,
+    side: usize,
+    slack: f64,
+) -> Feature {
     let point = &found.points[side];
     if let Some(names) = &found.names {
         let (names, len) = names.of(side);
@@ -206,7 +211,7 @@ fn holding_feature(placed: &Placed, found: &Refined, side: usize, slack: f64) ->
 }
 
 /// The first feature of a polytope that is near a point of it, least ones first.
-fn feature_at(placed: &Placed, point: &Vec3, slack: f64) -> Feature {
+fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     let near = |v: &Vec3| (v - point).norm() <= slack;
     if let Some(i) = placed.vertices().iter().position(near) {
         return Feature::vertex(i as u32);
@@ -282,11 +287,11 @@ mod tests {
                 self.within(-1.0, 1.0),
             )
         }
-        fn pose(&mut self, reach: f64) -> Pose {
+        fn pose(&mut self, distance: f64) -> Pose {
             let axis = self.vector().normalize();
             Pose {
                 rotation: rotation_about(&axis, self.within(0.0, 6.0)),
-                translation: self.vector() * reach,
+                translation: self.vector() * distance,
             }
         }
     }
@@ -322,7 +327,10 @@ mod tests {
                 let reach = random.within(0.3, 3.0);
                 let pose = random.pose(reach);
                 let mut buffer = crate::convex::PlacedBuffer::default();
-                let (a, b) = (Placed::at_home(&a, None), buffer.place(&b, None, &pose));
+                let (a, b) = (
+                    PlacedPrimitive::at_home(&a, None),
+                    buffer.place(&b, None, &pose),
+                );
                 let pair = Precision {
                     size: 1.0 + pose.translation.norm(),
                     error: 0.0,

@@ -3,9 +3,9 @@
 use super::closest::Closest;
 use super::contact::{Contact, deepest_first, first_polytope_contact, mode_of, polytope_contacts};
 use super::curved::{APART, Core, is_smooth, refined_cores};
-use super::distance::{DistanceScratch, Measured, measure};
+use super::distance::{DistanceScratch, PrimitiveDistance, measure};
 use super::penetration::{Penetration, polytope_penetration};
-use super::placed::{Placed, Precision};
+use super::placed::{PlacedPrimitive, Precision};
 use crate::error::{Error, ErrorKind, Result};
 use crate::gjk::{DistanceLimits, Support};
 use crate::pose::Vec3;
@@ -15,9 +15,9 @@ use crate::work_meter::WorkMeter;
 /// The contacts of a pair of which one at least is curved. As long as the cores are apart they are exact, however deep the
 /// sets around them are in one another.
 pub fn curved_contacts(
-    r: &Placed,
-    s: &Placed,
-    measured: &Measured,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Vec<Contact> {
     let mut found: Vec<Contact> = if is_smooth(r, s) {
@@ -35,9 +35,9 @@ pub fn curved_contacts(
 
 /// The first of these contacts, where that is told without the others: of cores that are apart.
 pub fn first_curved_contact(
-    r: &Placed,
-    s: &Placed,
-    measured: &Measured,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Option<Contact> {
     let mut contact = if is_smooth(r, s) {
@@ -60,7 +60,7 @@ fn touching(cores: &Closest, precision: &Precision) -> Closest {
 }
 
 /// Moves a contact of the cores outwards by the radii.
-fn grow(contact: &mut Contact, sides: [&Placed; 2], precision: &Precision) {
+fn grow(contact: &mut Contact, sides: [&PlacedPrimitive; 2], precision: &Precision) {
     let [radius_r, radius_s] = sides.map(|placed| placed.shape.radius());
     let gap = contact.gap - radius_r - radius_s;
     contact.gap = if gap.abs() > precision.error {
@@ -75,9 +75,9 @@ fn grow(contact: &mut Contact, sides: [&Placed; 2], precision: &Precision) {
 
 /// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
 fn smooth_contact(
-    r: &Placed,
-    s: &Placed,
-    measured: &Measured,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: &PrimitiveDistance,
     precision: &Precision,
 ) -> Option<Contact> {
     let (closest, direction) = (measured.cores, measured.direction);
@@ -105,8 +105,8 @@ fn smooth_contact(
 /// Moved apart along the normal by a little, the cores are nearest along that same normal. It is found by moving them apart
 /// along the last guess, from far to near. Whatever that comes to, the gap is that of the supports along the direction.
 fn touch(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     closest: &Closest,
     direction: Vec3,
     precision: &Precision,
@@ -148,8 +148,8 @@ fn touch(
 /// The penetration of two sets of which one at least is curved. Smooth cores are refused: the shortest way out of them has no
 /// closed form.
 pub fn curved_penetration(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     precision: &Precision,
     meter: &mut WorkMeter,
 ) -> Result<Penetration> {

@@ -4,7 +4,7 @@ use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_within::cuboids_within;
 use super::curved::{Core, beyond_radii, core_closest, grown, is_smooth};
-use super::placed::{Placed, Precision};
+use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, Support, gjk, meeting};
 use crate::pose::Vec3;
@@ -20,7 +20,7 @@ pub struct DistanceScratch {
 
 /// The closest points of two primitives, and what tells their contacts.
 #[derive(Clone, Copy, Debug)]
-pub struct Measured {
+pub struct PrimitiveDistance {
     /// Distances up to the pair's error are 0.
     pub closest: Closest,
     /// Those of the cores: the same but for what is round.
@@ -29,7 +29,7 @@ pub struct Measured {
     pub direction: Vec3,
 }
 
-impl Measured {
+impl PrimitiveDistance {
     /// Of two primitives that are the hulls of their vertices.
     pub fn of_hulls(closest: Closest) -> Self {
         Self {
@@ -42,12 +42,12 @@ impl Measured {
 
 /// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than the cutoff.
 pub fn measure(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<Measured> {
+) -> Option<PrimitiveDistance> {
     let radii = [a, b].map(|placed| placed.shape.radius());
     let limits = limits.of_cores(radii[0] + radii[1]);
     let (cores, direction) = core_closest(a, b, pair, limits, scratch)?;
@@ -55,7 +55,7 @@ pub fn measure(
     if closest.distance <= pair.error {
         closest.distance = 0.0;
     }
-    Some(Measured {
+    Some(PrimitiveDistance {
         closest,
         cores,
         direction,
@@ -63,7 +63,13 @@ pub fn measure(
 }
 
 /// Whether a unit direction from B to A proves two primitives to be farther apart than the cutoff.
-pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, pair: &Precision, cutoff: f64) -> bool {
+pub fn parts(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    direction: &Vec3,
+    pair: &Precision,
+    cutoff: f64,
+) -> bool {
     let Some(cutoff) = proved_cutoff(a, b, pair, cutoff) else {
         return false;
     };
@@ -81,7 +87,12 @@ pub fn parts(a: &Placed, b: &Placed, direction: &Vec3, pair: &Precision, cutoff:
 /// The cutoff beyond which any direction that parts two primitives leaves no doubt about their distance, so that what is asked
 /// first decides nothing: more than that where one is smooth. `None` for functions of the caller's, which are true but for
 /// an error of their own.
-fn proved_cutoff(a: &Placed, b: &Placed, pair: &Precision, cutoff: f64) -> Option<f64> {
+fn proved_cutoff(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    pair: &Precision,
+    cutoff: f64,
+) -> Option<f64> {
     let smooth = [a.shape.smooth(), b.shape.smooth()];
     if smooth.iter().all(Option::is_none) {
         return Some(cutoff);
@@ -93,8 +104,8 @@ fn proved_cutoff(a: &Placed, b: &Placed, pair: &Precision, cutoff: f64) -> Optio
 
 /// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
 pub fn meeting_or_beyond(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
 ) -> Option<bool> {
@@ -117,7 +128,7 @@ pub fn meeting_or_beyond(
 }
 
 /// The distance of two primitives in closed form, if their cores have one; maybe less than the error.
-pub fn closed_distance(a: &Placed, b: &Placed, pair: &Precision) -> Option<f64> {
+pub fn closed_distance(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<f64> {
     if is_smooth(a, b) {
         return None;
     }
@@ -128,13 +139,13 @@ pub fn closed_distance(a: &Placed, b: &Placed, pair: &Precision) -> Option<f64> 
 
 /// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than the cutoff.
 pub fn closest_polytopes(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
-    let needs_bounds = |placed: &Placed| placed.shape.is_solid() || is_large(placed);
+    let needs_bounds = |placed: &PlacedPrimitive| placed.shape.is_solid() || is_large(placed);
     let mut found = match closed_form(a, b, pair) {
         Some(found) => found,
         None if pair.planar => planar_closest(a, b, pair, scratch),
@@ -149,11 +160,12 @@ pub fn closest_polytopes(
 }
 
 /// Those of a point or a segment and another, a box, or of a point and a small polygon, in space.
-fn closed_form(a: &Placed, b: &Placed, pair: &Precision) -> Option<Closest> {
+fn closed_form(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<Closest> {
     if pair.planar {
         return None;
     }
-    let is_small_polygon = |placed: &Placed| placed.shape.faces.len() == 1 && !is_large(placed);
+    let is_small_polygon =
+        |placed: &PlacedPrimitive| placed.shape.faces.len() == 1 && !is_large(placed);
     match (a.vertex_count(), b.vertex_count()) {
         (1 | 2, 1 | 2) => Some(closest_segments(a, b)),
         (1, _) if is_small_polygon(b) => Some(point_to_polygon(&a.vertex(0), b)),
@@ -164,7 +176,7 @@ fn closed_form(a: &Placed, b: &Placed, pair: &Precision) -> Option<Closest> {
 }
 
 /// The closest points of a point or a segment and a box that are more than `error` apart.
-fn closest_to_cuboid(a: &Placed, b: &Placed, error: f64) -> Option<Closest> {
+fn closest_to_cuboid(a: &PlacedPrimitive, b: &PlacedPrimitive, error: f64) -> Option<Closest> {
     let found = if let Some(cuboid) = cuboid(b)
         && a.vertex_count() <= 2
     {
@@ -179,12 +191,12 @@ fn closest_to_cuboid(a: &Placed, b: &Placed, error: f64) -> Option<Closest> {
     (found.distance > error).then_some(found)
 }
 
-fn cuboid<'a>(placed: &Placed<'a>) -> Option<&'a Cuboid> {
+fn cuboid<'a>(placed: &PlacedPrimitive<'a>) -> Option<&'a Cuboid> {
     placed.form()?.cuboid()
 }
 
 /// How far a set is from the plane of a flat polygon, on either side.
-fn plane_gap(flat: &Placed, other: &Placed) -> f64 {
+fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
     if !flat.shape.is_flat() {
         return f64::NEG_INFINITY;
     }
@@ -193,7 +205,7 @@ fn plane_gap(flat: &Placed, other: &Placed) -> f64 {
 }
 
 /// A point at the end of an edge, but for rounding, is held by the vertex there.
-fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64) {
+fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, slack: f64) {
     let feature = found.features[side];
     if feature.kind == FeatureKind::Edge {
         let ends = placed.shape.edges[feature.index as usize];
@@ -207,11 +219,15 @@ fn snap_to_vertex(placed: &Placed, found: &mut Closest, side: usize, slack: f64)
 /// Polygons with at most so many edges are compared edge by edge.
 const MAX_EDGES_ENUMERATED: usize = 32;
 
-fn is_large(placed: &Placed) -> bool {
+fn is_large(placed: &PlacedPrimitive) -> bool {
     placed.shape.edges.len() > MAX_EDGES_ENUMERATED
 }
 
-fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closest {
+fn all_features(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    scratch: &mut DistanceScratch,
+) -> Closest {
     scratch.a.set_all(a);
     scratch.b.set_all(b);
     closest_features(a, &scratch.a, b, &scratch.b, true)
@@ -219,15 +235,15 @@ fn all_features(a: &Placed, b: &Placed, scratch: &mut DistanceScratch) -> Closes
 
 /// Of polygons in one plane the outlines are compared, then the insides.
 fn planar_closest(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     scratch: &mut DistanceScratch,
 ) -> Closest {
     scratch.a.set_outline(a);
     scratch.b.set_outline(b);
     let found = closest_features(a, &scratch.a, b, &scratch.b, false);
-    let holds = |outer: &Placed, inner: &Placed| {
+    let holds = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
         let point = inner.vertex(0);
         let inside = !outer.shape.faces.is_empty() && outer.over_face(0, &point).1;
         inside.then_some(point)
@@ -246,8 +262,8 @@ fn planar_closest(
 
 /// Of solids, and of polygons too large to enumerate, the features around the supporting planes are compared.
 fn bounded_closest(
-    a: &Placed,
-    b: &Placed,
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
@@ -303,7 +319,7 @@ fn bounded_closest(
     if found.distance <= pair.error {
         return Some(found);
     }
-    let contained = |outer: &Placed, inner: &Placed| {
+    let contained = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
         let (i, point) = contained_vertex(inner, outer)?;
         Some((Feature::vertex(i), point))
     };
@@ -317,8 +333,12 @@ fn bounded_closest(
 }
 
 /// The nearest points between corners that the search found, if they are of a feature each.
-fn between_corners(a: &Placed, b: &Placed, nearest: &NearestCorners) -> Option<Closest> {
-    let feature = |placed: &Placed, side: usize| {
+fn between_corners(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    nearest: &NearestCorners,
+) -> Option<Closest> {
+    let feature = |placed: &PlacedPrimitive, side: usize| {
         let (names, len) = nearest.names.of(side);
         placed.feature_of(&names[..len])
     };
@@ -340,14 +360,14 @@ fn between_corners(a: &Placed, b: &Placed, nearest: &NearestCorners) -> Option<C
 }
 
 /// The foot of a point in a face, if it is there.
-fn foot_in(placed: &Placed, face: Feature, point: &Vec3) -> Option<Vec3> {
+fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<Vec3> {
     let face = face.index as usize;
     let (height, is_over) = placed.over_face(face, point);
     is_over.then(|| point - placed.normal(face) * height)
 }
 
 /// A vertex of A inside the solid B.
-fn contained_vertex(a: &Placed, b: &Placed) -> Option<(u32, Vec3)> {
+fn contained_vertex(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Option<(u32, Vec3)> {
     let vertices = a.vertices().iter().enumerate();
     vertices
         .filter(|(_, point)| b.contains(point))
@@ -356,7 +376,7 @@ fn contained_vertex(a: &Placed, b: &Placed) -> Option<(u32, Vec3)> {
 }
 
 /// The largest gap that a direction proves: those of the features that hold the points, and the two directions known.
-fn certificate(a: &Placed, b: &Placed, found: &Closest, direction: Vec3) -> f64 {
+fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
     let mut best = gap_along(a, b, &direction);
     let mut offer = |n: Vec3| {
         if let Some(n) = n.try_normalize(0.0) {
@@ -372,20 +392,20 @@ fn certificate(a: &Placed, b: &Placed, found: &Closest, direction: Vec3) -> f64 
 }
 
 /// The signed gap of the projections along the unit vector `direction`, from B to A.
-pub fn gap_along(a: &Placed, b: &Placed, direction: &Vec3) -> f64 {
+pub fn gap_along(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
     a.extent_along(direction).0 - b.extent_along(direction).1
 }
 
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
 /// perpendicular of two edges. Exact however close the points are.
-pub fn feature_normal(a: &Placed, b: &Placed, found: &Closest) -> Option<Vec3> {
+pub fn feature_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<Vec3> {
     use FeatureKind::{Edge, Face, Vertex};
     let [on_a, on_b] = found.features;
     match (on_a.kind, on_b.kind) {
         (Vertex, Face) => Some(b.normal(on_b.index as usize)),
         (Face, Vertex) => Some(a.normal(on_a.index as usize)),
         (Edge, Edge) => {
-            let along = |placed: &Placed, edge: u32| {
+            let along = |placed: &PlacedPrimitive, edge: u32| {
                 let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
                 (q - p).normalize()
             };

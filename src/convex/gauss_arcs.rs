@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use foldhash::fast::RandomState;
 
-use super::placed::Placed;
+use super::placed::PlacedPrimitive;
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
 
@@ -52,8 +52,8 @@ const ROUNDING: f64 = 1e-9;
 impl GaussArcs {
     /// The arcs of a polytope in space, or the arcs reversed. `slack` is the length by which a vertex may reach beyond what
     /// supports.
-    pub fn new(placed: &Placed, is_reversed: bool, slack: f64) -> Self {
-        let beside = Beside::of(placed);
+    pub fn new(placed: &PlacedPrimitive, is_reversed: bool, slack: f64) -> Self {
+        let beside = EdgeNeighbours::of(placed);
         let count = placed.shape.edges.len();
         let (mut edges, mut boxes) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut wings = Vec::with_capacity(2 * count);
@@ -101,7 +101,7 @@ impl GaussArcs {
     }
 
     /// How far the corners beside an edge reach along a normal of it.
-    pub fn reach(&self, edge: u32, normal: &Vec3) -> [f64; 2] {
+    pub fn extent_at(&self, edge: u32, normal: &Vec3) -> [f64; 2] {
         let wings = &self.wings[self.edges[edge as usize].wings.clone()];
         let heights = wings.iter().map(|wing| normal.dot(wing));
         heights.fold([0.0f64; 2], |[low, high], x| [low.min(x), high.max(x)])
@@ -161,10 +161,10 @@ impl GaussArcs {
 }
 
 /// The faces beside each edge, each with the corner of the face that follows the edge.
-struct Beside(HashMap<[u32; 2], Vec<(u32, u32)>, RandomState>);
+struct EdgeNeighbours(HashMap<[u32; 2], Vec<(u32, u32)>, RandomState>);
 
-impl Beside {
-    fn of(placed: &Placed) -> Self {
+impl EdgeNeighbours {
+    fn of(placed: &PlacedPrimitive) -> Self {
         let mut found: HashMap<_, Vec<_>, _> = HashMap::default();
         for (face, number) in placed.shape.faces.iter().zip(0..) {
             let ring = &face.vertices;
@@ -194,7 +194,7 @@ fn arc_bounds(along: &Vec3, wings: &[Vec3], slack: f64, normal: impl Fn(usize) -
     };
     let end = |side: usize| ArcEnd::of(&along, &wings[side], &normal(side), slack);
     let ends = match wings.len() {
-        // Beside a lone face the arc goes on to the normal of its other side.
+        // EdgeNeighbours a lone face the arc goes on to the normal of its other side.
         1 => end(0).map(|end| [end, end.turned()]),
         2 => end(0).zip(end(1)).map(|(a, b)| [a, b]),
         _ => None,

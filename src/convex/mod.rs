@@ -23,8 +23,10 @@ mod surface_part;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};
-pub use distance::{DistanceScratch, Measured, closed_distance, measure, meeting_or_beyond, parts};
+pub use distance::{
+    DistanceScratch, PrimitiveDistance, closed_distance, measure, meeting_or_beyond, parts,
+};
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
-pub use placed::{Placed, PlacedBuffer, Precision};
+pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};

@@ -12,7 +12,7 @@ use super::curved_contact::curved_penetration;
 use super::distance::{DistanceScratch, closest_polytopes};
 use super::extreme_vertex::ExtremeVertex;
 use super::gauss_arcs::GaussArcs;
-use super::placed::{Placed, Precision};
+use super::placed::{PlacedPrimitive, Precision};
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
 use crate::pose::Vec3;
@@ -34,8 +34,8 @@ const SUPPORT_SLACK: f64 = 1e-9;
 /// The penetration of two sets that meet. Fails for smooth ones. The meter counts the pairs of edges that are compared; where
 /// it says that the call has done enough, the result means nothing.
 pub fn penetration(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     precision: &Precision,
     meter: &mut WorkMeter,
 ) -> Result<Penetration> {
@@ -48,8 +48,8 @@ pub fn penetration(
 
 /// The penetration of the hulls of two primitives' vertices that meet.
 pub(super) fn polytope_penetration(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     precision: &Precision,
     meter: &mut WorkMeter,
 ) -> Penetration {
@@ -108,7 +108,13 @@ pub(super) fn polytope_penetration(
 }
 
 /// Offers the cross products of edges that both support along them.
-fn offer_edges(r: &Placed, s: &Placed, slack: f64, meter: &mut WorkMeter, shortest: &mut Shortest) {
+fn offer_edges(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    slack: f64,
+    meter: &mut WorkMeter,
+    shortest: &mut Shortest,
+) {
     let (arcs_r, arcs_s) = (
         GaussArcs::new(r, true, slack),
         GaussArcs::new(s, false, slack),
@@ -119,8 +125,8 @@ fn offer_edges(r: &Placed, s: &Placed, slack: f64, meter: &mut WorkMeter, shorte
         let Some(normal) = cross.try_normalize(0.0) else {
             return;
         };
-        let [low_r, high_r] = arcs_r.reach(edge_r, &normal);
-        let [low_s, high_s] = arcs_s.reach(edge_s, &normal);
+        let [low_r, high_r] = arcs_r.extent_at(edge_r, &normal);
+        let [low_s, high_s] = arcs_s.extent_at(edge_s, &normal);
         let supports = (low_r >= -slack && high_s <= slack) || (high_r <= slack && low_s >= -slack);
         if supports {
             let pair = u64::from(edge_r) * arcs_s.len() as u64 + u64::from(edge_s);
@@ -134,8 +140,8 @@ fn offer_edges(r: &Placed, s: &Placed, slack: f64, meter: &mut WorkMeter, shorte
 /// then: the nearest, with r moved a little farther, of the features in these planes. Where features are nearly parallel these
 /// may be too few; then more are looked at, and at last all.
 fn brought_together(
-    r: &Placed,
-    s: &Placed,
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
     depth: f64,
     direction: &Vec3,
     precision: &Precision,
@@ -165,7 +171,7 @@ fn brought_together(
 
 /// The shortest way out of all lines tried.
 struct Shortest<'a> {
-    sets: [&'a Placed<'a>; 2],
+    sets: [&'a PlacedPrimitive<'a>; 2],
     extremes: [ExtremeVertex<'a>; 2],
     depth: f64,
     direction: Vec3,
@@ -188,7 +194,7 @@ struct Line {
 const TOGETHER: usize = 64;
 
 impl<'a> Shortest<'a> {
-    fn new(r: &'a Placed<'a>, s: &'a Placed<'a>) -> Self {
+    fn new(r: &'a PlacedPrimitive<'a>, s: &'a PlacedPrimitive<'a>) -> Self {
         Self {
             sets: [r, s],
             extremes: [r, s]

@@ -19,7 +19,7 @@ pub struct Precision {
 
 /// A primitive as it stands in some common frame. Its vertices are moved one by one, or all at once when all are asked for.
 #[derive(Clone, Copy)]
-pub struct Placed<'a> {
+pub struct PlacedPrimitive<'a> {
     pub shape: &'a Convex,
     vertices: Vertices<'a>,
     /// Where it is known: of the shape, and so of its vertices at home.
@@ -56,13 +56,13 @@ impl PlacedBuffer {
         primitive: impl Into<Primitive<'a>>,
         form: Option<&'a Form>,
         pose: &'a Pose,
-    ) -> Placed<'a> {
+    ) -> PlacedPrimitive<'a> {
         let primitive = primitive.into();
         if let Some(mut used) = self.moved.take() {
             used.clear();
             self.spare.set(used);
         }
-        Placed {
+        PlacedPrimitive {
             shape: primitive.shape,
             vertices: Vertices::Moved {
                 home: primitive.vertices,
@@ -83,7 +83,7 @@ impl PlacedBuffer {
     }
 }
 
-impl<'a> Placed<'a> {
+impl<'a> PlacedPrimitive<'a> {
     /// A primitive in its own frame.
     pub fn at_home(primitive: impl Into<Primitive<'a>>, form: Option<&'a Form>) -> Self {
         let primitive = primitive.into();
@@ -95,8 +95,8 @@ impl<'a> Placed<'a> {
     }
 
     /// The same primitive with its vertices elsewhere, and turned as it was.
-    pub fn shifted<'b>(&'b self, vertices: &'b [Vec3]) -> Placed<'b> {
-        Placed {
+    pub fn shifted<'b>(&'b self, vertices: &'b [Vec3]) -> PlacedPrimitive<'b> {
+        PlacedPrimitive {
             shape: self.shape,
             vertices: Vertices::Shifted {
                 vertices,
@@ -276,7 +276,7 @@ impl<'a> Placed<'a> {
 }
 
 /// Of the hull of the vertices, each named by its number.
-impl Support for Placed<'_> {
+impl Support for PlacedPrimitive<'_> {
     #[inline(always)]
     fn extreme(&self, direction: &Vec3) -> Extreme {
         let vertex = match (self.form, self.vertices) {

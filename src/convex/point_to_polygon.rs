@@ -1,12 +1,12 @@
 //! The distance of a point from a flat polygon.
 
 use super::closest::{Closest, Segment};
-use super::placed::Placed;
+use super::placed::PlacedPrimitive;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
 /// The closest points of a lone point and a polygon, which is flat.
-pub fn point_to_polygon(point: &Vec3, polygon: &Placed) -> Closest {
+pub fn point_to_polygon(point: &Vec3, polygon: &PlacedPrimitive) -> Closest {
     let vertex = Feature::vertex(0);
     let (height, is_over) = polygon.over_face(0, point);
     let on_face = || Closest {

@@ -20,7 +20,7 @@ pub struct Bounds {
     /// How far the body's primitives may be from what their features say (see `Body::deviation`).
     pub(super) deviation: f64,
     /// No coordinate that went into these is larger: their rounding is in proportion to it.
-    pub(super) reach: f64,
+    pub(super) largest_coordinate: f64,
 }
 
 impl Bounds {
@@ -41,7 +41,7 @@ impl Bounds {
             half: whole.half,
             box_radius: whole.radius,
             deviation: body.deviation(),
-            reach: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
+            largest_coordinate: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
         }
     }
 
@@ -50,8 +50,8 @@ impl Bounds {
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
         let radii = self.radius + other.radius;
-        let reach = self.reach.max(other.reach);
-        let slack = slack(reach, self.deviation + other.deviation);
+        let largest_coordinate = self.largest_coordinate.max(other.largest_coordinate);
+        let slack = slack(largest_coordinate, self.deviation + other.deviation);
         [apart - radii - slack, apart + radii + slack]
     }
 
@@ -59,10 +59,10 @@ impl Bounds {
     #[inline(always)]
     pub(super) fn extent(&self) -> Extent {
         let [x, y] = &self.axes;
-        let reach = x.abs() * self.half.x + y.abs() * self.half.y + x.cross(y).abs() * self.half.z;
+        let extent = x.abs() * self.half.x + y.abs() * self.half.y + x.cross(y).abs() * self.half.z;
         Extent {
-            low: self.box_center - reach,
-            high: self.box_center + reach,
+            low: self.box_center - extent,
+            high: self.box_center + extent,
         }
     }
 
@@ -84,7 +84,7 @@ fn l1_norm(v: &Vec3) -> f64 {
 /// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
 /// error of the distances on both sides of a comparison (see `Pairing::slack`).
 #[inline(always)]
-pub(super) fn slack(reach: f64, deviation: f64) -> f64 {
+pub(super) fn slack(largest_coordinate: f64, deviation: f64) -> f64 {
     let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;
-    4.0 * rounding * reach + 2.0 * deviation
+    4.0 * rounding * largest_coordinate + 2.0 * deviation
 }

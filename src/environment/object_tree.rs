@@ -33,7 +33,7 @@ pub struct ObjectTree {
     /// No corner of a box was farther from the tree's centre.
     pub(super) radius: f64,
     /// No coordinate of an object, in the world or on its way there, was larger.
-    pub(super) reach: f64,
+    pub(super) largest_coordinate: f64,
     count: usize,
     wear: Wear,
 }
@@ -77,7 +77,7 @@ impl ObjectTree {
         for &place in &taken {
             built.measure(&places[place as usize].bounds);
         }
-        let blur = slack(built.reach, built.deviation);
+        let blur = slack(built.largest_coordinate, built.deviation);
         built.limits = TreeLimits::around(built.tree.frame().center, built.radius, blur);
         built
     }
@@ -90,13 +90,13 @@ impl ObjectTree {
             limits,
             deviation,
             radius,
-            reach,
+            largest_coordinate,
             count,
             wear,
             ..
         } = other;
         (self.limits, self.deviation, self.radius) = (limits, deviation, radius);
-        (self.reach, self.count, self.wear) = (reach, count, wear);
+        (self.largest_coordinate, self.count, self.wear) = (largest_coordinate, count, wear);
     }
 
     pub fn is_empty(&self) -> bool {
@@ -170,7 +170,7 @@ impl ObjectTree {
         let taken: Vec<u32> = (0..places.len() as u32).filter(is_taken).collect();
         self.tree
             .rebuild_in_haste(&taken, places.len(), places, self.limits.ball());
-        (self.deviation, self.radius, self.reach) = (0.0, 0.0, 0.0);
+        (self.deviation, self.radius, self.largest_coordinate) = (0.0, 0.0, 0.0);
         for &place in &taken {
             self.measure(&places[place as usize].bounds);
         }
@@ -207,7 +207,7 @@ impl ObjectTree {
         } = self.wear;
         // What is left of far or ill known objects that are gone.
         let size = self.tree.extent().map_or(0.0, Extent::diameter);
-        let blur = ROUNDING * self.radius + slack(self.reach, self.deviation);
+        let blur = ROUNDING * self.radius + slack(self.largest_coordinate, self.deviation);
         let is_blurred = blur > 0.5 * FAR * ROUNDING * size;
         let more = (self.count as f64 / count.max(1) as f64).max(1.0);
         let is_loose = self.surface() > 1.3 * more * surface;
@@ -223,7 +223,10 @@ impl ObjectTree {
         let from_center = (bounds.box_center - self.tree.frame().center).norm();
         self.radius = self.radius.max(from_center + bounds.box_radius);
         let farthest = bounds.box_center.amax() + bounds.box_radius;
-        self.reach = self.reach.max(bounds.reach).max(farthest);
+        self.largest_coordinate = self
+            .largest_coordinate
+            .max(bounds.largest_coordinate)
+            .max(farthest);
         self.deviation = self.deviation.max(bounds.deviation);
     }
 }

@@ -176,7 +176,7 @@ impl Snapshot {
         changed: &IndexSet,
         target: impl Fn(usize) -> Option<(&'a Pose, Option<&'a Attachment>)>,
     ) {
-        with_widest(Moving {
+        with_widest(ObjectMoves {
             places: &mut self.places,
             changed,
             target,
@@ -219,13 +219,13 @@ impl Snapshot {
 }
 
 /// Changed places, whose objects go to where they are to be.
-struct Moving<'m, F> {
+struct ObjectMoves<'m, F> {
     places: &'m mut Places,
     changed: &'m IndexSet,
     target: F,
 }
 
-impl<'a, F> Work for Moving<'_, F>
+impl<'a, F> Work for ObjectMoves<'_, F>
 where
     F: Fn(usize) -> Option<(&'a Pose, Option<&'a Attachment>)>,
 {

@@ -33,7 +33,10 @@ impl TreeLimits {
         Self::around(
             center,
             0.5 * FAR * near,
-            nth(&|bounds| slack(bounds.reach, bounds.deviation), most),
+            nth(
+                &|bounds| slack(bounds.largest_coordinate, bounds.deviation),
+                most,
+            ),
         )
     }
 
@@ -53,7 +56,7 @@ impl TreeLimits {
     }
 
     pub fn hold(&self, bounds: &Bounds) -> bool {
-        let blur = slack(bounds.reach, bounds.deviation);
+        let blur = slack(bounds.largest_coordinate, bounds.deviation);
         farthest(bounds, &self.center) <= self.range && blur <= self.blur
     }
 }

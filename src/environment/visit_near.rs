@@ -41,14 +41,14 @@ impl ObjectTree {
 /// Memory of a descent, reused from one to the next.
 #[derive(Debug, Default)]
 pub struct NearScratch {
-    open: Vec<Open>,
+    open: Vec<QueueEntry>,
     boxes: Vec<PackedBox>,
     near: Vec<(Named<'static>, Bounds)>,
 }
 
 /// A node or an object to be visited.
 #[derive(Clone, Copy, Debug)]
-struct Open {
+struct QueueEntry {
     bound: f32,
     /// The name of a node, or [`BOX`] + the place of a stray.
     name: u32,
@@ -66,7 +66,7 @@ struct Visit<'a, 'b, B, V> {
     objects: &'a ObjectTree,
     bodies: B,
     limit: f64,
-    open: &'a mut Vec<Open>,
+    open: &'a mut Vec<QueueEntry>,
     boxes: &'a mut Vec<PackedBox>,
     /// The bodies that go down the tree together.
     together: &'a mut Vec<(Named<'b>, Bounds)>,
@@ -104,7 +104,7 @@ where
     fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
         let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
         let all = u64::MAX >> (TOGETHER - bodies.len());
-        let first = |name| Open {
+        let first = |name| QueueEntry {
             bound: f32::NEG_INFINITY,
             name,
             bodies: all,
@@ -141,7 +141,7 @@ where
                 let lane = near.trailing_zeros() as usize & 7;
                 let below = wide.children[lane];
                 if near.is_power_of_two() && below & BOX == 0 {
-                    self.open.push(Open {
+                    self.open.push(QueueEntry {
                         bound: lanes.array(bounds)[lane],
                         name: below,
                         ..next
@@ -183,7 +183,7 @@ where
                 }
                 let bound = nearest[lane];
                 let mut at = self.open.len();
-                self.open.push(Open {
+                self.open.push(QueueEntry {
                     bound,
                     name: wide.children[lane],
                     bodies: of_lanes[lane],
@@ -218,11 +218,11 @@ impl Descent {
     fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)], mut boxes: Vec<PackedBox>) -> Self {
         let frame = objects.tree.frame();
         let mut size = objects.radius;
-        let (mut reach, mut deviation) = (objects.reach, 0.0f64);
+        let (mut largest_coordinate, mut deviation) = (objects.largest_coordinate, 0.0f64);
         for (_, body) in bodies {
             let from_center = body.box_center - frame.center;
             size = size.max(from_center.norm() + body.box_radius);
-            reach = reach.max(body.reach);
+            largest_coordinate = largest_coordinate.max(body.largest_coordinate);
             deviation = deviation.max(body.deviation);
         }
         let scale = power_of_two(size);
@@ -252,7 +252,7 @@ impl Descent {
             unit: (frame.scale * inverse_scale) as f32,
             scale,
             inverse_scale,
-            slack: slack(reach, objects.deviation + deviation) + ROUNDING * size,
+            slack: slack(largest_coordinate, objects.deviation + deviation) + ROUNDING * size,
         }
     }
 

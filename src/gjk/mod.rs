@@ -9,7 +9,7 @@ mod refined;
 mod simplex;
 
 pub use self::meeting::meeting;
-pub use self::refined::{Nearby, Refined, refined};
+pub use self::refined::{Nearby, RefinedBounds, refined};
 use self::simplex::{Corner, Nearest, Simplex};
 pub use self::simplex::{CornerNames, NearestCorners};
 use crate::lanes::{Instructions, Work, with_widest};
@@ -87,11 +87,11 @@ impl DistanceLimits {
         cutoff: f64::INFINITY,
     };
 
-    /// The same of sets that reach so far around those that are asked about.
-    pub fn of_cores(self, reach: f64) -> Self {
+    /// The same of sets that are rounded by a radius around those that are asked about.
+    pub fn of_cores(self, radius: f64) -> Self {
         Self {
-            enough: self.enough + reach,
-            cutoff: self.cutoff + reach,
+            enough: self.enough + radius,
+            cutoff: self.cutoff + radius,
         }
     }
 }

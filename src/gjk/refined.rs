@@ -11,7 +11,7 @@ use crate::tolerance;
 
 /// What was found out about the distance of two sets A and B, whatever their surfaces.
 #[derive(Clone, Copy, Debug)]
-pub struct Refined {
+pub struct RefinedBounds {
     /// The distance is at least this, up to the rounding of one support evaluation. 0 unless it is above that rounding.
     pub lower: f64,
     /// The unit direction from B to A that proves `lower`; zero if there is none.
@@ -64,7 +64,7 @@ pub fn refined<A: Support, B: Support>(
     size: f64,
     limits: DistanceLimits,
     finish: impl Fn(&CornerNames, &Vec3) -> Option<Nearby>,
-) -> Refined {
+) -> RefinedBounds {
     let limits = DistanceLimits {
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
         ..limits
@@ -83,7 +83,7 @@ pub fn refined<A: Support, B: Support>(
     found
 }
 
-impl Refined {
+impl RefinedBounds {
     /// Whether the distance is told by what the corners of a simplex are between.
     fn finish(
         &mut self,
@@ -121,10 +121,10 @@ where
     B: Support,
     F: Fn(&CornerNames, &Vec3) -> Option<Nearby>,
 {
-    type Output = Refined;
+    type Output = RefinedBounds;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Refined {
+    fn run<I: Instructions>(self, _: I) -> RefinedBounds {
         let Self {
             a,
             b,
@@ -133,7 +133,7 @@ where
             limits,
             finish,
         } = self;
-        let mut found = Refined {
+        let mut found = RefinedBounds {
             lower: 0.0,
             direction: Vec3::zeros(),
             upper: f64::INFINITY,

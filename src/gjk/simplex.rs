@@ -158,13 +158,13 @@ impl Simplex {
 
     /// Keeps the corners of a face, and gives the closest corner and the foot on it.
     #[inline(always)]
-    fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, Kept)) -> (Corner, Vec3) {
+    fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, ClosestFace)) -> (Corner, Vec3) {
         self.keep(&kept);
         (corner, self.upright(&foot))
     }
 
     #[inline(always)]
-    fn keep(&mut self, kept: &Kept) {
+    fn keep(&mut self, kept: &ClosestFace) {
         let corners = self.corners;
         for (to, &from) in kept.corners[..kept.len].iter().enumerate() {
             self.corners[to] = corners[from];
@@ -174,9 +174,9 @@ impl Simplex {
 
     /// The closest point of one or two corners.
     #[inline(always)]
-    fn on_few(&self) -> (Vec3, Kept) {
+    fn on_few(&self) -> (Vec3, ClosestFace) {
         match self.len {
-            1 => (self.corners[0].difference, Kept::new([0])),
+            1 => (self.corners[0].difference, ClosestFace::new([0])),
             _ => self.on_segment(0, 1),
         }
     }
@@ -194,7 +194,7 @@ impl Simplex {
     /// The corner that one to three corners combine to at the closest point, which `reduce` gave last: with weights that are
     /// sure to be none below 0, whatever rounding did to that point.
     pub fn combined(&self, point: &Vec3) -> Corner {
-        let all = Kept {
+        let all = ClosestFace {
             corners: [0, 1, 2],
             len: self.len,
         };
@@ -222,7 +222,7 @@ impl Simplex {
     }
 
     #[inline(always)]
-    fn combined_of(&self, kept: &Kept, point: &Vec3) -> Corner {
+    fn combined_of(&self, kept: &ClosestFace, point: &Vec3) -> Corner {
         let [first, second, third] = kept.corners.map(|i| self.corners[i]);
         let towards = |from: Corner, to: Corner, t: f64| Corner {
             difference: from.difference + (to.difference - from.difference) * t,
@@ -258,22 +258,22 @@ impl Simplex {
     }
 
     #[inline(always)]
-    fn on_segment(&self, i: usize, j: usize) -> (Vec3, Kept) {
+    fn on_segment(&self, i: usize, j: usize) -> (Vec3, ClosestFace) {
         let (a, b) = (self.at(i), self.at(j));
         let ab = b - a;
         let t = -a.dot(&ab);
         let square = ab.norm_squared();
         if t <= 0.0 {
-            (a, Kept::new([i]))
+            (a, ClosestFace::new([i]))
         } else if t >= square {
-            (b, Kept::new([j]))
+            (b, ClosestFace::new([j]))
         } else {
-            (a + ab * (t / square), Kept::new([i, j]))
+            (a + ab * (t / square), ClosestFace::new([i, j]))
         }
     }
 
     #[inline(always)]
-    fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, Kept) {
+    fn on_triangle(&self, i: usize, j: usize, k: usize) -> (Vec3, ClosestFace) {
         let (a, b, c) = (self.at(i), self.at(j), self.at(k));
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(&ac);
@@ -285,10 +285,13 @@ impl Simplex {
         let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
         let weights = [weight(b, c), weight(c, a), weight(a, b)];
         if square > 0.0 && weights.iter().all(|weight| *weight > 0.0) {
-            return (normal * (a.dot(&normal) / square), Kept::new([i, j, k]));
+            return (
+                normal * (a.dot(&normal) / square),
+                ClosestFace::new([i, j, k]),
+            );
         }
         // The nearest edge is one that the foot is beyond; of a needle, whose normal says nothing, any.
-        let mut best: Option<(Vec3, Kept)> = None;
+        let mut best: Option<(Vec3, ClosestFace)> = None;
         for (weight, (from, to)) in weights.iter().zip([(j, k), (k, i), (i, j)]) {
             if *weight > 0.0 && !is_needle {
                 continue;
@@ -306,10 +309,10 @@ impl Simplex {
 
     /// The nearest face, or `Err` with the standing inside.
     #[inline(always)]
-    fn on_tetrahedron(&self) -> Result<(Vec3, Kept), Nearest> {
+    fn on_tetrahedron(&self) -> Result<(Vec3, ClosestFace), Nearest> {
         let mut weights = [0.0; 4];
         let mut heights = [(0.0, 0.0); 4];
-        let mut best: Option<(Vec3, Kept)> = None;
+        let mut best: Option<(Vec3, ClosestFace)> = None;
         for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 3, 1, 2), (0, 2, 3, 1), (1, 3, 2, 0)] {
             let a = self.at(i);
             let normal = (self.at(j) - a).cross(&(self.at(k) - a));
@@ -396,12 +399,12 @@ impl Simplex {
 const MAX_WEIGHT_STEPS: usize = 4;
 
 /// The one to three corners whose hull holds the closest point.
-struct Kept {
+struct ClosestFace {
     corners: [usize; 3],
     len: usize,
 }
 
-impl Kept {
+impl ClosestFace {
     fn new<const N: usize>(given: [usize; N]) -> Self {
         let mut corners = [0; 3];
         corners[..N].copy_from_slice(&given);

@@ -8,22 +8,22 @@ use crate::pose::Vec3;
 
 impl BoxTree {
     /// Makes the tree anew over some of `places` boxes, in the memory it has. Takes a small part of the time that
-    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `reach` of a centre.
+    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `radius` of a centre.
     pub fn rebuild_in_haste(
         &mut self,
         taken: &[u32],
         places: usize,
         boxes: &impl Boxes,
-        (center, reach): (Vec3, f64),
+        (center, radius): (Vec3, f64),
     ) {
-        let (frame, mut centers) = frame_around(taken, boxes, (center, reach));
+        let (frame, mut centers) = frame_around(taken, boxes, (center, radius));
         let mut plans = Vec::with_capacity(taken.len() / 4 + 1);
         if !centers.is_empty() {
             plan(&mut centers, NOWHERE, &mut plans);
         }
         (self.frame, self.surface) = (frame, 0.0);
         self.root = (!plans.is_empty()).then_some(0);
-        with_widest(Filling {
+        with_widest(TreeFilling {
             tree: self,
             plans: &plans,
             places,
@@ -50,7 +50,7 @@ struct Plan {
 fn frame_around(
     taken: &[u32],
     boxes: &impl Boxes,
-    (center, reach): (Vec3, f64),
+    (center, radius): (Vec3, f64),
 ) -> (BoxFrame, Vec<Center>) {
     const LEAST: f64 = 1.0 / (1u64 << 60) as f64;
     let all = || taken.iter().map(|&place| boxes.oriented(place as usize));
@@ -59,11 +59,11 @@ fn frame_around(
         high: given.center,
     };
     let Some(around) = all().map(point).reduce(|all, own| all.union(&own)) else {
-        return (BoxFrame::new(center, reach), Vec::new());
+        return (BoxFrame::new(center, radius), Vec::new());
     };
     let largest = all().map(|given| given.half.amax()).fold(0.0, f64::max);
     let size = around.size().amax().max(largest);
-    let frame = BoxFrame::new(around.center(), size.max(LEAST * reach));
+    let frame = BoxFrame::new(around.center(), size.max(LEAST * radius));
     let local = |(&place, given): (&u32, OrientedBox)| Center {
         at: ((given.center - frame.center) / frame.scale)
             .map(|x| x as f32)
@@ -134,14 +134,14 @@ fn share(centers: &mut [Center], parts: usize, visit: &mut dyn FnMut(&mut [Cente
 }
 
 /// Nodes as they are made from plans, those below others first.
-struct Filling<'t, 'p, B> {
+struct TreeFilling<'t, 'p, B> {
     tree: &'t mut BoxTree,
     plans: &'p [Plan],
     places: usize,
     boxes: &'p B,
 }
 
-impl<B: Boxes> Work for Filling<'_, '_, B> {
+impl<B: Boxes> Work for TreeFilling<'_, '_, B> {
     type Output = ();
 
     #[inline(always)]

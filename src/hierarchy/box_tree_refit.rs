@@ -18,7 +18,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
                 name = tree.parents[name as usize];
             }
         }
-        with_widest(Settling {
+        with_widest(TreeRefit {
             changes: self,
             changed,
             touched: &touched,
@@ -42,7 +42,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
 
     /// Makes a node hold its children, of which those of some lanes have changed. Returns whether its own box changed.
     pub(super) fn settle(&mut self, name: u32, lanes: u8) -> bool {
-        with_widest(SettlingOne {
+        with_widest(NodeRefit {
             changes: self,
             name,
             lanes,
@@ -63,13 +63,13 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
 }
 
 /// A node whose children changed in some lanes.
-struct SettlingOne<'c, 'a, B> {
+struct NodeRefit<'c, 'a, B> {
     changes: &'c mut BoxTreeChanges<'a, B>,
     name: u32,
     lanes: u8,
 }
 
-impl<B: Boxes> Work for SettlingOne<'_, '_, B> {
+impl<B: Boxes> Work for NodeRefit<'_, '_, B> {
     type Output = bool;
 
     #[inline(always)]
@@ -94,13 +94,13 @@ impl<B: Boxes> Work for SettlingOne<'_, '_, B> {
 }
 
 /// The nodes above changed boxes: first those that only hold boxes, in the order they lie in.
-struct Settling<'c, 'a, B> {
+struct TreeRefit<'c, 'a, B> {
     changes: &'c mut BoxTreeChanges<'a, B>,
     changed: &'c IndexSet,
     touched: &'c IndexSet,
 }
 
-impl<B: Boxes> Work for Settling<'_, '_, B> {
+impl<B: Boxes> Work for TreeRefit<'_, '_, B> {
     type Output = ();
 
     #[inline(always)]
@@ -141,7 +141,7 @@ impl<B: Boxes> Work for Settling<'_, '_, B> {
                 };
                 lanes | u8::from(has_changed) << lane
             });
-            let one = SettlingOne {
+            let one = NodeRefit {
                 changes: &mut *changes,
                 name,
                 lanes,

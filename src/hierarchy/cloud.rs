@@ -8,7 +8,7 @@ use super::grouping::Groups;
 use super::packed_box::{fitted_axes, simply_fitted_axes};
 use super::parallel::Progress;
 use super::point_groups::{PointGroups, PointSet};
-use super::wide_node::Held;
+use super::wide_node::ChildPoints;
 use super::wide_plans::{SetTree, wide_nodes};
 use super::{Ball, BuildTimes, Grouping, Hierarchy, HierarchyOptions, PackedTree, Wrappers};
 use crate::error::Result;
@@ -119,9 +119,9 @@ impl SetTree for Grouped<'_> {
         self.groups.eight_below(set)
     }
 
-    fn held(&self, set: &PointSet) -> Held<'_> {
+    fn held(&self, set: &PointSet) -> ChildPoints<'_> {
         let points = &self.points[set.leaves.clone()];
-        Held {
+        ChildPoints {
             axes: axes_of(points),
             excess: self.radii.largest(set),
             points: points.into(),

@@ -38,7 +38,7 @@ impl Cover {
         Self {
             excess,
             center,
-            radius: reach(points, &center),
+            radius: radius_around(points, &center),
         }
     }
 
@@ -93,7 +93,7 @@ impl Cover {
     /// A nearly least sphere around the points.
     pub fn tight_sphere(points: &[Vec3]) -> (Self, Corners) {
         let center = bounding_sphere(points);
-        let cover = Self::sphere(center, reach(points, &center));
+        let cover = Self::sphere(center, radius_around(points, &center));
         (cover, Corners::New(vec![center]))
     }
 
@@ -107,8 +107,8 @@ impl Cover {
         } else {
             let radius = 0.5 * (apart + a.radius + b.radius);
             let center = a.center + (b.center - a.center) * ((radius - a.radius) / apart);
-            let reach = |child: &Self| (child.center - center).norm() + child.radius;
-            let radius = reach(a).max(reach(b));
+            let farthest = |child: &Self| (child.center - center).norm() + child.radius;
+            let radius = farthest(a).max(farthest(b));
             Self::sphere(center, outwards(radius, &center))
         };
         (cover, Corners::New(vec![cover.center]))
@@ -134,7 +134,7 @@ fn has_more_vertices(points: &[Vec3], limit: usize) -> bool {
 }
 
 /// The radius of a sphere around the points, rounded outwards.
-fn reach(points: &[Vec3], center: &Vec3) -> f64 {
+fn radius_around(points: &[Vec3], center: &Vec3) -> f64 {
     let farthest = points
         .iter()
         .map(|p| (p - center).norm_squared())

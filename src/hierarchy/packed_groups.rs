@@ -6,7 +6,7 @@ use super::eight_below::Cuts;
 use super::extremes::few_extremes;
 use super::packed_box::fitted_axes;
 use super::parallel::Progress;
-use super::wide_node::Held;
+use super::wide_node::ChildPoints;
 use super::wide_plans::{SetTree, wide_nodes};
 use super::{Ball, Extent, Node, PackedTree, SubsetTree};
 use crate::error::Result;
@@ -148,7 +148,7 @@ impl SetTree for Grouped<'_> {
         groups.collect()
     }
 
-    fn held(&self, group: &Group) -> Held<'_> {
+    fn held(&self, group: &Group) -> ChildPoints<'_> {
         let leaves = self.leaves(group);
         let points = self.points.of(leaves.clone());
         let axes = if points.len() > MANY {
@@ -160,7 +160,7 @@ impl SetTree for Grouped<'_> {
         } else {
             fitted_axes(&distinct(points), None)
         };
-        Held {
+        ChildPoints {
             axes,
             excess: 0.0,
             points: points.into(),

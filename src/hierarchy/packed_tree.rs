@@ -3,7 +3,7 @@
 
 use super::packed_box::{PackedBox, fitted_axes};
 use super::packed_primitives::PackedPrimitives;
-use super::wide_node::{Held, WideNode};
+use super::wide_node::{ChildPoints, WideNode};
 use super::{Ball, Node, SubsetTree};
 use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
 use crate::pose::Vec3;
@@ -12,12 +12,12 @@ use crate::primitive::{Primitive, Primitives};
 /// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
-pub struct Unit(u32);
+pub struct NodeRef(u32);
 
 /// Marks leaves, among units and children.
 const LEAF: u32 = 1 << 31;
 
-impl Unit {
+impl NodeRef {
     /// As a number, for lanes of them.
     #[inline(always)]
     pub fn number(self) -> u32 {
@@ -50,7 +50,7 @@ impl Unit {
 /// The units below a node.
 #[derive(Clone, Copy, Debug)]
 pub struct Children {
-    pub units: [Unit; 8],
+    pub units: [NodeRef; 8],
     pub count: usize,
 }
 
@@ -82,7 +82,7 @@ impl RoundCore {
             return None;
         }
         let points: Vec<Vec3> = only.vertices.iter().map(|v| v / scale).collect();
-        let held = Held {
+        let held = ChildPoints {
             axes: fitted_axes(&points, None),
             excess: only.shape.deviation / scale,
             points: points.into(),
@@ -225,7 +225,7 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    pub fn root(&self) -> Unit {
+    pub fn root(&self) -> NodeRef {
         self.child(0, 0)
     }
 
@@ -242,19 +242,19 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    pub fn bounding_box(&self, unit: Unit) -> PackedBox {
+    pub fn bounding_box(&self, unit: NodeRef) -> PackedBox {
         self.nodes[unit.above()].get(unit.lane())
     }
 
     /// The same in lanes (see [`WideNode::in_lanes`]).
     #[inline(always)]
-    pub fn box_in_lanes<I: Instructions>(&self, lanes: I, unit: Unit) -> [Lanes8<I>; 2] {
+    pub fn box_in_lanes<I: Instructions>(&self, lanes: I, unit: NodeRef) -> [Lanes8<I>; 2] {
         self.nodes[unit.above()].in_lanes(lanes, unit.lane())
     }
 
-    /// That of a unit's core, where the tree has one (see [`PackedTree::reach`]).
+    /// That of a unit's core, where the tree has one (see [`PackedTree::core_radius`]).
     #[inline(always)]
-    pub fn core_in_lanes<I: Instructions>(&self, lanes: I, unit: Unit) -> [Lanes8<I>; 2] {
+    pub fn core_in_lanes<I: Instructions>(&self, lanes: I, unit: NodeRef) -> [Lanes8<I>; 2] {
         match &self.core {
             Some(core) => core.node.in_lanes(lanes, 0),
             None => self.box_in_lanes(lanes, unit),
@@ -263,19 +263,19 @@ impl PackedTree {
 
     /// How far around its core the only primitive reaches, where the core has a box of its own; else 0.
     #[inline(always)]
-    pub fn reach(&self) -> f64 {
+    pub fn core_radius(&self) -> f64 {
         self.core.as_ref().map_or(0.0, |core| core.radius)
     }
 
     /// About the logarithm of a unit's size: `SIZE_STEPS` more for twice the size.
     #[inline(always)]
-    pub fn size_code(&self, unit: Unit) -> i32 {
+    pub fn size_code(&self, unit: NodeRef) -> i32 {
         self.nodes[unit.above()].size_code(unit.lane())
     }
 
     /// The node that a unit is.
     #[inline(always)]
-    pub fn index(&self, node: Unit) -> usize {
+    pub fn index(&self, node: NodeRef) -> usize {
         self.target(node) as usize
     }
 
@@ -285,18 +285,18 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    pub fn child(&self, index: usize, lane: usize) -> Unit {
+    pub fn child(&self, index: usize, lane: usize) -> NodeRef {
         let leaf = self.nodes[index].children[lane] & LEAF;
-        Unit((index as u32) << 3 | lane as u32 | leaf)
+        NodeRef((index as u32) << 3 | lane as u32 | leaf)
     }
 
     /// The children of a node, as [`PackedTree::child`].
     #[inline(always)]
     pub fn children(&self, index: usize) -> Children {
         let node = &self.nodes[index];
-        let mut units = [Unit(0); 8];
+        let mut units = [NodeRef(0); 8];
         for ((lane, unit), child) in units.iter_mut().enumerate().zip(&node.children) {
-            *unit = Unit((child & LEAF) | (index as u32) << 3 | lane as u32);
+            *unit = NodeRef((child & LEAF) | (index as u32) << 3 | lane as u32);
         }
         Children {
             units,
@@ -306,13 +306,13 @@ impl PackedTree {
 
     /// The place of a leaf's primitive among the packed ones.
     #[inline(always)]
-    pub fn place(&self, leaf: Unit) -> u32 {
+    pub fn place(&self, leaf: NodeRef) -> u32 {
         self.target(leaf) & !LEAF
     }
 
     /// The lowest primitive in a unit.
     #[inline(always)]
-    pub fn lowest(&self, unit: Unit) -> u32 {
+    pub fn lowest(&self, unit: NodeRef) -> u32 {
         if unit.is_leaf() {
             self.primitives.entry(self.place(unit) as usize).primitive
         } else {
@@ -321,7 +321,7 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    fn target(&self, unit: Unit) -> u32 {
+    fn target(&self, unit: NodeRef) -> u32 {
         self.nodes[unit.above()].children[unit.lane()]
     }
 

@@ -3,7 +3,7 @@
 use super::eight_below::Cuts;
 use super::packed_box::fitted_axes;
 use super::parallel::Progress;
-use super::wide_node::Held;
+use super::wide_node::ChildPoints;
 use super::wide_plans::{SetTree, wide_nodes};
 use super::{Node, PackedTree, WrapperTree};
 use crate::error::Result;
@@ -52,14 +52,14 @@ impl SetTree for Wrapped<'_> {
         self.cuts.below(self.tree.subsets(), *node)
     }
 
-    fn held(&self, node: &u32) -> Held<'_> {
+    fn held(&self, node: &u32) -> ChildPoints<'_> {
         let wrapper = self.tree.wrapper(*node);
         let points: Vec<Vec3> = wrapper.corners.iter().map(|p| p * self.unit).collect();
         let polygon = match self.tree.node(*node) {
             Node::Leaf { primitive } => Some(self.primitives.get(primitive as usize).shape),
             Node::Interior { .. } => None,
         };
-        Held {
+        ChildPoints {
             axes: fitted_axes(&points, polygon.filter(|shape| shape.is_flat())),
             excess: wrapper.excess * self.unit,
             points: points.into(),

@@ -167,8 +167,8 @@ fn longest_extent(primitive: &Convex) -> Option<(Vec3, f64)> {
 
 /// From where to where points reach in a direction.
 fn range(points: &[Vec3], direction: &Vec3) -> (f64, f64) {
-    let reaches = points.iter().map(|p| direction.dot(p));
-    reaches.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+    let extents = points.iter().map(|p| direction.dot(p));
+    extents.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
 }

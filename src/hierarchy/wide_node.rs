@@ -43,7 +43,7 @@ pub struct WideNode {
 }
 
 /// The points of a child, and how far what it holds may be outside them.
-pub struct Held<'a> {
+pub struct ChildPoints<'a> {
     pub points: Cow<'a, [Vec3]>,
     pub excess: f64,
     /// Those of a box around them, that of its shortest side last.
@@ -59,7 +59,7 @@ pub struct EightBoxes<I: Instructions> {
 
 impl WideNode {
     /// The boxes of up to eight children, which it leaves to be named. Lengths are at most about 1.
-    pub fn new(held: &[Held]) -> Self {
+    pub fn new(held: &[ChildPoints]) -> Self {
         let mut node = Self {
             count: held.len() as u32,
             ..Self::default()
@@ -117,12 +117,12 @@ impl WideNode {
     /// The box, along the axes of coordinates, around one of the boxes.
     pub fn extent(&self, lane: usize) -> Extent {
         let given = self.get(lane);
-        let reach = |k: usize| {
+        let extent = |k: usize| {
             (0..3)
                 .map(|i| given.axes[i][k].abs() * given.half[i])
                 .sum::<f32>()
         };
-        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| given.center[k] + side * reach(k)));
+        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| given.center[k] + side * extent(k)));
         Extent {
             low: low.map(f64::from).into(),
             high: high.map(f64::from).into(),

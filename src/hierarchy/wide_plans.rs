@@ -2,7 +2,7 @@
 
 use super::PackedTree;
 use super::parallel::{self, Progress};
-use super::wide_node::{Held, WideNode};
+use super::wide_node::{ChildPoints, WideNode};
 use crate::error::Result;
 
 /// Wide nodes that a thread makes at a time.
@@ -20,7 +20,7 @@ pub trait SetTree: Sync {
     fn below(&self, set: &Self::Set) -> Vec<Self::Set>;
 
     /// What the box of a set is to hold, in units of the packed tree.
-    fn held(&self, set: &Self::Set) -> Held<'_>;
+    fn held(&self, set: &Self::Set) -> ChildPoints<'_>;
 }
 
 /// A wide node to be made: its children, and what they will be called.
@@ -74,7 +74,7 @@ fn plans<T: SetTree>(tree: &T) -> Vec<Plan<T::Set>> {
 }
 
 fn fitted<T: SetTree>(tree: &T, plan: &Plan<T::Set>) -> WideNode {
-    let held: Vec<Held> = plan.children.iter().map(|set| tree.held(set)).collect();
+    let held: Vec<ChildPoints> = plan.children.iter().map(|set| tree.held(set)).collect();
     let mut node = WideNode::new(&held);
     node.children = plan.names;
     node

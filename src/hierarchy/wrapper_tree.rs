@@ -66,7 +66,7 @@ impl Packed {
 }
 
 /// What a finished node hands up to its parent.
-struct Finished {
+struct FinishedNode {
     cover: Cover,
     /// Sorted points that stand for all below, and how far those may lie outside the points' hull.
     points: Vec<Vec3>,
@@ -101,7 +101,7 @@ impl WrapperTree {
                 node += 1;
             }
         }
-        let finish = |node: usize, children: Option<[Finished; 2]>, packed: &mut Packed| {
+        let finish = |node: usize, children: Option<[FinishedNode; 2]>, packed: &mut Packed| {
             let mut options = *options;
             if pieces.binary_search(&(node as u32)).is_ok() {
                 // A convex piece is bounded exactly.
@@ -118,7 +118,7 @@ impl WrapperTree {
         };
         let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
             let from = tasks[t];
-            let mut stack: Vec<Finished> = Vec::new();
+            let mut stack: Vec<FinishedNode> = Vec::new();
             let mut packed = Packed::default();
             // Backwards, children come before their parents, and the first child last.
             for node in (from..from + sizes[from] as usize).rev() {
@@ -130,7 +130,7 @@ impl WrapperTree {
             }
             (packed, stack.pop())
         })?;
-        let mut waiting: HashMap<usize, Finished> = HashMap::new();
+        let mut waiting: HashMap<usize, FinishedNode> = HashMap::new();
         let mut packed: Vec<(usize, Packed)> = Vec::new();
         for (&from, (wrappers, root)) in tasks.iter().zip(done) {
             packed.push((from, wrappers));
@@ -241,17 +241,17 @@ fn wrap_leaf(
     doubt: f64,
     options: &HierarchyOptions,
     packed: &mut Packed,
-) -> Finished {
+) -> FinishedNode {
     points.sort_unstable_by(by_coordinates);
     points.dedup();
     wrap(Extent::of(&points), points, doubt, None, options, packed)
 }
 
 fn wrap_children(
-    [a, b]: [Finished; 2],
+    [a, b]: [FinishedNode; 2],
     options: &HierarchyOptions,
     packed: &mut Packed,
-) -> Finished {
+) -> FinishedNode {
     let extent = a.extent.union(&b.extent);
     let points = merge_sorted(&a.points, &b.points);
     let inherited = a.inherited.max(b.inherited);
@@ -267,7 +267,7 @@ fn wrap(
     children: Option<[&Cover; 2]>,
     options: &HierarchyOptions,
     packed: &mut Packed,
-) -> Finished {
+) -> FinishedNode {
     let (cover, corners) = match (options.wrapper, children) {
         (WrapperKind::Hull, _) => Cover::hull(&points, &extent, options.hull_vertex_limit as usize),
         (WrapperKind::OrientedBox, _) => Cover::oriented_box(&points, &extent),
@@ -296,7 +296,7 @@ fn wrap(
         // These need no points above the leaves.
         points = Vec::new();
     }
-    Finished {
+    FinishedNode {
         cover,
         points,
         inherited,

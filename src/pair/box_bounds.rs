@@ -116,7 +116,7 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
 }
 
 /// How bounds are made sharper, and for which boxes that is worth it.
-pub struct Sharper<'a> {
+pub struct BoundRefinement<'a> {
     /// A unit vector from the eight to the one, along which they may be apart.
     pub direction: Option<&'a [f32; 3]>,
     /// Boxes that are farther apart than this need not be known better.
@@ -131,7 +131,7 @@ pub fn sharper_bounds<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,
-    wanted: &Sharper,
+    wanted: &BoundRefinement,
 ) -> Lanes8<I> {
     let [first, second] = &sides(lanes, eight, one);
     let largest = [first.largest(lanes), second.largest(lanes)];
@@ -194,7 +194,7 @@ struct Gaps<I: Instructions> {
     /// The products of the axes with those of the other box.
     along: [Triple<I>; 3],
     /// What both boxes reach along the axes.
-    reaches: Triple<I>,
+    extents: Triple<I>,
 }
 
 impl<I: Instructions> Gaps<I> {
@@ -205,17 +205,17 @@ impl<I: Instructions> Gaps<I> {
         [half, other_half]: [Triple<I>; 2],
         along: [Triple<I>; 3],
     ) -> Self {
-        let reaches = [
-            reach(lanes, &along[0], &other_half, half[0]),
-            reach(lanes, &along[1], &other_half, half[1]),
-            reach(lanes, &along[2], &other_half, half[2]),
+        let extents = [
+            extent_along(lanes, &along[0], &other_half, half[0]),
+            extent_along(lanes, &along[1], &other_half, half[1]),
+            extent_along(lanes, &along[2], &other_half, half[2]),
         ];
         Self {
             places,
             half,
             other_half,
             along,
-            reaches,
+            extents,
         }
     }
 
@@ -223,9 +223,9 @@ impl<I: Instructions> Gaps<I> {
     #[inline(always)]
     fn largest(&self, lanes: I) -> Lanes8<I> {
         let [x, y, z] = [
-            lanes.sub(lanes.abs(self.places[0]), self.reaches[0]),
-            lanes.sub(lanes.abs(self.places[1]), self.reaches[1]),
-            lanes.sub(lanes.abs(self.places[2]), self.reaches[2]),
+            lanes.sub(lanes.abs(self.places[0]), self.extents[0]),
+            lanes.sub(lanes.abs(self.places[1]), self.extents[1]),
+            lanes.sub(lanes.abs(self.places[2]), self.extents[2]),
         ];
         lanes.max(lanes.max(x, y), z)
     }
@@ -237,9 +237,9 @@ impl<I: Instructions> Gaps<I> {
         let mut square = lanes.splat(0.0);
         let mut own = lanes.splat(0.0);
         for (i, beyond) in beyond.iter_mut().enumerate() {
-            let (place, reach) = (*beyond, self.reaches[i]);
-            let below = lanes.sub(lanes.splat(0.0), reach);
-            let within = lanes.max(lanes.min(place, reach), below);
+            let (place, extent) = (*beyond, self.extents[i]);
+            let below = lanes.sub(lanes.splat(0.0), extent);
+            let within = lanes.max(lanes.min(place, extent), below);
             *beyond = lanes.sub(place, within);
             square = lanes.mul_add(*beyond, *beyond, square);
             let outside = lanes.sub(lanes.abs(place), self.half[i]);
@@ -252,10 +252,10 @@ impl<I: Instructions> Gaps<I> {
             lanes.dot(&beyond, &[a[1], b[1], c[1]]),
             lanes.dot(&beyond, &[a[2], b[2], c[2]]),
         ];
-        let reach = reach(lanes, &across, &self.other_half, lanes.splat(0.0));
+        let extent = extent_along(lanes, &across, &self.other_half, lanes.splat(0.0));
         // So short a diagonal may have lost its squares; divided by more, the gap is only less.
         let length = lanes.max(diagonal, lanes.splat(SHORTEST));
-        lanes.max(lanes.div(lanes.sub(own, reach), length), diagonal)
+        lanes.max(lanes.div(lanes.sub(own, extent), length), diagonal)
     }
 }
 
@@ -273,9 +273,9 @@ fn gaps_along<I: Instructions>(
         lanes.along(b, direction),
         lanes.along(c, direction),
     ];
-    let across = lanes.splat(reach_of(one, direction));
+    let across = lanes.splat(extent_of(one, direction));
     let place = lanes.along(&apart(lanes, eight, one), direction);
-    lanes.sub(place, reach(lanes, &along, &eight.half, across))
+    lanes.sub(place, extent_along(lanes, &along, &eight.half, across))
 }
 
 /// From the centres of the eight to that of the one.
@@ -288,7 +288,7 @@ fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> T
 
 /// What boxes reach along a direction, given its products with their axes, beyond what is given.
 #[inline(always)]
-fn reach<I: Instructions>(
+fn extent_along<I: Instructions>(
     lanes: I,
     along: &Triple<I>,
     half: &Triple<I>,
@@ -309,11 +309,11 @@ fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
 pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
     let direction = &each3(|k| direction[k] as f32);
     let apart = each3(|k| second.center[k] - first.center[k]);
-    dot(&apart, direction) - reach_of(first, direction) - reach_of(second, direction)
+    dot(&apart, direction) - extent_of(first, direction) - extent_of(second, direction)
 }
 
 #[inline(always)]
-fn reach_of(given: &PackedBox, direction: &[f32; 3]) -> f32 {
+fn extent_of(given: &PackedBox, direction: &[f32; 3]) -> f32 {
     let [x, y, z] = each3(|i| dot(&given.axes[i], direction).abs() * given.half[i]);
     x + y + z
 }

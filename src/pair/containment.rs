@@ -9,7 +9,7 @@ use super::hit::{Hit, HitKey, Inner};
 use super::near_primitives::NearPrimitives;
 use super::pairing::Pairing;
 use super::shortlist::Ranked;
-use super::traversal::{Met, Scratch, Visitor, traverse};
+use super::traversal::{PrimitivePair, Scratch, Visitor, traverse};
 use super::winding::{RayScratch, winding};
 use crate::body::{Body, Piece, Solid};
 use crate::hierarchy::PackedBox;
@@ -55,7 +55,7 @@ impl<'a> Pairing<'a> {
             return Vec::new();
         }
         // Of those that meet the boundary nothing is known.
-        let mut apart = Apart {
+        let mut apart = PairClearance {
             pairing: self,
             candidates,
         };
@@ -157,7 +157,7 @@ impl Pairing<'_> {
         let center = into_inner.transform_point(&extent.center()) / unit;
         let half = 0.5 * extent.size() / unit;
         let size = 1.0 + center.norm() + half.norm();
-        // Beyond this boxes are nothing in single precision.
+        // BeyondCutoff this boxes are nothing in single precision.
         const LARGE: f64 = 1e30;
         if all.len() <= FEW || size > LARGE {
             return all.collect();
@@ -205,19 +205,19 @@ impl Candidate {
 }
 
 /// The candidates that keep apart from the boundary they may lie in.
-struct Apart<'a> {
+struct PairClearance<'a> {
     pairing: &'a Pairing<'a>,
     candidates: Vec<Candidate>,
 }
 
-impl Visitor for Apart<'_> {
+impl Visitor for PairClearance<'_> {
     const REFINES: bool = false;
 
     fn bound(&self) -> f64 {
         0.0
     }
 
-    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
+    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
         if met.apart <= met.error {
             let pairing = self.pairing;
             self.candidates.retain(|candidate| {

@@ -12,11 +12,11 @@ mod traversal;
 mod visitors;
 mod winding;
 
-pub use box_bounds::{Motion32, ROUNDING, Sharper, bounds, sharper_bounds};
+pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, sharper_bounds};
 pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use shortlist::{Ranked, Shortlist};
 pub use singles::Singles;
-pub use traversal::{Met, Scratch, Visitor, traverse, visit_pair};
+pub use traversal::{PrimitivePair, Scratch, Visitor, traverse, visit_pair};
 pub use visitors::{Collect, Nearest, Within, meets};
 pub use winding::{RayScratch, Winding, winding};

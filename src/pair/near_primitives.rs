@@ -1,13 +1,13 @@
 //! The primitives of one body that may meet a box.
 
 use super::box_bounds::bounds;
-use crate::hierarchy::{PackedBox, PackedTree, Unit};
+use crate::hierarchy::{NodeRef, PackedBox, PackedTree};
 use crate::lanes::{Instructions, Work, with_widest};
 
 /// Memory of descents, reused from one to the next.
 #[derive(Default)]
 pub struct NearPrimitives {
-    open: Vec<Unit>,
+    open: Vec<NodeRef>,
     found: Vec<u32>,
     /// Boxes and primitives that descents came upon since they were last counted.
     pub seen: Seen,

@@ -1,15 +1,15 @@
 //! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of
 //! all.
 
-use crate::hierarchy::{Children, Unit};
+use crate::hierarchy::{Children, NodeRef};
 use crate::lanes::{Instructions, Lanes8};
 
 /// A pair of units, with the bound of its distance in units of the pair.
 #[derive(Clone, Copy)]
 pub struct Entry {
     pub bound: f32,
-    pub a: Unit,
-    pub b: Unit,
+    pub a: NodeRef,
+    pub b: NodeRef,
 }
 
 impl Entry {
@@ -21,13 +21,13 @@ impl Entry {
 
 /// A stack of pairs.
 #[derive(Default)]
-pub struct Waiting {
+pub struct PendingPairs {
     bounds: Vec<f32>,
-    units: [Vec<Unit>; 2],
+    units: [Vec<NodeRef>; 2],
     count: usize,
 }
 
-impl Waiting {
+impl PendingPairs {
     pub fn clear(&mut self) {
         self.count = 0;
     }
@@ -95,7 +95,7 @@ impl Waiting {
         let size = (2 * self.bounds.len()).max(256);
         self.bounds.resize(size, 0.0);
         for units in &mut self.units {
-            units.resize(size, Unit::from_number(0));
+            units.resize(size, NodeRef::from_number(0));
         }
     }
 
@@ -109,7 +109,7 @@ impl Waiting {
         cutoff: f32,
         opened: usize,
         children: &Children,
-        other: Unit,
+        other: NodeRef,
     ) {
         let kept = lanes.at_most(bounds, cutoff) & ((1 << children.count) - 1);
         if kept == 0 {
@@ -135,9 +135,9 @@ impl Waiting {
             let others = kept & !(1 << nearest);
             last += others.count_ones() as usize;
             let bounds = lanes.gathered(&array.map(f32::to_bits), others);
-            let numbers = lanes.gathered(&children.units.map(Unit::number), others);
+            let numbers = lanes.gathered(&children.units.map(NodeRef::number), others);
             self.bounds[place..place + 8].copy_from_slice(&bounds.map(f32::from_bits));
-            with_child[place..place + 8].copy_from_slice(&numbers.map(Unit::from_number));
+            with_child[place..place + 8].copy_from_slice(&numbers.map(NodeRef::from_number));
             with_other[place..place + 8].fill(other);
         }
         self.bounds[last] = array[nearest];

@@ -1,12 +1,12 @@
 //! Two bodies at two poses, brought into one frame.
 
 use super::hit::Hit;
-use super::traversal::Met;
+use super::traversal::PrimitivePair;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MAX_CORNERS, Measured, Nearest, Outline, Penetration,
-    Placed, PlacedBuffer, PolygonDistance, Precision, contacts, first_contact, measure,
-    meeting_or_beyond, moved, parts, penetration, polygon_closest, polygon_distance,
+    Closest, Contact, DistanceScratch, MAX_CORNERS, Nearest, Outline, Penetration, PlacedBuffer,
+    PlacedPrimitive, PolygonDistance, Precision, PrimitiveDistance, contacts, first_contact,
+    measure, meeting_or_beyond, moved, parts, penetration, polygon_closest, polygon_distance,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -41,23 +41,23 @@ pub struct PrimitiveScratch {
 }
 
 /// How far two primitives are apart, and where.
-pub struct Apart {
+pub struct PairClearance {
     pub distance: f64,
     /// Known of polygons that do not cross.
     pub nearest: Option<Nearest>,
     /// Known of others.
-    pub measured: Option<Measured>,
+    pub measured: Option<PrimitiveDistance>,
     /// How much more than the pair's error the distance may be above the true one.
     pub doubt: f64,
 }
 
 /// Of two primitives that are farther apart than is asked about.
-pub struct Beyond {
+pub struct BeyondCutoff {
     /// Where they are nearest, if that was found.
     pub nearest: Option<Nearest>,
 }
 
-impl Apart {
+impl PairClearance {
     /// Of primitives that meet.
     const NONE: Self = Self {
         distance: 0.0,
@@ -171,29 +171,29 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> std::result::Result<Apart, Beyond> {
+    ) -> std::result::Result<PairClearance, BeyondCutoff> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
         let found = match (&outline_a, outline_b) {
             (Some(a), Some(b)) => polygon_distance(a, b, limits.cutoff, self.precision.size),
             _ => PolygonDistance::Doubt,
         };
         let apart = match found {
-            PolygonDistance::Beyond(nearest) => return Err(Beyond { nearest }),
-            PolygonDistance::Apart(distance, nearest) => Apart {
+            PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff { nearest }),
+            PolygonDistance::Apart(distance, nearest) => PairClearance {
                 distance: self.above_error(distance),
                 nearest: Some(nearest),
-                ..Apart::NONE
+                ..PairClearance::NONE
             },
-            PolygonDistance::Cross => Apart::NONE,
+            PolygonDistance::Cross => PairClearance::NONE,
             PolygonDistance::Doubt => {
                 let measured = self.measured_apart(places, direction, limits, scratch);
-                return measured.ok_or(Beyond { nearest: None });
+                return measured.ok_or(BeyondCutoff { nearest: None });
             }
         };
         if apart.distance <= limits.cutoff {
             Ok(apart)
         } else {
-            Err(Beyond {
+            Err(BeyondCutoff {
                 nearest: apart.nearest,
             })
         }
@@ -207,7 +207,7 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<Apart> {
+    ) -> Option<PairClearance> {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = &self.placed(places, buffer);
         let is_aimed = *direction != Vec3::zeros();
@@ -217,14 +217,14 @@ impl<'a> Pairing<'a> {
         if limits.enough >= 0.0
             && let Some(meet) = meeting_or_beyond(a, b, &self.precision, limits)
         {
-            return meet.then_some(Apart::NONE);
+            return meet.then_some(PairClearance::NONE);
         }
         let measured = measure(a, b, &self.precision, limits, distance)?;
         let Closest {
             distance, doubt, ..
         } = measured.closest;
         let distance = self.above_error(distance);
-        (distance - doubt <= limits.cutoff).then_some(Apart {
+        (distance - doubt <= limits.cutoff).then_some(PairClearance {
             distance,
             nearest: None,
             measured: Some(measured),
@@ -241,10 +241,10 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    pub fn met(&self, places: [u32; 2], apart: f64) -> Met<'static> {
+    pub fn met(&self, places: [u32; 2], apart: f64) -> PrimitivePair<'static> {
         let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
         let primitives = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
-        Met {
+        PrimitivePair {
             primitives: primitives.map(|entry| entry.primitive),
             places,
             apart,
@@ -259,14 +259,16 @@ impl<'a> Pairing<'a> {
         places: [u32; 2],
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<Measured> {
+    ) -> Option<PrimitiveDistance> {
         let [a, b] = self.placed(places, &mut scratch.buffer);
         measure(&a, &b, &self.precision, limits, &mut scratch.distance)
     }
 
     /// The closest points of a primitive pair that was hit, in the centred frame of A, and what tells its contacts.
-    pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> Measured {
-        let found = self.closest_outlines(hit.places).map(Measured::of_hulls);
+    pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> PrimitiveDistance {
+        let found = self
+            .closest_outlines(hit.places)
+            .map(PrimitiveDistance::of_hulls);
         let mut found = found
             .or_else(|| self.measure(hit.places, DistanceLimits::EXACT, scratch))
             .expect("nothing is beyond infinity");
@@ -298,7 +300,7 @@ impl<'a> Pairing<'a> {
     pub fn world_contacts(
         &self,
         primitives: [u32; 2],
-        measured: &Measured,
+        measured: &PrimitiveDistance,
         scratch: &mut PrimitiveScratch,
     ) -> Vec<WorldContact> {
         let [a, b] = self.place(primitives, [None; 2], &mut scratch.buffer);
@@ -310,7 +312,7 @@ impl<'a> Pairing<'a> {
     pub fn first_world_contact(
         &self,
         primitives: [u32; 2],
-        measured: &Measured,
+        measured: &PrimitiveDistance,
         scratch: &mut PrimitiveScratch,
     ) -> Option<WorldContact> {
         let [a, b] = self.place(primitives, [None; 2], &mut scratch.buffer);
@@ -347,7 +349,7 @@ impl<'a> Pairing<'a> {
         &'b self,
         places: [u32; 2],
         buffer: &'b mut PlacedBuffer,
-    ) -> [Placed<'b>; 2] {
+    ) -> [PlacedPrimitive<'b>; 2] {
         let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
         let entries = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
         let forms = [a.form(entries[0]), b.form(entries[1])];
@@ -360,11 +362,11 @@ impl<'a> Pairing<'a> {
         primitives: [u32; 2],
         forms: [Option<&'b Form>; 2],
         buffer: &'b mut PlacedBuffer,
-    ) -> [Placed<'b>; 2] {
+    ) -> [PlacedPrimitive<'b>; 2] {
         let a = self.a.primitives().get(primitives[0] as usize);
         let b = self.b.primitives().get(primitives[1] as usize);
         [
-            Placed::at_home(a, forms[0]),
+            PlacedPrimitive::at_home(a, forms[0]),
             buffer.place(b, forms[1], &self.relative),
         ]
     }

@@ -3,15 +3,16 @@
 use super::hit::{Hit, HitKey};
 use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
 use crate::convex::{
-    DistanceScratch, Measured, Placed, closed_distance, first_contact, measure, meeting_or_beyond,
+    DistanceScratch, PlacedPrimitive, PrimitiveDistance, closed_distance, first_contact, measure,
+    meeting_or_beyond,
 };
 use crate::gjk::DistanceLimits;
 
 /// The only primitives of two bodies, in the centred frame of A.
 pub struct Singles<'a> {
     pairing: &'a Pairing<'a>,
-    a: Placed<'a>,
-    b: Placed<'a>,
+    a: PlacedPrimitive<'a>,
+    b: PlacedPrimitive<'a>,
     scratch: &'a mut DistanceScratch,
 }
 
@@ -47,7 +48,7 @@ impl<'a> Singles<'a> {
     }
 
     /// Their distance and what tells it, unless they are known to be farther apart than the limits say.
-    pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, Measured)> {
+    pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
         let precision = &self.pairing.precision;
         let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
         let apart = self.pairing.above_error(measured.closest.distance);
@@ -69,7 +70,7 @@ impl<'a> Singles<'a> {
     }
 
     /// A safe lower bound of a distance that was measured.
-    pub fn lower(&self, hit: &Hit, measured: &Measured) -> f64 {
+    pub fn lower(&self, hit: &Hit, measured: &PrimitiveDistance) -> f64 {
         if hit.distance == 0.0 {
             return 0.0;
         }
@@ -77,7 +78,7 @@ impl<'a> Singles<'a> {
     }
 
     /// The contact at the closest points, if the two are apart.
-    pub fn first_contact(&self, measured: &Measured) -> Option<WorldContact> {
+    pub fn first_contact(&self, measured: &PrimitiveDistance) -> Option<WorldContact> {
         let found = first_contact(&self.a, &self.b, measured, &self.pairing.precision)?;
         Some(self.pairing.in_world(found))
     }

@@ -3,15 +3,15 @@
 
 use std::ops::ControlFlow;
 
-use super::box_bounds::{Motion32, ROUNDING, Sharper, bounds, gap_along, sharper_bounds};
+use super::box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gap_along, sharper_bounds};
 use super::hit::{Hit, HitKey};
-use super::nearest_first::{Entry, Waiting};
-use super::pairing::{Apart, Beyond, EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::nearest_first::{Entry, PendingPairs};
+use super::pairing::{BeyondCutoff, EMPTY, MovedOutline, PairClearance, Pairing, PrimitiveScratch};
 use super::winding::RayScratch;
-use crate::convex::{Measured, Nearest, Outline};
+use crate::convex::{Nearest, Outline, PrimitiveDistance};
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
-use crate::hierarchy::{PackedBox, PackedTree, SIZE_STEPS, Unit, power_of_two};
+use crate::hierarchy::{NodeRef, PackedBox, PackedTree, SIZE_STEPS, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
@@ -35,12 +35,12 @@ pub trait Visitor {
     }
 
     /// Meets a primitive pair. What it takes to look closer is counted by the meter.
-    fn visit(&mut self, met: &Met, meter: &mut WorkMeter) -> ControlFlow<()>;
+    fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()>;
 }
 
 /// A primitive pair that the walk came upon.
 #[derive(Clone, Copy, Debug)]
-pub struct Met<'m> {
+pub struct PrimitivePair<'m> {
     pub primitives: [u32; 2],
     /// Where the bodies hold the two.
     pub places: [u32; 2],
@@ -48,10 +48,10 @@ pub struct Met<'m> {
     pub apart: f64,
     pub error: f64,
     /// What else was found out on the way, if it was more.
-    pub measured: Option<&'m Measured>,
+    pub measured: Option<&'m PrimitiveDistance>,
 }
 
-impl Met<'_> {
+impl PrimitivePair<'_> {
     pub fn hit(&self, pair: u32, distance: f64) -> Hit {
         Hit {
             distance,
@@ -68,7 +68,7 @@ impl Met<'_> {
 
 /// Memory of the walk, reused from query to query.
 pub struct Scratch {
-    stack: Waiting,
+    stack: PendingPairs,
     buffer: MovedOutline,
     state: State,
     pub(super) rays: RayScratch,
@@ -77,7 +77,7 @@ pub struct Scratch {
 impl Default for Scratch {
     fn default() -> Self {
         Self {
-            stack: Waiting::default(),
+            stack: PendingPairs::default(),
             buffer: EMPTY,
             state: State::default(),
             rays: RayScratch::default(),
@@ -235,7 +235,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
             .distance_to(places, &outline, &direction, limits, primitives);
         let apart = match found {
             Ok(apart) => apart,
-            Err(Beyond { nearest }) => {
+            Err(BeyondCutoff { nearest }) => {
                 if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
                     self.state.last_direction = unit_across(&nearest, a, b);
                 }
@@ -333,12 +333,12 @@ fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
 fn show(
     pairing: &Pairing,
     places: [u32; 2],
-    apart: &Apart,
+    apart: &PairClearance,
     visitor: &mut impl Visitor,
     meter: &mut WorkMeter,
 ) -> ControlFlow<()> {
     let met = pairing.met(places, apart.distance);
-    let met = Met {
+    let met = PrimitivePair {
         error: met.error + apart.doubt,
         measured: apart.measured.as_ref(),
         ..met
@@ -363,7 +363,7 @@ impl<V: Visitor> Work for OneMeeting<'_, V> {
 struct Traversal<'a, V> {
     meetings: Meetings<'a, V>,
     first: Option<[u32; 2]>,
-    stack: &'a mut Waiting,
+    stack: &'a mut PendingPairs,
 }
 
 impl<V: Visitor> Work for Traversal<'_, V> {
@@ -396,12 +396,12 @@ struct Walk<'a, V> {
     directions: [[f32; 3]; 2],
     /// Bounds are lowered by this: those of cores by what is around them, too.
     slack: f64,
-    stack: &'a mut Waiting,
+    stack: &'a mut PendingPairs,
 }
 
 impl<'a, V: Visitor> Walk<'a, V> {
     #[inline(always)]
-    fn new(meetings: Meetings<'a, V>, stack: &'a mut Waiting) -> Self {
+    fn new(meetings: Meetings<'a, V>, stack: &'a mut PendingPairs) -> Self {
         let pairing = meetings.pairing;
         let [a, b] = [pairing.a.packed(), pairing.b.packed()];
         let size = pairing.precision.size;
@@ -416,7 +416,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             size_offset: SIZE_STEPS * (exponent(b) - exponent(a)),
             inverse_scale,
             directions: [[0.0; 3]; 2],
-            slack: pairing.slack() + ROUNDING * size + a.reach() + b.reach(),
+            slack: pairing.slack() + ROUNDING * size + a.core_radius() + b.core_radius(),
             meetings,
             trees: [a, b],
             stack,
@@ -460,7 +460,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
     }
 
     #[inline(always)]
-    fn is_settled(&self, a: Unit, b: Unit) -> bool {
+    fn is_settled(&self, a: NodeRef, b: NodeRef) -> bool {
         self.meetings
             .visitor
             .settled_from()
@@ -530,7 +530,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         // Where boxes that hardly overlap are all that matters, sharper bounds tell no more.
         let bounds = if V::REFINES && cutoff > SHARP_FROM {
             let is_aimed = self.meetings.state.direction != Vec3::zeros();
-            let wanted = Sharper {
+            let wanted = BoundRefinement {
                 direction: is_aimed.then_some(&self.directions[opened]),
                 cutoff,
                 among: (1 << children.count) - 1,
@@ -550,7 +550,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
     }
 
     #[inline(always)]
-    fn visit_leaves(&mut self, a: Unit, b: Unit) -> ControlFlow<()> {
+    fn visit_leaves(&mut self, a: NodeRef, b: NodeRef) -> ControlFlow<()> {
         let nearest = self.meetings.state.direction_at;
         let visited = self
             .meetings

@@ -4,17 +4,17 @@ use std::ops::ControlFlow;
 
 use super::hit::Hit;
 use super::shortlist::{Ranked, Shortlist};
-use super::traversal::{Met, Visitor};
-use crate::convex::Measured;
+use super::traversal::{PrimitivePair, Visitor};
+use crate::convex::PrimitiveDistance;
 use crate::work_meter::WorkMeter;
 
 /// Whether a primitive pair meets, to within the error of its distance.
-pub fn meets(met: &Met) -> bool {
+pub fn meets(met: &PrimitivePair) -> bool {
     measured(met, 0.0).0 == 0.0
 }
 
 /// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
-fn measured(met: &Met, margin: f64) -> (f64, f64) {
+fn measured(met: &PrimitivePair, margin: f64) -> (f64, f64) {
     let clear = met.apart - margin;
     if met.apart > 0.0 && clear > met.error {
         (clear, clear - met.error)
@@ -29,7 +29,7 @@ pub struct Nearest {
     pub margin: f64,
     pub best: Option<Hit>,
     /// What else was found out about the best.
-    pub measured: Option<Measured>,
+    pub measured: Option<PrimitiveDistance>,
     /// No primitive pair seen is nearer than this; safe against rounding.
     pub lower: f64,
     limit: f64,
@@ -54,7 +54,7 @@ impl Nearest {
     }
 
     /// Takes a hit, of which the distance is no less than `lower`, if none better is known.
-    pub fn take(&mut self, hit: Hit, lower: f64, measured: Option<&Measured>) {
+    pub fn take(&mut self, hit: Hit, lower: f64, measured: Option<&PrimitiveDistance>) {
         // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
         self.lower = self.lower.min(lower);
         if hit.distance <= self.limit
@@ -81,14 +81,14 @@ impl Visitor for Nearest {
         self.best.as_ref()?.settles(self.pair)
     }
 
-    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
+    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
         let (distance, lower) = measured(met, self.margin);
         self.take(met.hit(self.pair, distance), lower, met.measured);
         ControlFlow::Continue(())
     }
 }
 
-/// Whether some primitive pair is within a threshold; stops at the first. Sharper bounds (`REFINES`) pay where the threshold is
+/// Whether some primitive pair is within a threshold; stops at the first. BoundRefinement bounds (`REFINES`) pay where the threshold is
 /// more than 0.
 pub struct Within<const REFINES: bool> {
     pub margin: f64,
@@ -108,7 +108,7 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
+    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
         let (_, lower) = measured(met, self.margin);
         if lower <= self.threshold {
             self.found = Some(met.places);
@@ -170,7 +170,7 @@ impl Visitor for Collect {
         self.list.last()?.settles(self.pair)
     }
 
-    fn visit(&mut self, met: &Met, _: &mut WorkMeter) -> ControlFlow<()> {
+    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
         let (distance, lower) = measured(met, self.margin);
         let compared = if self.counts_doubt { lower } else { distance };
         if compared <= self.threshold {

@@ -48,8 +48,8 @@ impl WatchedSupport {
         let slack =
             1e-9 * (high - low).norm() + 16.0 * tolerance::EPSILON * low.amax().max(high.amax());
         for (direction, own) in directions.iter().zip(&points) {
-            let reach = direction.dot(own) + slack;
-            if let Some(other) = points.iter().position(|p| direction.dot(p) > reach) {
+            let extent = direction.dot(own) + slack;
+            if let Some(other) = points.iter().position(|p| direction.dot(p) > extent) {
                 let say = |v: &Vec3| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z);
                 return Err(Error::new(
                     ErrorKind::NotConvex,

@@ -1,10 +1,10 @@
 //! Queries at a configuration: operations 4 to 8 of §2.2.4 and `cstk-pseudo-normal` of Appendix A.
 
 use super::answer::{Distance, WitnessList};
-use super::candidates::Wanted;
+use super::candidates::CandidateFilter;
 use super::context::QueryContext;
 use super::scene::{Configuration, Group, Scene, SceneMemory};
-use super::set_witnesses::Listed;
+use super::set_witnesses::WitnessRequest;
 use super::world::World;
 use crate::cobject::{CObject, Class, Set};
 use crate::error::{Error, ErrorKind, Result};
@@ -96,7 +96,7 @@ impl QueryContext {
     /// which nothing is known.
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
-        cobject.require_one_unit()?;
+        cobject.require_one_metric()?;
         let world = self.look(cobject);
         self.ask(cobject, &world, at, |context, scene| {
             context.set_within(cobject, scene, threshold)
@@ -123,7 +123,7 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        cobject.require_one_unit()?;
+        cobject.require_one_metric()?;
         self.ask(cobject, world, at, |context, scene| {
             context.set_distance(cobject, scene, max_distance)
         })
@@ -137,9 +137,9 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let listed = Listed {
+        let listed = WitnessRequest {
             contacts: self.contacts,
-            ..Listed::within(epsilon, max_count)
+            ..WitnessRequest::within(epsilon, max_count)
         };
         self.listed(cobject, at, listed)
     }
@@ -152,10 +152,10 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let listed = Listed {
+        let listed = WitnessRequest {
             with_gradients: true,
             contacts: self.contacts,
-            ..Listed::within(epsilon, max_count)
+            ..WitnessRequest::within(epsilon, max_count)
         };
         self.listed(cobject, Configuration::Coordinates(q), listed)
     }
@@ -164,10 +164,10 @@ impl QueryContext {
         &mut self,
         cobject: &CObject,
         at: Configuration,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
         check_threshold(listed.epsilon, "epsilon")?;
-        cobject.require_one_unit()?;
+        cobject.require_one_metric()?;
         let world = self.look(cobject);
         self.ask(cobject, &world, at, |context, scene| {
             context.set_witnesses(cobject, scene, listed)
@@ -194,11 +194,11 @@ impl QueryContext {
         shell: &Shell,
     ) -> Result<PseudoNormal> {
         check_threshold(shell.max_shell, "max_shell")?;
-        cobject.require_one_unit()?;
-        let listed = Listed {
+        cobject.require_one_metric()?;
+        let listed = WitnessRequest {
             with_gradients: true,
             contacts: self.contacts,
-            ..Listed::within(shell.max_shell, shell.max_count)
+            ..WitnessRequest::within(shell.max_shell, shell.max_count)
         };
         let at = Configuration::Coordinates(q);
         let mut found = self.ask(cobject, world, at, |context, scene| {
@@ -222,12 +222,12 @@ impl QueryContext {
         &mut self,
         group: &Group,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<PseudoNormal> {
-        let wanted = Wanted {
+        let wanted = CandidateFilter {
             in_contact: true,
             nearest: Some(f64::INFINITY),
-            ..Wanted::within(listed.epsilon)
+            ..CandidateFilter::within(listed.epsilon)
         };
         scene.check(group)?;
         let candidates = self.candidates(scene, group, wanted)?;

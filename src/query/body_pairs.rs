@@ -1,9 +1,9 @@
 //! The body pairs that induced sets hold in a scene.
 
 use super::answer::SSide;
-use super::candidates::{CandidateScratch, Candidates, Wanted};
+use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
 use super::context::{CacheKey, QueryContext};
-use super::scene::{Group, Held, Scene};
+use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
@@ -120,7 +120,7 @@ impl<'a> Scene<'a> {
     pub fn candidates(
         &self,
         group: &Group,
-        wanted: Wanted,
+        wanted: CandidateFilter,
         scratch: &mut CandidateScratch,
         meter: &mut WorkMeter,
     ) -> Result<Vec<Target<'_>>> {
@@ -231,14 +231,14 @@ impl<'a> Scene<'a> {
             .filter(|(_, held)| links.contains(&held.attachment.link))
             .map(|(i, held)| (first_held + i, &*held.object.body, &held.pose));
         let bodies = of_links.chain(of_held);
-        let reach = candidates.reach(options);
+        let cutoff = candidates.cutoff(options);
         let mut offer =
             |named: &Named<'s>, bounds: &Bounds, at: SObjectAt<'s>, other: &Bounds, bound| {
                 let &(number, body, pose) = named;
                 let (link, attached, r_data) = match number.checked_sub(first_held) {
                     None => (number, 0, body.data()),
                     Some(i) => {
-                        let Held {
+                        let AttachedObject {
                             object, attachment, ..
                         } = &self.held()[i];
                         (attachment.link, object.id, object.data())
@@ -246,7 +246,7 @@ impl<'a> Scene<'a> {
                 };
                 let r = RSide { link, attached };
                 if !term.admits(r, at.object) {
-                    return candidates.reach(options);
+                    return candidates.cutoff(options);
                 }
                 let target = || Target {
                     options: *options,
@@ -269,7 +269,7 @@ impl<'a> Scene<'a> {
             SObjects::All(_) => {
                 snapshot.tree().visit_near(
                     bodies.clone(),
-                    reach,
+                    cutoff,
                     scratch,
                     |named, bounds, place, bound| {
                         offer(
@@ -399,7 +399,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-impl<'a> Held<'a> {
+impl<'a> AttachedObject<'a> {
     fn as_s_side(&self) -> SObjectAt<'_> {
         SObjectAt {
             object: self.object,
@@ -420,7 +420,7 @@ impl QueryContext {
         &mut self,
         scene: &'s Scene,
         group: &Group,
-        wanted: Wanted,
+        wanted: CandidateFilter,
     ) -> Result<Vec<Target<'s>>> {
         scene.candidates(
             group,

@@ -9,7 +9,7 @@ use crate::work_meter::WorkMeter;
 
 /// Which body pairs a search needs.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct CandidateFilter {
     /// All that may be within this.
     pub within: f64,
     /// All that may be in contact.
@@ -18,7 +18,7 @@ pub struct Wanted {
     pub nearest: Option<f64>,
 }
 
-impl Wanted {
+impl CandidateFilter {
     pub fn within(threshold: f64) -> Self {
         Self {
             within: threshold,
@@ -46,7 +46,7 @@ impl CandidateScratch {
 
 /// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
 pub(super) struct Candidates<'s, 'm> {
-    wanted: Wanted,
+    wanted: CandidateFilter,
     meter: &'m mut WorkMeter,
     /// No pair that is farther than this, less its margin, is nearest.
     nearest: f64,
@@ -54,7 +54,11 @@ pub(super) struct Candidates<'s, 'm> {
 }
 
 impl<'s, 'm> Candidates<'s, 'm> {
-    pub fn new(wanted: Wanted, scratch: &mut CandidateScratch, meter: &'m mut WorkMeter) -> Self {
+    pub fn new(
+        wanted: CandidateFilter,
+        scratch: &mut CandidateScratch,
+        meter: &'m mut WorkMeter,
+    ) -> Self {
         Self {
             wanted,
             meter,
@@ -103,7 +107,7 @@ impl<'s, 'm> Candidates<'s, 'm> {
     }
 
     /// How far the first pairs of these options may be apart to matter.
-    pub fn reach(&self, options: &InducedOptions) -> f64 {
+    pub fn cutoff(&self, options: &InducedOptions) -> f64 {
         self.limit(options) + options.margin
     }
 
@@ -146,13 +150,13 @@ fn without_repeats(found: Vec<Target>) -> Vec<Target> {
         match known {
             None => kept.push(next),
             Some(known) => {
-                let reach = |o: &InducedOptions| o.margin + o.contact_epsilon;
-                let by_reach = |o: &InducedOptions| (o.margin, o.contact_epsilon);
-                if by_reach(&next.options) > by_reach(&known.options) {
+                let farthest_contact = |o: &InducedOptions| o.margin + o.contact_epsilon;
+                let by_distance = |o: &InducedOptions| (o.margin, o.contact_epsilon);
+                if by_distance(&next.options) > by_distance(&known.options) {
                     known.term = next.term;
                 }
                 let merged = &mut known.options;
-                let farthest = reach(merged).max(reach(&next.options));
+                let farthest = farthest_contact(merged).max(farthest_contact(&next.options));
                 merged.margin = merged.margin.max(next.options.margin);
                 merged.contact_epsilon = farthest - merged.margin;
                 known.bound = known.bound.min(next.bound);

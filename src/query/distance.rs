@@ -3,8 +3,8 @@
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
 use super::search::Found;
 use super::target::Target;
-use crate::cobject::{Leaf, Reach};
-use crate::convex::Measured;
+use crate::cobject::{BoundedDistance, Leaf};
+use crate::convex::PrimitiveDistance;
 use crate::pair::{Hit, Pairing, PrimitiveScratch};
 use crate::pose::Vec3;
 
@@ -59,7 +59,7 @@ impl Distance {
     pub(super) fn of_hit(
         hit: &Hit,
         lower: f64,
-        measured: Option<&Measured>,
+        measured: Option<&PrimitiveDistance>,
         target: &Target,
         pairing: &Pairing,
         leaf: Leaf,
@@ -131,27 +131,27 @@ impl Distance {
     }
 
     /// The answer of a pure set, up to `max_distance`.
-    pub(super) fn from_reach(
-        reach: Reach,
+    pub(super) fn from_bounds(
+        bounds: BoundedDistance,
         max_distance: f64,
         witness: Witness,
         contact: Option<ContactRecord>,
     ) -> Self {
-        if reach.lower == f64::INFINITY {
+        if bounds.lower == f64::INFINITY {
             return Self::empty(0);
         }
-        if reach.distance > max_distance {
-            return Self::beyond(max_distance, reach.lower);
+        if bounds.distance > max_distance {
+            return Self::beyond(max_distance, bounds.lower);
         }
         Self {
-            kind: if reach.is_exact {
+            kind: if bounds.is_exact {
                 DistanceKind::Exact
             } else {
                 DistanceKind::LowerBound
             },
-            distance: reach.distance,
-            lower: reach.lower,
-            upper: reach.upper,
+            distance: bounds.distance,
+            lower: bounds.lower,
+            upper: bounds.upper,
             witness: Some(witness),
             points: contact.map_or_else(Default::default, |contact| contact.points),
             contact,

@@ -7,7 +7,7 @@ use super::answer::WitnessList;
 use super::at_configuration::scene;
 use super::context::QueryContext;
 use super::scene::{Configuration, Group, Scene, SceneMemory};
-use super::set_witnesses::{Listed, pure_witnesses};
+use super::set_witnesses::{WitnessRequest, pure_witnesses};
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
 
@@ -38,12 +38,12 @@ pub struct Explanation {
 
 /// A leaf of the tree, as it is asked.
 #[derive(Clone, Copy)]
-enum Asked<'a> {
+enum LeafQuery<'a> {
     Induced(&'a Group),
     Pure(&'a PureSet),
 }
 
-impl Asked<'_> {
+impl LeafQuery<'_> {
     fn leaf(&self) -> Leaf {
         match self {
             Self::Induced(group) => group[0].leaf,
@@ -118,8 +118,8 @@ impl QueryContext {
             let class = match classes.leaves.get(&serial) {
                 Some(class) => *class,
                 None => match asked {
-                    Asked::Induced(group) => self.class_of_group(group, classes.scene)?,
-                    Asked::Pure(set) => set.classify(&classes.scene.stand())?,
+                    LeafQuery::Induced(group) => self.class_of_group(group, classes.scene)?,
+                    LeafQuery::Pure(set) => set.classify(&classes.scene.space_state())?,
                 },
             };
             classes.leaves.insert(serial, class);
@@ -141,7 +141,7 @@ impl QueryContext {
     /// What made a leaf's class.
     fn reasons(
         &mut self,
-        asked: Asked,
+        asked: LeafQuery,
         class: Class,
         max_count: usize,
         scene: &Scene,
@@ -149,37 +149,37 @@ impl QueryContext {
         let epsilon = match (class, asked) {
             (Class::Outside, _) => return Ok(WitnessList::default()),
             (Class::Inside, _) => 0.0,
-            (Class::Contact, Asked::Induced(group)) => group[0].options.contact_epsilon,
-            (Class::Contact, Asked::Pure(set)) => set.epsilon(),
+            (Class::Contact, LeafQuery::Induced(group)) => group[0].options.contact_epsilon,
+            (Class::Contact, LeafQuery::Pure(set)) => set.epsilon(),
         };
         // Doubt made the class, so that it must list what made it.
-        let listed = Listed {
+        let listed = WitnessRequest {
             counts_doubt: true,
-            ..Listed::within(epsilon, max_count)
+            ..WitnessRequest::within(epsilon, max_count)
         };
         match asked {
-            Asked::Induced(group) => self.group_witnesses(group, scene, listed),
-            Asked::Pure(set) => pure_witnesses(&[(set, false)], scene, listed),
+            LeafQuery::Induced(group) => self.group_witnesses(group, scene, listed),
+            LeafQuery::Pure(set) => pure_witnesses(&[(set, false)], scene, listed),
         }
     }
 }
 
 /// The leaves that a part holds itself.
-fn own_leaves(cobject: &CObject) -> impl Iterator<Item = Asked<'_>> {
+fn own_leaves(cobject: &CObject) -> impl Iterator<Item = LeafQuery<'_>> {
     let induced = match cobject.set() {
         Set::Union { induced, .. } => &induced[..],
         _ => &[],
     };
     let pure = match cobject.set() {
-        Set::Pure(set) => Some(Asked::Pure(set)),
+        Set::Pure(set) => Some(LeafQuery::Pure(set)),
         _ => None,
     };
-    induced.chunks(1).map(Asked::Induced).chain(pure)
+    induced.chunks(1).map(LeafQuery::Induced).chain(pure)
 }
 
 /// All leaves from the first on, each with whether its complement is meant and whether it decides.
-fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(Asked<'a>, bool, bool)> {
-    let mut found: Vec<(Asked<'a>, bool, bool)> = Vec::new();
+fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(LeafQuery<'a>, bool, bool)> {
+    let mut found: Vec<(LeafQuery<'a>, bool, bool)> = Vec::new();
     let mut place_of: HashMap<(u64, bool), usize> = HashMap::new();
     let mut seen: HashSet<(u64, bool, bool)> = HashSet::new();
     let mut open: Vec<(&'a CObject, bool, bool)> = vec![(cobject, false, true)];

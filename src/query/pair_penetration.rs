@@ -9,7 +9,7 @@ use super::context::QueryContext;
 use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::error::{Error, Result};
-use crate::pair::{Met, Pairing, Ranked, Shortlist, Visitor, meets, traverse};
+use crate::pair::{Pairing, PrimitivePair, Ranked, Shortlist, Visitor, meets, traverse};
 use crate::work_meter::WorkMeter;
 
 impl Ranked for PrimitivePenetration {
@@ -41,7 +41,7 @@ impl Visitor for Deepest<'_> {
         self.failed.as_ref().map(|(primitives, _)| *primitives)
     }
 
-    fn visit(&mut self, met: &Met, meter: &mut WorkMeter) -> ControlFlow<()> {
+    fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()> {
         let primitives = met.primitives;
         let is_settled = self.settled_from().is_some_and(|from| from <= primitives);
         if !meets(met) || is_settled {

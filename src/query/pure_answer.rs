@@ -2,7 +2,7 @@
 
 use super::answer::{ContactRecord, Distance, PurePlace, SSide, Witness};
 use super::scene::Scene;
-use crate::cobject::{Class, PureSet, PureShape, Reach, WorldPlace};
+use crate::cobject::{BoundedDistance, Class, PureSet, PureShape, WorldPlace};
 use crate::convex::ContactMode;
 use crate::error::Result;
 use crate::pose::Vec3;
@@ -26,17 +26,17 @@ pub(super) struct PureWitness {
 
 impl PureAt<'_> {
     pub fn class(&self) -> Result<Class> {
-        let class = self.set.classify(&self.scene.stand())?;
+        let class = self.set.classify(&self.scene.space_state())?;
         Ok(class.reversed_if(self.complement))
     }
 
     /// How far it is; of a set that does not measure whether it holds the configuration, and nothing else.
-    pub fn reach(&self) -> Result<Reach> {
-        if let Some(measure) = self.set.measure(&self.scene.stand())? {
-            return Ok(measure.reach(self.complement));
+    pub fn bounded_distance(&self) -> Result<BoundedDistance> {
+        if let Some(measure) = self.set.measure(&self.scene.space_state())? {
+            return Ok(measure.bounded_distance(self.complement));
         }
         let is_inside = self.class()? == Class::Inside;
-        Ok(Reach {
+        Ok(BoundedDistance {
             distance: 0.0,
             lower: 0.0,
             upper: if is_inside { 0.0 } else { f64::INFINITY },
@@ -45,29 +45,34 @@ impl PureAt<'_> {
     }
 
     pub fn distance(&self, max_distance: f64) -> Result<Distance> {
-        let reach = self.reach()?;
-        let contact = self.contact(&reach)?;
-        let mut witness = self.witness(&reach);
+        let bounds = self.bounded_distance()?;
+        let contact = self.contact(&bounds)?;
+        let mut witness = self.witness(&bounds);
         witness.contact_count = usize::from(contact.is_some());
-        Ok(Distance::from_reach(reach, max_distance, witness, contact))
+        Ok(Distance::from_bounds(
+            bounds,
+            max_distance,
+            witness,
+            contact,
+        ))
     }
 
     /// The witness, its contact and its gradient, if the set may be within `epsilon`; the gradient only where it is asked
     /// for.
     pub fn within(&self, epsilon: f64, with_gradient: bool) -> Result<Option<PureWitness>> {
-        let reach = self.reach()?;
-        let measures = reach.is_exact || reach.lower > 0.0;
-        if reach.lower > epsilon || reach.lower == f64::INFINITY || !measures {
+        let bounds = self.bounded_distance()?;
+        let measures = bounds.is_exact || bounds.lower > 0.0;
+        if bounds.lower > epsilon || bounds.lower == f64::INFINITY || !measures {
             return Ok(None);
         }
-        let contact = self.contact(&reach)?;
+        let contact = self.contact(&bounds)?;
         let mut row = Vec::new();
         if with_gradient && contact.is_some() {
-            let gradient = self.set.gradient(&self.scene.stand())?;
+            let gradient = self.set.gradient(&self.scene.space_state())?;
             let sign = self.sign();
             row = gradient.into_iter().map(|x| x * sign).collect();
         }
-        let mut witness = self.witness(&reach);
+        let mut witness = self.witness(&bounds);
         witness.contact_count = usize::from(contact.is_some());
         witness.overlapping = contact.is_none();
         Ok(Some(PureWitness {
@@ -81,10 +86,10 @@ impl PureAt<'_> {
         if self.complement { -1.0 } else { 1.0 }
     }
 
-    fn witness(&self, reach: &Reach) -> Witness {
-        let stand = self.scene.stand();
-        let world = self.set.place(&stand);
-        let coordinate = self.set.coordinate(&stand);
+    fn witness(&self, bounds: &BoundedDistance) -> Witness {
+        let state = self.scene.space_state();
+        let world = self.set.place(&state);
+        let coordinate = self.set.coordinate(&state);
         let place = match coordinate {
             Some(coordinate) => PurePlace::Coordinate(coordinate),
             None if world.is_some() => PurePlace::World,
@@ -92,7 +97,7 @@ impl PureAt<'_> {
         };
         let link = world.map_or(0, |place| place.link);
         let primitive = world.and_then(|place| place.primitive).unwrap_or(0);
-        let body = stand.space.link(link).and_then(|link| link.body.as_deref());
+        let body = state.space.link(link).and_then(|link| link.body.as_deref());
         let body = body.filter(|_| matches!(world, Some(place) if place.primitive.is_some()));
         Witness {
             leaf: self.set.leaf,
@@ -103,7 +108,7 @@ impl PureAt<'_> {
             primitives: [primitive, 0],
             tags: [body.map_or(0, |body| body.tag(primitive)), 0],
             data: [body.map_or(0, |body| body.data()), 0],
-            distance: reach.distance,
+            distance: bounds.distance,
             first_contact: 0,
             contact_count: 0,
             overlapping: false,
@@ -113,8 +118,8 @@ impl PureAt<'_> {
     }
 
     /// A contact where the signed distance is known.
-    fn contact(&self, reach: &Reach) -> Result<Option<ContactRecord>> {
-        let Some(measure) = self.set.measure(&self.scene.stand())? else {
+    fn contact(&self, bounds: &BoundedDistance) -> Result<Option<ContactRecord>> {
+        let Some(measure) = self.set.measure(&self.scene.space_state())? else {
             return Ok(None);
         };
         let knows = if measure.signed > 0.0 {
@@ -132,12 +137,12 @@ impl PureAt<'_> {
         let mut contact = ContactRecord {
             points: [Vec3::zeros(); 2],
             normal: Vec3::zeros(),
-            distance: reach.distance,
+            distance: bounds.distance,
             clearance: measure.signed * self.sign(),
             mode: ContactMode::PureSet,
             features: [Feature::interior(); 2],
         };
-        if let Some(place) = self.set.place(&self.scene.stand()) {
+        if let Some(place) = self.set.place(&self.scene.space_state()) {
             contact.place(&place, self.sign());
         }
         Ok(Some(contact))

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::target::Placement;
 use super::world::World;
-use crate::cobject::{Induced, Stand};
+use crate::cobject::{Induced, SpaceState};
 use crate::environment::{Attachment, SObject};
 use crate::error::{Error, Result};
 use crate::pose::Pose;
 use crate::reused::emptied;
-use crate::robot::Posture;
+use crate::robot::RobotState;
 use crate::space::Space;
 
 /// Where the robot is: by its coordinates, or by the pose of every link of the space.
@@ -28,18 +28,18 @@ pub struct Scene<'a> {
     computed: Vec<Pose>,
     world: &'a World,
     /// By their environments' serial numbers, in their order.
-    held: Vec<Held<'a>>,
+    held: Vec<AttachedObject<'a>>,
 }
 
 /// Memory of a scene, used again by the next.
 #[derive(Default)]
 pub struct SceneMemory {
     poses: Vec<Pose>,
-    held: Vec<Held<'static>>,
+    held: Vec<AttachedObject<'static>>,
 }
 
 /// An s-object attached to a link, where that has taken it.
-pub struct Held<'a> {
+pub struct AttachedObject<'a> {
     /// The serial number of its environment.
     pub environment: u64,
     pub object: &'a SObject,
@@ -81,7 +81,7 @@ impl<'a> Scene<'a> {
         let mut held = emptied(memory.held);
         let attached = world
             .attached(space)
-            .map(|(environment, object, attachment)| Held {
+            .map(|(environment, object, attachment)| AttachedObject {
                 environment,
                 object,
                 attachment,
@@ -116,8 +116,8 @@ impl<'a> Scene<'a> {
     }
 
     /// The configuration as pure sets see it.
-    pub fn stand(&self) -> Stand<'_> {
-        Stand {
+    pub fn space_state(&self) -> SpaceState<'_> {
+        SpaceState {
             space: self.space,
             q: self.q,
             poses: self.poses(),
@@ -125,9 +125,9 @@ impl<'a> Scene<'a> {
     }
 
     /// The configuration with its link poses; `None` where only the poses are known.
-    pub fn posture(&self) -> Option<Posture<'_>> {
+    pub fn state(&self) -> Option<RobotState<'_>> {
         let poses = self.poses();
-        self.q.map(|q| Posture { q, poses })
+        self.q.map(|q| RobotState { q, poses })
     }
 
     /// A link's body, if it has one, at its pose.
@@ -137,12 +137,15 @@ impl<'a> Scene<'a> {
     }
 
     /// The s-objects attached to links.
-    pub fn held(&self) -> &[Held<'a>] {
+    pub fn held(&self) -> &[AttachedObject<'a>] {
         &self.held
     }
 
     /// The s-objects of one environment that are attached to links, with their places among all.
-    pub fn held_of(&self, environment: u64) -> impl Iterator<Item = (usize, &Held<'a>)> + Clone {
+    pub fn held_of(
+        &self,
+        environment: u64,
+    ) -> impl Iterator<Item = (usize, &AttachedObject<'a>)> + Clone {
         let first = self.held.partition_point(|h| h.environment < environment);
         let own = self.held[first..].iter();
         (first..).zip(own.take_while(move |held| held.environment == environment))

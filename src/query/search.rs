@@ -4,7 +4,7 @@ use super::context::QueryContext;
 use super::scene::{Group, Scene};
 use super::target::Target;
 use crate::cobject::InducedOptions;
-use crate::convex::Measured;
+use crate::convex::PrimitiveDistance;
 use crate::error::Result;
 use crate::pair::{Collect, Hit, Nearest, Pairing, Scratch, Visitor, Within, traverse, visit_pair};
 
@@ -15,7 +15,7 @@ pub(super) struct Found<'t, 'a> {
     /// No primitive pair seen is nearer than this; safe against rounding.
     pub lower: f64,
     /// What else was found out about the hit.
-    pub measured: Option<Measured>,
+    pub measured: Option<PrimitiveDistance>,
 }
 
 impl QueryContext {

@@ -5,12 +5,12 @@
 use std::sync::Arc;
 
 use super::answer::WitnessList;
-use super::candidates::Wanted;
+use super::candidates::CandidateFilter;
 use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene, SceneMemory};
-use super::set_witnesses::{Listed, pure_witnesses};
+use super::set_witnesses::{WitnessRequest, pure_witnesses};
 use super::slide_step::Approach;
 use super::target::{Placement, Target};
 use super::world::World;
@@ -29,7 +29,7 @@ const STEP_FRACTION: f64 = 0.99;
 
 /// The way from q with velocity v for a unit of time, in one state of the world. Both ends are in the coordinates' ranges.
 #[derive(Clone, Copy)]
-pub(super) struct Way<'a> {
+pub(super) struct LinearMotion<'a> {
     pub world: &'a World,
     pub cobject: &'a CObject,
     pub q: &'a [f64],
@@ -39,16 +39,16 @@ pub(super) struct Way<'a> {
 /// How far a pair that touches at the start may move before a distance must prove it free: from a touch no proof can begin.
 /// The contacts must say that the pair does not come nearer, to first order.
 #[derive(Clone, Copy)]
-pub(super) struct Trust {
+pub(super) struct TouchAllowance {
     pub distance: f64,
     /// A pair with more witnesses than this within the distance is not trusted.
     pub max_count: usize,
 }
 
-/// A motion towards a plane that is no more than this part of [`Trust::distance`] is the rounding of one along it.
+/// A motion towards a plane that is no more than this part of [`TouchAllowance::distance`] is the rounding of one along it.
 const LEVEL: f64 = 1e-9;
 
-impl Trust {
+impl TouchAllowance {
     /// How much nearer than a touch a contact may come.
     fn allowed(&self) -> f64 {
         1e-3 * self.distance
@@ -65,14 +65,14 @@ trait Obstacle {
         &self,
         context: &mut QueryContext,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList>;
 
     /// A plane fixed to the world between the robot and the obstacle, if one is known.
     fn separation(
         &self,
         context: &mut QueryContext,
-        way: &Way,
+        way: &LinearMotion,
         scene: &Scene,
     ) -> Option<Separation>;
 }
@@ -93,7 +93,7 @@ impl Separation {
 }
 
 /// A body pair of an induced set.
-struct PairOnWay<'a> {
+struct PairOnMotion<'a> {
     term: &'a Group,
     target: Target<'a>,
 }
@@ -101,7 +101,11 @@ struct PairOnWay<'a> {
 impl QueryContext {
     /// Whether the robot keeps clear of the C-object all the way. `false` may also mean that it comes too near for a proof of
     /// reasonable length.
-    pub(super) fn way_is_free(&mut self, way: &Way, trust: &Trust) -> Result<bool> {
+    pub(super) fn way_is_free(
+        &mut self,
+        way: &LinearMotion,
+        trust: &TouchAllowance,
+    ) -> Result<bool> {
         let scene = &way.scene(way.q)?;
         if let Set::Union { induced, .. } = way.cobject.set() {
             // Each for itself: pairs that several hold need not be named by all of them.
@@ -124,17 +128,17 @@ impl QueryContext {
 
     fn pairs_stay_clear(
         &mut self,
-        way: &Way,
+        way: &LinearMotion,
         scene: &Scene,
         term: &Arc<Induced>,
-        trust: &Trust,
+        trust: &TouchAllowance,
     ) -> Result<bool> {
         let term = std::slice::from_ref(term);
         let Some(fastest) = way.fastest_pair(&term[0]) else {
             return Ok(true);
         };
         scene.check(term)?;
-        let wanted = Wanted::within(fastest / STEP_FRACTION);
+        let wanted = CandidateFilter::within(fastest / STEP_FRACTION);
         let candidates =
             scene.candidates(term, wanted, &mut self.candidates, self.scratch.meter_mut())?;
         for &target in &candidates {
@@ -144,7 +148,7 @@ impl QueryContext {
             }
             // Alone in its searches, whose hits name it by its rank.
             let target = Target { rank: 0, ..target };
-            let pair = PairOnWay { term, target };
+            let pair = PairOnMotion { term, target };
             if !self.stays_clear(way, scene, &pair, rate, trust)? {
                 return Ok(false);
             }
@@ -155,11 +159,11 @@ impl QueryContext {
     /// Whether one obstacle's distance, which falls by no more than `rate` on the way from a scene, stays above 0.
     fn stays_clear(
         &mut self,
-        way: &Way,
+        way: &LinearMotion,
         start: &Scene,
         obstacle: &impl Obstacle,
         rate: f64,
-        trust: &Trust,
+        trust: &TouchAllowance,
     ) -> Result<bool> {
         // What rests may be as near as it likes.
         if rate == 0.0 {
@@ -198,7 +202,7 @@ impl QueryContext {
     /// Whether an obstacle's distance stays above 0 from parameter `start` on: conservative advancement.
     fn advances(
         &mut self,
-        way: &Way,
+        way: &LinearMotion,
         obstacle: &impl Obstacle,
         rate: f64,
         start: f64,
@@ -222,17 +226,17 @@ impl QueryContext {
     /// Whether the contacts at a touching start say that no witness comes nearer up to parameter `share`.
     fn keeps_off(
         &mut self,
-        way: &Way,
+        way: &LinearMotion,
         obstacle: &impl Obstacle,
         scene: &Scene,
         share: f64,
-        trust: &Trust,
+        trust: &TouchAllowance,
     ) -> Result<bool> {
-        let listed = Listed {
+        let listed = WitnessRequest {
             // What is farther cannot come to touch.
             with_gradients: true,
             counts_doubt: true,
-            ..Listed::within(trust.distance / STEP_FRACTION, trust.max_count)
+            ..WitnessRequest::within(trust.distance / STEP_FRACTION, trust.max_count)
         };
         let list = obstacle.witnesses(self, scene, listed)?;
         let keeps_off =
@@ -242,7 +246,7 @@ impl QueryContext {
     }
 }
 
-impl Obstacle for PairOnWay<'_> {
+impl Obstacle for PairOnMotion<'_> {
     fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
         let Some(target) = self.at(scene) else {
             return Ok(0.0);
@@ -254,7 +258,7 @@ impl Obstacle for PairOnWay<'_> {
         &self,
         context: &mut QueryContext,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
         let Some(target) = self.at(scene) else {
             // Nothing is known of a pair that is not there.
@@ -269,7 +273,7 @@ impl Obstacle for PairOnWay<'_> {
     fn separation(
         &self,
         context: &mut QueryContext,
-        way: &Way,
+        way: &LinearMotion,
         scene: &Scene,
     ) -> Option<Separation> {
         let target = self.at(scene)?;
@@ -293,7 +297,7 @@ impl Obstacle for PairOnWay<'_> {
     }
 }
 
-impl PairOnWay<'_> {
+impl PairOnMotion<'_> {
     /// The pair where the robot is now.
     fn at<'s>(&'s self, scene: &'s Scene) -> Option<Target<'s>> {
         let sides = scene.sides_of(&self.term[0], &self.target.key)?;
@@ -312,27 +316,32 @@ impl Obstacle for PureSet {
             complement: false,
             scene,
         };
-        Ok(at.reach()?.lower.min(limit))
+        Ok(at.bounded_distance()?.lower.min(limit))
     }
 
     fn witnesses(
         &self,
         _: &mut QueryContext,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
         pure_witnesses(&[(self, false)], scene, listed)
     }
 
     /// A floor is such a plane.
-    fn separation(&self, _: &mut QueryContext, way: &Way, scene: &Scene) -> Option<Separation> {
+    fn separation(
+        &self,
+        _: &mut QueryContext,
+        way: &LinearMotion,
+        scene: &Scene,
+    ) -> Option<Separation> {
         let PureShape::Floor { links, normal, .. } = &self.shape else {
             return None;
         };
         let &[link] = &links[..] else {
             return None;
         };
-        let measure = self.measure(&scene.stand()).ok()??;
+        let measure = self.measure(&scene.space_state()).ok()??;
         Some(Separation {
             gap: measure.signed - measure.error,
             rate: way.directed_rate(scene, link, scene.link(link)?, normal)?,
@@ -340,7 +349,7 @@ impl Obstacle for PureSet {
     }
 }
 
-impl<'a> Way<'a> {
+impl<'a> LinearMotion<'a> {
     fn at(&self, t: f64) -> Vec<f64> {
         let way: Vec<f64> = self.v.iter().map(|x| x * t).collect();
         self.cobject.space().step(self.q, &way)
@@ -377,7 +386,7 @@ impl<'a> Way<'a> {
                 let of_link = |link: usize| {
                     let held = held.iter().filter(|(holder, _)| *holder == link);
                     let held =
-                        held.map(|(_, extent)| space.reach_motion_bound(link, *extent, q, v));
+                        held.map(|(_, extent)| space.motion_bound_of_radius(link, *extent, q, v));
                     held.fold(space.motion_bound(link, q, v), f64::max)
                 };
                 let of_links = links.iter().map(|&link| of_link(link));
@@ -388,7 +397,7 @@ impl<'a> Way<'a> {
             BodyPairs::Links { pairs } => {
                 let extent = |link: usize| {
                     let body = space.link(link).and_then(|link| link.body.as_deref());
-                    body.map_or(0.0, |body| body.reach())
+                    body.map_or(0.0, |body| body.radius_from_origin())
                 };
                 let of_pair = |&[r, s]: &[usize; 2]| {
                     space.relative_motion_bound([(r, extent(r)), (s, extent(s))], q, v)
@@ -409,7 +418,7 @@ impl<'a> Way<'a> {
     ) -> Option<f64> {
         let extent = extent(scene, link, carried);
         let space = self.cobject.space();
-        Some(space.directed_motion_bound(link, extent, direction, scene.posture()?, self.v))
+        Some(space.directed_motion_bound(link, extent, direction, scene.state()?, self.v))
     }
 
     /// The distance of a pair changes by no more than this: by the motion of its bodies relative to each other.
@@ -423,14 +432,14 @@ impl<'a> Way<'a> {
                 let s = (s, extent(scene, s, target.sides[1]));
                 space.relative_motion_bound([r, s], q, v)
             }
-            None => space.reach_motion_bound(r.0, r.1, q, v),
+            None => space.motion_bound_of_radius(r.0, r.1, q, v),
         }
     }
 }
 
 /// How far a link's body, or what the link holds, is from the link's origin, at most.
 fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
-    (pose.translation - scene.poses()[link].translation).norm() + body.reach()
+    (pose.translation - scene.poses()[link].translation).norm() + body.radius_from_origin()
 }
 
 /// The pure sets of a union, or the set itself if it is one.
@@ -447,13 +456,13 @@ fn pure_sets(cobject: &CObject) -> impl Iterator<Item = &PureSet> {
         }))
 }
 
-/// The links of a space that hold s-objects of an environment, and how far these reach from the links' origins.
+/// The links of a space that hold s-objects of an environment, and how far these radius from the links' origins.
 fn extents_of_held(world: &World, environment: &Environment, space: &Space) -> Vec<(usize, f64)> {
     let attached = world.snapshot(environment).map(|now| now.attached());
     let extent = |object: &SObject| {
         let attachment = object.attachment.as_ref()?;
-        let reach = object.pose.translation.norm() + object.body.reach();
-        (attachment.space == space.serial()).then_some((attachment.link, reach))
+        let radius = object.pose.translation.norm() + object.body.radius_from_origin();
+        (attachment.space == space.serial()).then_some((attachment.link, radius))
     };
     attached.into_iter().flatten().filter_map(extent).collect()
 }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
-use super::candidates::Wanted;
+use super::candidates::CandidateFilter;
 use super::context::QueryContext;
 use super::pure_answer::{PureAt, PureWitness};
 use super::scene::{Group, Scene};
@@ -12,7 +12,7 @@ use super::target::Target;
 use crate::cobject::{CObject, Induced, PureSet, Set};
 use crate::error::Result;
 use crate::pair::{Collect, PrimitiveScratch};
-use crate::robot::Posture;
+use crate::robot::RobotState;
 use crate::space::Space;
 
 /// The leaves of a C-object, each once: unions of induced sets, and pure sets with whether their complements are meant.
@@ -58,7 +58,7 @@ impl<'a> Leaves<'a> {
 
 /// What is asked of witnesses.
 #[derive(Clone, Copy)]
-pub(super) struct Listed {
+pub(super) struct WitnessRequest {
     pub epsilon: f64,
     pub max_count: usize,
     pub with_gradients: bool,
@@ -67,7 +67,7 @@ pub(super) struct Listed {
     pub counts_doubt: bool,
 }
 
-impl Listed {
+impl WitnessRequest {
     pub fn within(epsilon: f64, max_count: usize) -> Self {
         Self {
             epsilon,
@@ -84,7 +84,7 @@ impl QueryContext {
         &mut self,
         cobject: &CObject,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
         let leaves = Leaves::of(cobject);
         let mut lists = Vec::with_capacity(leaves.groups.len() + 1);
@@ -106,9 +106,9 @@ impl QueryContext {
         &mut self,
         group: &Group,
         scene: &Scene,
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
-        let wanted = Wanted::within(listed.epsilon);
+        let wanted = CandidateFilter::within(listed.epsilon);
         scene.check(group)?;
         let candidates = self.candidates(scene, group, wanted)?;
         let list = self.list(group, scene, &candidates, listed)?;
@@ -122,11 +122,11 @@ impl QueryContext {
         group: &Group,
         scene: &Scene,
         candidates: &[Target],
-        listed: Listed,
+        listed: WitnessRequest,
     ) -> Result<WitnessList> {
         let visitor = Collect::new(listed.epsilon, listed.max_count, listed.counts_doubt);
         let (hits, truncated) = self.collect(candidates, visitor)?;
-        let posture = scene.posture().filter(|_| listed.with_gradients);
+        let state = scene.state().filter(|_| listed.with_gradients);
         let mut list = WitnessList {
             truncated,
             ..WitnessList::empty(scene, listed)
@@ -140,9 +140,9 @@ impl QueryContext {
             let leaf = group[target.term as usize].leaf;
             let pairing = target.pairing();
             list.push(target, &pairing, hit, leaf, listed.contacts, &mut scratch);
-            if let Some(posture) = posture {
+            if let Some(state) = state {
                 for contact in &list.contacts[first..] {
-                    push_gradient(scene.space(), posture, target, contact, &mut list.gradients)?;
+                    push_gradient(scene.space(), state, target, contact, &mut list.gradients)?;
                 }
             }
         }
@@ -153,7 +153,7 @@ impl QueryContext {
 pub(super) fn pure_witnesses(
     leaves: &[(&PureSet, bool)],
     scene: &Scene,
-    listed: Listed,
+    listed: WitnessRequest,
 ) -> Result<WitnessList> {
     let mut found: Vec<PureWitness> = Vec::new();
     for &(set, complement) in leaves {
@@ -186,7 +186,7 @@ pub(super) fn pure_witnesses(
 }
 
 impl WitnessList {
-    fn empty(scene: &Scene, listed: Listed) -> Self {
+    fn empty(scene: &Scene, listed: WitnessRequest) -> Self {
         Self {
             version: scene.version(),
             nv: if listed.with_gradients {
@@ -199,7 +199,7 @@ impl WitnessList {
     }
 
     /// Several lists as one: the nearest first, of equal ones those of earlier lists.
-    pub(super) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: Listed) -> Self {
+    pub(super) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: WitnessRequest) -> Self {
         let mut merged = Self::empty(scene, listed);
         let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
         merged.truncated = count > listed.max_count || lists.iter().any(|list| list.truncated);
@@ -232,7 +232,7 @@ impl WitnessList {
 /// Appends one row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
 fn push_gradient(
     space: &Space,
-    posture: Posture,
+    state: RobotState,
     target: &Target,
     contact: &ContactRecord,
     rows: &mut Vec<f64>,
@@ -242,9 +242,9 @@ fn push_gradient(
     let row = &mut rows[first..];
     let [on_r, on_s] = &contact.points;
     let (r_link, s_link) = target.links();
-    space.add_gradient(posture, r_link, on_r, &contact.normal, row)?;
+    space.add_gradient(state, r_link, on_r, &contact.normal, row)?;
     if let Some(s) = s_link {
-        space.add_gradient(posture, s, on_s, &-contact.normal, row)?;
+        space.add_gradient(state, s, on_s, &-contact.normal, row)?;
     }
     Ok(())
 }

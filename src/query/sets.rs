@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use foldhash::fast::RandomState;
 
 use super::answer::Distance;
-use super::candidates::Wanted;
+use super::candidates::CandidateFilter;
 use super::context::QueryContext;
 use super::pure_answer::PureAt;
 use super::scene::{Group, Scene};
@@ -36,7 +36,7 @@ fn emptied<T>(mut known: Known<T>) -> Known<T> {
 }
 
 /// How a set is made of its parts, or of their complements.
-enum Made<'a> {
+enum Composition<'a> {
     /// A union: of what is induced, and of parts.
     Any(Option<&'a Group>, &'a [std::sync::Arc<CObject>]),
     /// An intersection.
@@ -44,18 +44,18 @@ enum Made<'a> {
 }
 
 /// A set, or its complement by De Morgan's laws: complements stand at leaves only.
-fn made(set: &Set, complement: bool) -> Made<'_> {
+fn made(set: &Set, complement: bool) -> Composition<'_> {
     match set {
         Set::Union { induced, others } => {
             let group = (!induced.is_empty()).then_some(&induced[..]);
             if complement {
-                Made::All(group, others)
+                Composition::All(group, others)
             } else {
-                Made::Any(group, others)
+                Composition::Any(group, others)
             }
         }
-        _ if complement => Made::Any(None, set.parts()),
-        _ => Made::All(None, set.parts()),
+        _ if complement => Composition::Any(None, set.parts()),
+        _ => Composition::All(None, set.parts()),
     }
 }
 
@@ -143,9 +143,9 @@ impl QueryContext {
         if self.recent_is_within(scene, group, 0.0)? {
             return Ok(Class::Inside);
         }
-        let wanted = Wanted {
+        let wanted = CandidateFilter {
             in_contact: true,
-            ..Wanted::within(0.0)
+            ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, group, wanted)?;
         let class = if self.any_within(&candidates, |_| 0.0)? {
@@ -161,7 +161,7 @@ impl QueryContext {
 
     /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
     pub(super) fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> Result<bool> {
-        let reaches = |c: &Target| {
+        let contact_epsilon = |c: &Target| {
             let epsilon = c.options.contact_epsilon;
             if epsilon > 0.0 && epsilon >= lower {
                 epsilon
@@ -169,8 +169,8 @@ impl QueryContext {
                 f64::NEG_INFINITY
             }
         };
-        if candidates.iter().any(|c| reaches(c) >= 0.0) {
-            self.any_within(candidates, reaches)
+        if candidates.iter().any(|c| contact_epsilon(c) >= 0.0) {
+            self.any_within(candidates, contact_epsilon)
         } else {
             Ok(false)
         }
@@ -204,7 +204,7 @@ impl QueryContext {
                     complement,
                     scene,
                 };
-                let lower = pure.reach()?.lower;
+                let lower = pure.bounded_distance()?.lower;
                 return Ok(lower <= threshold && lower < f64::INFINITY);
             }
             Set::Complement(part) => {
@@ -223,7 +223,7 @@ impl QueryContext {
             self.within_among(part, scene, threshold, complement, known)
         };
         let within = match made(cobject.set(), complement) {
-            Made::Any(group, parts) => {
+            Composition::Any(group, parts) => {
                 let mut any = false;
                 for part in cheap_first(parts) {
                     any = any || ask(part, known)?;
@@ -234,7 +234,7 @@ impl QueryContext {
                 }
             }
             // The distance from the complement of what is induced is not known when it is not 0: no bound is above 0.
-            Made::All(_, parts) => {
+            Composition::All(_, parts) => {
                 let mut all = true;
                 for part in cheap_first(parts) {
                     all = all && ask(part, known)?;
@@ -250,7 +250,7 @@ impl QueryContext {
         if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
-        let candidates = self.candidates(scene, group, Wanted::within(threshold))?;
+        let candidates = self.candidates(scene, group, CandidateFilter::within(threshold))?;
         let is_within = self.any_within(&candidates, |_| threshold)?;
         self.keep_memory(candidates);
         Ok(is_within)
@@ -302,8 +302,8 @@ impl QueryContext {
             return Ok(distance.clone());
         }
         let (is_union, group, parts) = match made(cobject.set(), complement) {
-            Made::Any(group, parts) => (true, group, parts),
-            Made::All(group, parts) => (false, group, parts),
+            Composition::Any(group, parts) => (true, group, parts),
+            Composition::All(group, parts) => (false, group, parts),
         };
         let mut found = match group {
             Some(group) if is_union => Some(self.distance_of_group(group, scene, max_distance)?),
@@ -331,9 +331,9 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         let nearest = self.recent_distance(scene, group, max_distance)?;
-        let wanted = Wanted {
+        let wanted = CandidateFilter {
             nearest: Some(nearest),
-            ..Wanted::within(0.0)
+            ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, group, wanted)?;
         let distance = self.distance_among(group, scene, &candidates, max_distance)?;

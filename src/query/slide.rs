@@ -5,7 +5,7 @@ use super::at_configuration::check_threshold;
 use super::context::QueryContext;
 use super::half_spaces::dot;
 use super::scene::Configuration;
-use super::segment::{Trust, Way};
+use super::segment::{LinearMotion, TouchAllowance};
 use super::slide_contacts::Detail;
 use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
 use super::step_limits::step_limits;
@@ -112,7 +112,7 @@ fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>
 }
 
 /// What all tries of one slide share.
-struct Asked<'a> {
+struct SlideRequest<'a> {
     world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
@@ -159,7 +159,7 @@ impl QueryContext {
         if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
-        let way = Way {
+        let way = LinearMotion {
             world,
             cobject,
             q,
@@ -171,7 +171,7 @@ impl QueryContext {
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
             ));
         }
-        let mut asked = Asked {
+        let mut asked = SlideRequest {
             world,
             cobject,
             q,
@@ -199,8 +199,8 @@ impl QueryContext {
     }
 
     /// Where the longest part of a step leads that can be taken.
-    fn find_step(&mut self, asked: &Asked, step: &[f64]) -> Result<Option<Vec<f64>>> {
-        let push = Push::of(asked)?;
+    fn find_step(&mut self, asked: &SlideRequest, step: &[f64]) -> Result<Option<Vec<f64>>> {
+        let push = OutwardStep::of(asked)?;
         let mut share = 1.0;
         while share >= asked.options.floor {
             let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
@@ -226,11 +226,11 @@ impl QueryContext {
     /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way.
     fn try_step(
         &mut self,
-        asked: &Asked,
+        asked: &SlideRequest,
         wish: &[f64],
-        push: Option<&Push>,
+        push: Option<&OutwardStep>,
     ) -> Result<Option<Vec<f64>>> {
-        let &Asked {
+        let &SlideRequest {
             world,
             cobject,
             q,
@@ -287,13 +287,13 @@ impl QueryContext {
         if !goes_on {
             return Ok(None);
         }
-        let way = Way {
+        let way = LinearMotion {
             world,
             cobject,
             q,
             v: &way,
         };
-        let trust = Trust {
+        let trust = TouchAllowance {
             distance: ON_TRUST * options.max_shell.min(smallest_radius(cobject)),
             max_count: options.max_witnesses,
         };
@@ -345,14 +345,14 @@ fn norm(v: &[f64]) -> f64 {
 }
 
 /// A step out to the desired distance.
-struct Push {
+struct OutwardStep {
     step: Vec<f64>,
 }
 
-impl Push {
+impl OutwardStep {
     /// The push of a configuration within the desired distance, no longer than `length`; none where contacts stand against
     /// each other so that hardly anything is won.
-    fn of(asked: &Asked) -> Result<Option<Self>> {
+    fn of(asked: &SlideRequest) -> Result<Option<Self>> {
         let (space, length) = (asked.cobject.space(), asked.length);
         let desired = asked.options.desired_distance;
         let contacts = approaches(asked.here, length, desired);

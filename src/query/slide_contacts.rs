@@ -1,10 +1,10 @@
 //! The contacts that constrain a slide: of each leaf those within its shell.
 
 use super::answer::WitnessList;
-use super::candidates::Wanted;
+use super::candidates::CandidateFilter;
 use super::context::QueryContext;
 use super::scene::{Configuration, Group, Scene, SceneMemory};
-use super::set_witnesses::{Listed, pure_witnesses};
+use super::set_witnesses::{WitnessRequest, pure_witnesses};
 use super::slide::SlideOptions;
 use super::target::Target;
 use super::world::World;
@@ -77,10 +77,10 @@ struct ContactSearch<'a> {
 }
 
 impl ContactSearch<'_> {
-    fn listed(&self, epsilon: f64) -> Listed {
-        Listed {
+    fn listed(&self, epsilon: f64) -> WitnessRequest {
+        WitnessRequest {
             with_gradients: true,
-            ..Listed::within(epsilon, self.options.max_witnesses)
+            ..WitnessRequest::within(epsilon, self.options.max_witnesses)
         }
     }
 
@@ -88,7 +88,7 @@ impl ContactSearch<'_> {
         let (scene, max_shell) = (self.scene, self.options.max_shell);
         scene.check(group)?;
         let shells = group.iter().map(|term| term.shell.unwrap_or(max_shell));
-        let wanted = Wanted::within(shells.fold(0.0, f64::max));
+        let wanted = CandidateFilter::within(shells.fold(0.0, f64::max));
         let meter = context.scratch.meter_mut();
         let candidates = scene.candidates(group, wanted, &mut context.candidates, meter)?;
         for target in &candidates {
@@ -113,7 +113,7 @@ impl ContactSearch<'_> {
         context: &mut QueryContext,
         target: &[Target; 1],
         shell: f64,
-    ) -> Result<Option<Listed>> {
+    ) -> Result<Option<WitnessRequest>> {
         let whole = self.listed(shell);
         let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
         if self.detail == Detail::All || a.saturating_mul(b) <= SMALL_PAIR {
@@ -128,7 +128,7 @@ impl ContactSearch<'_> {
             true => whole.max_count.min(MAX_OF_LARGE_PAIR),
             false => whole.max_count,
         };
-        Ok(Some(Listed {
+        Ok(Some(WitnessRequest {
             epsilon,
             max_count,
             ..whole

@@ -3,7 +3,7 @@
 use super::half_spaces::{HalfSpace, dot};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
-use crate::robot::{BlockKind, Coordinate, Posture};
+use crate::robot::{BlockKind, Coordinate, RobotState};
 use crate::space::Space;
 
 /// Limits that a step of this many times the length asked for cannot reach are left out.
@@ -18,14 +18,14 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
     let mut found = Vec::new();
     // A value that moves with `row . v` must stay between two others.
     let mut keep = |value: f64, lower: f64, upper: f64, row: &[f64]| {
-        let reach = FAR * length * dot(row, row).sqrt();
-        if upper - value <= reach {
+        let farthest = FAR * length * dot(row, row).sqrt();
+        if upper - value <= farthest {
             found.push(HalfSpace {
                 row: row.iter().map(|x| -x).collect(),
                 least: value - upper,
             });
         }
-        if value - lower <= reach {
+        if value - lower <= farthest {
             found.push(HalfSpace {
                 row: row.to_vec(),
                 least: lower - value,
@@ -65,7 +65,7 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
     let poses = &space.link_poses(q)?;
     for (link, pose) in poses.iter().enumerate() {
         let origin = &pose.translation;
-        let jacobian = space.jacobian(Posture { q, poses }, link, origin)?;
+        let jacobian = space.jacobian(RobotState { q, poses }, link, origin)?;
         for (axis, row) in jacobian.chunks_exact(space.nv().max(1)).take(3).enumerate() {
             if row.iter().any(|x| *x != 0.0) {
                 // Aimed inside by what rounding of the pose may put it outside.

@@ -6,7 +6,7 @@ use crate::pose::{Pose, Vec3, turned_axes};
 
 /// A configuration, and the link poses at it.
 #[derive(Clone, Copy, Debug)]
-pub struct Posture<'a> {
+pub struct RobotState<'a> {
     pub q: &'a [f64],
     pub poses: &'a [Pose],
 }
@@ -36,7 +36,7 @@ impl Robot {
     /// Joints that share a coordinate give one column each, to be summed.
     pub fn visit_columns(
         &self,
-        Posture { q, poses }: Posture,
+        RobotState { q, poses }: RobotState,
         link: usize,
         point: &Vec3,
         mut visit: impl FnMut(Column),
@@ -74,10 +74,10 @@ impl Robot {
 
     /// The 6 x nv basic Jacobian of a point fixed to a link, row-major: three rows of linear velocity, three of angular
     /// velocity, all in the world frame.
-    pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
+    pub fn jacobian(&self, state: RobotState, link: usize, point: &Vec3) -> Result<Vec<f64>> {
         let nv = self.nv();
         let mut matrix = vec![0.0; 6 * nv];
-        self.visit_columns(posture, link, point, |c| c.add_to(&mut matrix, nv))?;
+        self.visit_columns(state, link, point, |c| c.add_to(&mut matrix, nv))?;
         Ok(matrix)
     }
 }

@@ -14,6 +14,6 @@ mod robot;
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
 pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
-pub use jacobian::{Column, Posture};
+pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};
 pub use robot::{Link, Robot, check_configuration};

@@ -1,7 +1,7 @@
 //! How far a link can move between two configurations: the constants of Quinlan's bubbles (1994), and the same along one
 //! direction.
 
-use super::{JointKind, Link, Posture, Robot};
+use super::{JointKind, Link, Robot, RobotState};
 use crate::pose::Vec3;
 
 /// What one joint contributes to the motion of something that it carries.
@@ -19,14 +19,14 @@ impl Robot {
     /// v for a unit of time. Infinite where a custom joint does not state its speeds.
     pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
         match &self.links()[link].body {
-            Some(body) => self.reach_motion_bound(link, body.reach(), q, v),
+            Some(body) => self.motion_bound_of_radius(link, body.radius_from_origin(), q, v),
             None => 0.0,
         }
     }
 
-    /// The same for whatever is fixed to the link, no farther than `reach` from its origin.
-    pub fn reach_motion_bound(&self, link: usize, reach: f64, q: &[f64], v: &[f64]) -> f64 {
-        self.motion_bound_in(None, link, reach, q, v)
+    /// The same for whatever is fixed to the link, no farther than `radius` from its origin.
+    pub fn motion_bound_of_radius(&self, link: usize, radius: f64, q: &[f64], v: &[f64]) -> f64 {
+        self.motion_bound_in(None, link, radius, q, v)
     }
 
     /// The same in the frame of one of the links that carry it, or of the world: only the joints in between count.
@@ -34,34 +34,34 @@ impl Robot {
         &self,
         frame: Option<usize>,
         link: usize,
-        reach: f64,
+        radius: f64,
         q: &[f64],
         v: &[f64],
     ) -> f64 {
         let mut bound = 0.0;
-        self.visit_motions(frame, link, reach, q, v, |joint| {
+        self.visit_motions(frame, link, radius, q, v, |joint| {
             bound += joint.shift + times(joint.turn, joint.extent);
         });
         bound
     }
 
-    /// The same along a unit direction of the world, of a robot whose links are at the posture's poses at the start. It is 0
+    /// The same along a unit direction of the world, of a robot whose links are at the state's poses at the start. It is 0
     /// along the normal of a floor for a base that shifts and turns over it.
     pub fn directed_motion_bound(
         &self,
         link: usize,
-        reach: f64,
+        radius: f64,
         direction: &Vec3,
-        posture: Posture,
+        state: RobotState,
         v: &[f64],
     ) -> f64 {
         let mut joints: Vec<JointMotion> = Vec::new();
-        self.visit_motions(None, link, reach, posture.q, v, |joint| joints.push(joint));
+        self.visit_motions(None, link, radius, state.q, v, |joint| joints.push(joint));
         let mut bound = 0.0;
         // How far the direction, as a joint's frame sees it, goes from what it is at the start.
         let mut drift = 0.0;
         for joint in joints.iter().rev() {
-            let [shift, turn] = self.directed_velocity(joint, direction, posture, v);
+            let [shift, turn] = self.directed_velocity(joint, direction, state, v);
             let turned = times(joint.turn, (turn + drift).min(1.0));
             drift += turned;
             let shift = (shift + times(joint.shift, drift)).min(joint.shift);
@@ -76,11 +76,11 @@ impl Robot {
         &self,
         joint: &JointMotion,
         direction: &Vec3,
-        posture: Posture,
+        state: RobotState,
         v: &[f64],
     ) -> [f64; 2] {
         let link = &self.links()[joint.link];
-        let Some([shift, turn]) = self.start_velocity(link, joint.link, posture, v) else {
+        let Some([shift, turn]) = self.start_velocity(link, joint.link, state, v) else {
             return [joint.shift, 1.0];
         };
         let sine = turn.try_normalize(0.0);
@@ -98,15 +98,15 @@ impl Robot {
         &self,
         link: &Link,
         index: usize,
-        posture: Posture,
+        state: RobotState,
         v: &[f64],
     ) -> Option<[Vec3; 2]> {
         let joint = &link.joint;
         let own = &v[joint.velocity..joint.velocity + joint.kind.nv()];
-        let turned = posture.poses[index].rotation;
+        let turned = state.poses[index].rotation;
         let frame = || match link.parent {
             None => link.at.rotation,
-            Some(parent) => posture.poses[parent].rotation * link.at.rotation,
+            Some(parent) => state.poses[parent].rotation * link.at.rotation,
         };
         let vector = |at: usize| Vec3::new(own[at], own[at + 1], own[at + 2]);
         let still = Vec3::zeros();
@@ -126,19 +126,19 @@ impl Robot {
         })
     }
 
-    /// Visits the joints that carry something, no farther than `reach` from a link's origin, from the link down to a frame.
+    /// Visits the joints that carry something, no farther than `radius` from a link's origin, from the link down to a frame.
     fn visit_motions(
         &self,
         frame: Option<usize>,
         link: usize,
-        reach: f64,
+        radius: f64,
         q: &[f64],
         v: &[f64],
         mut visit: impl FnMut(JointMotion),
     ) {
         let links = self.links();
         // The largest distance from the current joint's origin to a point of what is carried.
-        let mut extent = reach;
+        let mut extent = radius;
         let mut next = Some(link);
         while let Some(index) = next.filter(|_| next != frame) {
             let here = &links[index];

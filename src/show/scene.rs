@@ -12,7 +12,7 @@ use crate::cobject::{BodyPairs, CObject};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::query::{PseudoNormal, QueryContext, SSide, Shell, World};
-use crate::robot::Posture;
+use crate::robot::RobotState;
 use crate::whole_file::write_whole;
 
 /// At most so many witnesses are drawn.
@@ -31,7 +31,7 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
     // One state of the world for the whole picture.
     let world = &World::of(cobject);
     // Limits without a scale have no place in the world: what is near is shown without them.
-    let is_mixed = cobject.require_one_unit().is_err();
+    let is_mixed = cobject.require_one_metric().is_err();
     let part = is_mixed.then(|| cobject.induced_part());
     let measured = part.as_ref().unwrap_or(cobject);
     let context = &mut QueryContext::new();
@@ -211,11 +211,11 @@ impl<'a> Drawing<'a> {
 
     /// The velocity of a link's point when the robot moves along the gradient.
     fn way_along(&self, link: usize, point: &Vec3, gradient: &[f64]) -> Result<Vec3> {
-        let posture = Posture {
+        let state = RobotState {
             q: self.q,
             poses: &self.poses,
         };
-        let jacobian = self.cobject.space().jacobian(posture, link, point)?;
+        let jacobian = self.cobject.space().jacobian(state, link, point)?;
         let mut rows = jacobian.chunks_exact(gradient.len().max(1));
         let mut along = || {
             let row = rows.next().unwrap_or_default();

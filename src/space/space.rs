@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::WorldBox;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{Block, Column, Coordinate, Link, Posture, Robot, check_configuration};
+use crate::robot::{Block, Column, Coordinate, Link, Robot, RobotState, check_configuration};
 
 /// Where a robot's links, coordinates and velocities begin in the space.
 #[derive(Clone, Copy, Debug)]
@@ -196,37 +196,37 @@ impl Space {
     /// Adds the derivative of `direction . point` to `row`, for a point fixed to a link; eq. (39).
     pub fn add_gradient(
         &self,
-        posture: Posture,
+        state: RobotState,
         link: usize,
         point: &Vec3,
         direction: &Vec3,
         row: &mut [f64],
     ) -> Result<()> {
-        self.visit_columns(posture, link, point, |column| {
+        self.visit_columns(state, link, point, |column| {
             row[column.velocity] += direction.dot(&column.linear);
         })
     }
 
     /// The 6 x nv basic Jacobian (33) of a point fixed to a link, row-major: linear, then angular velocity, in the world.
-    pub fn jacobian(&self, posture: Posture, link: usize, point: &Vec3) -> Result<Vec<f64>> {
+    pub fn jacobian(&self, state: RobotState, link: usize, point: &Vec3) -> Result<Vec<f64>> {
         let mut matrix = vec![0.0; 6 * self.nv];
-        self.visit_columns(posture, link, point, |c| c.add_to(&mut matrix, self.nv))?;
+        self.visit_columns(state, link, point, |c| c.add_to(&mut matrix, self.nv))?;
         Ok(matrix)
     }
 
     /// The columns of the Jacobian of a point fixed to a link, those that are not 0; see [`Robot::visit_columns`].
     fn visit_columns(
         &self,
-        posture: Posture,
+        state: RobotState,
         link: usize,
         point: &Vec3,
         mut visit: impl FnMut(Column),
     ) -> Result<()> {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
-        let own = Posture {
-            q: &posture.q[self.coordinates_of(robot)],
-            poses: &posture.poses[offset.link..],
+        let own = RobotState {
+            q: &state.q[self.coordinates_of(robot)],
+            poses: &state.poses[offset.link..],
         };
         self.robots[robot].visit_columns(own, link - offset.link, point, |column| {
             visit(Column {
@@ -245,32 +245,32 @@ impl Space {
         self.robots[robot].motion_bound(link - offset.link, &q[self.coordinates_of(robot)], v)
     }
 
-    /// The same for whatever is fixed to the link, no farther than `reach` from its origin.
-    pub fn reach_motion_bound(&self, link: usize, reach: f64, q: &[f64], v: &[f64]) -> f64 {
+    /// The same for whatever is fixed to the link, no farther than `radius` from its origin.
+    pub fn motion_bound_of_radius(&self, link: usize, radius: f64, q: &[f64], v: &[f64]) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
         let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
         let q = &q[self.coordinates_of(robot)];
-        self.robots[robot].reach_motion_bound(link - offset.link, reach, q, v)
+        self.robots[robot].motion_bound_of_radius(link - offset.link, radius, q, v)
     }
 
     /// The same along a unit direction of the world; see [`Robot::directed_motion_bound`].
     pub fn directed_motion_bound(
         &self,
         link: usize,
-        reach: f64,
+        radius: f64,
         direction: &Vec3,
-        posture: Posture,
+        state: RobotState,
         v: &[f64],
     ) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
         let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
-        let own = Posture {
-            q: &posture.q[self.coordinates_of(robot)],
-            poses: &posture.poses[offset.link..],
+        let own = RobotState {
+            q: &state.q[self.coordinates_of(robot)],
+            poses: &state.poses[offset.link..],
         };
-        self.robots[robot].directed_motion_bound(link - offset.link, reach, direction, own, v)
+        self.robots[robot].directed_motion_bound(link - offset.link, radius, direction, own, v)
     }
 
     /// No distance between things fixed to two links, each no farther than its extent from its link's origin, changes by
@@ -278,7 +278,7 @@ impl Space {
     pub fn relative_motion_bound(&self, sides: [(usize, f64); 2], q: &[f64], v: &[f64]) -> f64 {
         let [a, b] = sides.map(|(link, _)| self.robot_of(link));
         if a != b {
-            let in_world = |(link, extent)| self.reach_motion_bound(link, extent, q, v);
+            let in_world = |(link, extent)| self.motion_bound_of_radius(link, extent, q, v);
             return sides.map(in_world).iter().sum();
         }
         let (robot, offset) = (&self.robots[a], self.offsets[a]);

@@ -266,7 +266,7 @@ impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
 }
 
 /// What a joint follows: another's coordinate, by a multiple and an offset.
-struct Followed<'m, 'a, 'i> {
+struct MimicTarget<'m, 'a, 'i> {
     joint: &'m JointElement<'a, 'i>,
     multiplier: f64,
     offset: f64,
@@ -275,13 +275,13 @@ struct Followed<'m, 'a, 'i> {
 /// For each joint that mimics, the joint at the end of its chain.
 fn followed<'m, 'a, 'i>(
     model: &'m Model<'a, 'i>,
-) -> Result<HashMap<&'a str, Followed<'m, 'a, 'i>>> {
+) -> Result<HashMap<&'a str, MimicTarget<'m, 'a, 'i>>> {
     let joints: HashMap<&str, &JointElement> = model
         .joints
         .iter()
         .map(|joint| (joint.name, joint))
         .collect();
-    let mut found: HashMap<&str, Followed> = HashMap::new();
+    let mut found: HashMap<&str, MimicTarget> = HashMap::new();
     for joint in &model.joints {
         let wrong = |kind, message: String| {
             fault(joint.node, kind, message).within(format_args!("joint \"{}\"", joint.name))
@@ -324,7 +324,7 @@ fn followed<'m, 'a, 'i>(
             multiplier *= mimic.multiplier;
             found.insert(
                 name,
-                Followed {
+                MimicTarget {
                     joint: last,
                     multiplier,
                     offset,
@@ -338,7 +338,7 @@ fn followed<'m, 'a, 'i>(
 struct Assembly<'m, 'a, 'i, 'o> {
     builder: &'o mut RobotBuilder,
     options: &'o UrdfOptions,
-    followed: HashMap<&'a str, Followed<'m, 'a, 'i>>,
+    followed: HashMap<&'a str, MimicTarget<'m, 'a, 'i>>,
     /// Which coordinate each joint took, by the name of the joint at the end of a chain of mimics.
     coordinates: HashMap<&'a str, usize>,
     bodies: LinkBodies<'o>,

@@ -9,12 +9,12 @@ use super::shapes::{Shape, dented_ball, hull, pair_size};
 
 /// A body at a pose.
 #[derive(Clone)]
-pub struct Placed {
+pub struct PlacedPrimitive {
     pub shape: Shape,
     pub pose: Pose,
 }
 
-impl Placed {
+impl PlacedPrimitive {
     pub fn new(shape: Shape, pose: Pose) -> Self {
         Self { shape, pose }
     }
@@ -28,18 +28,18 @@ impl Placed {
     }
 }
 
-pub fn size_of(a: &Placed, b: &Placed) -> f64 {
+pub fn size_of(a: &PlacedPrimitive, b: &PlacedPrimitive) -> f64 {
     pair_size(&a.shape, &a.pose, &b.shape, &b.pose)
 }
 
-pub fn cold(a: &Placed, b: &Placed) -> Distance {
+pub fn cold(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Distance {
     QueryContext::new()
         .pair_distance(a.side(), b.side(), f64::INFINITY)
         .unwrap()
 }
 
-pub fn hull_at(points: &[Vec3], pose: Pose) -> Placed {
-    Placed::new(hull(points), pose)
+pub fn hull_at(points: &[Vec3], pose: Pose) -> PlacedPrimitive {
+    PlacedPrimitive::new(hull(points), pose)
 }
 
 pub fn shifted(points: &[Vec3], by: Vec3) -> Vec<Vec3> {

@@ -1,0 +1,104 @@
+//! Why a configuration has its class.
+
+use std::ffi::c_void;
+
+use crate::capi::at_configuration::answers::{cstk_class, cstk_witness_list};
+use crate::capi::boundary::guard;
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::input::{Output, slice};
+use crate::capi::query::{cstk_query, start, with_query};
+use crate::capi::status::status::cstk_status;
+use crate::capi::user_data::address;
+use crate::cobject::CObject;
+use crate::query::{Configuration, Verdict};
+
+/// What one leaf of a C-object's tree says of a configuration.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_verdict {
+    /// The leaf, as cstk_cobject_get_data numbers it, and its data.
+    pub cobject: u64,
+    pub data: *mut c_void,
+    /// The class with respect to the leaf itself.
+    pub leaf_class: cstk_class,
+    /// The tree takes the leaf's complement.
+    pub complemented: bool,
+    /// The class of the whole rests on this leaf (and on the other decisive ones): on the way down to it the part's class was
+    /// that of each union and intersection.
+    pub decisive: bool,
+    pub reserved_bytes: [u8; 2],
+    /// The pairs of primitives that made the leaf's class, if it is decisive: `witness_count` entries of the list.
+    pub first_witness: u32,
+    pub witness_count: u32,
+    pub reserved: [u64; 2],
+}
+
+// SAFETY: the caller's address is only handed back, never followed.
+unsafe impl Send for cstk_verdict {}
+
+/// A class with its reasons. The arrays belong to the query context and stay valid until its next call or its release.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_explanation {
+    pub point_class: cstk_class,
+    pub reserved_word: u32,
+    /// Every leaf; one that is meant both as it is and by its complement stands twice.
+    pub leaves: *const cstk_verdict,
+    pub leaf_count: usize,
+    /// Pairs that meet where the leaf's class is CSTK_CLASS_INSIDE, or are within its contact epsilon where it is CSTK_CLASS_CONTACT: as
+    /// for classes, doubt within rounding counts as within, so that `distance` may be above the epsilon by that.
+    pub list: cstk_witness_list,
+    pub reserved: [u64; 4],
+}
+
+impl From<&Verdict> for cstk_verdict {
+    fn from(verdict: &Verdict) -> Self {
+        Self {
+            cobject: verdict.leaf.serial,
+            data: address(verdict.leaf.data),
+            leaf_class: verdict.class.into(),
+            complemented: verdict.complemented,
+            decisive: verdict.decisive,
+            reserved_bytes: [0; 2],
+            first_witness: verdict.first_witness as u32,
+            witness_count: verdict.witness_count as u32,
+            reserved: [0; 2],
+        }
+    }
+}
+
+/// Writes the class of q as cstk_classify does, and what made it: which leaves of the C-object, and which pairs of primitives
+/// (§2.2.4, operations 4 and 5). Every leaf is asked, so it takes longer. At most `max_count` pairs are listed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_explain(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_count: usize,
+    out: *mut cstk_explanation,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let out = Output::checked(out, "out")?;
+            // SAFETY: checked for NULL; the caller states the length.
+            let q = unsafe { slice(q, nq, "q")? };
+            let at = Configuration::Coordinates(q);
+            let found = state.context.explain(&cobject, at, max_count)?;
+            state.verdicts = found.leaves.iter().map(From::from).collect();
+            let leaves = start(&state.verdicts);
+            let leaf_count = state.verdicts.len();
+            out.write(cstk_explanation {
+                point_class: found.class.into(),
+                reserved_word: 0,
+                leaves,
+                leaf_count,
+                list: state.keep(found.list),
+                reserved: [0; 4],
+            });
+            Ok(())
+        })
+    })
+}

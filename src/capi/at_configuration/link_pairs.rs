@@ -1,0 +1,184 @@
+//! Which pairs of links a self-collision set should test.
+
+use std::ffi::c_void;
+
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::handle;
+use crate::capi::input::{OptionsStruct, Output, options_or_default, slice, write_defaults};
+use crate::capi::query::{cstk_query, start, with_query};
+use crate::capi::space::space::cstk_space;
+use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
+use crate::capi::status::status::cstk_status;
+use crate::query::{LinkPair, LinkPairOptions, PairVerdict};
+use crate::space::Space;
+
+/// How pairs of links are judged. Write it with cstk_link_pair_options_default first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_link_pair_options {
+    pub size: u32,
+    pub cookie: u32,
+    /// How many configurations are drawn from the space; default 1000.
+    pub samples: u64,
+    /// Decides which; default 0. Equal seeds give equal answers.
+    pub seed: u64,
+    /// The configuration at rest, as many doubles as the space has coordinates; NULL, the default, for all at 0, clamped to
+    /// their ranges. Coordinates without bounds stay as at rest.
+    pub rest: *const f64,
+    /// Links at most this far apart count as touching; default 0.
+    pub margin: f64,
+    /// Pairs that touch in this share of the samples, or more, always touch; default 0.95.
+    pub always: f64,
+    /// Nonzero: pairs that touched in no sample are left out of the pairs to test, too. No sampling proves that they
+    /// cannot touch. Default 0.
+    pub skip_never: u32,
+    pub reserved: u32,
+}
+
+// SAFETY: repr(C), two u32, two u64, a pointer, two doubles, two u32: no padding; the pointer is only read after checks.
+unsafe impl OptionsStruct for cstk_link_pair_options {
+    const COOKIE: u32 = 0x4353_0404;
+    const NAME: &'static str = "cstk_link_pair_options";
+    fn defaults() -> Self {
+        let defaults = LinkPairOptions::default();
+        Self {
+            size: 0,
+            cookie: 0,
+            samples: defaults.samples as u64,
+            seed: defaults.seed,
+            rest: std::ptr::null(),
+            margin: defaults.margin,
+            always: defaults.always,
+            skip_never: 0,
+            reserved: 0,
+        }
+    }
+}
+
+/// What was found out about a pair of links.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_pair_verdict {
+    /// To be tested: the two touched in some samples, or are of different robots.
+    CSTK_PAIR_TEST = 0,
+    /// The two are joined, with no link that has a body in between, or fixed to each other.
+    CSTK_PAIR_ADJACENT = 1,
+    /// They touch at rest.
+    CSTK_PAIR_AT_REST = 2,
+    /// They touch in all samples, or nearly.
+    CSTK_PAIR_ALWAYS = 3,
+    /// They touched in no sample; tested all the same unless skip_never.
+    CSTK_PAIR_NEVER = 4,
+}
+
+/// A pair of links that have bodies, the lower number first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_link_pair {
+    pub r_link: u32,
+    pub s_link: u32,
+    pub verdict: cstk_pair_verdict,
+    /// The robots that the two are of, in the order of the space's.
+    pub r_robot: u32,
+    pub s_robot: u32,
+    pub reserved: u32,
+    /// The share of the samples in which they touch; 0 where the verdict needed none.
+    pub share: f64,
+}
+
+/// All pairs of links that have bodies. The arrays belong to the query context and stay valid until its next call or its
+/// release.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_link_pair_list {
+    pub pairs: *const cstk_link_pair,
+    pub count: usize,
+    /// The pairs to test, two numbers each, as cstk_cobject_induced_links takes them; NULL where there is none.
+    pub tested: *const u32,
+    pub tested_count: usize,
+    pub reserved: [u64; 4],
+}
+
+/// Writes the default options. `size` is sizeof(cstk_link_pair_options).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_link_pair_options_default(
+    out: *mut cstk_link_pair_options,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
+/// touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
+/// robots are always tested. Give `tested` to cstk_cobject_induced_links (it may be empty); to
+/// allow further pairs, leave them out. Two links may count as touching by `margin`: take no less than the margin of that set
+/// together with its contact epsilon, else pairs are tested that are always in contact. `options`
+/// may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_find_link_pairs(
+    query: *mut cstk_query,
+    space: *const cstk_space,
+    options: *const cstk_link_pair_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    out: *mut cstk_link_pair_list,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let space = &*handle::share::<Space>(space, "space")?;
+            let out = Output::checked(out, "out")?;
+            // SAFETY: checked for size and cookie.
+            let given = unsafe { options_or_default(options, "options")? };
+            // SAFETY: checked for NULL; the header states the length.
+            let options = unsafe { read(&given, space)? };
+            let mut report = reporter(progress, user);
+            let pairs = state.context.link_pairs(space, &options, &mut report)?;
+            state.keep_pairs(&pairs, given.skip_never != 0);
+            out.write(cstk_link_pair_list {
+                pairs: start(&state.pairs),
+                count: state.pairs.len(),
+                tested: start(&state.tested),
+                tested_count: state.tested.len() / 2,
+                reserved: [0; 4],
+            });
+            Ok(())
+        })
+    })
+}
+
+unsafe fn read(given: &cstk_link_pair_options, space: &Space) -> Result<LinkPairOptions, Failure> {
+    let rest = if given.rest.is_null() {
+        None
+    } else {
+        // SAFETY: as the caller states.
+        Some(unsafe { slice(given.rest, space.nq(), "options->rest")? }.to_vec())
+    };
+    Ok(LinkPairOptions {
+        samples: usize::try_from(given.samples).unwrap_or(usize::MAX),
+        seed: given.seed,
+        rest,
+        margin: given.margin,
+        always: given.always,
+    })
+}
+
+impl From<&LinkPair> for cstk_link_pair {
+    fn from(pair: &LinkPair) -> Self {
+        Self {
+            r_link: pair.links[0] as u32,
+            s_link: pair.links[1] as u32,
+            verdict: match pair.verdict {
+                PairVerdict::Test => cstk_pair_verdict::CSTK_PAIR_TEST,
+                PairVerdict::Adjacent => cstk_pair_verdict::CSTK_PAIR_ADJACENT,
+                PairVerdict::AtRest => cstk_pair_verdict::CSTK_PAIR_AT_REST,
+                PairVerdict::Always => cstk_pair_verdict::CSTK_PAIR_ALWAYS,
+                PairVerdict::Never => cstk_pair_verdict::CSTK_PAIR_NEVER,
+            },
+            r_robot: pair.robots[0] as u32,
+            s_robot: pair.robots[1] as u32,
+            reserved: 0,
+            share: pair.share,
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Queries at a configuration.
+//!
+//! Operations 4 to 8 of §2.2.4 for a C-object: is q free, how far from contact, between what, which way is out, and why. Callers with
+//! kinematics of their own ask at link poses instead of q.
+//!
+//! ```c
+//! cstk_class place;
+//! cstk_distance_result nearest;
+//! check(cstk_classify(query, cobject, q, nq, &place));
+//! check(cstk_distance(query, cobject, q, nq, INFINITY, &nearest));
+//! ```
+
+pub mod answers;
+
+pub mod questions;
+
+pub mod explain;
+
+pub mod link_pairs;

@@ -1,0 +1,358 @@
+//! The queries of a C-object at a configuration, or at link poses.
+
+use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, cstk_witness_list};
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::input::{Output, slice};
+use crate::capi::query::{State, cstk_query, with_query};
+use crate::capi::robot::robot::read_poses;
+use crate::capi::status::status::cstk_status;
+use crate::cobject::CObject;
+use crate::pose::Pose;
+use crate::query::{Configuration, Shell};
+use crate::space::Space;
+
+/// Where the robot is, as C gave it: `count` numbers or poses.
+#[derive(Clone, Copy)]
+enum StateInput {
+    Coordinates(*const f64, usize),
+    LinkPoses(*const f64, usize),
+}
+
+impl StateInput {
+    /// What is given, checked; poses in memory that is used again.
+    unsafe fn read<'a>(
+        self,
+        space: &Space,
+        memory: &'a mut Vec<Pose>,
+    ) -> Result<Configuration<'a>, Failure> {
+        // SAFETY: as the caller states.
+        unsafe {
+            Ok(match self {
+                Self::Coordinates(q, count) => Configuration::Coordinates(slice(q, count, "q")?),
+                Self::LinkPoses(values, count) => {
+                    space.check_link_poses(count)?;
+                    read_poses(values, count, "link_poses", memory)?;
+                    Configuration::LinkPoses(memory)
+                }
+            })
+        }
+    }
+}
+
+/// Checks the arguments all queries share, and runs one; `at` reads where the robot is.
+fn run<At, T>(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    at: impl FnOnce() -> Result<At, Failure>,
+    out: *mut T,
+    ask: impl FnOnce(&mut State, &CObject, &At) -> Result<T, Failure>,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            // A share: functions of the caller may release the handle meanwhile.
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let out = Output::checked(out, "out")?;
+            let at = at()?;
+            out.write(ask(state, &cobject, &at)?);
+            Ok(())
+        })
+    })
+}
+
+/// The same for queries that take link poses too.
+unsafe fn run_at<T>(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    given: StateInput,
+    out: *mut T,
+    ask: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
+) -> cstk_status {
+    let ask = |state: &mut State, cobject: &CObject, (): &()| {
+        let mut memory = std::mem::take(&mut state.poses);
+        // SAFETY: the caller states the lengths.
+        let at = unsafe { given.read(cobject.space(), &mut memory)? };
+        let answer = ask(state, cobject, at);
+        state.poses = memory;
+        answer
+    };
+    run(query, cobject, || Ok(()), out, ask)
+}
+
+fn classify(
+    state: &mut State,
+    cobject: &CObject,
+    at: Configuration,
+) -> Result<cstk_class, Failure> {
+    Ok(state.context.classify(cobject, at)?.into())
+}
+
+/// Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
+/// `nq` doubles, as many as the space has coordinates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_classify(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    out: *mut cstk_class,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::Coordinates(q, nq),
+            out,
+            classify,
+        )
+    }
+}
+
+/// cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
+/// world, `link_count` runs of 12 doubles. Such callers get a contact's gradient as n^T (J_r - J_s), with their Jacobians of
+/// the links' points r_point and s_point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_classify_at_link_poses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    out: *mut cstk_class,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::LinkPoses(link_poses, link_count),
+            out,
+            classify,
+        )
+    }
+}
+
+/// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
+/// as within. Of unions of induced sets and closed pure sets it is true with threshold 0 where cstk_classify says
+/// CSTK_CLASS_INSIDE. At the boundary of an open set (at a joint limit, say), and where of an intersection or a complement only a
+/// lower bound of the distance is known, it is true where the class is less: ask cstk_classify whether a configuration is
+/// allowed. Cheaper than a distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_within(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    threshold: f64,
+    out: *mut bool,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::Coordinates(q, nq),
+            out,
+            |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        )
+    }
+}
+
+/// cstk_within with the pose of every link, as in cstk_classify_at_link_poses.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_within_at_link_poses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    threshold: f64,
+    out: *mut bool,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| Ok(state.context.within(cobject, at, threshold)?),
+        )
+    }
+}
+
+/// Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
+/// `max_distance` (INFINITY to have them all) are not computed, which saves time; the answer is then CSTK_DISTANCE_BEYOND_MAX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::Coordinates(q, nq),
+            out,
+            |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        )
+    }
+}
+
+/// cstk_distance with the pose of every link, as in cstk_classify_at_link_poses.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance_at_link_poses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
+        )
+    }
+}
+
+/// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
+/// contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
+/// nearest are given and `truncated` is set. Neighbouring faces of a mesh share edges and vertices, so that one physical
+/// contact may have several witnesses. Each piece of a body that lies inside another, a solid, is a witness too, at distance
+/// 0 (see `contained`). The arrays stay valid until the next call with this query context.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_witnesses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::Coordinates(q, nq),
+            out,
+            |state, cobject, at| {
+                let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+                Ok(state.keep(list))
+            },
+        )
+    }
+}
+
+/// cstk_witnesses with the pose of every link, as in cstk_classify_at_link_poses.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_witnesses_at_link_poses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| {
+                let list = state.context.witnesses(cobject, at, epsilon, max_count)?;
+                Ok(state.keep(list))
+            },
+        )
+    }
+}
+
+/// cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows
+/// per unit of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance
+/// first and give its `upper` as epsilon where that is finite: a large epsilon visits every pair, whatever max_count. Row
+/// i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact and no row. The arrays stay
+/// valid until the next call with this query context.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_gradients(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    epsilon: f64,
+    max_count: usize,
+    out: *mut cstk_witness_list,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { slice(q, nq, "q") },
+        out,
+        |state, cobject, q| {
+            let list = state.context.gradients(cobject, q, epsilon, max_count)?;
+            Ok(state.keep(list))
+        },
+    )
+}
+
+/// Everything about one configuration: Appendix A's cstk-pseudo-normal.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_pseudo_normal_result {
+    pub point_class: cstk_class,
+    pub reserved: u32,
+    pub distance: cstk_distance_result,
+    /// Witnesses, contacts and gradients within the shell.
+    pub list: cstk_witness_list,
+}
+
+/// Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
+/// length 1 (those of length 0 stay). The list's arrays stay valid until the next call with this query context.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pseudo_normal(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_shell: f64,
+    max_count: usize,
+    normalize: bool,
+    out: *mut cstk_pseudo_normal_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { slice(q, nq, "q") },
+        out,
+        |state, cobject, q| {
+            let shell = Shell {
+                max_shell,
+                max_count,
+                normalize,
+            };
+            let found = state.context.pseudo_normal(cobject, q, &shell)?;
+            Ok(cstk_pseudo_normal_result {
+                point_class: found.class.into(),
+                reserved: 0,
+                distance: (&found.distance).into(),
+                list: state.keep(found.list),
+            })
+        },
+    )
+}

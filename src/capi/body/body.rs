@@ -1,0 +1,251 @@
+//! Bodies.
+
+use std::ffi::{c_char, c_void};
+use std::sync::Arc;
+
+use crate::body::Body;
+use crate::capi::boundary::guard;
+use crate::capi::handle::{self, Noun};
+use crate::capi::input::{Output, OutputSlice, path};
+use crate::capi::status::callbacks::cstk_destroy_fn;
+use crate::capi::status::status::cstk_status;
+use crate::capi::user_data::{CallerData, address};
+use crate::error::{Error, ErrorKind};
+use crate::primitive::{Feature, FeatureKind, Primitive};
+
+/// A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
+pub struct cstk_body {
+    _opaque: [u8; 0],
+}
+
+impl Noun for Body {
+    type Handle = cstk_body;
+    const KIND: u32 = 2;
+    const NAME: &'static str = "cstk_body";
+}
+
+/// What became of a body's input, and what was built.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_body_statistics {
+    /// Convex primitives in the body.
+    pub primitive_count: u64,
+    /// Mesh faces that were not convex or not planar, and were split into triangles.
+    pub faces_split: u64,
+    /// Mesh faces without area, left out.
+    pub faces_dropped: u64,
+    /// Nodes of the hierarchy, and its levels.
+    pub node_count: u64,
+    pub depth: u64,
+    /// The box of all vertices, in the frame in which the body was given.
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+    /// What of the body hangs together: polygons that share vertices, and each polyhedron.
+    pub piece_count: u64,
+    /// It was declared solid (cstk_body_builder_set_solid).
+    pub solid: bool,
+    pub reserved_bytes: [u8; 7],
+    pub reserved: [u64; 6],
+}
+
+/// Kinds of features of a primitive.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_feature_kind {
+    CSTK_FEATURE_VERTEX = 0,
+    CSTK_FEATURE_EDGE = 1,
+    CSTK_FEATURE_FACE = 2,
+    /// The inside of a solid.
+    CSTK_FEATURE_INTERIOR = 3,
+    /// The surface of a cylinder, cone, ellipsoid or set by a support function; it has no vertices. What has a radius holds
+    /// its points by the features of its core.
+    CSTK_FEATURE_SURFACE = 4,
+}
+
+impl From<FeatureKind> for cstk_feature_kind {
+    fn from(kind: FeatureKind) -> Self {
+        match kind {
+            FeatureKind::Vertex => Self::CSTK_FEATURE_VERTEX,
+            FeatureKind::Edge => Self::CSTK_FEATURE_EDGE,
+            FeatureKind::Face => Self::CSTK_FEATURE_FACE,
+            FeatureKind::Interior => Self::CSTK_FEATURE_INTERIOR,
+            FeatureKind::Surface => Self::CSTK_FEATURE_SURFACE,
+        }
+    }
+}
+
+impl cstk_feature_kind {
+    fn decode(value: i32) -> Option<FeatureKind> {
+        [
+            FeatureKind::Vertex,
+            FeatureKind::Edge,
+            FeatureKind::Face,
+            FeatureKind::Interior,
+            FeatureKind::Surface,
+        ]
+        .into_iter()
+        .find(|&kind| Self::from(kind) as i32 == value)
+    }
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_retain(body: *mut cstk_body) -> cstk_status {
+    guard(|| handle::retain::<Body>(body, "body"))
+}
+
+/// Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_release(body: *mut cstk_body) -> cstk_status {
+    guard(|| handle::release::<Body>(body, "body"))
+}
+
+/// Attaches data of the caller's to a body, however it was made (§2.2.3): witnesses hand them back, as `r_data` for a link's
+/// body, and as `s_data` for a link's or for that of an s-object without data of its own. Once for each body: the second call
+/// is CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by whichever thread drops the last reference to the
+/// body, and not when this call fails. Other threads may ask about the body meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_set_data(
+    body: *mut cstk_body,
+    data: *mut c_void,
+    destroy: cstk_destroy_fn,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let kept = CallerData::new(data, destroy);
+        if let Some(data) = kept.as_user_data() {
+            body.set_data(data)?;
+        }
+        kept.take_ownership();
+        Ok(())
+    })
+}
+
+/// Writes the data attached to a body, or NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_data(
+    body: *const cstk_body,
+    out: *mut *mut c_void,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        out.write(address(body.data()));
+        Ok(())
+    })
+}
+
+/// Writes counts and extents.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_statistics(
+    body: *const cstk_body,
+    out: *mut cstk_body_statistics,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        let s = body.statistics();
+        out.write(cstk_body_statistics {
+            primitive_count: s.primitives,
+            faces_split: s.faces_split,
+            faces_dropped: s.faces_dropped,
+            node_count: s.nodes,
+            depth: s.depth,
+            low: s.low,
+            high: s.high,
+            piece_count: body.piece_count() as u64,
+            solid: s.is_solid,
+            reserved_bytes: [0; 7],
+            reserved: [0; 6],
+        });
+        Ok(())
+    })
+}
+
+/// The primitive of a body with this index, which witnesses name.
+pub(crate) fn primitive_of(body: &Body, primitive: u32) -> Result<Primitive<'_>, Error> {
+    let count = body.primitives().len();
+    body.primitives()
+        .try_get(primitive as usize)
+        .ok_or_else(|| {
+            let message = format!("primitive {primitive} does not exist; the body has {count}");
+            Error::new(ErrorKind::NotFound, message)
+        })
+}
+
+/// The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
+/// edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a cstk_feature_kind.
+/// At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to
+/// `count`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_feature_vertices(
+    body: *const cstk_body,
+    primitive: u32,
+    kind: i32,
+    feature: u32,
+    max_count: usize,
+    xyz: *mut f64,
+    count: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
+        let count = Output::checked(count, "count")?;
+        let kind = cstk_feature_kind::decode(kind)
+            .ok_or_else(|| Error::invalid(format!("kind {kind} is no cstk_feature_kind")))?;
+        let found = primitive_of(body, primitive)?;
+        let indices = found
+            .shape
+            .feature_vertices(Feature {
+                kind,
+                index: feature,
+            })
+            .ok_or_else(|| {
+                Error::new(
+                    ErrorKind::NotFound,
+                    format!("primitive {primitive} has no {kind:?} {feature}"),
+                )
+            })?;
+        let coordinates: Vec<f64> = indices
+            .iter()
+            .map(|&i| found.vertices[i as usize] + body.center())
+            .flat_map(<[f64; 3]>::from)
+            .collect();
+        room.write(&coordinates);
+        count.write(indices.len());
+        Ok(())
+    })
+}
+
+/// Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
+/// docs/body-file.md describes the format. CSTK_ERROR_IO if it cannot be written, CSTK_ERROR_UNSUPPORTED for a body with a support
+/// function, which no file can hold.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_save(
+    body: *const cstk_body,
+    file: *const c_char,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let file = unsafe { path(file, "file")? };
+        Ok(body.save(file)?)
+    })
+}
+
+/// Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_ERROR_IO if
+/// the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or no body file, CSTK_ERROR_UNSUPPORTED if it is of another
+/// version of the format. The checksum finds damage; it is no protection against forgery.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_load(
+    file: *const c_char,
+    out: *mut *mut cstk_body,
+) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let file = unsafe { path(file, "file")? };
+        out.write(handle::create(Arc::new(Body::load(file)?)));
+        Ok(())
+    })
+}

@@ -1,0 +1,311 @@
+//! Ready-made shapes, point clouds, height fields and support functions for bodies.
+
+use std::ffi::c_void;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::body::{BodyBuilder, HeightField};
+use crate::capi::body::builder::{cstk_body_builder, with_builder};
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::input::{array, points, pose, slice};
+use crate::capi::status::callbacks::cstk_destroy_fn;
+use crate::capi::status::status::cstk_status;
+use crate::error::{Error, ErrorKind};
+use crate::pose::Vec3;
+use crate::primitive::SupportFunction;
+
+/// Writes to `point` (three doubles) a point of a bounded convex set that is farthest along the unit vector `direction`.
+/// Returns CSTK_OK, or anything else when it fails.
+pub type cstk_support_fn =
+    Option<unsafe extern "C" fn(direction: *const f64, point: *mut f64, user: *mut c_void) -> i32>;
+
+/// Adds one primitive; errors name it by what it is and its index.
+fn run<A: FnOnce(&mut BodyBuilder) -> Result<(), Failure>>(
+    builder: *mut cstk_body_builder,
+    what: &str,
+    action: A,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let index = builder.len();
+            action(builder).map_err(|failure| Failure {
+                message: format!("{what} (primitive {index}): {}", failure.message),
+                ..failure
+            })
+        })
+    })
+}
+
+/// A point of three doubles.
+unsafe fn point(xyz: *const f64, argument: &str) -> Result<Vec3, Failure> {
+    // SAFETY: as the caller states.
+    Ok(Vec3::from(*unsafe { array::<3>(xyz, argument)? }))
+}
+
+/// Adds a ball around `center` (three doubles); in the plane a disc. As exact as a point: 1e-12 of the largest coordinate.
+/// A radius of 0 leaves the point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_sphere(
+    builder: *mut cstk_body_builder,
+    center: *const f64,
+    radius: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "sphere", |builder| {
+        // SAFETY: checked for NULL; the header states the length.
+        let center = unsafe { point(center, "center")? };
+        Ok(builder.add_sphere(&center, radius, tag)?)
+    })
+}
+
+/// Adds all points within `radius` of the segment from `a` to `b` (three doubles each). As exact as a segment: 1e-12 of the
+/// largest coordinate. Along a face or another capsule it has the contacts that span both.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_capsule(
+    builder: *mut cstk_body_builder,
+    a: *const f64,
+    b: *const f64,
+    radius: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "capsule", |builder| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let (a, b) = unsafe { (point(a, "a")?, point(b, "b")?) };
+        Ok(builder.add_capsule(&a, &b, radius, tag)?)
+    })
+}
+
+/// Adds the solid box with `half_extents` (three doubles, positive) around the origin of the frame at `pose`, along its
+/// axes. It is a polyhedron, with a polyhedron's features and exactness. Not in the plane: there it is a polygon.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_box(
+    builder: *mut cstk_body_builder,
+    pose: *const f64,
+    half_extents: *const f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "box", |builder| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let (pose, half) = unsafe {
+            (
+                self::pose(pose, "pose")?,
+                point(half_extents, "half_extents")?,
+            )
+        };
+        Ok(builder.add_box(&pose, &half, tag)?)
+    })
+}
+
+/// Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is smooth:
+/// distances are iterated until a lower and an upper bound agree, to 1e-11 of its diameter at worst and about 1e-15 of the
+/// largest coordinate as a rule; where they would not, `lower` and `upper` of an answer tell. Its contacts have
+/// CSTK_FEATURE_SURFACE for a feature, which counts as a point in their modes, and there is one only, even where it stands or lies
+/// on a face. cstk_pair_penetration refuses it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_cylinder(
+    builder: *mut cstk_body_builder,
+    pose: *const f64,
+    radius: f64,
+    half_length: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "cylinder", |builder| {
+        // SAFETY: checked for NULL; the header states the length.
+        let pose = unsafe { self::pose(pose, "pose")? };
+        Ok(builder.add_cylinder(&pose, radius, half_length, tag)?)
+    })
+}
+
+/// Adds the solid cone around the z axis of the frame at `pose`: the base at z = -height / 2, the apex at z = height / 2.
+/// Smooth, with what that means for cstk_body_builder_add_cylinder.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_cone(
+    builder: *mut cstk_body_builder,
+    pose: *const f64,
+    radius: f64,
+    height: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "cone", |builder| {
+        // SAFETY: checked for NULL; the header states the length.
+        let pose = unsafe { self::pose(pose, "pose")? };
+        Ok(builder.add_cone(&pose, radius, height, tag)?)
+    })
+}
+
+/// Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth, with
+/// what that means for cstk_body_builder_add_cylinder.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_ellipsoid(
+    builder: *mut cstk_body_builder,
+    pose: *const f64,
+    semi_axes: *const f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "ellipsoid", |builder| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let (pose, axes) = unsafe { (self::pose(pose, "pose")?, point(semi_axes, "semi_axes")?) };
+        Ok(builder.add_ellipsoid(&pose, &axes, tag)?)
+    })
+}
+
+/// Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon;
+/// the features of contacts are the polygon's.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_rounded_polygon(
+    builder: *mut cstk_body_builder,
+    xyz: *const f64,
+    point_count: usize,
+    radius: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "rounded polygon", |builder| {
+        // SAFETY: checked for NULL; the caller states the length.
+        let vertices = unsafe { points(xyz, point_count, "xyz")? };
+        Ok(builder.add_rounded_polygon(&vertices, radius, tag)?)
+    })
+}
+
+/// Adds all points within `radius` of the convex hull of points. As exact as the hull; the features of contacts are its.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
+    builder: *mut cstk_body_builder,
+    xyz: *const f64,
+    point_count: usize,
+    radius: f64,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "rounded polyhedron", |builder| {
+        // SAFETY: checked for NULL; the caller states the length.
+        let vertices = unsafe { points(xyz, point_count, "xyz")? };
+        Ok(builder.add_rounded_polyhedron(&vertices, radius, tag)?)
+    })
+}
+
+/// Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
+/// of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
+/// added then.
+///
+/// A body of nothing but points is built in 1 to 2 microseconds a point, and holds less than 100 bytes of each: points are
+/// split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
+/// hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
+/// primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_points(
+    builder: *mut cstk_body_builder,
+    xyz: *const f64,
+    point_count: usize,
+    radius: f64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states the length.
+            let points = unsafe { points(xyz, point_count, "xyz")? };
+            Ok(builder.add_points(&points, radius)?)
+        })
+    })
+}
+
+/// Adds a grid of heights over the plane of x and y: `nx` by `ny` nodes, two at least each way, `cell_x` and `cell_y` apart,
+/// the first at the origin; `heights[j * nx + i]` is the z of node (i, j). Every cell is two triangles, split along the
+/// diagonal from (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. With `base` NaN the field is a surface; else it
+/// is solid ground down to z = base, which must be below all heights: each triangle becomes a prism. Exact to 1e-12 of the
+/// largest coordinate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_height_field(
+    builder: *mut cstk_body_builder,
+    nx: usize,
+    ny: usize,
+    heights: *const f64,
+    cell_x: f64,
+    cell_y: f64,
+    base: f64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            // SAFETY: checked for NULL; the caller states the length.
+            let heights = unsafe { slice(heights, nx.saturating_mul(ny), "heights")? };
+            Ok(builder.add_height_field(&HeightField {
+                nodes: [nx, ny],
+                heights,
+                cell: [cell_x, cell_y],
+                base: (!base.is_nan()).then_some(base),
+            })?)
+        })
+    })
+}
+
+/// Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that
+/// means for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+///
+/// The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
+/// not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:
+/// CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it answers (or leaves unwritten) what is not finite,
+/// CSTK_ERROR_NOT_CONVEX if two answers show that it is no support function. A query cannot end with its failure: where it fails
+/// then, the set counts as the box that was found here, so that what is called free is free.
+///
+/// `destroy` may be NULL. It is called once with `user`, by whichever thread drops the last reference to what uses the
+/// function; not when this call fails. Such a body cannot be saved.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_support(
+    builder: *mut cstk_body_builder,
+    support: cstk_support_fn,
+    user: *mut c_void,
+    destroy: cstk_destroy_fn,
+    tag: u64,
+) -> cstk_status {
+    run(builder, "support function", |builder| {
+        let function = Arc::new(Function {
+            support: support.ok_or_else(|| {
+                Failure::new(cstk_status::CSTK_ERROR_NULL_ARGUMENT, "support is NULL")
+            })?,
+            user,
+            destroy,
+            owned: AtomicBool::new(false),
+        });
+        builder.add_support(function.clone(), tag)?;
+        // From now on the data are given back when nothing refers to them.
+        function.owned.store(true, Ordering::Release);
+        Ok(())
+    })
+}
+
+/// The caller's function with the data it is called with.
+struct Function {
+    support: unsafe extern "C" fn(*const f64, *mut f64, *mut c_void) -> i32,
+    user: *mut c_void,
+    destroy: cstk_destroy_fn,
+    owned: AtomicBool,
+}
+
+// SAFETY: the header asks that the function may be called by any thread, several at once.
+unsafe impl Send for Function {}
+// SAFETY: as above.
+unsafe impl Sync for Function {}
+
+impl SupportFunction for Function {
+    fn support(&self, direction: &Vec3) -> Result<Vec3, Error> {
+        let direction: [f64; 3] = (*direction).into();
+        let mut point = [f64::NAN; 3];
+        // SAFETY: the header states the lengths.
+        let status = unsafe { (self.support)(direction.as_ptr(), point.as_mut_ptr(), self.user) };
+        if status != 0 {
+            return Err(Error::new(
+                ErrorKind::Callback,
+                format!("the support function returned {status}"),
+            ));
+        }
+        Ok(point.into())
+    }
+}
+
+impl Drop for Function {
+    fn drop(&mut self) {
+        if let Some(destroy) = self.destroy
+            && self.owned.load(Ordering::Acquire)
+        {
+            // SAFETY: given back once, as nothing refers to the function any more.
+            unsafe { destroy(self.user) }
+        }
+    }
+}

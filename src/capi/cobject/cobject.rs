@@ -1,0 +1,201 @@
+//! C-objects.
+
+use std::sync::Arc;
+
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::environment::environment::cstk_environment;
+use crate::capi::handle::{self, Noun};
+use crate::capi::input::{
+    OptionsStruct, Output, collected, options_or_default, slice, write_defaults,
+};
+use crate::capi::space::space::cstk_space;
+use crate::capi::status::status::cstk_status;
+use crate::cobject::{AllowedPair, CObject, InducedOptions, SObjects};
+use crate::environment::Environment;
+use crate::error::{Error, ErrorKind};
+use crate::space::Space;
+
+/// A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or made of
+/// others. Immutable (but for the environments it refers to); threads may share it. It keeps its space and environments.
+pub struct cstk_cobject {
+    _opaque: [u8; 0],
+}
+
+impl Noun for CObject {
+    type Handle = cstk_cobject;
+    const KIND: u32 = 7;
+    const NAME: &'static str = "cstk_cobject";
+}
+
+/// How an induced C-object measures. Write it with cstk_induced_options_default first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_induced_options {
+    pub size: u32,
+    pub cookie: u32,
+    /// Distances above 0 and up to this classify as CSTK_CLASS_CONTACT. Default 0.
+    pub contact_epsilon: f64,
+    /// Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
+    /// than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
+    pub margin: f64,
+    /// Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none. Ids
+    /// are not checked: an object may come later. Sets are made in no time; who allows other pairs makes another one.
+    pub allowed: *const cstk_allowed_pair,
+    pub allowed_count: usize,
+}
+
+/// A pair that may meet: a link, and an s-object.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_allowed_pair {
+    /// A link of the space.
+    pub link: u32,
+    pub reserved: u32,
+    /// An s-object that is attached to the link and stands in its place, or 0 for the link's own body.
+    pub attached: u64,
+    /// The s-object it may meet.
+    pub object: u64,
+}
+
+// SAFETY: repr(C), two u32, two doubles, a pointer, a size: no padding; the pointer is only read after checks.
+unsafe impl OptionsStruct for cstk_induced_options {
+    const EARLIER_SIZES: &'static [usize] = &[24];
+    const COOKIE: u32 = 0x4353_0401;
+    const NAME: &'static str = "cstk_induced_options";
+    fn defaults() -> Self {
+        let defaults = InducedOptions::default();
+        Self {
+            size: 0,
+            cookie: 0,
+            contact_epsilon: defaults.contact_epsilon,
+            margin: defaults.margin,
+            allowed: std::ptr::null(),
+            allowed_count: 0,
+        }
+    }
+}
+
+unsafe fn induced_options(
+    options: *const cstk_induced_options,
+) -> Result<(InducedOptions, Vec<AllowedPair>), Failure> {
+    // SAFETY: checked for size and cookie.
+    let options = unsafe { options_or_default(options, "options")? };
+    // SAFETY: checked for NULL; the header states the length.
+    let allowed = unsafe { slice(options.allowed, options.allowed_count, "options->allowed")? };
+    let allowed = allowed.iter().map(|pair| AllowedPair {
+        link: pair.link as usize,
+        attached: pair.attached,
+        object: pair.object,
+    });
+    let measures = InducedOptions {
+        contact_epsilon: options.contact_epsilon,
+        margin: options.margin,
+    };
+    Ok((measures, collected(allowed, "options->allowed")?))
+}
+
+/// Writes the default options. `size` is sizeof(cstk_induced_options).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_induced_options_default(
+    out: *mut cstk_induced_options,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Makes the set of configurations at which a link meets an s-object.
+///
+/// `links` holds `link_count` numbers of links of the space; with `link_count` 0 all are meant (CSTK_ERROR_EMPTY if none has a
+/// body), those too that no joint moves, such as a base: their gradients are 0, and they may always be nearest. What a
+/// link of these holds is tested with it (see CSTK_CHANGE_ATTACH): a frame without a body, such as a tool's, counts for
+/// what it holds, and must be among `links` for that. Links 0 to i - 1 give the set of the first i links. The robot with
+/// itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with
+/// `id_count` 0 all its objects are meant, those added later too. An object that is deleted later contributes nothing;
+/// one of another dimension than the robots is refused by the queries that meet it. `options` may be NULL for the
+/// defaults.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_induced(
+    space: *const cstk_space,
+    links: *const u32,
+    link_count: usize,
+    environment: *const cstk_environment,
+    ids: *const u64,
+    id_count: usize,
+    options: *const cstk_induced_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::share::<Space>(space, "space")?;
+        let environment = handle::share::<Environment>(environment, "environment")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+        let (links, ids, (options, allowed)) = unsafe {
+            (
+                slice(links, link_count, "links")?,
+                slice(ids, id_count, "ids")?,
+                induced_options(options)?,
+            )
+        };
+        let links = collected(links.iter().map(|&link| link as usize), "links")?;
+        let now = environment.snapshot();
+        if let Some(missing) = ids.iter().find(|&&id| now.find(id).is_none()) {
+            let message = format!("there is no s-object with id {missing}");
+            return Err(Error::new(ErrorKind::NotFound, message).into());
+        }
+        let objects = if ids.is_empty() {
+            SObjects::All(environment)
+        } else {
+            SObjects::Some(environment, collected(ids.iter().copied(), "ids")?)
+        };
+        let cobject = CObject::induced(space, &links, objects, &allowed, options)?;
+        out.write(handle::create(Arc::new(cobject)));
+        Ok(())
+    })
+}
+
+/// Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
+/// other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
+/// joined touch at every configuration; leave such pairs out. Without any pair the set is empty.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_induced_links(
+    space: *const cstk_space,
+    pairs: *const u32,
+    pair_count: usize,
+    options: *const cstk_induced_options,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::share::<Space>(space, "space")?;
+        let out = Output::checked(out, "out")?;
+        let numbers = pair_count.saturating_mul(2);
+        // SAFETY: checked for NULL, size and cookie; the caller states the length.
+        let (pairs, (options, allowed)) =
+            unsafe { (slice(pairs, numbers, "pairs")?, induced_options(options)?) };
+        if !allowed.is_empty() {
+            let message =
+                "options->allowed names s-objects, but this set is of links: leave the pairs out";
+            return Err(Error::new(ErrorKind::Unsupported, message).into());
+        }
+        let pairs = pairs.chunks_exact(2);
+        let pairs = collected(
+            pairs.map(|pair| [pair[0] as usize, pair[1] as usize]),
+            "pairs",
+        )?;
+        let cobject = CObject::induced_links(space, &pairs, options)?;
+        out.write(handle::create(Arc::new(cobject)));
+        Ok(())
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_retain(cobject: *mut cstk_cobject) -> cstk_status {
+    guard(|| handle::retain::<CObject>(cobject, "cobject"))
+}
+
+/// Drops a reference. NULL is a no-op.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_release(cobject: *mut cstk_cobject) -> cstk_status {
+    guard(|| handle::release::<CObject>(cobject, "cobject"))
+}

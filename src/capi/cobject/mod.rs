@@ -1,0 +1,21 @@
+//! C-objects.
+//!
+//! A C-object is a set in a space (§2.1.3). Induced sets are all q at which links meet obstacles or each other; pure sets are
+//! given by coordinates or by functions of the caller; unions, intersections, complements and differences are made of others.
+//!
+//! ```c
+//! cstk_cobject *obstacles, *limits, *forbidden;
+//! check(cstk_cobject_induced(space, NULL, 0, environment, NULL, 0, NULL, &obstacles));
+//! check(cstk_cobject_beyond_limits(space, NULL, &limits));
+//! const cstk_cobject *parts[2] = {obstacles, limits};
+//! check(cstk_cobject_union(parts, 2, &forbidden));
+//! ```
+
+#[allow(clippy::module_inception)]
+pub mod cobject;
+
+pub mod sets;
+
+pub mod predicate;
+
+pub mod pure;

@@ -1,0 +1,263 @@
+//! Environments.
+
+use std::ffi::c_void;
+use std::sync::Arc;
+
+use crate::body::Body;
+use crate::capi::body::body::cstk_body;
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::handle::{self, Noun};
+use crate::capi::input::{
+    OptionsStruct, Output, OutputSlice, options_in_place, reserved, slice, write_defaults,
+};
+use crate::capi::space::space::cstk_space;
+use crate::capi::status::callbacks::cstk_destroy_fn;
+use crate::capi::status::status::cstk_status;
+use crate::capi::user_data::CallerData;
+use crate::environment::{Attachment, Change, Environment};
+use crate::error::Error;
+use crate::pose::Pose;
+use crate::space::Space;
+
+/// The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
+/// bodies of its objects.
+pub struct cstk_environment {
+    _opaque: [u8; 0],
+}
+
+impl Noun for Environment {
+    type Handle = cstk_environment;
+    const KIND: u32 = 6;
+    const NAME: &'static str = "cstk_environment";
+}
+
+/// What a change does.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_change_kind {
+    /// Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
+    CSTK_CHANGE_ADD = 0,
+    /// Moves object `id` to `pose`; one that is attached to a link is let go there.
+    CSTK_CHANGE_MOVE = 1,
+    /// Deletes object `id`.
+    CSTK_CHANGE_DELETE = 2,
+    /// Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew. To take an
+    /// object from where it stands, `pose` is the inverse of the link's pose composed with the object's; to set it down
+    /// there again, CSTK_CHANGE_MOVE to the link's pose composed with that. Attached once more, it gets another pose or
+    /// other touch links.
+    CSTK_CHANGE_ATTACH = 3,
+}
+
+/// One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_environment_change {
+    pub size: u32,
+    pub cookie: u32,
+    /// A cstk_change_kind.
+    pub kind: i32,
+    pub reserved: u32,
+    /// The object to move or delete.
+    pub id: u64,
+    /// The body to add.
+    pub body: *const cstk_body,
+    /// Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
+    pub pose: [f64; 12],
+    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets that the
+    /// object belongs to are refused with CSTK_ERROR_UNSUPPORTED: where it is is not known there. The object moves with the
+    /// link. In a set of links against s-objects it is tested against the other s-objects as the link itself is (r_object
+    /// of a witness names it), and as an s-object against the links, but for the one that holds it and `touch_count`
+    /// others, `touch_links` (the fingers, say). These may touch it only while it is held: for approach and retreat make
+    /// a second set with `allowed` of cstk_induced_options.
+    pub space: *const cstk_space,
+    pub touch_links: *const u32,
+    pub link: u32,
+    pub touch_count: u32,
+    /// For CSTK_CHANGE_ADD data of the caller's, handed back with witnesses; `destroy` may be NULL, and is called once, by
+    /// whichever thread drops the last state that holds the object, not when the change fails.
+    pub data: *mut c_void,
+    pub destroy: cstk_destroy_fn,
+}
+
+// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 + 5 * 8 bytes on 64-bit machines), the pointers are only read after checks.
+unsafe impl OptionsStruct for cstk_environment_change {
+    const EARLIER_SIZES: &'static [usize] = &[128];
+    const COOKIE: u32 = 0x4353_0301;
+    const NAME: &'static str = "cstk_environment_change";
+    fn defaults() -> Self {
+        Self {
+            size: 0,
+            cookie: 0,
+            kind: 0,
+            reserved: 0,
+            id: 0,
+            body: std::ptr::null(),
+            pose: Pose::identity().to_row_major(),
+            space: std::ptr::null(),
+            touch_links: std::ptr::null(),
+            link: 0,
+            touch_count: 0,
+            data: std::ptr::null_mut(),
+            destroy: None,
+        }
+    }
+}
+
+/// Makes an empty environment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_create(out: *mut *mut cstk_environment) -> cstk_status {
+    guard(|| {
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(Arc::<Environment>::default()));
+        Ok(())
+    })
+}
+
+/// Adds a reference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_retain(
+    environment: *mut cstk_environment,
+) -> cstk_status {
+    guard(|| handle::retain::<Environment>(environment, "environment"))
+}
+
+/// Drops a reference. NULL is a no-op. C-objects keep the environments they refer to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_release(
+    environment: *mut cstk_environment,
+) -> cstk_status {
+    guard(|| handle::release::<Environment>(environment, "environment"))
+}
+
+/// Writes the default change. `size` is sizeof(cstk_environment_change).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_change_default(
+    out: *mut cstk_environment_change,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
+/// about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
+/// are unique in the process. All changes have the size of the first.
+///
+/// A change takes some microseconds, whatever the number of objects, and many changes in one call much less each: boxes above
+/// objects that stay near are refitted in one pass. At times the tree over all objects is built anew (some microseconds an
+/// object): after changes of a sixteenth of the objects at the earliest. Other threads that change wait meanwhile; those that
+/// query never do. The environment keeps the memory of the state before the last change for the next one; a call that finds
+/// that state held by a query or a snapshot copies the parts it changes.
+///
+/// CSTK_ERROR_NOT_FOUND for an id that is not there (any more), CSTK_ERROR_UNSUPPORTED for a snapshot.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_apply(
+    environment: *mut cstk_environment,
+    changes: *const cstk_environment_change,
+    count: usize,
+    ids: *mut u64,
+    version: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
+        let ids = OutputSlice::checked(ids, if ids.is_null() { 0 } else { count }, "ids")?;
+        let version = Output::optional(version, "version")?;
+        if count > 0 {
+            // SAFETY: as below. Before memory is asked for on the caller's word.
+            let _ = unsafe { options_in_place(changes, "changes[0]")? };
+        }
+        let (mut read, mut kept) = (reserved(count, "changes")?, Vec::new());
+        let mut next = changes;
+        for i in 0..count {
+            // SAFETY: checked for size and cookie; the caller states that `count` of them follow one another.
+            let change = unsafe { options_in_place(next, format_args!("changes[{i}]"))? };
+            // SAFETY: checked for NULL; the header states the length.
+            read.push(unsafe { change_from(&change, i, &mut kept)? });
+            next = next.wrapping_byte_add(change.size as usize);
+        }
+        let (applied, now) = environment.apply(&read)?;
+        kept.iter().for_each(|data| data.take_ownership());
+        ids.write(&applied);
+        version.write(now);
+        Ok(())
+    })
+}
+
+unsafe fn change_from(
+    change: &cstk_environment_change,
+    i: usize,
+    kept: &mut Vec<Arc<CallerData>>,
+) -> Result<Change, Failure> {
+    let pose = || {
+        Pose::from_row_major(&change.pose).map_err(|e| e.within(format_args!("changes[{i}].pose")))
+    };
+    let is = |kind: cstk_change_kind| change.kind == kind as i32;
+    if is(cstk_change_kind::CSTK_CHANGE_ADD) {
+        let body = handle::share::<Body>(change.body, &format!("changes[{i}].body"))?;
+        let data = CallerData::new(change.data, change.destroy);
+        let added = Change::Add {
+            body,
+            pose: pose()?,
+            data: data.as_user_data(),
+        };
+        kept.push(data);
+        Ok(added)
+    } else if is(cstk_change_kind::CSTK_CHANGE_MOVE) {
+        Ok(Change::Move {
+            id: change.id,
+            pose: pose()?,
+        })
+    } else if is(cstk_change_kind::CSTK_CHANGE_ATTACH) {
+        let space = &*handle::share::<Space>(change.space, &format!("changes[{i}].space"))?;
+        let count = change.touch_count as usize;
+        let name = format!("changes[{i}].touch_links");
+        // SAFETY: checked for NULL; the header states the length.
+        let touch_links = unsafe { slice(change.touch_links, count, &name)? };
+        let touch_links: Vec<usize> = touch_links.iter().map(|&link| link as usize).collect();
+        let attachment = Attachment::new(space, change.link as usize, &touch_links)
+            .map_err(|e| e.within(format_args!("changes[{i}]")))?;
+        Ok(Change::Attach {
+            id: change.id,
+            pose: pose()?,
+            attachment,
+        })
+    } else if is(cstk_change_kind::CSTK_CHANGE_DELETE) {
+        Ok(Change::Delete { id: change.id })
+    } else {
+        let kind = change.kind;
+        Err(Error::invalid(format!("changes[{i}].kind {kind} is no cstk_change_kind")).into())
+    }
+}
+
+/// Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_snapshot(
+    environment: *const cstk_environment,
+    out: *mut *mut cstk_environment,
+) -> cstk_status {
+    guard(|| {
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(Arc::new(environment.freeze())));
+        Ok(())
+    })
+}
+
+/// Writes the number of objects and the version, which counts the calls of cstk_environment_apply that succeeded; either
+/// may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_get_state(
+    environment: *const cstk_environment,
+    object_count: *mut usize,
+    version: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        let environment = &*handle::share::<Environment>(environment, "environment")?;
+        let object_count = Output::optional(object_count, "object_count")?;
+        let version = Output::optional(version, "version")?;
+        let now = environment.snapshot();
+        object_count.write(now.len());
+        version.write(now.version);
+        Ok(())
+    })
+}
