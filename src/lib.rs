@@ -27,6 +27,8 @@ pub mod primitive;
 
 pub mod convex;
 
+pub mod boxes;
+
 pub mod hierarchy;
 
 pub mod body;
@@ -44,6 +46,8 @@ pub mod environment;
 pub mod cobject;
 
 pub mod query;
+
+pub mod motion;
 
 pub mod show;
 

@@ -4,7 +4,8 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use cstk::hierarchy::{BOX, BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox, PackedBox};
+use cstk::boxes::{Extent, PackedBox};
+use cstk::environment::box_tree::{BOX, BoxTree, BoxTreeChanges, Boxes, OrientedBox};
 use cstk::index_set::IndexSet;
 use cstk::pose::{Mat3, Vec3};
 

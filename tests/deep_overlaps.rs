@@ -11,8 +11,9 @@ use cstk::pose::{Mat3, Pose, Vec3, rotation_about};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::JointKind;
 
-use common::closed_sets::Set::{self, Ball, Capsule, Cone, Cuboid, Cylinder, Ellipsoid};
-use common::closed_sets::Set::{Points, Sheet, Supported};
+use common::closed_sets::Set::{
+    self, Ball, Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Points, Sheet, Supported,
+};
 use common::random::Random;
 use common::robots::{against_with, environment, link, robot, space};
 

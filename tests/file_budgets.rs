@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use cstk::body::{Mesh, read_mesh_file};
+use cstk::body::Mesh;
+use cstk::body::mesh_file::read_mesh_file;
 use cstk::error::{Error, ErrorKind};
 use cstk::robot::RobotBuilder;
 use cstk::urdf::{UrdfOptions, add_urdf_file};

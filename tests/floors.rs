@@ -8,8 +8,9 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, Class, PureOptions, PureShape};
 use cstk::error::ErrorKind;
 use cstk::hierarchy::HierarchyOptions;
+use cstk::motion::SlideOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, DistanceKind, PurePlace, QueryContext, SSide, SlideOptions};
+use cstk::query::{Configuration, DistanceKind, PurePlace, QueryContext, SSide};
 use cstk::robot::{Coordinate, JointKind};
 use cstk::space::{Space, WorldBox};
 

@@ -8,8 +8,9 @@ use cstk::body::Body;
 use cstk::cobject::{AllowedPair, CObject, Class, InducedOptions, SObjects};
 use cstk::environment::{Attachment, Change, Environment};
 use cstk::error::ErrorKind;
+use cstk::motion::{SlideOptions, SlideOutcome};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, DistanceKind, QueryContext, SlideOptions, SlideOutcome};
+use cstk::query::{Configuration, DistanceKind, QueryContext};
 use cstk::robot::JointKind;
 use cstk::space::Space;
 

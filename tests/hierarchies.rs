@@ -6,9 +6,10 @@ mod common;
 use std::collections::{HashMap, HashSet};
 
 use cstk::body::Body;
+use cstk::boxes::Extent;
 use cstk::error::{Error, ErrorKind};
 use cstk::gjk::{DistanceLimits, PointCloud, gjk};
-use cstk::hierarchy::{Extent, HierarchyOptions, Node, WrapperKind, build_hierarchy};
+use cstk::hierarchy::{HierarchyOptions, Node, WrapperKind, build_hierarchy};
 use cstk::pose::Vec3;
 use cstk_scenes as scenes;
 

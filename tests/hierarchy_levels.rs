@@ -4,7 +4,8 @@ mod common;
 
 use cstk::body::BodyBuilder;
 use cstk::error::ErrorKind;
-use cstk::hierarchy::{HierarchyOptions, Node, WrapperKind, WrapperTree};
+use cstk::hierarchy::wrapper::WrapperTree;
+use cstk::hierarchy::{HierarchyOptions, Node, WrapperKind};
 use cstk::pose::Vec3;
 use cstk_scenes as scenes;
 

@@ -4,9 +4,11 @@
 mod common;
 
 use cstk::body::{Body, BodyBuilder};
+use cstk::boxes::{ChildPoints, PackedBox, WideNode};
 use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
 use cstk::gjk::DistanceLimits;
-use cstk::hierarchy::{ChildPoints, Grouping, NodeRef, PackedBox, PackedTree, WideNode};
+use cstk::hierarchy::Grouping;
+use cstk::hierarchy::packed::{NodeRef, PackedTree};
 use cstk::lanes::{Instructions, Plain, Work, with_widest};
 use cstk::pair::{BoundRefinement, Pairing, PrimitiveScratch, ROUNDING, bounds, sharper_bounds};
 use cstk::pose::{Mat3, Pose, Vec3};

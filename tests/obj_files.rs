@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use cstk::body::{Mesh, read_mesh_file};
+use cstk::body::Mesh;
+use cstk::body::mesh_file::read_mesh_file;
 use cstk::error::{Error, ErrorKind};
 
 mod common;

@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use cstk::cobject::{CObject, Class, InducedOptions, PureOptions, PureShape};
 use cstk::error::{Error, ErrorKind};
+use cstk::motion::SlideOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, QueryContext, SSide, Shell, SlideOptions};
+use cstk::query::{Configuration, QueryContext, SSide, Shell};
 use cstk::robot::{Coordinate, JointKind};
 use cstk::space::{Space, WorldBox};
 use cstk::user_data::UserData;

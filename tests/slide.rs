@@ -6,8 +6,9 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, InducedOptions, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::HierarchyOptions;
+use cstk::motion::{SlideOptions, SlideOutcome};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, QueryContext, SlideOptions, SlideOutcome};
+use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition, RobotBuilder};
 use cstk::space::{Coordinate, Space, WorldBox};
 

@@ -6,10 +6,9 @@ mod common;
 use std::sync::Arc;
 
 use cstk::cobject::CObject;
+use cstk::motion::{Approach, SlideOptions, SlideOutcome, SlideStep, slide_step, spring_step};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{
-    Approach, QueryContext, SlideOptions, SlideOutcome, SlideStep, slide_step, spring_step,
-};
+use cstk::query::QueryContext;
 use cstk::robot::{Coordinate, JointKind, LinkDefinition};
 use cstk::space::{Space, WorldBox};
 

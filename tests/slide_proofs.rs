@@ -8,8 +8,9 @@ use std::sync::Arc;
 use cstk::body::Body;
 use cstk::cobject::{CObject, Class, InducedOptions, PureOptions, PureShape, SObjects};
 use cstk::environment::{Attachment, Change};
+use cstk::motion::{SlideOptions, SlideOutcome, SlideStep};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, QueryContext, SlideOptions, SlideOutcome, SlideStep};
+use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{Coordinate, JointKind, LinkDefinition};
 use cstk::space::{Space, WorldBox};
 

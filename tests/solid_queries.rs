@@ -7,10 +7,9 @@ use std::sync::Arc;
 use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, Class, InducedOptions};
 use cstk::environment::Environment;
+use cstk::motion::{SlideOptions, SlideOutcome};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{
-    Configuration, Distance, QueryContext, SSide, Shell, SlideOptions, SlideOutcome, WitnessList,
-};
+use cstk::query::{Configuration, Distance, QueryContext, SSide, Shell, WitnessList};
 use cstk::robot::JointKind;
 use cstk::space::Space;
 

@@ -201,7 +201,7 @@ const SCENE_DAE: &str = r##"<?xml version="1.0"?>
 fn a_collada_scene_is_read_with_its_transforms() {
     let folder = Folder::new("dae");
     let path = folder.write("scene.DAE", SCENE_DAE);
-    let mesh = cstk::body::read_mesh_file(&path).unwrap();
+    let mesh = cstk::body::mesh_file::read_mesh_file(&path).unwrap();
     assert_eq!(mesh.face_sizes, [4, 3, 4, 3]);
     // (1, 1, 0): stretched, turned, lifted, then from tenths to metres.
     assert!((mesh.vertices[2] - Vec3::new(-0.1, 0.2, 0.5)).amax() < 1e-16);
@@ -228,7 +228,7 @@ fn a_collada_scene_is_read_with_its_transforms() {
         let broken = SCENE_DAE.replace(text, with);
         assert_ne!(broken, SCENE_DAE);
         let path = folder.write("broken.dae", broken);
-        let error = cstk::body::read_mesh_file(&path).unwrap_err();
+        let error = cstk::body::mesh_file::read_mesh_file(&path).unwrap_err();
         assert_eq!(error.kind, kind, "{error}");
         assert!(error.message.contains(culprit), "{error}");
     }
@@ -242,7 +242,9 @@ fn a_collada_scene_is_read_with_its_transforms() {
     );
     let path = folder.write("bomb.dae", bomb);
     assert_eq!(
-        cstk::body::read_mesh_file(&path).unwrap_err().kind,
+        cstk::body::mesh_file::read_mesh_file(&path)
+            .unwrap_err()
+            .kind,
         ErrorKind::Unsupported
     );
 }

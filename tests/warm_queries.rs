@@ -11,7 +11,8 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, Class, InducedOptions, PureOptions, PureShape};
 use cstk::environment::{Attachment, Change};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration::Coordinates, QueryContext};
+use cstk::query::Configuration::Coordinates;
+use cstk::query::QueryContext;
 use cstk::robot::JointKind;
 use cstk::space::Space;
 

@@ -7,7 +7,8 @@ use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use cstk::body::{Body, BodyBuilder, read_mesh_file};
+use cstk::body::mesh_file::read_mesh_file;
+use cstk::body::{Body, BodyBuilder};
 use cstk::error::{Error, ErrorKind};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};

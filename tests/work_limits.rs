@@ -8,8 +8,9 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, InducedOptions};
 use cstk::error::{ErrorKind, Result};
 use cstk::hierarchy::HierarchyOptions;
+use cstk::motion::SlideOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, LinkPairOptions, QueryContext, Shell, SlideOptions};
+use cstk::query::{Configuration, LinkPairOptions, QueryContext, Shell};
 use cstk::robot::JointKind;
 use cstk::space::Space;
 

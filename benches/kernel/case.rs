@@ -1,6 +1,7 @@
 //! What is asked: bodies, poses, and modes.
 
-use cstk::body::{Mesh, read_mesh_file};
+use cstk::body::Mesh;
+use cstk::body::mesh_file::read_mesh_file;
 use cstk::pose::{Mat3, Pose, Vec3};
 use cstk_scenes as scenes;
 

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
 use crate::error::{Error, Result};
-use crate::hierarchy::{
-    BuildTimes, PackedTree, TreeStatistics, WrapperKind, WrapperTree, Wrappers, require_level,
-};
+use crate::hierarchy::packed::PackedTree;
+use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
+use crate::hierarchy::{BuildTimes, TreeStatistics, WrapperKind, require_level};
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 use crate::user_data::UserData;

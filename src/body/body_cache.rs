@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::Body;
+use super::body::Body;
 use super::file::{MAX_FILE_BYTES, VERSION};
 use crate::error::{Error, Result};
 use crate::whole_file::{read_whole, write_whole};

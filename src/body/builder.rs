@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::mesh_file::read_mesh_file;
+use super::body::{Body, BodyStatistics};
+use super::mesh::Mesh;
 use super::solid::{DegenerateFace, Solid};
-use super::{Body, BodyStatistics, Mesh};
+use crate::body::mesh_file::read_mesh_file;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{HierarchyOptions, build_hierarchy};
 use crate::pose::{Pose, Vec3, check_dimension};

@@ -1,7 +1,8 @@
 //! How far a body reaches along a direction.
 
-use super::Body;
-use crate::hierarchy::{NodeRef, PackedBox};
+use super::body::Body;
+use crate::boxes::PackedBox;
+use crate::hierarchy::packed::NodeRef;
 use crate::pose::Vec3;
 
 /// The point of a body that is farthest along a direction, and its primitive.

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
+use super::body::{Body, BodyStatistics};
 use super::file_reader::Reader;
 use super::file_writer::Writer;
-use super::{Body, BodyStatistics};
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::BuildTimes;
 use crate::pose::check_dimension;
@@ -150,11 +150,10 @@ fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::builder::BodyBuilder;
+    use super::super::file_writer::{KINDS, LEAF};
     use super::*;
-    use crate::body::BodyBuilder;
-    use crate::body::file_writer::{KINDS, LEAF};
-    use crate::hierarchy::HierarchyOptions;
-    use crate::hierarchy::WrapperKind;
+    use crate::hierarchy::{HierarchyOptions, WrapperKind};
     use crate::pose::Vec3;
 
     fn steps(wrapper: WrapperKind) -> Body {

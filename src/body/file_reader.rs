@@ -1,15 +1,16 @@
 //! Numbers, primitives and hierarchies from the bytes of a body file.
 
-use super::Solid;
 use super::file_writer::{
     CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, MADE, OF_CLOUD, OF_GROUPS, PLAIN, POINTS, ROUNDED,
     SHAPE,
 };
+use super::solid::Solid;
+use crate::boxes::{NODE_BYTES, WideNode};
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{
-    Ball, Frame, Groups, HierarchyOptions, NODE_BYTES, Node, PackedTree, SubsetTree, WideNode,
-    WrapperKind, WrapperTree, Wrappers, is_cloud,
-};
+use crate::hierarchy::grouping::Groups;
+use crate::hierarchy::packed::{PackedTree, is_cloud};
+use crate::hierarchy::wrapper::{Frame, WrapperTree, Wrappers};
+use crate::hierarchy::{Ball, HierarchyOptions, Node, SubsetTree, WrapperKind};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
 use crate::tolerance;
@@ -386,8 +387,8 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::file_writer::Writer;
     use super::*;
-    use crate::body::file_writer::Writer;
 
     /// A tree that is one long chain, sound but for its depth, would have its wrappers take for ever.
     #[test]

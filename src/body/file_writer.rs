@@ -1,8 +1,11 @@
 //! Numbers, primitives and hierarchies as bytes of a body file.
 
-use super::Solid;
+use super::solid::Solid;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{Groups, Node, PackedTree, WrapperKind, WrapperTree, Wrappers};
+use crate::hierarchy::grouping::Groups;
+use crate::hierarchy::packed::PackedTree;
+use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
+use crate::hierarchy::{Node, WrapperKind};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, PrimitiveGroup, Primitives, Smooth, SmoothKind};
 

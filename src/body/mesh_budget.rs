@@ -1,6 +1,6 @@
 //! How much geometry one file may make: a small file can instance a mesh again and again, and ask for any amount.
 
-use super::Mesh;
+use super::mesh::Mesh;
 use crate::error::{Error, ErrorKind, Result};
 
 /// The largest collision meshes known have a few million triangles. A body of as many takes some 10 GB while it is built.

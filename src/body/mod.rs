@@ -5,19 +5,16 @@ mod body;
 mod body_cache;
 mod builder;
 mod closed_surface;
-mod collada;
 mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
 mod mesh;
 mod mesh_budget;
-mod mesh_file;
-mod obj;
+pub mod mesh_file;
 mod pieces;
 mod shapes;
 mod solid;
-mod stl;
 mod surface_edges;
 mod vertex_numbers;
 
@@ -26,8 +23,9 @@ pub use body_cache::{BodyCache, BodyKey};
 pub use builder::BodyBuilder;
 pub use farthest::Farthest;
 pub use mesh::Mesh;
-pub use mesh_budget::{MeshBudget, MeshSize};
-pub use mesh_file::{MeshFormat, read_mesh_bytes, read_mesh_file};
+pub use mesh_budget::{
+    MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
+};
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;
 pub use solid::Solid;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::BodyBuilder;
+use super::builder::BodyBuilder;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::primitive::{

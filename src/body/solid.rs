@@ -2,8 +2,8 @@
 
 use super::closed_surface::closed_surface;
 use super::surface_edges::Outline;
+use crate::boxes::Extent;
 use crate::error::Result;
-use crate::hierarchy::Extent;
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 

@@ -15,7 +15,8 @@ use std::sync::{Arc, Mutex};
 
 use super::boundary::{Failure, guard};
 use super::exclusive::exclusively;
-use super::handle::{self, Noun};
+use super::handle;
+use super::handle::Noun;
 use super::input::Output;
 use crate::capi::at_configuration::answers::{
     cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,

@@ -20,7 +20,7 @@ use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, require_coordinates};
-use crate::query::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step};
+use crate::motion::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step};
 
 /// How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
 #[repr(C)]

@@ -1,7 +1,8 @@
 //! What bounds a body at a pose.
 
 use crate::body::Body;
-use crate::hierarchy::{Extent, OrientedBox};
+use crate::boxes::Extent;
+use crate::environment::box_tree::OrientedBox;
 use crate::lanes::{along64, each3};
 use crate::pose::{Pose, Vec3};
 use crate::tolerance;

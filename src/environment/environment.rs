@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Attachment, SObject, Snapshot};
+use super::attachment::Attachment;
+use super::snapshot::{SObject, Snapshot};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
 use crate::index_set::IndexSet;

@@ -2,6 +2,7 @@
 
 mod attachment;
 mod bounds;
+pub mod box_tree;
 #[allow(clippy::module_inception)]
 mod environment;
 mod object_tree;
@@ -13,6 +14,6 @@ pub use attachment::Attachment;
 pub use bounds::Bounds;
 pub use environment::{Change, Environment};
 pub use object_tree::ObjectTree;
-use snapshot::{Place, Places};
+
 pub use snapshot::{SObject, Snapshot};
 pub use visit_near::{Named, NearScratch};

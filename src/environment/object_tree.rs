@@ -4,9 +4,10 @@
 use std::sync::Arc;
 
 use super::bounds::{Bounds, slack};
+use super::snapshot::{Place, Places};
 use super::tree_limits::{FAR, TreeLimits};
-use super::{Place, Places};
-use crate::hierarchy::{BoxTree, BoxTreeChanges, Boxes, Extent, OrientedBox};
+use crate::boxes::Extent;
+use crate::environment::box_tree::{BoxTree, BoxTreeChanges, Boxes, OrientedBox};
 use crate::index_set::IndexSet;
 use crate::pair::ROUNDING;
 

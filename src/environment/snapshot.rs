@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Attachment, Bounds, ObjectTree};
+use super::attachment::Attachment;
+use super::bounds::Bounds;
+use super::object_tree::ObjectTree;
 use crate::body::Body;
 use crate::cow_vec::CowVec;
 use crate::index_set::IndexSet;
@@ -300,8 +302,8 @@ impl Place {
 mod tests {
     use std::sync::Arc;
 
+    use super::super::environment::{Change, Environment};
     use crate::body::BodyBuilder;
-    use crate::environment::{Change, Environment};
     use crate::hierarchy::HierarchyOptions;
     use crate::pose::{Pose, Vec3};
 

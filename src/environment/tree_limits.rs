@@ -1,8 +1,8 @@
 //! Which objects a tree takes. Its boxes are in single precision, for all of it alike: one that is very far away, or known
 //! very badly, would blur all others.
 
-use super::Places;
 use super::bounds::{Bounds, slack};
+use super::snapshot::Places;
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
 

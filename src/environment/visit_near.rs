@@ -3,7 +3,9 @@
 use super::bounds::{Bounds, slack};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
-use crate::hierarchy::{BOX, Extent, PackedBox, power_of_two};
+use crate::boxes::{Extent, PackedBox};
+use crate::environment::box_tree::BOX;
+use crate::hierarchy::packed::power_of_two;
 use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
 use crate::pair::{ROUNDING, bounds};
 use crate::pose::{Pose, Vec3};

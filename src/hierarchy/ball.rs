@@ -1,7 +1,7 @@
 //! Balls around bodies.
 
-use super::Extent;
-use super::cover::outwards;
+use crate::boxes::Extent;
+use crate::hierarchy::wrapper::outwards;
 use crate::pose::{Pose, Vec3};
 use crate::primitive::Primitives;
 

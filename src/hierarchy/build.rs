@@ -2,15 +2,14 @@
 
 use std::time::Instant;
 
-use super::cloud::{build_cloud, is_cloud};
-use super::convex_pieces::convex_pieces;
-use super::grouping::{Groups, group};
-use super::packed_groups::pack_groups;
-use super::packed_wrappers::pack_wrappers;
+use super::ball::Ball;
+use super::options::{HierarchyOptions, WrapperKind};
 use super::parallel::Progress;
-use super::parts::{Part, parts};
-use super::{Ball, HierarchyOptions, Node, PackedTree, WrapperKind, WrapperTree, Wrappers};
+use super::subset_tree::Node;
 use crate::error::Result;
+use crate::hierarchy::grouping::{Groups, Part, convex_pieces, group, parts};
+use crate::hierarchy::packed::{PackedTree, build_cloud, is_cloud, pack_groups, pack_wrappers};
+use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::primitive::{Convex, Primitives};
 
 /// Seconds each phase of a build took.

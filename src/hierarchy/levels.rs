@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::{Node, WrapperTree};
+use super::subset_tree::Node;
 use crate::error::{Error, Result};
+use crate::hierarchy::wrapper::WrapperTree;
 
 impl WrapperTree {
     /// The nodes at a level, and the leaves above it; the root is level 0. Together they cover the body.

@@ -1,7 +1,7 @@
 //! How a hierarchy is built.
 
-use super::Cost;
 use crate::error::{Error, ErrorKind, Result};
+use crate::hierarchy::grouping::Cost;
 
 /// The algorithm of the grouping phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,8 +1,9 @@
 //! What a tree is like: numbers by which hierarchies are compared.
 
-use super::extent::Extent;
-use super::{Node, SubsetTree, WrapperTree};
+use super::subset_tree::{Node, SubsetTree};
+use crate::boxes::Extent;
 use crate::error::{Error, ErrorKind, Result};
+use crate::hierarchy::wrapper::WrapperTree;
 
 /// Work of one primitive test for one of node test, in the model of the expected cost.
 const PRIMITIVE_COST: f64 = 4.0;

@@ -26,7 +26,7 @@
 //! The tree over objects compares boxes that were turned in double precision, with the third axis as the cross product there
 //! (`ObjectTree`) or anew in single precision: within 3 u of the one their sides were fitted to, and so 9 u S in all.
 
-use crate::hierarchy::{EightBoxes, PackedBox};
+use crate::boxes::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, each3};
 use crate::pose::{Pose, Vec3};
 

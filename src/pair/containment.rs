@@ -12,7 +12,7 @@ use super::shortlist::Ranked;
 use super::traversal::{PrimitivePair, Scratch, Visitor, traverse};
 use super::winding::{RayScratch, winding};
 use crate::body::{Body, Piece, Solid};
-use crate::hierarchy::PackedBox;
+use crate::boxes::PackedBox;
 use crate::lanes::{cross3, each3};
 use crate::pose::{Pose, Vec3};
 use crate::work_meter::WorkMeter;

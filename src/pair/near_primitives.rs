@@ -1,7 +1,8 @@
 //! The primitives of one body that may meet a box.
 
 use super::box_bounds::bounds;
-use crate::hierarchy::{NodeRef, PackedBox, PackedTree};
+use crate::boxes::PackedBox;
+use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::{Instructions, Work, with_widest};
 
 /// Memory of descents, reused from one to the next.

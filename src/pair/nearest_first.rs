@@ -1,7 +1,7 @@
 //! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of
 //! all.
 
-use crate::hierarchy::{Children, NodeRef};
+use crate::hierarchy::packed::{Children, NodeRef};
 use crate::lanes::{Instructions, Lanes8};
 
 /// A pair of units, with the bound of its distance in units of the pair.

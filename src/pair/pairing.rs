@@ -10,7 +10,7 @@ use crate::convex::{
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
-use crate::hierarchy::PackedPrimitives;
+use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered};
 use crate::primitive::Form;

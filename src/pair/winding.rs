@@ -14,7 +14,8 @@
 use super::box_bounds::ROUNDING;
 use super::near_primitives::NearPrimitives;
 use crate::body::{Body, Solid};
-use crate::hierarchy::{PackedBox, power_of_two};
+use crate::boxes::PackedBox;
+use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pose::Vec3;
 

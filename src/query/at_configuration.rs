@@ -29,7 +29,7 @@ pub struct Shell {
 }
 
 /// Refuses thresholds that are NaN or negative; infinity is welcome.
-pub(super) fn check_threshold(value: f64, name: &str) -> Result<()> {
+pub(crate) fn check_threshold(value: f64, name: &str) -> Result<()> {
     if value.is_nan() {
         return Err(Error::new(ErrorKind::NotFinite, format!("{name} is NaN")));
     }

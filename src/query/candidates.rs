@@ -30,7 +30,7 @@ impl CandidateFilter {
 
 /// Memory of searches for body pairs, used again by the next.
 #[derive(Default)]
-pub(super) struct CandidateScratch {
+pub(crate) struct CandidateScratch {
     pub near: NearScratch,
     /// What bounds each link that is met.
     pub links: Vec<Option<Bounds>>,

@@ -16,7 +16,7 @@ use crate::work_meter::Statistics;
 
 /// Names a body pair across queries: a space and two of its parties, or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum CacheKey {
+pub(crate) enum CacheKey {
     Bodies(u64, u64),
     Candidate {
         space: u64,
@@ -32,8 +32,8 @@ pub(super) enum CacheKey {
 /// Scratch memory and the witnesses of earlier queries (§2.3.4). It changes how long an answer takes, never the answer.
 #[derive(Default)]
 pub struct QueryContext {
-    pub(super) scratch: Scratch,
-    pub(super) candidates: CandidateScratch,
+    pub(crate) scratch: Scratch,
+    pub(crate) candidates: CandidateScratch,
     pub(super) scene_memory: SceneMemory,
     pub(super) answers: Answers,
     /// Which contacts lists of witnesses hold.
@@ -54,7 +54,7 @@ impl QueryContext {
     }
 
     /// The world as a C-object sees it now, which [`QueryContext::version_seen`] tells from then on. A call begins with it.
-    pub(super) fn look(&mut self, cobject: &CObject) -> World {
+    pub(crate) fn look(&mut self, cobject: &CObject) -> World {
         self.scratch.meter_mut().start_call();
         let world = World::of(cobject);
         self.seen.clear();

@@ -1,7 +1,7 @@
 //! Distances as answers: from what a search found, of nothing, of a pure set.
 
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
-use super::search::Found;
+use super::search::NearestHit;
 use super::target::Target;
 use crate::cobject::{BoundedDistance, Leaf};
 use crate::convex::PrimitiveDistance;
@@ -41,7 +41,7 @@ impl Distance {
 
     /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
     pub(super) fn from_found(
-        found: &Found,
+        found: &NearestHit,
         max_distance: f64,
         leaf: impl Fn(u32) -> Leaf,
         scratch: &mut PrimitiveScratch,

@@ -1,5 +1,5 @@
 //! Queries: class, distance, witnesses and gradients of a C-object at a configuration (§2.2.4, operations 4–8), the same
-//! for two bodies, and the step that slides (Appendix A).
+//! for two bodies.
 
 mod answer;
 mod at_configuration;
@@ -9,19 +9,13 @@ mod candidates;
 mod context;
 mod distance;
 mod explain;
-mod half_spaces;
 mod link_pairs;
 mod pair_penetration;
 mod pure_answer;
 mod scene;
 mod search;
-mod segment;
 mod set_witnesses;
 mod sets;
-mod slide;
-mod slide_contacts;
-mod slide_step;
-mod step_limits;
 mod target;
 mod world;
 
@@ -29,12 +23,15 @@ pub use answer::{
     ContactRecord, ContactsListed, Distance, DistanceKind, PenetrationList, PrimitivePenetration,
     PurePlace, SSide, Witness, WitnessList,
 };
+pub(crate) use at_configuration::check_threshold;
 pub use at_configuration::{PseudoNormal, Shell};
+pub(crate) use candidates::CandidateFilter;
 pub use context::QueryContext;
 pub use explain::{Explanation, Verdict};
-pub use half_spaces::HalfSpace;
 pub use link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
+pub(crate) use pure_answer::PureAt;
 pub use scene::Configuration;
-pub use slide::{SlideOptions, SlideOutcome, SlideStep};
-pub use slide_step::{Approach, slide_step, spring_step};
+pub(crate) use scene::{Group, Scene, SceneMemory};
+pub(crate) use set_witnesses::{WitnessRequest, pure_witnesses};
+pub(crate) use target::{Placement, Target};
 pub use world::World;

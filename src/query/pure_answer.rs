@@ -10,7 +10,7 @@ use crate::primitive::Feature;
 
 /// A pure set, or its complement, at one configuration.
 #[derive(Clone, Copy)]
-pub(super) struct PureAt<'a> {
+pub(crate) struct PureAt<'a> {
     pub set: &'a PureSet,
     /// The complement is meant.
     pub complement: bool,
@@ -18,7 +18,7 @@ pub(super) struct PureAt<'a> {
 }
 
 /// A pure set that is near, with its contact, and the gradient where it was asked for.
-pub(super) struct PureWitness {
+pub(crate) struct PureWitness {
     pub witness: Witness,
     pub contact: Option<ContactRecord>,
     pub row: Vec<f64>,

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::pair::{Collect, Hit, Nearest, Pairing, Scratch, Visitor, Within, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
-pub(super) struct Found<'t, 'a> {
+pub(crate) struct NearestHit<'t, 'a> {
     /// With its body pair, if one is within the limit.
     pub hit: Option<(Hit, &'t Target<'a>)>,
     /// No primitive pair seen is nearer than this; safe against rounding.
@@ -21,11 +21,11 @@ pub(super) struct Found<'t, 'a> {
 impl QueryContext {
     /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if
     /// one is within `limit`.
-    pub(super) fn nearest<'t, 'a>(
+    pub(crate) fn nearest<'t, 'a>(
         &mut self,
         targets: &'t [Target<'a>],
         limit: f64,
-    ) -> Result<Found<'t, 'a>> {
+    ) -> Result<NearestHit<'t, 'a>> {
         let mut visitor = Nearest::up_to(limit);
         // The pairs last nearest between each two bodies bound the distance before any tree is walked.
         for target in targets.iter().filter(|_| targets.len() > 1) {
@@ -66,7 +66,7 @@ impl QueryContext {
             }
             Some((hit, target))
         });
-        Ok(Found {
+        Ok(NearestHit {
             hit,
             lower,
             measured: visitor.measured,

@@ -58,7 +58,7 @@ impl<'a> Leaves<'a> {
 
 /// What is asked of witnesses.
 #[derive(Clone, Copy)]
-pub(super) struct WitnessRequest {
+pub(crate) struct WitnessRequest {
     pub epsilon: f64,
     pub max_count: usize,
     pub with_gradients: bool,
@@ -117,7 +117,7 @@ impl QueryContext {
     }
 
     /// The witnesses among the candidates.
-    pub(super) fn list(
+    pub(crate) fn list(
         &mut self,
         group: &Group,
         scene: &Scene,
@@ -150,7 +150,7 @@ impl QueryContext {
     }
 }
 
-pub(super) fn pure_witnesses(
+pub(crate) fn pure_witnesses(
     leaves: &[(&PureSet, bool)],
     scene: &Scene,
     listed: WitnessRequest,
@@ -199,7 +199,7 @@ impl WitnessList {
     }
 
     /// Several lists as one: the nearest first, of equal ones those of earlier lists.
-    pub(super) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: WitnessRequest) -> Self {
+    pub(crate) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: WitnessRequest) -> Self {
         let mut merged = Self::empty(scene, listed);
         let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
         merged.truncated = count > listed.max_count || lists.iter().any(|list| list.truncated);

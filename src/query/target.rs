@@ -12,7 +12,7 @@ pub type Placement<'a> = (&'a Body, &'a Pose);
 
 /// A body pair with what its C-object says of it.
 #[derive(Clone, Copy)]
-pub(super) struct Target<'a> {
+pub(crate) struct Target<'a> {
     pub sides: [Placement<'a>; 2],
     pub key: CacheKey,
     pub options: InducedOptions,

@@ -1,6 +1,6 @@
 //! Curved primitives as meshes.
 
-use crate::hierarchy::Surface;
+use crate::hierarchy::wrapper::Surface;
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 

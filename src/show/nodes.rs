@@ -9,7 +9,8 @@ use super::glb::{Colour, Document, Triangles, require_glb};
 use super::shapes::{add_primitive, add_surface};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{Node, Surface};
+use crate::hierarchy::Node;
+use crate::hierarchy::wrapper::Surface;
 use crate::pose::{Pose, Vec3};
 use crate::whole_file::write_whole;
 

@@ -3,7 +3,7 @@
 use super::curved::curved_surface;
 use super::glb::Triangles;
 use crate::body::Body;
-use crate::hierarchy::Surface;
+use crate::hierarchy::wrapper::Surface;
 use crate::pose::Vec3;
 use crate::primitive::{Convex, plane_axes};
 

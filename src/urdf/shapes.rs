@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use super::model::{Geometry, LinkElement, Shape};
 use super::packages::resolve;
-use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshFormat, MeshSize, read_mesh_bytes};
+use crate::body::mesh_file::{MeshFormat, read_mesh_bytes};
+use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshSize};
 use crate::error::{Error, Result, require_finite};
 use crate::pose::{Pose, Vec3};
 use crate::xml::place;

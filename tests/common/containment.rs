@@ -1,7 +1,7 @@
 //! Whether wrappers contain points, proven without rounding: spheres by exact arithmetic, hulls by convex weights whose
 //! residual is computed exactly. It knows a wrapper's numbers only; nothing of how the library bounds distances.
 
-use cstk::hierarchy::Wrapper;
+use cstk::hierarchy::wrapper::Wrapper;
 use cstk::pose::Vec3;
 
 use super::expansion::{Expansion, exact_difference};

@@ -1,7 +1,8 @@
 //! Models of all sorts for hierarchies, and what their trees hold.
 
 use cstk::body::BodyBuilder;
-use cstk::hierarchy::{HierarchyOptions, Node, WrapperTree};
+use cstk::hierarchy::wrapper::WrapperTree;
+use cstk::hierarchy::{HierarchyOptions, Node};
 use cstk_scenes as scenes;
 
 use super::models::{builder, built, mixed_primitives, squares};

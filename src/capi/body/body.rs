@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use crate::body::Body;
 use crate::capi::boundary::guard;
-use crate::capi::handle::{self, Noun};
+use crate::capi::handle;
+use crate::capi::handle::Noun;
 use crate::capi::input::{Output, OutputSlice, path};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;

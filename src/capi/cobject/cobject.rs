@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::environment::environment::cstk_environment;
-use crate::capi::handle::{self, Noun};
+use crate::capi::handle;
+use crate::capi::handle::Noun;
 use crate::capi::input::{
     OptionsStruct, Output, collected, options_or_default, slice, write_defaults,
 };

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::body::Body;
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::handle::{self, Noun};
+use crate::capi::handle;
+use crate::capi::handle::Noun;
 use crate::capi::input::{
     OptionsStruct, Output, OutputSlice, options_in_place, reserved, slice, write_defaults,
 };

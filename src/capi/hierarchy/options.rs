@@ -4,7 +4,8 @@ use crate::capi::boundary::{Failure, guard};
 use crate::capi::input::{OptionsStruct, write_defaults};
 use crate::capi::status::status::cstk_status;
 use crate::error::Error;
-use crate::hierarchy::{Cost, Grouping, HierarchyOptions, Pieces, WrapperKind};
+use crate::hierarchy::grouping::Cost;
+use crate::hierarchy::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 
 /// The algorithm that groups primitives into a binary tree.
 #[repr(i32)]

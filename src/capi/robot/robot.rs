@@ -4,7 +4,8 @@ use std::ffi::c_char;
 
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
-use crate::capi::handle::{self, Noun};
+use crate::capi::handle;
+use crate::capi::handle::Noun;
 use crate::capi::input::{Output, OutputSlice, array, slice, text};
 use crate::capi::robot::joint::cstk_joint_kind;
 use crate::capi::status::status::cstk_status;

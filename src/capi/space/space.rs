@@ -4,7 +4,8 @@ use std::ffi::c_char;
 use std::sync::Arc;
 
 use crate::capi::boundary::guard;
-use crate::capi::handle::{self, Noun};
+use crate::capi::handle;
+use crate::capi::handle::Noun;
 use crate::capi::input::{Output, array, slice};
 use crate::capi::robot::robot::{cstk_robot, write_text};
 use crate::capi::status::status::cstk_status;

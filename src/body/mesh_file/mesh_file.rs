@@ -1,0 +1,64 @@
+//! Mesh files: OBJ, STL and COLLADA, by the ending of their names.
+
+use std::path::Path;
+
+use super::collada::parse_collada;
+use super::obj::parse_obj;
+use super::stl::parse_stl;
+use crate::body::{MAX_MESH_FILE_BYTES, Mesh, require_face_sizes};
+use crate::error::{Error, ErrorKind, Result};
+use crate::whole_file::read_whole;
+
+/// The formats of mesh files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    Obj,
+    Stl,
+    Collada,
+}
+
+impl MeshFormat {
+    /// The ending of the file's name tells its format.
+    pub fn of(path: &Path) -> Result<Self> {
+        let ending = path
+            .extension()
+            .map(|e| e.to_string_lossy().to_ascii_lowercase())
+            .unwrap_or_default();
+        let refused = |what: &str| {
+            let message = format!("mesh files end in .obj, .stl or .dae{what}");
+            Err(Error::new(ErrorKind::Unsupported, message))
+        };
+        match ending.as_str() {
+            "obj" => Ok(Self::Obj),
+            "stl" => Ok(Self::Stl),
+            "dae" => Ok(Self::Collada),
+            "" => refused("; this name has no ending"),
+            other => refused(&format!(", not \".{other}\"")),
+        }
+    }
+
+    /// The mesh of a file's bytes, which are read whole or refused.
+    pub fn parse(self, bytes: &[u8]) -> Result<Mesh> {
+        let mesh = match self {
+            Self::Obj => parse_obj(bytes),
+            Self::Stl => parse_stl(bytes),
+            Self::Collada => parse_collada(bytes),
+        }?;
+        if mesh.face_sizes.is_empty() {
+            return Err(Error::new(ErrorKind::Empty, "the file holds no face"));
+        }
+        require_face_sizes(&mesh)?;
+        Ok(mesh)
+    }
+}
+
+/// The bytes of a mesh file.
+pub fn read_mesh_bytes(path: &Path) -> Result<Vec<u8>> {
+    read_whole(path, MAX_MESH_FILE_BYTES)
+}
+
+/// Reads a mesh.
+pub fn read_mesh_file(path: &Path) -> Result<Mesh> {
+    let format = MeshFormat::of(path)?;
+    format.parse(&read_mesh_bytes(path)?)
+}

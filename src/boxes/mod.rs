@@ -1,0 +1,14 @@
+//! Boxes: axis-aligned and oriented, in double precision and packed for the kernel, eight side by side.
+
+mod extent;
+mod oriented_box;
+mod packed_box;
+mod wide_node;
+mod wide_node_bytes;
+
+pub use extent::Extent;
+pub use oriented_box::oriented_box;
+pub use packed_box::{PackedBox, fitted_axes, simply_fitted_axes};
+pub use wide_node::{ChildPoints, EightBoxes, SIZE_STEPS, WideNode};
+pub(crate) use wide_node::{MAX_AXIS, MAX_PLACE};
+pub use wide_node_bytes::NODE_BYTES;

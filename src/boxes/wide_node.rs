@@ -1,0 +1,278 @@
+//! Up to eight boxes side by side, in 16-bit numbers.
+//!
+//! Four cache lines hold a node, so that a walk through large trees waits for memory half as often as with single precision.
+
+use std::borrow::Cow;
+
+use super::extent::Extent;
+use super::oriented_box::span;
+use super::packed_box::PackedBox;
+use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
+use crate::pose::{Mat3, Vec3};
+
+/// The components of an axis are whole numbers in units of 2^-15.
+const AXIS_STEP: f32 = 1.0 / 32768.0;
+pub(crate) const MAX_AXIS: f64 = 32767.0;
+pub(crate) const MAX_PLACE: f64 = 32767.0;
+/// Less than fits, for what rounding of the centres adds.
+const MAX_HALF: f64 = 65500.0;
+
+/// Axes, and those dual to them, are no longer.
+const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
+
+/// Codes of sizes grow by so many for a factor of two.
+pub const SIZE_STEPS: i32 = 8;
+const SIZE_OF_ONE: f64 = 200.0;
+
+/// The boxes of a node's children. Two axes of a box are stored, the third, along its shortest side, is their cross product
+/// and so upright to them; centres are relative to an origin, and like half sides in units of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub struct WideNode {
+    pub(crate) axes: [[[i16; 8]; 3]; 2],
+    pub(crate) center: [[i16; 8]; 3],
+    pub(crate) half: [[u16; 8]; 3],
+    /// What the children are, to the tree.
+    pub children: [u32; 8],
+    /// The origin, then the step.
+    pub(crate) frame: [f32; 4],
+    pub(crate) sizes: [u8; 8],
+    pub count: u32,
+    /// The lowest primitive below.
+    pub lowest: u32,
+}
+
+/// The points of a child, and how far what it holds may be outside them.
+pub struct ChildPoints<'a> {
+    pub points: Cow<'a, [Vec3]>,
+    pub excess: f64,
+    /// Those of a box around them, that of its shortest side last.
+    pub axes: Mat3,
+}
+
+/// Eight boxes in single precision.
+pub struct EightBoxes<I: Instructions> {
+    pub axes: [Triple<I>; 3],
+    pub center: Triple<I>,
+    pub half: Triple<I>,
+}
+
+impl WideNode {
+    /// The boxes of up to eight children, which it leaves to be named. Lengths are at most about 1.
+    pub fn new(held: &[ChildPoints]) -> Self {
+        let mut node = Self {
+            count: held.len() as u32,
+            ..Self::default()
+        };
+        let spans: Vec<(Vec3, Vec3)> = held
+            .iter()
+            .map(|held| {
+                let (low, high) = span(&held.points, &held.axes);
+                let grown = Vec3::repeat(held.excess);
+                (held.axes * ((low + high) * 0.5), (high - low) * 0.5 + grown)
+            })
+            .collect();
+        let first = spans[0].0;
+        let (low, high) = spans
+            .iter()
+            .fold((first, first), |(low, high), (center, _)| {
+                (low.inf(center), high.sup(center))
+            });
+        let origin = (low + high) * 0.5;
+        let [x, y, z]: [f64; 3] = origin.into();
+        let halves = spans.iter().map(|(_, half)| half.amax());
+        let mut step = (0.5 * (high - low).amax() / MAX_PLACE)
+            .max(halves.fold(0.0, f64::max) / MAX_HALF)
+            .max(1e-30);
+        loop {
+            node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
+            let mut lanes = held.iter().zip(&spans).enumerate();
+            if lanes.all(|(lane, (held, (center, _)))| {
+                node.set(lane, &held.points, held.excess, &held.axes, center)
+            }) {
+                return node;
+            }
+            // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
+            step *= 1.25;
+        }
+    }
+
+    /// A node without children, whose boxes may have their centres within `half` of `center` along each axis, and half sides
+    /// of nearly twice that.
+    pub fn around(center: &Vec3, half: f64) -> Self {
+        let origin = each3(|k| center[k] as f32);
+        let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
+        let step = ((half + off.fold(0.0, f64::max)) / MAX_PLACE).max(1e-30) * (1.0 + 1e-6);
+        Self {
+            frame: [origin[0], origin[1], origin[2], step as f32],
+            ..Self::default()
+        }
+    }
+
+    /// What the children are.
+    pub fn children(&self) -> &[u32] {
+        &self.children[..self.count as usize]
+    }
+
+    /// The box, along the axes of coordinates, around one of the boxes.
+    pub fn extent(&self, lane: usize) -> Extent {
+        let given = self.get(lane);
+        let extent = |k: usize| {
+            (0..3)
+                .map(|i| given.axes[i][k].abs() * given.half[i])
+                .sum::<f32>()
+        };
+        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| given.center[k] + side * extent(k)));
+        Extent {
+            low: low.map(f64::from).into(),
+            high: high.map(f64::from).into(),
+        }
+    }
+
+    /// Takes out a child; the last one takes its lane.
+    pub fn take_out(&mut self, lane: usize) {
+        self.count -= 1;
+        let last = self.count as usize;
+        let numbers = self.axes.as_flattened_mut().iter_mut();
+        let numbers = numbers.chain(&mut self.center);
+        numbers.for_each(|numbers| numbers[lane] = numbers[last]);
+        let halves = self.half.iter_mut();
+        halves.for_each(|halves| halves[lane] = halves[last]);
+        self.sizes[lane] = self.sizes[last];
+        self.children[lane] = self.children[last];
+    }
+
+    /// Whether the box fits the step.
+    fn set(
+        &mut self,
+        lane: usize,
+        points: &[Vec3],
+        excess: f64,
+        axes: &Mat3,
+        center: &Vec3,
+    ) -> bool {
+        for k in 0..3 {
+            for i in 0..2 {
+                let component = (axes[(k, i)] * 32768.0).round();
+                self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
+            }
+            let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
+            self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
+        }
+        // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
+        let rounded = self.get(lane);
+        let center = Vec3::from(rounded.center.map(f64::from));
+        let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
+        let inverse = axes.try_inverse().expect("the axes are almost upright");
+        for i in 0..3 {
+            let farthest = points.iter().fold(0.0, |farthest: f64, p| {
+                let from_center = p - center;
+                let along = axes.column(i).dot(&from_center).abs();
+                let place = inverse.row(i).dot(&from_center.transpose()).abs();
+                farthest.max(along).max(place)
+            });
+            let needed = farthest + excess * LONGEST_AXIS;
+            let mut half = (needed / f64::from(self.step())).ceil() as u16;
+            while f64::from(f32::from(half) * self.step()) < needed {
+                match half.checked_add(1) {
+                    Some(more) => half = more,
+                    None => return false,
+                }
+            }
+            self.half[i][lane] = half;
+        }
+        let size = Vec3::from(self.get(lane).half.map(f64::from)).norm();
+        let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.max(f64::MIN_POSITIVE).log2();
+        self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
+        true
+    }
+
+    #[inline(always)]
+    pub(crate) fn step(&self) -> f32 {
+        self.frame[3]
+    }
+
+    /// About the logarithm of a box's size.
+    #[inline(always)]
+    pub fn size_code(&self, lane: usize) -> i32 {
+        i32::from(self.sizes[lane])
+    }
+
+    /// One of the boxes.
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> PackedBox {
+        let [a, b] = [0, 1].map(|i: usize| each3(|k| f32::from(self.axes[i][k][lane]) * AXIS_STEP));
+        PackedBox {
+            axes: [a, b, cross3(&a, &b)],
+            center: each3(|k| f32::from(self.center[k][lane]) * self.step() + self.frame[k]),
+            half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
+        }
+    }
+
+    /// One of the boxes in two times eight lanes: its first two axes, its centre and half sides, each with a lane unused.
+    #[inline(always)]
+    pub fn in_lanes<I: Instructions>(&self, lanes: I, lane: usize) -> [Lanes8<I>; 2] {
+        let lane = lane & 7;
+        let [[ax, ay, az], [bx, by, bz]] = &self.axes;
+        let axis = |numbers: &[i16; 8]| numbers[lane];
+        let axes = [
+            axis(ax),
+            axis(ay),
+            axis(az),
+            0,
+            axis(bx),
+            axis(by),
+            axis(bz),
+            0,
+        ];
+        let [cx, cy, cz] = &self.center;
+        let [hx, hy, hz] = &self.half;
+        let place = |numbers: &[i16; 8]| i32::from(numbers[lane]);
+        let half = |numbers: &[u16; 8]| i32::from(numbers[lane]);
+        let places = [
+            place(cx),
+            place(cy),
+            place(cz),
+            0,
+            half(hx),
+            half(hy),
+            half(hz),
+            0,
+        ];
+        [
+            lanes.mul(lanes.signed(&axes), lanes.splat(AXIS_STEP)),
+            lanes.mul_add(
+                lanes.whole(&places),
+                lanes.splat(self.step()),
+                lanes.four(&self.frame),
+            ),
+        ]
+    }
+
+    /// All of the boxes, bit for bit as one at a time but for their centres; in units that are `unit` of the tree's, a
+    /// power of two.
+    #[inline(always)]
+    pub fn boxes<I: Instructions>(&self, lanes: I, unit: f32) -> EightBoxes<I> {
+        let axis_step = lanes.splat(AXIS_STEP);
+        let step = lanes.splat(self.step() * unit);
+        let axis = |numbers| lanes.mul(lanes.signed(numbers), axis_step);
+        let ([ax, ay, az], [bx, by, bz]) = (&self.axes[0], &self.axes[1]);
+        let a = [axis(ax), axis(ay), axis(az)];
+        let b = [axis(bx), axis(by), axis(bz)];
+        let [x, y, z] = &self.center;
+        let place = |numbers, origin: f32| {
+            lanes.mul_add(lanes.signed(numbers), step, lanes.splat(origin * unit))
+        };
+        let [i, j, k] = &self.half;
+        let half = |numbers| lanes.mul(lanes.unsigned(numbers), step);
+        EightBoxes {
+            axes: [a, b, lanes.cross(&a, &b)],
+            center: [
+                place(x, self.frame[0]),
+                place(y, self.frame[1]),
+                place(z, self.frame[2]),
+            ],
+            half: [half(i), half(j), half(k)],
+        }
+    }
+}

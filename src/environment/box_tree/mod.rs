@@ -1,0 +1,12 @@
+//! The dynamic tree over the boxes of s-objects, an R-tree with eight children a node.
+
+mod box_split;
+#[allow(clippy::module_inception)]
+mod box_tree;
+mod changes;
+mod four_boxes;
+mod medians;
+mod refit;
+
+pub use box_tree::{BOX, BoxTree, Boxes, OrientedBox};
+pub use changes::BoxTreeChanges;

@@ -1,0 +1,15 @@
+//! The tree as queries walk it: eight children a node, packed boxes, the primitives in the order of the leaves.
+
+mod cloud;
+mod eight_below;
+mod packed_groups;
+mod packed_primitives;
+mod packed_tree;
+mod packed_wrappers;
+mod wide_plans;
+
+pub use cloud::{build_cloud, is_cloud, regroup};
+pub use packed_groups::pack_groups;
+pub use packed_primitives::PackedPrimitives;
+pub use packed_tree::{Children, NodeRef, PackedTree, power_of_two};
+pub use packed_wrappers::pack_wrappers;

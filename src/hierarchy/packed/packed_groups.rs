@@ -1,0 +1,178 @@
+//! The packed tree whose boxes are fitted to the primitives' own points, without wrappers.
+
+use std::ops::Range;
+
+use super::eight_below::Cuts;
+use super::packed_tree::PackedTree;
+use super::wide_plans::{SetTree, wide_nodes};
+use crate::boxes::{ChildPoints, Extent, fitted_axes};
+use crate::error::Result;
+use crate::hierarchy::{Ball, Node, Progress, SubsetTree, few_extremes};
+use crate::pose::Vec3;
+use crate::primitive::Primitives;
+
+/// Of more points than this only those that lie farthest out are asked for the axes of their box.
+const MANY: usize = 48;
+
+/// Packs the tree of groups of primitives; `ball` is around all.
+pub fn pack_groups(
+    primitives: &Primitives,
+    subsets: &SubsetTree,
+    ball: Ball,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<PackedTree> {
+    let mut packed = PackedTree::empty(ball);
+    packed.push_leaves(subsets, primitives);
+    let points = LeafPoints::new(primitives, &packed);
+    progress.at(0.1)?;
+    let radii = radii(subsets, &points);
+    let grouped = Grouped {
+        cuts: Cuts::of(subsets, |node| radii[node as usize]),
+        sizes: subsets.sizes(),
+        packed: &packed,
+        primitives,
+        subsets,
+        points,
+    };
+    drop(radii);
+    progress.at(0.2)?;
+    let nodes = wide_nodes(&grouped, threads, &mut progress.part(0.2, 1.0))?;
+    packed.nodes = nodes;
+    packed.finish(ball, primitives.only());
+    Ok(packed)
+}
+
+/// The points whose hulls hold the primitives, leaf after leaf, in units of the packed tree.
+struct LeafPoints {
+    points: Vec<Vec3>,
+    /// Where the points of each leaf begin, and the end of all.
+    first: Vec<usize>,
+}
+
+impl LeafPoints {
+    fn new(primitives: &Primitives, packed: &PackedTree) -> Self {
+        let unit = 1.0 / packed.scale();
+        let leaves = packed.primitives().entries();
+        let mut of_leaves = Self {
+            points: Vec::with_capacity(3 * leaves.len()),
+            first: Vec::with_capacity(leaves.len() + 1),
+        };
+        of_leaves.first.push(0);
+        for leaf in leaves {
+            let primitive = primitives.get(leaf.primitive as usize);
+            let points = primitive.bounding_points();
+            of_leaves.points.extend(points.map(|point| point * unit));
+            of_leaves.first.push(of_leaves.points.len());
+        }
+        of_leaves
+    }
+
+    fn of(&self, leaves: Range<usize>) -> &[Vec3] {
+        &self.points[self.first[leaves.start]..self.first[leaves.end]]
+    }
+}
+
+/// Half the diameters of the boxes of all nodes along the axes of coordinates.
+fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
+    let mut radii = vec![0.0; subsets.nodes.len()];
+    let mut leaf = points.first.len() - 1;
+    let mut open: Vec<Extent> = Vec::new();
+    // Backwards, children come before their parents, and the first child last.
+    for (node, radius) in subsets.nodes.iter().zip(&mut radii).rev() {
+        let below = match node {
+            Node::Leaf { .. } => None,
+            Node::Interior { .. } => open.pop().zip(open.pop()),
+        };
+        let extent = match below {
+            Some((a, b)) => a.union(&b),
+            None => {
+                leaf -= 1;
+                Extent::of(points.of(leaf..leaf + 1))
+            }
+        };
+        *radius = 0.5 * extent.diameter();
+        open.push(extent);
+    }
+    radii
+}
+
+struct Grouped<'a> {
+    cuts: Cuts,
+    /// Nodes of each subtree.
+    sizes: Vec<u32>,
+    packed: &'a PackedTree,
+    primitives: &'a Primitives,
+    subsets: &'a SubsetTree,
+    points: LeafPoints,
+}
+
+/// A node of the binary tree, and its first leaf.
+#[derive(Clone, Copy)]
+struct Group {
+    node: u32,
+    first_leaf: usize,
+}
+
+impl Grouped<'_> {
+    fn leaves(&self, group: &Group) -> Range<usize> {
+        let count = (self.sizes[group.node as usize] as usize).div_ceil(2);
+        group.first_leaf..group.first_leaf + count
+    }
+}
+
+impl SetTree for Grouped<'_> {
+    type Set = Group;
+
+    fn whole(&self) -> Group {
+        Group {
+            node: 0,
+            first_leaf: 0,
+        }
+    }
+
+    fn is_leaf(&self, group: &Group) -> bool {
+        self.sizes[group.node as usize] == 1
+    }
+
+    fn below(&self, group: &Group) -> Vec<Group> {
+        let mut first_leaf = group.first_leaf;
+        let nodes = self.cuts.below(self.subsets, group.node);
+        let groups = nodes.into_iter().map(|node| {
+            let group = Group { node, first_leaf };
+            first_leaf = self.leaves(&group).end;
+            group
+        });
+        groups.collect()
+    }
+
+    fn held(&self, group: &Group) -> ChildPoints<'_> {
+        let leaves = self.leaves(group);
+        let points = self.points.of(leaves.clone());
+        let axes = if points.len() > MANY {
+            fitted_axes(&few_extremes(points), None)
+        } else if leaves.len() == 1 {
+            let leaf = self.packed.primitives().entry(leaves.start);
+            let shape = self.primitives.get(leaf.primitive as usize).shape;
+            fitted_axes(points, Some(shape).filter(|shape| shape.is_flat()))
+        } else {
+            fitted_axes(&distinct(points), None)
+        };
+        ChildPoints {
+            axes,
+            excess: 0.0,
+            points: points.into(),
+        }
+    }
+}
+
+/// Few points, each once.
+fn distinct(points: &[Vec3]) -> Vec<Vec3> {
+    let mut kept: Vec<Vec3> = Vec::with_capacity(points.len());
+    for point in points {
+        if !kept.contains(point) {
+            kept.push(*point);
+        }
+    }
+    kept
+}

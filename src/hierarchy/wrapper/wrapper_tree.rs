@@ -1,0 +1,306 @@
+//! The construction phase (§3.2.4): a wrapper on every node of a subset tree.
+
+use std::collections::HashMap;
+
+use super::cover::{Corners, Cover, by_coordinates, merge_sorted};
+use super::wrapper::Wrapper;
+use crate::boxes::Extent;
+use crate::error::Result;
+use crate::hierarchy::grouping::Groups;
+use crate::hierarchy::{Ball, HierarchyOptions, Node, Progress, SubsetTree, WrapperKind, parallel};
+use crate::pose::Vec3;
+
+/// The subset tree with the wrapper of each node, packed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrapperTree {
+    pub(crate) subsets: SubsetTree,
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) corners: Vec<Vec3>,
+    pub(crate) kind: WrapperKind,
+    /// The nodes that hold maximal convex pieces, in ascending order.
+    pub(crate) pieces: Vec<u32>,
+}
+
+/// A wrapper whose corners lie in the tree's common array.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    pub first_corner: usize,
+    pub corner_count: usize,
+    pub excess: f64,
+    pub center: Vec3,
+    pub radius: f64,
+}
+
+/// Wrappers one after the other.
+#[derive(Default)]
+struct Packed {
+    frames: Vec<Frame>,
+    corners: Vec<Vec3>,
+}
+
+impl Packed {
+    fn push(&mut self, cover: &Cover, corners: &[Vec3]) {
+        self.frames.push(Frame {
+            first_corner: self.corners.len(),
+            corner_count: corners.len(),
+            excess: cover.excess,
+            center: cover.center,
+            radius: cover.radius,
+        });
+        self.corners.extend_from_slice(corners);
+    }
+
+    /// Appends the wrappers of another, last first.
+    fn append_backwards(&mut self, other: &Packed) {
+        for frame in other.frames.iter().rev() {
+            let cover = Cover {
+                excess: frame.excess,
+                center: frame.center,
+                radius: frame.radius,
+            };
+            self.push(
+                &cover,
+                &other.corners[frame.first_corner..][..frame.corner_count],
+            );
+        }
+    }
+}
+
+/// What a finished node hands up to its parent.
+struct FinishedNode {
+    cover: Cover,
+    /// Sorted points that stand for all below, and how far those may lie outside the points' hull.
+    points: Vec<Vec3>,
+    inherited: f64,
+    extent: Extent,
+}
+
+impl WrapperTree {
+    /// Builds the wrappers from the leaves up, over groups. `points_of` tells the points whose hull holds a leaf, and how
+    /// far rounding may have left what the leaf stands for outside that hull.
+    pub fn build(
+        groups: Groups,
+        points_of: impl Fn(u32) -> (Vec<Vec3>, f64) + Sync,
+        options: &HierarchyOptions,
+        progress: &mut Progress,
+    ) -> Result<Self> {
+        let Groups { subsets, pieces } = groups;
+        let threads = options.thread_count();
+        let sizes = subsets.sizes();
+        // Subtrees small enough to be shared out; the nodes above them follow. A node's wrapper depends on its subtree
+        // alone, so that the cut does not show.
+        let task_size = (subsets.nodes.len() / (16 * threads)).max(512);
+        let mut tasks = Vec::new();
+        let mut upper = Vec::new();
+        let mut node = 0;
+        while node < subsets.nodes.len() {
+            if sizes[node] as usize <= task_size {
+                tasks.push(node);
+                node += sizes[node] as usize;
+            } else {
+                upper.push(node);
+                node += 1;
+            }
+        }
+        let finish = |node: usize, children: Option<[FinishedNode; 2]>, packed: &mut Packed| {
+            let mut options = *options;
+            if pieces.binary_search(&(node as u32)).is_ok() {
+                // A convex piece is bounded exactly.
+                options.hull_vertex_limit = u32::MAX;
+            }
+            match (subsets.nodes[node], children) {
+                (Node::Leaf { primitive }, _) => {
+                    let (points, doubt) = points_of(primitive);
+                    wrap_leaf(points, doubt, &options, packed)
+                }
+                (_, Some(children)) => wrap_children(children, &options, packed),
+                (_, None) => unreachable!("an interior node has children"),
+            }
+        };
+        let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
+            let from = tasks[t];
+            let mut stack: Vec<FinishedNode> = Vec::new();
+            let mut packed = Packed::default();
+            // Backwards, children come before their parents, and the first child last.
+            for node in (from..from + sizes[from] as usize).rev() {
+                let children = match subsets.nodes[node] {
+                    Node::Leaf { .. } => None,
+                    Node::Interior { .. } => stack.pop().zip(stack.pop()).map(<[_; 2]>::from),
+                };
+                stack.push(finish(node, children, &mut packed));
+            }
+            (packed, stack.pop())
+        })?;
+        let mut waiting: HashMap<usize, FinishedNode> = HashMap::new();
+        let mut packed: Vec<(usize, Packed)> = Vec::new();
+        for (&from, (wrappers, root)) in tasks.iter().zip(done) {
+            packed.push((from, wrappers));
+            waiting.extend(root.map(|root| (from, root)));
+        }
+        let count = upper.len();
+        for (i, node) in upper.into_iter().rev().enumerate() {
+            let children = match subsets.nodes[node] {
+                Node::Leaf { .. } => None,
+                Node::Interior { children } => {
+                    let [a, b] = children.map(|child| waiting.remove(&(child as usize)));
+                    a.zip(b).map(<[_; 2]>::from)
+                }
+            };
+            let mut one = Packed::default();
+            waiting.insert(node, finish(node, children, &mut one));
+            packed.push((node, one));
+            progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
+        }
+        drop(waiting);
+        // In the order of nodes: which is that of the first nodes of the runs, each backwards.
+        packed.sort_unstable_by_key(|(first, _)| *first);
+        let mut all = Packed::default();
+        all.frames.reserve_exact(subsets.nodes.len());
+        all.corners
+            .reserve_exact(packed.iter().map(|(_, run)| run.corners.len()).sum());
+        for (_, run) in packed {
+            all.append_backwards(&run);
+        }
+        Ok(Self {
+            subsets,
+            kind: options.wrapper,
+            pieces,
+            frames: all.frames,
+            corners: all.corners,
+        })
+    }
+
+    /// A tree from what is in a file. The caller has checked that it is sound.
+    pub fn from_parts(
+        subsets: SubsetTree,
+        frames: Vec<Frame>,
+        corners: Vec<Vec3>,
+        kind: WrapperKind,
+        pieces: Vec<u32>,
+    ) -> Self {
+        Self {
+            subsets,
+            frames,
+            corners,
+            kind,
+            pieces,
+        }
+    }
+
+    /// The kind of its wrappers.
+    pub fn kind(&self) -> WrapperKind {
+        self.kind
+    }
+
+    /// The nodes that hold maximal convex pieces: each wrapper is the hull of a convex part of the body's surface.
+    pub fn pieces(&self) -> &[u32] {
+        &self.pieces
+    }
+
+    pub fn subsets(&self) -> &SubsetTree {
+        &self.subsets
+    }
+
+    pub fn node(&self, node: u32) -> Node {
+        self.subsets.nodes[node as usize]
+    }
+
+    pub fn wrapper(&self, node: u32) -> Wrapper<'_> {
+        let frame = &self.frames[node as usize];
+        Wrapper {
+            corners: &self.corners[frame.first_corner..][..frame.corner_count],
+            excess: frame.excess,
+            center: frame.center,
+            radius: frame.radius,
+        }
+    }
+
+    /// The ball around all.
+    pub fn ball(&self) -> Ball {
+        let root = self.wrapper(0);
+        Ball {
+            center: root.center,
+            radius: root.radius,
+        }
+    }
+
+    pub fn radius(&self, node: u32) -> f64 {
+        self.frames[node as usize].radius
+    }
+
+    /// Bytes of memory the tree takes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.subsets.nodes[..])
+            + size_of_val(&self.frames[..])
+            + size_of_val(&self.corners[..])
+    }
+}
+
+/// `doubt` says how far the leaf's part may lie outside the points' hull.
+fn wrap_leaf(
+    mut points: Vec<Vec3>,
+    doubt: f64,
+    options: &HierarchyOptions,
+    packed: &mut Packed,
+) -> FinishedNode {
+    points.sort_unstable_by(by_coordinates);
+    points.dedup();
+    wrap(Extent::of(&points), points, doubt, None, options, packed)
+}
+
+fn wrap_children(
+    [a, b]: [FinishedNode; 2],
+    options: &HierarchyOptions,
+    packed: &mut Packed,
+) -> FinishedNode {
+    let extent = a.extent.union(&b.extent);
+    let points = merge_sorted(&a.points, &b.points);
+    let inherited = a.inherited.max(b.inherited);
+    let covers = Some([&a.cover, &b.cover]);
+    wrap(extent, points, inherited, covers, options, packed)
+}
+
+/// Wraps points, which lie no farther than `inherited` from all they stand for.
+fn wrap(
+    extent: Extent,
+    mut points: Vec<Vec3>,
+    mut inherited: f64,
+    children: Option<[&Cover; 2]>,
+    options: &HierarchyOptions,
+    packed: &mut Packed,
+) -> FinishedNode {
+    let (cover, corners) = match (options.wrapper, children) {
+        (WrapperKind::Hull, _) => Cover::hull(&points, &extent, options.hull_vertex_limit as usize),
+        (WrapperKind::OrientedBox, _) => Cover::oriented_box(&points, &extent),
+        (WrapperKind::AlignedBox, _) => Cover::aligned_box(&extent),
+        (WrapperKind::MergedSphere, Some([a, b])) => Cover::merged_sphere(a, b),
+        (WrapperKind::TightSphere | WrapperKind::MergedSphere, _) => Cover::tight_sphere(&points),
+    };
+    // Children's spheres are grown already.
+    let merged = options.wrapper == WrapperKind::MergedSphere && children.is_some();
+    let cover = cover.grown(if merged { 0.0 } else { inherited });
+    match corners {
+        Corners::Points => packed.push(&cover, &points),
+        // A hull's vertices stand for all below from here on; a box's corners would loosen the hulls above.
+        Corners::Hull(corners) => {
+            packed.push(&cover, &corners);
+            points = corners;
+            points.sort_unstable_by(by_coordinates);
+            inherited = cover.excess;
+        }
+        Corners::New(corners) => packed.push(&cover, &corners),
+    }
+    if matches!(
+        options.wrapper,
+        WrapperKind::AlignedBox | WrapperKind::MergedSphere
+    ) {
+        // These need no points above the leaves.
+        points = Vec::new();
+    }
+    FinishedNode {
+        cover,
+        points,
+        inherited,
+        extent,
+    }
+}

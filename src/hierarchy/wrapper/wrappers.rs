@@ -1,0 +1,133 @@
+//! The wrapper tree of a body, which pictures, covers and whoever looks at single nodes read.
+
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+use super::wrapper_tree::WrapperTree;
+use crate::boxes::Extent;
+use crate::hierarchy::grouping::Groups;
+use crate::hierarchy::packed::regroup;
+use crate::hierarchy::{
+    Ball, HierarchyOptions, Node, Progress, TreeStatistics, WrapperKind, of_extents,
+};
+use crate::primitive::Primitives;
+
+/// Made when the body was built where the boxes that queries walk are fitted to them; else when they are first asked for:
+/// queries do without, and they take several times the time and the memory of all else.
+#[derive(Debug)]
+pub enum Wrappers {
+    Made(Box<WrapperTree>),
+    OnDemand {
+        /// `None` for a cloud of points, whose groups are found anew.
+        groups: Option<Groups>,
+        options: HierarchyOptions,
+        tree: OnceLock<Box<WrapperTree>>,
+    },
+}
+
+impl Wrappers {
+    pub(crate) fn on_demand(groups: Option<Groups>, options: &HierarchyOptions) -> Self {
+        Self::OnDemand {
+            groups,
+            options: *options,
+            tree: OnceLock::new(),
+        }
+    }
+
+    /// Those of a cloud.
+    pub fn of_cloud(options: &HierarchyOptions) -> Self {
+        Self::on_demand(None, options)
+    }
+
+    /// Hulls over a sound tree whose leaves are primitives.
+    pub fn of_groups(groups: Groups, options: &HierarchyOptions) -> Self {
+        Self::on_demand(Some(groups), options)
+    }
+
+    /// The tree over the body's primitives.
+    pub fn tree(&self, primitives: &Primitives) -> &WrapperTree {
+        match self {
+            Self::Made(tree) => tree,
+            Self::OnDemand {
+                groups,
+                options,
+                tree,
+            } => tree.get_or_init(|| {
+                let groups = groups_of(groups.as_ref(), primitives, options).into_owned();
+                Box::new(wrap(groups, primitives, options))
+            }),
+        }
+    }
+
+    pub fn kind(&self) -> WrapperKind {
+        match self {
+            Self::Made(tree) => tree.kind(),
+            Self::OnDemand { options, .. } => options.wrapper,
+        }
+    }
+
+    /// The ball around the body's primitives.
+    pub fn ball(&self, primitives: &Primitives) -> Ball {
+        match self {
+            Self::Made(tree) => tree.ball(),
+            Self::OnDemand { .. } => Ball::around(primitives),
+        }
+    }
+
+    /// What the hierarchy is like; where its wrappers were not made with it, by the boxes of the primitives along the axes of
+    /// coordinates. The bytes are those of groups and wrappers that are there.
+    pub fn statistics(&self, primitives: &Primitives) -> TreeStatistics {
+        match self {
+            Self::Made(tree) => tree.statistics(),
+            Self::OnDemand {
+                groups,
+                options,
+                tree,
+            } => {
+                let kept = groups.as_ref().map_or(0, Groups::bytes);
+                let groups = groups_of(groups.as_ref(), primitives, options);
+                TreeStatistics {
+                    pieces: groups.pieces.len() as u64,
+                    bytes: (kept + tree.get().map_or(0, |tree| tree.bytes())) as u64,
+                    ..of_extents(&groups.subsets, &extents(&groups, primitives))
+                }
+            }
+        }
+    }
+}
+
+fn groups_of<'a>(
+    kept: Option<&'a Groups>,
+    primitives: &Primitives,
+    options: &HierarchyOptions,
+) -> Cow<'a, Groups> {
+    match kept {
+        Some(groups) => Cow::Borrowed(groups),
+        None => Cow::Owned(regroup(primitives, options)),
+    }
+}
+
+fn wrap(groups: Groups, primitives: &Primitives, options: &HierarchyOptions) -> WrapperTree {
+    let points_of = |primitive: u32| {
+        let primitive = primitives.get(primitive as usize);
+        (primitive.bounding_points().collect(), 0.0)
+    };
+    let mut unheard = |_| Ok(());
+    let tree = WrapperTree::build(groups, points_of, options, &mut Progress::new(&mut unheard));
+    tree.expect("nothing ends the work")
+}
+
+/// The boxes of all nodes along the axes of coordinates.
+fn extents(groups: &Groups, primitives: &Primitives) -> Vec<Extent> {
+    let nodes = &groups.subsets.nodes;
+    let mut extents = vec![Extent::default(); nodes.len()];
+    for (i, node) in nodes.iter().enumerate().rev() {
+        extents[i] = match *node {
+            Node::Leaf { primitive } => {
+                Extent::of_points(primitives.get(primitive as usize).bounding_points())
+            }
+            Node::Interior { children: [a, b] } => extents[a as usize].union(&extents[b as usize]),
+        };
+    }
+    extents
+}

@@ -1,0 +1,379 @@
+//! The step that slides along contacts instead of running into them (Appendix A: `slide`).
+
+use super::half_spaces::dot;
+use super::segment::{LinearMotion, TouchAllowance};
+use super::slide_contacts::Detail;
+use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
+use super::step_limits::step_limits;
+use crate::cobject::{CObject, PureShape, Set};
+use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
+use crate::query::{
+    Configuration, ContactRecord, QueryContext, WitnessList, World, check_threshold,
+};
+
+/// How to slide.
+#[derive(Clone, Copy, Debug)]
+pub struct SlideOptions {
+    /// Contacts up to this distance constrain the step: the stand-off.
+    pub max_shell: f64,
+    /// The distance at which the robot slides; it is pushed out where it is nearer.
+    pub desired_distance: f64,
+    /// Lengthens the step along the contact to that of the step asked for, at most fourfold: the report's `normalize?`.
+    pub normalize: bool,
+    /// A step is halved until it is accepted, or is shorter than this part of the step asked for.
+    pub floor: f64,
+    /// At most this many witnesses are considered, the nearest first.
+    pub max_witnesses: usize,
+}
+
+impl SlideOptions {
+    /// The report's defaults: a desired distance of a tenth of the shell.
+    pub fn with_shell(max_shell: f64) -> Self {
+        Self {
+            max_shell,
+            desired_distance: max_shell / 10.0,
+            normalize: false,
+            floor: 1.0 / 1024.0,
+            max_witnesses: 256,
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        check_threshold(self.max_shell, "max_shell")?;
+        require_coordinates(&[self.max_shell], "max_shell")?;
+        check_threshold(self.desired_distance, "desired_distance")?;
+        if self.max_shell == 0.0 {
+            return Err(Error::invalid(
+                "max_shell is 0; a slide needs room to see contacts",
+            ));
+        }
+        if self.desired_distance > self.max_shell {
+            return Err(Error::invalid(format!(
+                "desired_distance {} is larger than max_shell {}",
+                self.desired_distance, self.max_shell
+            )));
+        }
+        require_finite(&[self.floor], "floor")?;
+        if !(f64::EPSILON..=1.0).contains(&self.floor) {
+            return Err(Error::invalid(format!(
+                "floor {} is not between {:e} and 1",
+                self.floor,
+                f64::EPSILON
+            )));
+        }
+        if self.max_witnesses == 0 {
+            return Err(Error::invalid("max_witnesses is 0"));
+        }
+        Ok(())
+    }
+}
+
+/// How a slide ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SlideOutcome {
+    /// A step was found; it keeps clear of the C-object all the way.
+    Moved,
+    /// The configuration is inside the C-object; there is no way to slide.
+    Inside,
+    /// No step leads on: the contacts, the coordinates' ranges or the world box are in the way. Of all steps as long as the
+    /// floor none that keeps clear, keeps the distance (or the desired distance, if that is less), the ranges and the box
+    /// gains more than 1 % of its length along the step asked for, to first order.
+    Blocked,
+}
+
+/// The step taken. Unless it moved, the configuration is the one given.
+#[derive(Clone, Debug)]
+pub struct SlideStep {
+    pub outcome: SlideOutcome,
+    pub configuration: Vec<f64>,
+    /// The distance at the configuration given, and at the one reached.
+    pub distance_before: f64,
+    pub distance_after: f64,
+    /// How many contacts constrained the step.
+    pub contacts: usize,
+}
+
+/// A robot that is nearer than the desired distance by less than this part of it is not pushed out: else it would tremble.
+const DEAD_BAND: f64 = 1e-2;
+
+/// A step may fall short of the distance it is to keep by this part of the desired one: what corrections leave.
+const FALL_SHORT: f64 = 1e-4;
+
+/// A step is corrected at most this many times where it leads: contacts turn on the way.
+const MAX_CORRECTIONS: usize = 3;
+
+/// The contacts that a step of this length can bring nearer than it may fall short.
+fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>> {
+    let mut all = list.approaches();
+    all.retain(|a| norm(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
+    all
+}
+
+/// What all tries of one slide share.
+struct SlideRequest<'a> {
+    world: &'a World,
+    cobject: &'a CObject,
+    q: &'a [f64],
+    here: &'a WitnessList,
+    options: &'a SlideOptions,
+    /// The length of the step asked for.
+    length: f64,
+    detail: Detail,
+}
+
+impl QueryContext {
+    /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest
+    /// step that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out
+    /// to it where it is within, corrected where it leads, and halved until the whole way is proved free.
+    pub fn slide(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        step: &[f64],
+        options: &SlideOptions,
+    ) -> Result<SlideStep> {
+        options.check()?;
+        let space = cobject.space();
+        space.check_configuration(q)?;
+        space.check_velocity(step, "step")?;
+        // One state of the world for all that is asked: else the proof would join distances of several.
+        let world = &self.look(cobject);
+        require_union(cobject)?;
+        let distance = self.distance_at(world, cobject, q)?;
+        let here = self.slide_contacts(world, cobject, q, options, Detail::Nearest)?;
+        let contacts = here.contacts.len();
+        let ended = |outcome| SlideStep {
+            outcome,
+            configuration: q.to_vec(),
+            distance_before: distance,
+            distance_after: distance,
+            contacts,
+        };
+        // A touch is no reason to stay; an overlap is, of primitives or of what the margin adds to them.
+        if overlaps(&here, options) {
+            return Ok(ended(SlideOutcome::Inside));
+        }
+        let length = norm(step);
+        if length == 0.0 || !space.contains(q)? {
+            return Ok(ended(SlideOutcome::Blocked));
+        }
+        let way = LinearMotion {
+            world,
+            cobject,
+            q,
+            v: step,
+        };
+        if !way.states_speeds() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
+            ));
+        }
+        let mut asked = SlideRequest {
+            world,
+            cobject,
+            q,
+            here: &here,
+            options,
+            length,
+            detail: Detail::Nearest,
+        };
+        let mut reached = self.find_step(&asked, step)?;
+        // What the nearest contacts of large meshes leave out may have been in the way.
+        let all;
+        if reached.is_none() {
+            all = self.slide_contacts(world, cobject, q, options, Detail::All)?;
+            (asked.here, asked.detail) = (&all, Detail::All);
+            reached = self.find_step(&asked, step)?;
+        }
+        let Some(reached) = reached else {
+            return Ok(ended(SlideOutcome::Blocked));
+        };
+        Ok(SlideStep {
+            distance_after: self.distance_at(world, cobject, &reached)?,
+            configuration: reached,
+            ..ended(SlideOutcome::Moved)
+        })
+    }
+
+    /// Where the longest part of a step leads that can be taken.
+    fn find_step(&mut self, asked: &SlideRequest, step: &[f64]) -> Result<Option<Vec<f64>>> {
+        let push = OutwardStep::of(asked)?;
+        let mut share = 1.0;
+        while share >= asked.options.floor {
+            let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
+            let pushed = push.as_ref().map(|push| push.part(share));
+            let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
+            for push in wishes {
+                let found = self.try_step(asked, &wish, push)?;
+                if found.is_some() {
+                    return Ok(found);
+                }
+            }
+            share *= 0.5;
+        }
+        Ok(None)
+    }
+
+    fn distance_at(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<f64> {
+        let at = Configuration::Coordinates(q);
+        let found = self.distance_in(world, cobject, at, f64::INFINITY)?;
+        Ok(found.distance)
+    }
+
+    /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way.
+    fn try_step(
+        &mut self,
+        asked: &SlideRequest,
+        wish: &[f64],
+        push: Option<&OutwardStep>,
+    ) -> Result<Option<Vec<f64>>> {
+        let &SlideRequest {
+            world,
+            cobject,
+            q,
+            here,
+            options,
+            ..
+        } = asked;
+        let space = cobject.space();
+        let desired = options.desired_distance;
+        let length = norm(wish);
+        let contacts = approaches(here, asked.length, desired);
+        let near = nearest_movable(&contacts);
+        // Of contacts within the desired distance only the nearest says what is to be kept.
+        let keep = near.min(desired);
+        let limits = step_limits(space, q, length)?;
+        let along = slide_step(wish, &contacts, &limits, keep, options.normalize);
+        let first = match (along, push) {
+            (Some(along), Some(push)) => along.iter().zip(&push.step).map(|(a, b)| a + b).collect(),
+            (Some(along), None) => along,
+            (None, Some(push)) => push.step.clone(),
+            (None, None) => return Ok(None),
+        };
+        let mut reached = space.clamp(&space.step(q, &first));
+        let mut corrections = 0;
+        let nearest = loop {
+            if space.check_configuration(&reached).is_err() {
+                return Ok(None);
+            }
+            let there = self.slide_contacts(world, cobject, &reached, options, asked.detail)?;
+            if overlaps(&there, options) {
+                return Ok(None);
+            }
+            let contacts = approaches(&there, asked.length, desired);
+            let nearest = nearest_movable(&contacts);
+            if corrections == MAX_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
+                break nearest;
+            }
+            corrections += 1;
+            let limits = step_limits(space, &reached, length)?;
+            match spring_step(&contacts, &limits, keep) {
+                Some(correction) if norm(&correction) <= length => {
+                    reached = space.clamp(&space.step(&reached, &correction));
+                }
+                _ => return Ok(None),
+            }
+        };
+        let way = space.displacement(q, &reached);
+        let (gain, moved) = (dot(&way, wish) / length, norm(&way));
+        let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
+        let keeps = nearest >= keep - FALL_SHORT * desired;
+        // A push alone must win more than steps that gain may lose, or the two would take turns.
+        let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
+        let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
+        if !goes_on {
+            return Ok(None);
+        }
+        let way = LinearMotion {
+            world,
+            cobject,
+            q,
+            v: &way,
+        };
+        let trust = TouchAllowance {
+            distance: ON_TRUST * options.max_shell.min(smallest_radius(cobject)),
+            max_count: options.max_witnesses,
+        };
+        let is_free = self.way_is_free(&way, &trust)?;
+        Ok(is_free.then_some(reached))
+    }
+}
+
+/// How far, as a part of the shell or of the smallest link, a touching robot may move before a distance must prove it free.
+const ON_TRUST: f64 = 1e-4;
+
+/// Refuses sets whose distance says too little for a proof.
+fn require_union(cobject: &CObject) -> Result<()> {
+    let measures = |cobject: &CObject| match cobject.set() {
+        Set::Pure(pure) => !matches!(pure.shape, PureShape::Predicate(_)),
+        Set::Union { others, .. } => others.is_empty(),
+        _ => false,
+    };
+    let all = match cobject.set() {
+        Set::Union { others, .. } => others.iter().all(|other| measures(other)),
+        _ => measures(cobject),
+    };
+    if all {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::Unsupported,
+        "slides need a union of induced sets and of pure sets that are no predicates: no way through others can be proved free",
+    ))
+}
+
+fn smallest_radius(cobject: &CObject) -> f64 {
+    let space = cobject.space();
+    let bodies = (0..space.link_count()).filter_map(|link| space.link(link)?.body.as_ref());
+    bodies
+        .map(|body| body.radius())
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn overlaps(list: &WitnessList, options: &SlideOptions) -> bool {
+    let too_deep = -1e-9 * options.max_shell;
+    let is_too_deep = |contact: &ContactRecord| contact.clearance < too_deep;
+    list.witnesses.iter().any(|witness| witness.overlapping)
+        || list.contacts.iter().any(is_too_deep)
+}
+
+fn norm(v: &[f64]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// A step out to the desired distance.
+struct OutwardStep {
+    step: Vec<f64>,
+}
+
+impl OutwardStep {
+    /// The push of a configuration within the desired distance, no longer than `length`; none where contacts stand against
+    /// each other so that hardly anything is won.
+    fn of(asked: &SlideRequest) -> Result<Option<Self>> {
+        let (space, length) = (asked.cobject.space(), asked.length);
+        let desired = asked.options.desired_distance;
+        let contacts = approaches(asked.here, length, desired);
+        let near = nearest_movable(&contacts);
+        if near >= desired * (1.0 - DEAD_BAND) {
+            return Ok(None);
+        }
+        let limits = step_limits(space, asked.q, length)?;
+        let Some(step) = spring_step(&contacts, &limits, desired) else {
+            return Ok(None);
+        };
+        let after = contacts
+            .iter()
+            .map(|a| a.clearance + dot(a.gradient, &step));
+        let is_worth = after.fold(desired, f64::min) - near >= DEAD_BAND * desired;
+        let part = (length / norm(&step)).min(1.0);
+        Ok(is_worth.then(|| Self { step }.part(part)))
+    }
+
+    /// A part of the way: each contact is then as far as at one of the ends, at least.
+    fn part(&self, share: f64) -> Self {
+        Self {
+            step: self.step.iter().map(|x| x * share).collect(),
+        }
+    }
+}

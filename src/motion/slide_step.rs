@@ -1,0 +1,118 @@
+//! The report's `slide-step` and `compute-spring-step` (Appendix A): steps that respect contacts, to first order.
+
+use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
+use crate::query::WitnessList;
+
+/// A contact as the steps see it: how far it is, and how a step changes that.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<'a> {
+    pub gradient: &'a [f64],
+    /// The distance, less the margin; negative within it.
+    pub clearance: f64,
+}
+
+impl WitnessList {
+    /// The contacts with their gradients; none where the list came without gradients.
+    pub fn approaches(&self) -> Vec<Approach<'_>> {
+        self.contacts
+            .iter()
+            .zip(self.gradients.chunks_exact(self.nv.max(1)))
+            .map(|(contact, gradient)| Approach {
+                gradient,
+                clearance: contact.clearance,
+            })
+            .collect()
+    }
+}
+
+/// Steps of less than this part of the step asked for, or at a cosine to it below this, lead nowhere.
+pub const LEAST_GAIN: f64 = 1e-2;
+
+/// The lengthened step is at most so many times the part of the step that contacts leave.
+const MAX_STRETCH: f64 = 4.0;
+
+/// The step nearest to `step` that brings no contact nearer than `desired`, nor nearer at all where it is within that
+/// already, and keeps to the `limits`. With `normalize` it is lengthened to the step's length, fourfold at most. `None`
+/// where nothing worth taking is left: less than [`LEAST_GAIN`] of the step.
+pub fn slide_step(
+    step: &[f64],
+    approaches: &[Approach],
+    limits: &[HalfSpace],
+    desired: f64,
+    normalize: bool,
+) -> Option<Vec<f64>> {
+    let mut half_spaces = limits.to_vec();
+    half_spaces.extend(movable(approaches).map(|a| HalfSpace {
+        row: a.gradient.to_vec(),
+        least: (desired - a.clearance).min(0.0),
+    }));
+    let along = nearest_in_half_spaces(step, &half_spaces)?;
+    let [asked, left] = [step, &along].map(|s| dot(s, s).sqrt());
+    if left <= LEAST_GAIN * asked || dot(&along, step) <= LEAST_GAIN * left * asked {
+        return None;
+    }
+    if normalize && left < asked {
+        let stretch = (asked / left).min(MAX_STRETCH);
+        let wish: Vec<f64> = step.iter().map(|x| x * stretch).collect();
+        if let Some(longer) = nearest_in_half_spaces(&wish, &half_spaces)
+            && dot(&longer, &longer).sqrt() <= 1.5 * asked
+        {
+            return Some(longer);
+        }
+    }
+    Some(along)
+}
+
+/// The shortest step that takes all contacts out to `desired`, and none within it; where not all can get there, the step
+/// that takes them all out to the largest distance that they can share. `None` where no contact is nearer than `desired`, or
+/// none can be helped.
+pub fn spring_step(
+    approaches: &[Approach],
+    limits: &[HalfSpace],
+    desired: f64,
+) -> Option<Vec<f64>> {
+    let nearest = nearest_movable(approaches);
+    if nearest >= desired {
+        return None;
+    }
+    let nv = approaches.first()?.gradient.len();
+    let still = vec![0.0; nv];
+    let out_to = |level: f64| {
+        let mut half_spaces = limits.to_vec();
+        half_spaces.extend(movable(approaches).map(|a| HalfSpace {
+            row: a.gradient.to_vec(),
+            least: level - a.clearance,
+        }));
+        nearest_in_half_spaces(&still, &half_spaces)
+    };
+    if let Some(found) = out_to(desired) {
+        return Some(found);
+    }
+    let (mut low, mut high, mut best) = (nearest, desired, None);
+    for _ in 0..20 {
+        let level = 0.5 * (low + high);
+        match out_to(level) {
+            Some(found) => (low, best) = (level, Some(found)),
+            None => high = level,
+        }
+    }
+    best.filter(|found| dot(found, found) > 0.0)
+}
+
+/// The contacts that some step changes. Of those that joints carry along as one only rounding is left of the gradient; as a
+/// direction it would mean nothing.
+fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
+    let length = |a: &Approach| dot(a.gradient, a.gradient).sqrt();
+    let largest = approaches.iter().map(length).fold(0.0, f64::max);
+    approaches
+        .iter()
+        .filter(move |a| length(a) > ROUNDING * largest.max(ROUNDING))
+}
+
+/// A gradient shorter than this part of the longest is what is left of sums that cancel.
+const ROUNDING: f64 = 1e-12;
+
+/// The clearance of the nearest contact that some step changes.
+pub fn nearest_movable(approaches: &[Approach]) -> f64 {
+    movable(approaches).fold(f64::INFINITY, |least, a| least.min(a.clearance))
+}
