@@ -133,10 +133,14 @@ impl QueryContext {
         let Some(fastest) = way.fastest_pair(&term[0]) else {
             return Ok(true);
         };
-        scene.check(term)?;
+        let checked = scene.checked(term)?;
         let wanted = CandidateFilter::within(fastest / STEP_FRACTION);
-        let candidates =
-            scene.candidates(term, wanted, &mut self.candidates, self.scratch.meter_mut())?;
+        let candidates = scene.candidates(
+            checked,
+            wanted,
+            &mut self.candidates,
+            self.scratch.meter_mut(),
+        )?;
         for &target in &candidates {
             let rate = way.rate(scene, &target);
             if STEP_FRACTION * target.bound >= rate {

@@ -83,11 +83,11 @@ impl ContactSearch<'_> {
 
     fn see_bodies(&mut self, context: &mut QueryContext, group: &Group) -> Result<()> {
         let (scene, max_shell) = (self.scene, self.options.max_shell);
-        scene.check(group)?;
+        let checked = scene.checked(group)?;
         let shells = group.iter().map(|term| term.shell.unwrap_or(max_shell));
         let wanted = CandidateFilter::within(shells.fold(0.0, f64::max));
         let meter = context.scratch.meter_mut();
-        let candidates = scene.candidates(group, wanted, &mut context.candidates, meter)?;
+        let candidates = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
         for target in &candidates {
             let shell = group[target.term as usize].shell.unwrap_or(max_shell);
             if target.bound > shell {

@@ -1,5 +1,7 @@
 //! The body pairs that induced sets hold in a scene.
 
+use std::ops::Deref;
+
 use super::answer::SSide;
 use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
 use super::context::{CacheKey, QueryContext};
@@ -69,6 +71,18 @@ struct SObjectAt<'s> {
     carrier: Option<usize>,
 }
 
+/// A group whose sets searches can answer: [`Scene::checked`] makes it.
+#[derive(Clone, Copy)]
+pub(crate) struct CheckedGroup<'g>(&'g Group);
+
+impl Deref for CheckedGroup<'_> {
+    type Target = Group;
+
+    fn deref(&self) -> &Group {
+        self.0
+    }
+}
+
 impl<'a> Scene<'a> {
     /// Whether there is no pair of bodies at all, as far as that is seen at a glance.
     pub fn is_empty(&self, group: &Group) -> bool {
@@ -89,7 +103,7 @@ impl<'a> Scene<'a> {
 
     /// Refuses sets that no search can answer, whatever it would look at first: bodies of planes and of space, and s-objects
     /// that are attached to links of another space, so that nobody knows here where they are.
-    pub fn check(&self, group: &Group) -> Result<()> {
+    pub fn checked<'g>(&self, group: &'g Group) -> Result<CheckedGroup<'g>> {
         for term in group {
             let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
                 continue;
@@ -113,19 +127,19 @@ impl<'a> Scene<'a> {
                 ));
             }
         }
-        Ok(())
+        Ok(CheckedGroup(group))
     }
 
-    /// The body pairs of a group that was checked that a search may need, each once, ranked by ids and sorted by bound.
+    /// The body pairs of a group that a search may need, each once, ranked by ids and sorted by bound.
     pub fn candidates(
         &self,
-        group: &Group,
+        group: CheckedGroup,
         wanted: CandidateFilter,
         scratch: &mut CandidateScratch,
         meter: &mut WorkMeter,
     ) -> Result<Vec<Target<'_>>> {
         let mut candidates = Candidates::new(wanted, scratch, meter);
-        for (number, term) in (0..).zip(group) {
+        for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
                     let known = &mut scratch.links;
@@ -415,11 +429,11 @@ impl QueryContext {
         self.candidates.keep(targets);
     }
 
-    /// The body pairs of a group that was checked that a search may need: see [`Scene::candidates`].
+    /// The body pairs of a group that a search may need: see [`Scene::candidates`].
     pub(super) fn candidates<'s>(
         &mut self,
         scene: &'s Scene,
-        group: &Group,
+        group: CheckedGroup,
         wanted: CandidateFilter,
     ) -> Result<Vec<Target<'s>>> {
         scene.candidates(

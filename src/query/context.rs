@@ -1,18 +1,17 @@
 //! A query context: one thread's caches and scratch memory.
 
-use std::collections::HashMap;
-
-use foldhash::fast::RandomState;
-
 use super::answer::{ContactsListed, SSide};
 use super::candidates::CandidateScratch;
-use super::scene::SceneMemory;
-use super::sets::Answers;
+use super::combination::Answers;
+use super::scene::{Configuration, Scene, SceneMemory};
 use super::world::World;
 use crate::cobject::CObject;
 use crate::environment::Environment;
+use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Scratch;
 use crate::work_meter::Statistics;
+use foldhash::fast::RandomState;
+use std::collections::HashMap;
 
 /// Names a body pair across queries: a space and two of its parties, or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -60,6 +59,28 @@ impl QueryContext {
         self.seen.clear();
         self.seen.extend(world.versions());
         world
+    }
+
+    /// Asks about the scene of a query, in memory that the context keeps.
+    pub(super) fn ask<T>(
+        &mut self,
+        cobject: &CObject,
+        world: &World,
+        at: Configuration,
+        question: impl FnOnce(&mut Self, &Scene) -> Result<T>,
+    ) -> Result<T> {
+        let memory = std::mem::take(&mut self.scene_memory);
+        let scene = scene(cobject, world, at, memory)?;
+        let answer = question(self, &scene);
+        self.scene_memory = scene.into_memory();
+        answer
+    }
+
+    /// Counts the bounds of two bodies; refuses to go on past the limit of the call.
+    pub(super) fn count_body_pair(&mut self) -> Result<()> {
+        let meter = self.scratch.meter_mut();
+        meter.count_nodes(1);
+        meter.check()
     }
 
     /// The version of an environment that the last query with this context saw, if it was one of a C-object that refers
@@ -116,4 +137,28 @@ impl QueryContext {
         self.witnesses.insert(key, primitives);
         self.recent = Some(key);
     }
+}
+
+/// Refuses thresholds that are NaN or negative; infinity is welcome.
+pub(crate) fn check_threshold(value: f64, name: &str) -> Result<()> {
+    if value.is_nan() {
+        return Err(Error::new(ErrorKind::NotFinite, format!("{name} is NaN")));
+    }
+    if value < 0.0 {
+        return Err(Error::invalid(format!("{name} is negative: {value}")));
+    }
+    Ok(())
+}
+
+/// The scene of a query. Whether coordinates are needed does not depend on which parts come to be asked.
+pub(super) fn scene<'a>(
+    cobject: &'a CObject,
+    world: &'a World,
+    at: Configuration<'a>,
+    memory: SceneMemory,
+) -> Result<Scene<'a>> {
+    if let Configuration::LinkPoses(_) = at {
+        cobject.require_no_coordinates()?;
+    }
+    Scene::new(cobject.space(), world, at, memory)
 }

@@ -1,256 +1,235 @@
-//! Distances as answers: from what a search found, of nothing, of a pure set.
+//! Operation 6: the distance from contact and the nearest primitive pair, of a C-object and of many body pairs.
 
-use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
-use super::search::NearestHit;
+use super::answer::Distance;
+use super::body_pairs::CheckedGroup;
+use super::candidates::CandidateFilter;
+use super::combination::{Composition, Known, composition, emptied};
+use super::context::{QueryContext, check_threshold};
+use super::pure_answer::PureAt;
+use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
-use crate::cobject::{BoundedDistance, Leaf};
+use super::world::World;
+use crate::cobject::{CObject, Set};
 use crate::convex::PrimitiveDistance;
-use crate::pair::{Hit, Pairing, PrimitiveScratch};
-use crate::pose::Vec3;
+use crate::error::Result;
+use crate::pair::{Hit, Nearest, Visitor, traverse, visit_pair};
 
-/// The nearest pair of primitives: in the world its closest points, and its contact there if it has one.
-pub(super) struct NearestPair<'a> {
-    pub hit: &'a Hit,
-    pub points: [Vec3; 2],
-    pub contact: Option<ContactRecord>,
+/// The nearest primitive pair over all targets.
+pub(crate) struct NearestHit<'t, 'a> {
+    /// With its body pair, if one is within the limit.
+    pub hit: Option<(Hit, &'t Target<'a>)>,
+    /// No primitive pair seen is nearer than this; safe against rounding.
+    pub lower: f64,
+    /// What else was found out about the hit.
+    pub measured: Option<PrimitiveDistance>,
 }
 
-impl Distance {
-    pub(super) fn empty(version: u64) -> Self {
-        Self {
-            kind: DistanceKind::Empty,
-            distance: f64::INFINITY,
-            lower: f64::INFINITY,
-            upper: f64::INFINITY,
-            witness: None,
-            points: Default::default(),
-            contact: None,
-            version,
-        }
-    }
-
-    /// Nothing is within `max_distance`, and nothing that was seen within `lower`.
-    pub(super) fn beyond(max_distance: f64, lower: f64) -> Self {
-        Self {
-            kind: DistanceKind::BeyondMax,
-            // Pairs that were not looked at are farther, whatever the error of their distance.
-            lower: max_distance.min(lower),
-            ..Self::empty(0)
-        }
-    }
-
-    /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
-    pub(super) fn from_found(
-        found: &NearestHit,
+impl QueryContext {
+    /// Operation 6: the distance from contact, up to `max_distance`, and the nearest primitive pair.
+    pub fn distance(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
         max_distance: f64,
-        leaf: impl Fn(u32) -> Leaf,
-        scratch: &mut PrimitiveScratch,
-    ) -> Self {
-        let Some((hit, target)) = &found.hit else {
-            return Self::beyond(max_distance, found.lower);
-        };
-        let measured = found.measured.as_ref();
-        let leaf = leaf(target.term);
-        let pairing = &target.pairing();
-        Self::of_hit(hit, found.lower, measured, target, pairing, leaf, scratch)
+    ) -> Result<Distance> {
+        let world = self.look(cobject);
+        self.distance_in(&world, cobject, at, max_distance)
     }
 
-    /// That of the nearest primitive pair, and of what else is known of it.
-    pub(super) fn of_hit(
-        hit: &Hit,
-        lower: f64,
-        measured: Option<&PrimitiveDistance>,
-        target: &Target,
-        pairing: &Pairing,
-        leaf: Leaf,
-        scratch: &mut PrimitiveScratch,
-    ) -> Self {
-        let error = pairing.precision.error;
-        let (points, contact) = match hit.contained {
-            Some(inner) => (pairing.points_inside(inner, hit), None),
-            None => {
-                let again;
-                let measured = match measured {
-                    Some(measured) => measured,
-                    None => {
-                        again = pairing.closest(hit, scratch);
-                        &again
-                    }
+    /// The same in a given world.
+    pub fn distance_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        at: Configuration,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        check_threshold(max_distance, "max_distance")?;
+        cobject.require_one_metric()?;
+        self.ask(cobject, world, at, |context, scene| {
+            context.set_distance(cobject, scene, max_distance)
+        })
+    }
+
+    pub(super) fn set_distance(
+        &mut self,
+        cobject: &CObject,
+        scene: &Scene,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        let mut known = emptied(std::mem::take(&mut self.answers.distances));
+        let found = self.distance_from(cobject, scene, max_distance, false, &mut known);
+        self.answers.distances = known;
+        Ok(Distance {
+            version: scene.version(),
+            ..found?
+        })
+    }
+
+    /// The distance from the set, or from its complement.
+    fn distance_from(
+        &mut self,
+        cobject: &CObject,
+        scene: &Scene,
+        max_distance: f64,
+        complement: bool,
+        known: &mut Known<Distance>,
+    ) -> Result<Distance> {
+        match cobject.set() {
+            Set::Pure(set) => {
+                let pure = PureAt {
+                    set,
+                    complement,
+                    scene,
                 };
-                let contact = pairing.first_world_contact(hit.key.primitives, measured, scratch);
-                let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
-                (pairing.world_points(&measured.closest), record)
+                return pure.distance(max_distance);
             }
-        };
-        let found = NearestPair {
-            hit,
-            points,
-            contact,
-        };
-        Self::of_pair(&found, lower, target, error, leaf)
-    }
-
-    /// The same with the closest points and the contact.
-    #[inline]
-    pub(super) fn of_pair(
-        found: &NearestPair,
-        lower: f64,
-        target: &Target,
-        error: f64,
-        leaf: Leaf,
-    ) -> Self {
-        let &NearestPair {
-            hit,
-            points,
-            contact,
-        } = found;
-        let witness = Witness {
-            contact_count: usize::from(contact.is_some()),
-            overlapping: contact.is_none() && hit.distance == 0.0,
-            ..Witness::of(target, hit, leaf)
-        };
-        Self {
-            kind: DistanceKind::Exact,
-            distance: hit.distance,
-            lower,
-            // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
-            // doubt where that was not found exactly.
-            upper: if hit.distance == 0.0 {
-                match hit.apart - target.options.margin + error {
-                    beyond if beyond <= 0.0 => 0.0,
-                    beyond => beyond.max(2.0 * error),
-                }
-            } else {
-                hit.distance + error
-            },
-            witness: Some(witness),
-            points,
-            contact,
-            version: 0,
+            Set::Complement(part) => {
+                return self.distance_from(part, scene, max_distance, !complement, known);
+            }
+            Set::Union { induced, others } if others.is_empty() && !complement => {
+                return self.distance_of_group(induced, scene, max_distance);
+            }
+            _ => {}
         }
+        let key = (cobject.serial(), complement);
+        if let Some(distance) = known.get(&key) {
+            return Ok(distance.clone());
+        }
+        let (is_union, group, parts) = match composition(cobject.set(), complement) {
+            Composition::Any(group, parts) => (true, group, parts),
+            Composition::All(group, parts) => (false, group, parts),
+        };
+        let mut found = match group {
+            Some(group) if is_union => Some(self.distance_of_group(group, scene, max_distance)?),
+            Some(group) => Some(self.distance_from_outside(group, scene)?),
+            None => None,
+        };
+        for part in parts {
+            let next = self.distance_from(part, scene, max_distance, complement, known)?;
+            found = Some(match found {
+                None => next,
+                Some(found) if is_union => found.least(next),
+                Some(found) => found.most(next),
+            });
+        }
+        let found = found.unwrap_or_else(|| Distance::empty(0));
+        known.insert(key, found.clone());
+        Ok(found)
     }
 
-    /// The answer of a pure set, up to `max_distance`.
-    pub(super) fn from_bounds(
-        bounds: BoundedDistance,
+    /// Operation 6 for a union of induced sets.
+    pub(super) fn distance_of_group(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
         max_distance: f64,
-        witness: Witness,
-        contact: Option<ContactRecord>,
-    ) -> Self {
-        if bounds.lower == f64::INFINITY {
-            return Self::empty(0);
-        }
-        if bounds.distance > max_distance {
-            return Self::beyond(max_distance, bounds.lower);
-        }
-        Self {
-            kind: if bounds.is_exact {
-                DistanceKind::Exact
-            } else {
-                DistanceKind::LowerBound
-            },
-            distance: bounds.distance,
-            lower: bounds.lower,
-            upper: bounds.upper,
-            witness: Some(witness),
-            points: contact.map_or_else(Default::default, |contact| contact.points),
-            contact,
-            version: 0,
-        }
-    }
-
-    /// Of a set that is known to hold the configuration, or known by nothing.
-    pub(super) fn of_place(is_inside: bool) -> Self {
-        Self {
-            kind: if is_inside {
-                DistanceKind::Exact
-            } else {
-                DistanceKind::LowerBound
-            },
-            distance: 0.0,
-            lower: 0.0,
-            upper: if is_inside { 0.0 } else { f64::INFINITY },
-            ..Self::empty(0)
-        }
-    }
-
-    /// That of a union: the least. Of equal ones that given first.
-    pub(super) fn least(self, other: Self) -> Self {
-        let (best, rest) = if other.order_in_union() < self.order_in_union() {
-            (other, self)
-        } else {
-            (self, other)
+    ) -> Result<Distance> {
+        let checked = scene.checked(group)?;
+        let nearest = self.recent_distance(scene, checked, max_distance)?;
+        let wanted = CandidateFilter {
+            nearest: Some(nearest),
+            ..CandidateFilter::within(0.0)
         };
-        if best.kind == DistanceKind::Empty {
-            return best;
+        let candidates = self.candidates(scene, checked, wanted)?;
+        let distance = self.distance_among(group, scene, &candidates, max_distance)?;
+        self.keep_memory(candidates);
+        Ok(distance)
+    }
+
+    pub(super) fn distance_among(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        candidates: &[Target],
+        max_distance: f64,
+    ) -> Result<Distance> {
+        let is_all_asked = max_distance == f64::INFINITY;
+        if scene.is_empty(group) || (candidates.is_empty() && is_all_asked) {
+            return Ok(Distance::empty(scene.version()));
         }
-        let lower = best.lower.min(rest.lower);
-        let upper = best.upper.min(rest.upper);
-        let is_undecided = rest.kind == DistanceKind::LowerBound && rest.lower < best.distance;
-        if is_undecided && best.kind != DistanceKind::LowerBound {
-            return Self {
-                kind: DistanceKind::LowerBound,
-                distance: lower,
-                lower,
-                upper,
-                ..best
-            };
+        let found = self.nearest(candidates, max_distance)?;
+        let leaf = |term: u32| group[term as usize].leaf;
+        Ok(Distance {
+            version: scene.version(),
+            ..Distance::from_found(&found, max_distance, leaf, self.scratch.for_primitives())
+        })
+    }
+
+    /// The distance from the complement of a union of induced sets: 0 where nothing meets; else not known.
+    fn distance_from_outside(&mut self, group: &Group, scene: &Scene) -> Result<Distance> {
+        let meets = self.group_within(group, scene, 0.0)?;
+        Ok(Distance::of_place(!meets))
+    }
+
+    /// How far the primitive pair is that was found last, up to `limit`: nothing farther need be looked at.
+    pub(super) fn recent_distance(
+        &mut self,
+        scene: &Scene,
+        group: CheckedGroup,
+        limit: f64,
+    ) -> Result<f64> {
+        let mut least = limit;
+        self.visit_recent(scene, group, |pairing, places, options, scratch| {
+            let mut visitor = Nearest::up_to(least);
+            visitor.margin = options.margin;
+            let _ = visit_pair(pairing, places, scratch, &mut visitor);
+            least = visitor.limit();
+        })?;
+        Ok(least)
+    }
+
+    /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if
+    /// one is within `limit`.
+    pub(crate) fn nearest<'t, 'a>(
+        &mut self,
+        targets: &'t [Target<'a>],
+        limit: f64,
+    ) -> Result<NearestHit<'t, 'a>> {
+        let mut visitor = Nearest::up_to(limit);
+        // The pairs last nearest between each two bodies bound the distance before any tree is walked.
+        for target in targets.iter().filter(|_| targets.len() > 1) {
+            visitor.margin = target.options.margin;
+            visitor.pair = target.rank;
+            if target.bound > visitor.limit() {
+                break;
+            }
+            self.count_body_pair()?;
+            if let Some(places) = self.remembered(&target.key) {
+                let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
+            }
         }
-        Self {
+        for target in targets {
+            visitor.margin = target.options.margin;
+            visitor.pair = target.rank;
+            if target.bound > visitor.limit() {
+                continue;
+            }
+            self.count_body_pair()?;
+            if let Some(pairing) = target.pairing_within(visitor.limit()) {
+                if pairing.has_solid() && visitor.settled_from() != Some([0, 0]) {
+                    let contained = pairing.contained(target.rank, &mut self.scratch);
+                    contained
+                        .iter()
+                        .for_each(|&hit| visitor.take(hit, 0.0, None));
+                }
+                let first = self.remembered(&target.key);
+                let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
+            }
+        }
+        self.scratch.meter().check()?;
+        let lower = visitor.lower;
+        let hit = visitor.best.and_then(|hit| {
+            let target = targets.iter().find(|target| target.rank == hit.key.pair)?;
+            if hit.contained.is_none() {
+                self.remember(target.key, hit.places);
+            }
+            Some((hit, target))
+        });
+        Ok(NearestHit {
+            hit,
             lower,
-            upper,
-            ..best
-        }
-    }
-
-    /// What is known to be near comes first, then what may be, then what is too far, then nothing.
-    fn order_in_union(&self) -> (u8, f64) {
-        match self.kind {
-            DistanceKind::Exact => (0, self.distance),
-            DistanceKind::LowerBound => (1, self.lower),
-            DistanceKind::BeyondMax => (2, 0.0),
-            DistanceKind::Empty => (3, 0.0),
-        }
-    }
-
-    /// That of an intersection: no less than the most of all. It is known only where it is 0, or infinite.
-    pub(super) fn most(self, other: Self) -> Self {
-        let rank = |d: &Self| match d.kind {
-            DistanceKind::Empty => 2,
-            DistanceKind::BeyondMax => 1,
-            DistanceKind::Exact | DistanceKind::LowerBound => 0,
-        };
-        let is_more = (rank(&other), other.lower) > (rank(&self), self.lower);
-        let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
-        if is_zero(&self) && is_zero(&other) {
-            // Sets that meet the configuration up to rounding need not meet each other there.
-            let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
-            let is_certain = is_inside(&self) && is_inside(&other);
-            let widest = if other.upper > self.upper {
-                other
-            } else {
-                self
-            };
-            let upper = if is_certain {
-                widest.upper
-            } else {
-                f64::INFINITY
-            };
-            return Self { upper, ..widest };
-        }
-        let (most, _) = if is_more {
-            (other, self)
-        } else {
-            (self, other)
-        };
-        match most.kind {
-            DistanceKind::Empty | DistanceKind::BeyondMax => most,
-            DistanceKind::Exact | DistanceKind::LowerBound => Self {
-                kind: DistanceKind::LowerBound,
-                distance: most.lower,
-                upper: f64::INFINITY,
-                ..most
-            },
-        }
+            measured: visitor.measured,
+        })
     }
 }

@@ -4,10 +4,10 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::answer::WitnessList;
-use super::at_configuration::scene;
 use super::context::QueryContext;
+use super::context::scene;
 use super::scene::{Configuration, Group, Scene, SceneMemory};
-use super::set_witnesses::{WitnessRequest, pure_witnesses};
+use super::witnesses::{WitnessRequest, pure_witnesses};
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
 

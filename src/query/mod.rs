@@ -2,36 +2,39 @@
 //! for two bodies.
 
 mod answer;
-mod at_configuration;
-mod at_poses;
 mod body_pairs;
 mod candidates;
+mod classify;
+mod combination;
 mod context;
 mod distance;
+mod distance_answer;
 mod explain;
 mod link_pairs;
 mod pair_penetration;
+mod pairs;
+mod pseudo_normal;
 mod pure_answer;
+mod recall;
 mod scene;
-mod search;
-mod set_witnesses;
-mod sets;
 mod target;
+mod within;
+mod witnesses;
 mod world;
 
 pub use answer::{
     ContactRecord, ContactsListed, Distance, DistanceKind, PenetrationList, PrimitivePenetration,
     PurePlace, SSide, Witness, WitnessList,
 };
-pub(crate) use at_configuration::check_threshold;
-pub use at_configuration::{PseudoNormal, Shell};
 pub(crate) use candidates::CandidateFilter;
 pub use context::QueryContext;
+pub(crate) use context::check_threshold;
 pub use explain::{Explanation, Verdict};
 pub use link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
+pub use pseudo_normal::{PseudoNormal, Shell};
 pub(crate) use pure_answer::PureAt;
 pub use scene::Configuration;
 pub(crate) use scene::{Group, Scene, SceneMemory};
-pub(crate) use set_witnesses::{WitnessRequest, pure_witnesses};
 pub(crate) use target::{Placement, Target};
+pub(crate) use witnesses::{WitnessRequest, pure_witnesses};
 pub use world::World;

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use super::answer::{PenetrationList, PrimitivePenetration};
-use super::at_poses::target;
 use super::context::QueryContext;
+use super::pairs::target;
 use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::error::{Error, Result};

@@ -1,15 +1,14 @@
 //! Queries of two bodies at two poses: the level of FCL and Coal.
 
-use super::answer::{ContactRecord, ContactsListed, Distance, Witness, WitnessList};
-use super::at_configuration::check_threshold;
-use super::context::{CacheKey, QueryContext};
-use super::distance::NearestPair;
+use super::answer::{ContactRecord, Distance, WitnessList};
+use super::context::{CacheKey, QueryContext, check_threshold};
+use super::distance_answer::NearestPair;
 use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
 use crate::gjk::DistanceLimits;
-use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, Singles, WorldContact};
+use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles};
 
 /// Refuses two bodies of which one is of planar worlds, unless both are and stay there.
 fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
@@ -168,82 +167,5 @@ impl QueryContext {
             list.push(&target, pairing, hit, leaf, self.contacts, &mut scratch);
         }
         Ok(list)
-    }
-}
-
-impl Witness {
-    /// A witness whose contacts are not known yet.
-    pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
-        let (r_link, r_object, s_side) = target.parties();
-        Self {
-            leaf,
-            r_link,
-            r_object,
-            s_carrier: target.s_carrier,
-            s_side,
-            primitives: hit.key.primitives,
-            tags: target.tags(hit.key.primitives),
-            data: target.data,
-            distance: hit.distance,
-            first_contact: 0,
-            contact_count: 0,
-            overlapping: hit.contained.is_some(),
-            contained: hit.contained.is_some(),
-            complemented: false,
-        }
-    }
-}
-
-impl WitnessList {
-    /// Takes a primitive pair with its contacts, as many as are listed.
-    pub(super) fn push(
-        &mut self,
-        target: &Target,
-        pairing: &Pairing,
-        hit: &Hit,
-        leaf: Leaf,
-        listed: ContactsListed,
-        scratch: &mut PrimitiveScratch,
-    ) {
-        let first_contact = self.contacts.len();
-        if hit.contained.is_none() && listed != ContactsListed::None {
-            let measured = pairing.closest(hit, scratch);
-            let record = |contact| ContactRecord::new(contact, target.options.margin);
-            let primitives = hit.key.primitives;
-            if listed == ContactsListed::Nearest {
-                let found = pairing.first_world_contact(primitives, &measured, scratch);
-                self.contacts.extend(found.map(record));
-            } else {
-                let found = pairing.world_contacts(primitives, &measured, scratch);
-                self.contacts.extend(found.into_iter().map(record));
-            }
-        }
-        let contact_count = self.contacts.len() - first_contact;
-        self.witnesses.push(Witness {
-            first_contact,
-            contact_count,
-            overlapping: contact_count == 0 && hit.distance == 0.0,
-            ..Witness::of(target, hit, leaf)
-        });
-    }
-
-    /// Makes room for so many witnesses; most have one contact.
-    pub(super) fn reserve(&mut self, count: usize) {
-        self.witnesses.reserve(count);
-        self.contacts.reserve(count);
-    }
-}
-
-impl ContactRecord {
-    /// A contact; distances less the margin.
-    pub(super) fn new(found: WorldContact, margin: f64) -> Self {
-        Self {
-            points: found.points,
-            normal: found.normal,
-            distance: (found.contact.distance - margin).max(0.0),
-            clearance: found.contact.gap - margin,
-            mode: found.contact.mode,
-            features: found.contact.features,
-        }
     }
 }

@@ -1,19 +1,18 @@
-//! Witnesses of sets: of all their leaves, nearest first.
-
-use std::collections::HashSet;
-use std::sync::Arc;
+//! Operations 7 and 8: the witnesses of a set, of all its leaves, nearest first, and the gradients of their contacts.
 
 use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
 use super::candidates::CandidateFilter;
-use super::context::QueryContext;
+use super::context::{QueryContext, check_threshold};
 use super::pure_answer::{PureAt, PureWitness};
-use super::scene::{Group, Scene};
+use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
-use crate::cobject::{CObject, Induced, PureSet, Set};
+use crate::cobject::{CObject, Induced, Leaf, PureSet, Set};
 use crate::error::Result;
-use crate::pair::{Collect, PrimitiveScratch};
+use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact, traverse};
 use crate::robot::RobotState;
 use crate::space::Space;
+use std::collections::HashSet;
+use std::sync::Arc;
 
 /// The leaves of a C-object, each once: unions of induced sets, and pure sets with whether their complements are meant.
 #[derive(Default)]
@@ -80,6 +79,51 @@ impl WitnessRequest {
 }
 
 impl QueryContext {
+    /// Operation 7: all primitive pairs of the leaves at most `epsilon` apart; of more than `max_count`, the nearest.
+    pub fn witnesses(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        let listed = WitnessRequest {
+            contacts: self.contacts,
+            ..WitnessRequest::within(epsilon, max_count)
+        };
+        self.listed(cobject, at, listed)
+    }
+
+    /// Operation 8: the same, with the gradient of each contact's distance.
+    pub fn gradients(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        let listed = WitnessRequest {
+            with_gradients: true,
+            contacts: self.contacts,
+            ..WitnessRequest::within(epsilon, max_count)
+        };
+        self.listed(cobject, Configuration::Coordinates(q), listed)
+    }
+
+    fn listed(
+        &mut self,
+        cobject: &CObject,
+        at: Configuration,
+        listed: WitnessRequest,
+    ) -> Result<WitnessList> {
+        check_threshold(listed.epsilon, "epsilon")?;
+        cobject.require_one_metric()?;
+        let world = self.look(cobject);
+        self.ask(cobject, &world, at, |context, scene| {
+            context.set_witnesses(cobject, scene, listed)
+        })
+    }
+
     pub(super) fn set_witnesses(
         &mut self,
         cobject: &CObject,
@@ -109,8 +153,7 @@ impl QueryContext {
         listed: WitnessRequest,
     ) -> Result<WitnessList> {
         let wanted = CandidateFilter::within(listed.epsilon);
-        scene.check(group)?;
-        let candidates = self.candidates(scene, group, wanted)?;
+        let candidates = self.candidates(scene, scene.checked(group)?, wanted)?;
         let list = self.list(group, scene, &candidates, listed)?;
         self.keep_memory(candidates);
         Ok(list)
@@ -147,6 +190,32 @@ impl QueryContext {
             }
         }
         Ok(list)
+    }
+
+    /// All pieces inside other bodies and all primitive pairs that the visitor lists, nearest first, and whether there are
+    /// more than it keeps.
+    pub(super) fn collect(
+        &mut self,
+        targets: &[Target],
+        mut visitor: Collect,
+    ) -> Result<(Vec<Hit>, bool)> {
+        for target in targets {
+            visitor.margin = target.options.margin;
+            visitor.pair = target.rank;
+            if target.bound > visitor.limit() {
+                continue;
+            }
+            self.count_body_pair()?;
+            if let Some(pairing) = target.pairing_within(visitor.limit()) {
+                if pairing.has_solid() {
+                    let contained = pairing.contained(target.rank, &mut self.scratch);
+                    contained.into_iter().for_each(|hit| visitor.take(hit));
+                }
+                let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
+            }
+        }
+        self.scratch.meter().check()?;
+        Ok(visitor.finish())
     }
 }
 
@@ -198,6 +267,44 @@ impl WitnessList {
         }
     }
 
+    /// Takes a primitive pair with its contacts, as many as are listed.
+    pub(super) fn push(
+        &mut self,
+        target: &Target,
+        pairing: &Pairing,
+        hit: &Hit,
+        leaf: Leaf,
+        listed: ContactsListed,
+        scratch: &mut PrimitiveScratch,
+    ) {
+        let first_contact = self.contacts.len();
+        if hit.contained.is_none() && listed != ContactsListed::None {
+            let measured = pairing.closest(hit, scratch);
+            let record = |contact| ContactRecord::new(contact, target.options.margin);
+            let primitives = hit.key.primitives;
+            if listed == ContactsListed::Nearest {
+                let found = pairing.first_world_contact(primitives, &measured, scratch);
+                self.contacts.extend(found.map(record));
+            } else {
+                let found = pairing.world_contacts(primitives, &measured, scratch);
+                self.contacts.extend(found.into_iter().map(record));
+            }
+        }
+        let contact_count = self.contacts.len() - first_contact;
+        self.witnesses.push(Witness {
+            first_contact,
+            contact_count,
+            overlapping: contact_count == 0 && hit.distance == 0.0,
+            ..Witness::of(target, hit, leaf)
+        });
+    }
+
+    /// Makes room for so many witnesses; most have one contact.
+    pub(super) fn reserve(&mut self, count: usize) {
+        self.witnesses.reserve(count);
+        self.contacts.reserve(count);
+    }
+
     /// Several lists as one: the nearest first, of equal ones those of earlier lists.
     pub(crate) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: WitnessRequest) -> Self {
         let mut merged = Self::empty(scene, listed);
@@ -226,6 +333,43 @@ impl WitnessList {
             self.gradients.extend_from_slice(&list.gradients[rows]);
         }
         self.contacts.extend_from_slice(&list.contacts[contacts]);
+    }
+}
+
+impl Witness {
+    /// A witness whose contacts are not known yet.
+    pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
+        let (r_link, r_object, s_side) = target.parties();
+        Self {
+            leaf,
+            r_link,
+            r_object,
+            s_carrier: target.s_carrier,
+            s_side,
+            primitives: hit.key.primitives,
+            tags: target.tags(hit.key.primitives),
+            data: target.data,
+            distance: hit.distance,
+            first_contact: 0,
+            contact_count: 0,
+            overlapping: hit.contained.is_some(),
+            contained: hit.contained.is_some(),
+            complemented: false,
+        }
+    }
+}
+
+impl ContactRecord {
+    /// A contact; distances less the margin.
+    pub(super) fn new(found: WorldContact, margin: f64) -> Self {
+        Self {
+            points: found.points,
+            normal: found.normal,
+            distance: (found.contact.distance - margin).max(0.0),
+            clearance: found.contact.gap - margin,
+            mode: found.contact.mode,
+            features: found.contact.features,
+        }
     }
 }
 

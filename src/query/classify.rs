@@ -1,0 +1,150 @@
+//! Operation 4: whether a configuration is inside, in contact or outside.
+
+use std::sync::Arc;
+
+use super::candidates::CandidateFilter;
+use super::combination::{Known, cheap_first, emptied, is_pure};
+use super::context::QueryContext;
+use super::pure_answer::PureAt;
+use super::scene::{Configuration, Group, Scene};
+use super::target::Target;
+use super::world::World;
+use crate::cobject::{CObject, Class, Set};
+use crate::error::Result;
+
+impl QueryContext {
+    /// Operation 4: whether the configuration is inside, in contact or outside.
+    pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
+        let world = self.look(cobject);
+        self.ask(cobject, &world, at, |context, scene| {
+            context.class_of(cobject, scene)
+        })
+    }
+
+    /// The same in a given world, at a configuration.
+    pub fn classify_in(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<Class> {
+        let at = Configuration::Coordinates(q);
+        self.ask(cobject, world, at, |context, scene| {
+            context.class_of(cobject, scene)
+        })
+    }
+
+    pub(super) fn class_of(&mut self, cobject: &CObject, scene: &Scene) -> Result<Class> {
+        let mut known = emptied(std::mem::take(&mut self.answers.classes));
+        let class = self.class_among(cobject, scene, &mut known);
+        self.answers.classes = known;
+        class
+    }
+
+    fn class_among(
+        &mut self,
+        cobject: &CObject,
+        scene: &Scene,
+        known: &mut Known<Class>,
+    ) -> Result<Class> {
+        if let Set::Union { induced, others } = cobject.set()
+            && others.is_empty()
+        {
+            return self.class_of_group(induced, scene);
+        }
+        let key = (cobject.serial(), false);
+        if let Some(class) = known.get(&key) {
+            return Ok(*class);
+        }
+        let class = match cobject.set() {
+            Set::Pure(set) => {
+                let pure = PureAt {
+                    set,
+                    complement: false,
+                    scene,
+                };
+                return pure.class();
+            }
+            Set::Complement(part) => self.class_among(part, scene, known)?.reversed(),
+            Set::Intersection(parts) => self.class_of_intersection(parts, scene, known)?,
+            Set::Union { induced, others } => self.class_of_union(induced, others, scene, known)?,
+        };
+        known.insert(key, class);
+        Ok(class)
+    }
+
+    fn class_of_intersection(
+        &mut self,
+        parts: &[Arc<CObject>],
+        scene: &Scene,
+        known: &mut Known<Class>,
+    ) -> Result<Class> {
+        let mut least = Class::Inside;
+        for part in cheap_first(parts) {
+            least = least.min(self.class_among(part, scene, known)?);
+            if least == Class::Outside {
+                break;
+            }
+        }
+        Ok(least)
+    }
+
+    /// What is induced comes after the pure parts, which are cheap, and before all others.
+    fn class_of_union(
+        &mut self,
+        induced: &Group,
+        others: &[Arc<CObject>],
+        scene: &Scene,
+        known: &mut Known<Class>,
+    ) -> Result<Class> {
+        let parts = cheap_first(others);
+        let mut most = Class::Outside;
+        for part in parts.clone().filter(is_pure) {
+            most = most.max(self.class_among(part, scene, known)?);
+        }
+        if most < Class::Inside && !induced.is_empty() {
+            most = most.max(self.class_of_group(induced, scene)?);
+        }
+        for part in parts.filter(|part| !is_pure(part)) {
+            if most == Class::Inside {
+                break;
+            }
+            most = most.max(self.class_among(part, scene, known)?);
+        }
+        Ok(most)
+    }
+
+    /// Operation 4 for a union of induced sets.
+    pub(super) fn class_of_group(&mut self, group: &Group, scene: &Scene) -> Result<Class> {
+        let group = scene.checked(group)?;
+        if self.recent_is_within(scene, group, 0.0)? {
+            return Ok(Class::Inside);
+        }
+        let wanted = CandidateFilter {
+            in_contact: true,
+            ..CandidateFilter::within(0.0)
+        };
+        let candidates = self.candidates(scene, group, wanted)?;
+        let class = if self.any_within(&candidates, |_| 0.0)? {
+            Class::Inside
+        } else if self.any_in_contact(&candidates, 0.0)? {
+            Class::Contact
+        } else {
+            Class::Outside
+        };
+        self.keep_memory(candidates);
+        Ok(class)
+    }
+
+    /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
+    pub(super) fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> Result<bool> {
+        let contact_epsilon = |c: &Target| {
+            let epsilon = c.options.contact_epsilon;
+            if epsilon > 0.0 && epsilon >= lower {
+                epsilon
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        if candidates.iter().any(|c| contact_epsilon(c) >= 0.0) {
+            self.any_within(candidates, contact_epsilon)
+        } else {
+            Ok(false)
+        }
+    }
+}

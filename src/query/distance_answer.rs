@@ -1,0 +1,256 @@
+//! Distances as answers: from what a search found, of nothing, of a pure set.
+
+use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
+use super::distance::NearestHit;
+use super::target::Target;
+use crate::cobject::{BoundedDistance, Leaf};
+use crate::convex::PrimitiveDistance;
+use crate::pair::{Hit, Pairing, PrimitiveScratch};
+use crate::pose::Vec3;
+
+/// The nearest pair of primitives: in the world its closest points, and its contact there if it has one.
+pub(super) struct NearestPair<'a> {
+    pub hit: &'a Hit,
+    pub points: [Vec3; 2],
+    pub contact: Option<ContactRecord>,
+}
+
+impl Distance {
+    pub(super) fn empty(version: u64) -> Self {
+        Self {
+            kind: DistanceKind::Empty,
+            distance: f64::INFINITY,
+            lower: f64::INFINITY,
+            upper: f64::INFINITY,
+            witness: None,
+            points: Default::default(),
+            contact: None,
+            version,
+        }
+    }
+
+    /// Nothing is within `max_distance`, and nothing that was seen within `lower`.
+    pub(super) fn beyond(max_distance: f64, lower: f64) -> Self {
+        Self {
+            kind: DistanceKind::BeyondMax,
+            // Pairs that were not looked at are farther, whatever the error of their distance.
+            lower: max_distance.min(lower),
+            ..Self::empty(0)
+        }
+    }
+
+    /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
+    pub(super) fn from_found(
+        found: &NearestHit,
+        max_distance: f64,
+        leaf: impl Fn(u32) -> Leaf,
+        scratch: &mut PrimitiveScratch,
+    ) -> Self {
+        let Some((hit, target)) = &found.hit else {
+            return Self::beyond(max_distance, found.lower);
+        };
+        let measured = found.measured.as_ref();
+        let leaf = leaf(target.term);
+        let pairing = &target.pairing();
+        Self::of_hit(hit, found.lower, measured, target, pairing, leaf, scratch)
+    }
+
+    /// That of the nearest primitive pair, and of what else is known of it.
+    pub(super) fn of_hit(
+        hit: &Hit,
+        lower: f64,
+        measured: Option<&PrimitiveDistance>,
+        target: &Target,
+        pairing: &Pairing,
+        leaf: Leaf,
+        scratch: &mut PrimitiveScratch,
+    ) -> Self {
+        let error = pairing.precision.error;
+        let (points, contact) = match hit.contained {
+            Some(inner) => (pairing.points_inside(inner, hit), None),
+            None => {
+                let again;
+                let measured = match measured {
+                    Some(measured) => measured,
+                    None => {
+                        again = pairing.closest(hit, scratch);
+                        &again
+                    }
+                };
+                let contact = pairing.first_world_contact(hit.key.primitives, measured, scratch);
+                let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
+                (pairing.world_points(&measured.closest), record)
+            }
+        };
+        let found = NearestPair {
+            hit,
+            points,
+            contact,
+        };
+        Self::of_pair(&found, lower, target, error, leaf)
+    }
+
+    /// The same with the closest points and the contact.
+    #[inline]
+    pub(super) fn of_pair(
+        found: &NearestPair,
+        lower: f64,
+        target: &Target,
+        error: f64,
+        leaf: Leaf,
+    ) -> Self {
+        let &NearestPair {
+            hit,
+            points,
+            contact,
+        } = found;
+        let witness = Witness {
+            contact_count: usize::from(contact.is_some()),
+            overlapping: contact.is_none() && hit.distance == 0.0,
+            ..Witness::of(target, hit, leaf)
+        };
+        Self {
+            kind: DistanceKind::Exact,
+            distance: hit.distance,
+            lower,
+            // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
+            // doubt where that was not found exactly.
+            upper: if hit.distance == 0.0 {
+                match hit.apart - target.options.margin + error {
+                    beyond if beyond <= 0.0 => 0.0,
+                    beyond => beyond.max(2.0 * error),
+                }
+            } else {
+                hit.distance + error
+            },
+            witness: Some(witness),
+            points,
+            contact,
+            version: 0,
+        }
+    }
+
+    /// The answer of a pure set, up to `max_distance`.
+    pub(super) fn from_bounds(
+        bounds: BoundedDistance,
+        max_distance: f64,
+        witness: Witness,
+        contact: Option<ContactRecord>,
+    ) -> Self {
+        if bounds.lower == f64::INFINITY {
+            return Self::empty(0);
+        }
+        if bounds.distance > max_distance {
+            return Self::beyond(max_distance, bounds.lower);
+        }
+        Self {
+            kind: if bounds.is_exact {
+                DistanceKind::Exact
+            } else {
+                DistanceKind::LowerBound
+            },
+            distance: bounds.distance,
+            lower: bounds.lower,
+            upper: bounds.upper,
+            witness: Some(witness),
+            points: contact.map_or_else(Default::default, |contact| contact.points),
+            contact,
+            version: 0,
+        }
+    }
+
+    /// Of a set that is known to hold the configuration, or known by nothing.
+    pub(super) fn of_place(is_inside: bool) -> Self {
+        Self {
+            kind: if is_inside {
+                DistanceKind::Exact
+            } else {
+                DistanceKind::LowerBound
+            },
+            distance: 0.0,
+            lower: 0.0,
+            upper: if is_inside { 0.0 } else { f64::INFINITY },
+            ..Self::empty(0)
+        }
+    }
+
+    /// That of a union: the least. Of equal ones that given first.
+    pub(super) fn least(self, other: Self) -> Self {
+        let (best, rest) = if other.order_in_union() < self.order_in_union() {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        if best.kind == DistanceKind::Empty {
+            return best;
+        }
+        let lower = best.lower.min(rest.lower);
+        let upper = best.upper.min(rest.upper);
+        let is_undecided = rest.kind == DistanceKind::LowerBound && rest.lower < best.distance;
+        if is_undecided && best.kind != DistanceKind::LowerBound {
+            return Self {
+                kind: DistanceKind::LowerBound,
+                distance: lower,
+                lower,
+                upper,
+                ..best
+            };
+        }
+        Self {
+            lower,
+            upper,
+            ..best
+        }
+    }
+
+    /// What is known to be near comes first, then what may be, then what is too far, then nothing.
+    fn order_in_union(&self) -> (u8, f64) {
+        match self.kind {
+            DistanceKind::Exact => (0, self.distance),
+            DistanceKind::LowerBound => (1, self.lower),
+            DistanceKind::BeyondMax => (2, 0.0),
+            DistanceKind::Empty => (3, 0.0),
+        }
+    }
+
+    /// That of an intersection: no less than the most of all. It is known only where it is 0, or infinite.
+    pub(super) fn most(self, other: Self) -> Self {
+        let rank = |d: &Self| match d.kind {
+            DistanceKind::Empty => 2,
+            DistanceKind::BeyondMax => 1,
+            DistanceKind::Exact | DistanceKind::LowerBound => 0,
+        };
+        let is_more = (rank(&other), other.lower) > (rank(&self), self.lower);
+        let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
+        if is_zero(&self) && is_zero(&other) {
+            // Sets that meet the configuration up to rounding need not meet each other there.
+            let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
+            let is_certain = is_inside(&self) && is_inside(&other);
+            let widest = if other.upper > self.upper {
+                other
+            } else {
+                self
+            };
+            let upper = if is_certain {
+                widest.upper
+            } else {
+                f64::INFINITY
+            };
+            return Self { upper, ..widest };
+        }
+        let (most, _) = if is_more {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        match most.kind {
+            DistanceKind::Empty | DistanceKind::BeyondMax => most,
+            DistanceKind::Exact | DistanceKind::LowerBound => Self {
+                kind: DistanceKind::LowerBound,
+                distance: most.lower,
+                upper: f64::INFINITY,
+                ..most
+            },
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Appendix A's `cstk-pseudo-normal`: everything about one configuration.
+
+use super::answer::{Distance, WitnessList};
+use super::candidates::CandidateFilter;
+use super::context::{QueryContext, check_threshold};
+use super::scene::{Configuration, Group, Scene};
+use super::witnesses::WitnessRequest;
+use super::world::World;
+use crate::cobject::{CObject, Class, Set};
+use crate::error::Result;
+
+/// Class, distance, witnesses and gradients at one configuration.
+#[derive(Clone, Debug)]
+pub struct PseudoNormal {
+    pub class: Class,
+    pub distance: Distance,
+    pub list: WitnessList,
+}
+
+/// What of a configuration is wanted besides its class and its distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Shell {
+    /// Witnesses and gradients up to this distance.
+    pub max_shell: f64,
+    /// At most so many witnesses, the nearest.
+    pub max_count: usize,
+    /// Gradients are scaled to length 1, but for those of length 0.
+    pub normalize: bool,
+}
+
+/// A union of induced sets alone, as most C-objects are.
+fn only_group(cobject: &CObject) -> Option<&Group> {
+    match cobject.set() {
+        Set::Union { induced, others } if others.is_empty() => Some(induced),
+        _ => None,
+    }
+}
+
+impl QueryContext {
+    /// Appendix A's `cstk-pseudo-normal`: everything about one configuration, witnesses and gradients within a shell.
+    pub fn pseudo_normal(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        shell: &Shell,
+    ) -> Result<PseudoNormal> {
+        let world = self.look(cobject);
+        self.pseudo_normal_in(&world, cobject, q, shell)
+    }
+
+    /// The same in a given world.
+    pub fn pseudo_normal_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        q: &[f64],
+        shell: &Shell,
+    ) -> Result<PseudoNormal> {
+        check_threshold(shell.max_shell, "max_shell")?;
+        cobject.require_one_metric()?;
+        let listed = WitnessRequest {
+            with_gradients: true,
+            contacts: self.contacts,
+            ..WitnessRequest::within(shell.max_shell, shell.max_count)
+        };
+        let at = Configuration::Coordinates(q);
+        let mut found = self.ask(cobject, world, at, |context, scene| {
+            match only_group(cobject) {
+                Some(group) => context.group_pseudo_normal(group, scene, listed),
+                None => Ok(PseudoNormal {
+                    class: context.class_of(cobject, scene)?,
+                    distance: context.set_distance(cobject, scene, f64::INFINITY)?,
+                    list: context.set_witnesses(cobject, scene, listed)?,
+                }),
+            }
+        })?;
+        if shell.normalize {
+            found.list.normalize();
+        }
+        Ok(found)
+    }
+
+    /// All of a union of induced sets from one look for candidates.
+    fn group_pseudo_normal(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        listed: WitnessRequest,
+    ) -> Result<PseudoNormal> {
+        let wanted = CandidateFilter {
+            in_contact: true,
+            nearest: Some(f64::INFINITY),
+            ..CandidateFilter::within(listed.epsilon)
+        };
+        let candidates = self.candidates(scene, scene.checked(group)?, wanted)?;
+        let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
+        let list = self.list(group, scene, &candidates, listed)?;
+        let class = if distance.lower == 0.0 {
+            Class::Inside
+        } else if self.any_in_contact(&candidates, distance.lower)? {
+            Class::Contact
+        } else {
+            Class::Outside
+        };
+        self.keep_memory(candidates);
+        Ok(PseudoNormal {
+            class,
+            distance,
+            list,
+        })
+    }
+}
+
+impl WitnessList {
+    /// Scales gradients to length 1, but for those of length 0.
+    fn normalize(&mut self) {
+        for row in self.gradients.chunks_exact_mut(self.nv.max(1)) {
+            let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > 0.0 {
+                row.iter_mut().for_each(|x| *x /= length);
+            }
+        }
+    }
+}
