@@ -5,4 +5,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export CSTK_STRESS_SECONDS=${1:-20} RUSTFLAGS=-Zsanitizer=thread
 target=$(rustc +nightly -vV | sed -n 's/^host: //p')
-exec cargo +nightly test -Zbuild-std --target "$target" --target-dir target/tsan --test environment_threads -- --nocapture
+exec cargo +nightly test -Zbuild-std --target "$target" --target-dir target/tsan --test queries environment_threads -- --nocapture

@@ -1,7 +1,5 @@
 //! What queries hold at a time: it grows with what they are asked to list, not with what they come upon.
 
-mod common;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,7 +9,7 @@ use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext, WitnessList};
 
-use common::robots::{against, environment, free_body, space};
+use helpers::robots::{against, environment, free_body, space};
 
 /// The system's allocator, and how much is allocated now and was at most.
 struct Counting;

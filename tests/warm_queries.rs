@@ -1,8 +1,6 @@
 //! Queries that were asked before allocate nothing: their memory is the query context's. Left out are the contacts of what touches
 //! or is just inside, balls of C-space, predicates, and what lists witnesses.
 
-mod common;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,10 +14,10 @@ use cstk::query::QueryContext;
 use cstk::robot::JointKind;
 use cstk::space::Space;
 
-use common::models::built;
-use common::random::Random;
-use common::robots::{against, environment, free_body, link, robot, space};
-use common::shapes::dented_ball;
+use helpers::models::built;
+use helpers::random::Random;
+use helpers::robots::{against, environment, free_body, link, robot, space};
+use helpers::shapes::dented_ball;
 
 /// The system's allocator, and how often it was asked for memory.
 struct Counting;

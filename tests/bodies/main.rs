@@ -1,0 +1,10 @@
+//! Bodies, solids and their files.
+
+mod closed_surfaces;
+mod obj_files;
+mod placed_meshes;
+mod solid_bodies;
+mod solid_clouds;
+mod solid_files;
+mod solid_queries;
+mod whole_files;

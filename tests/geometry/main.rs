@@ -1,0 +1,18 @@
+//! Primitives and pairs of bodies: distances, contacts, penetration, overlap.
+
+mod box_pairs;
+mod contacts;
+mod deep_overlaps;
+mod kernel;
+mod laws;
+mod minkowski_facets;
+mod oracle;
+mod parallel_contacts;
+mod penetration;
+mod planar_contacts;
+mod published_cases;
+mod shape_bodies;
+mod shapes;
+mod slivers;
+mod smooth_shapes;
+mod winding;

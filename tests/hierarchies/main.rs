@@ -1,0 +1,8 @@
+//! Hierarchies: how they are built, what they hold, that answers do not depend on them.
+
+mod box_tree;
+mod clouds;
+#[allow(clippy::module_inception)]
+mod hierarchies;
+mod hierarchy_answers;
+mod hierarchy_levels;

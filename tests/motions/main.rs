@@ -1,0 +1,5 @@
+//! Motions: slides, their paths and their proofs.
+
+mod slide;
+mod slide_paths;
+mod slide_proofs;

@@ -1,0 +1,7 @@
+//! Robots, spaces, URDF.
+
+mod kinematics;
+mod link_pairs;
+mod motion_bound;
+mod spaces;
+mod urdf;
