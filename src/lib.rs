@@ -6,11 +6,15 @@
 pub mod tolerance;
 
 pub mod error;
+#[doc(hidden)]
 pub mod user_data;
+#[doc(hidden)]
 pub mod work_meter;
 
 mod cow_vec;
+#[doc(hidden)]
 pub mod index_set;
+#[doc(hidden)]
 pub mod lanes;
 mod reused;
 mod whole_file;
@@ -22,17 +26,21 @@ pub mod euler;
 
 mod parry_adapter;
 
+#[doc(hidden)]
 pub mod gjk;
 pub mod primitive;
 
+#[doc(hidden)]
 pub mod convex;
 
+#[doc(hidden)]
 pub mod boxes;
 
 pub mod hierarchy;
 
 pub mod body;
 
+#[doc(hidden)]
 pub mod pair;
 
 pub mod robot;
@@ -51,4 +59,5 @@ pub mod motion;
 
 pub mod show;
 
+#[doc(hidden)]
 pub mod capi;

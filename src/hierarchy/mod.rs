@@ -3,13 +3,16 @@
 mod ball;
 mod build;
 mod extremes;
+#[doc(hidden)]
 pub mod grouping;
 mod levels;
 mod options;
+#[doc(hidden)]
 pub mod packed;
 mod parallel;
 mod statistics;
 mod subset_tree;
+#[doc(hidden)]
 pub mod wrapper;
 
 pub use ball::Ball;
