@@ -105,9 +105,9 @@ typedef struct cstk_induced_options cstk_induced_options;
  * argument, which polygon, which line. A failed call has changed nothing and written no output.
  */
 enum cstk_status
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * The call did what was asked.
@@ -206,11 +206,13 @@ enum cstk_status
    */
   CSTK_ERROR_OUT_OF_MEMORY = 23,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_status cstk_status;
 #else
 typedef int32_t cstk_status;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * Gives user data back to the caller, once, when nothing refers to it any more. It may call the library.
@@ -222,6 +224,7 @@ typedef void (*cstk_destroy_fn)(void *user);
  * called on the thread that made the call; it must not throw.
  */
 typedef int32_t (*cstk_progress_fn)(double fraction, void *user);
+
 
 /**
  * The version of the library that is linked, as "major.minor.patch"; static.
@@ -260,9 +263,9 @@ const char *cstk_last_error_message(void);
  * The frame in which an angular velocity is written.
  */
 enum cstk_angular_frame
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * The inertial frame, as in eq. (33) and everywhere else in this header.
@@ -273,11 +276,14 @@ enum cstk_angular_frame
    */
   CSTK_ANGULAR_BODY = 1,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_angular_frame cstk_angular_frame;
 #else
 typedef int32_t cstk_angular_frame;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 
 /**
  * Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
@@ -393,9 +399,9 @@ cstk_status cstk_jacobian_from_euler(const double *yaw_pitch_roll, double *jacob
  * Kinds of primitives.
  */
 enum cstk_primitive_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   CSTK_PRIMITIVE_POINT = 0,
   CSTK_PRIMITIVE_SEGMENT = 1,
@@ -413,19 +419,21 @@ enum cstk_primitive_kind
    */
   CSTK_PRIMITIVE_SUPPORT_FUNCTION = 11,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_primitive_kind cstk_primitive_kind;
 #else
 typedef int32_t cstk_primitive_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * Kinds of features of a primitive.
  */
 enum cstk_feature_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   CSTK_FEATURE_VERTEX = 0,
   CSTK_FEATURE_EDGE = 1,
@@ -440,11 +448,13 @@ enum cstk_feature_kind
    */
   CSTK_FEATURE_SURFACE = 4,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_feature_kind cstk_feature_kind;
 #else
 typedef int32_t cstk_feature_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * A rigid union of convex primitives with its hierarchy. Immutable; threads may share it.
@@ -521,6 +531,7 @@ typedef struct cstk_body_statistics {
   uint8_t reserved_bytes[7];
   uint64_t reserved[6];
 } cstk_body_statistics;
+
 
 /**
  * Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
@@ -843,9 +854,9 @@ cstk_status cstk_body_load(const char *file,
  * The kind of convex bound at each node.
  */
 enum cstk_wrapper_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Where
@@ -864,19 +875,21 @@ enum cstk_wrapper_kind
    */
   CSTK_WRAPPER_MERGED_SPHERE = 4,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_wrapper_kind cstk_wrapper_kind;
 #else
 typedef int32_t cstk_wrapper_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * The algorithm that groups primitives into a binary tree.
  */
 enum cstk_grouping
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. More than
@@ -893,19 +906,21 @@ enum cstk_grouping
    */
   CSTK_GROUPING_TOP_DOWN = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_grouping cstk_grouping;
 #else
 typedef int32_t cstk_grouping;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * Whether primitives that form a convex piece of the body get a node of their own, bounded exactly.
  */
 enum cstk_pieces
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   CSTK_PIECES_OFF = 0,
   /**
@@ -917,11 +932,13 @@ enum cstk_pieces
    */
   CSTK_PIECES_PATCHES = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_pieces cstk_pieces;
 #else
 typedef int32_t cstk_pieces;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * Polygons in space, for looking at. Immutable; threads may share it.
@@ -1092,6 +1109,7 @@ typedef struct cstk_mesh_view {
   uint64_t reserved[4];
 } cstk_mesh_view;
 
+
 /**
  * Writes the default options. `size` is sizeof(cstk_hierarchy_options).
  */
@@ -1210,9 +1228,9 @@ cstk_status cstk_mesh_get_view(const cstk_mesh *mesh, cstk_mesh_view *out);
  * one each, but where the coordinates hold a unit quaternion x, y, z, w: there they are as said.
  */
 enum cstk_joint_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * Not at all.
@@ -1249,11 +1267,13 @@ enum cstk_joint_kind
    */
   CSTK_JOINT_CUSTOM = 7,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_joint_kind cstk_joint_kind;
 #else
 typedef int32_t cstk_joint_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * A tree of links. Immutable; threads may share it. It keeps the bodies of its links.
@@ -1402,6 +1422,7 @@ typedef struct cstk_link_info {
   uint64_t reserved[8];
 } cstk_link_info;
 
+
 /**
  * Writes the defaults: one coordinate, and nothing else. `size` is sizeof(cstk_custom_joint).
  */
@@ -1546,9 +1567,9 @@ cstk_status cstk_robot_jacobian(const cstk_robot *robot,
  * Which shapes of a URDF file's links become their bodies.
  */
 enum cstk_urdf_geometry
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * The `collision` elements.
@@ -1563,11 +1584,13 @@ enum cstk_urdf_geometry
    */
   CSTK_URDF_NO_GEOMETRY = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_urdf_geometry cstk_urdf_geometry;
 #else
 typedef int32_t cstk_urdf_geometry;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * How to read a URDF file. Write it with cstk_urdf_options_default first.
@@ -1677,6 +1700,7 @@ typedef struct cstk_urdf_report {
   uint64_t reserved[6];
 } cstk_urdf_report;
 
+
 /**
  * Writes the default options. `size` is sizeof(cstk_urdf_options).
  */
@@ -1734,9 +1758,9 @@ cstk_status cstk_robot_builder_get_urdf_report(cstk_robot_builder *builder,
  * The topology of a coordinate.
  */
 enum cstk_range_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * The circle: angles in radians, equal modulo 2 pi. The limits are ignored.
@@ -1755,11 +1779,13 @@ enum cstk_range_kind
    */
   CSTK_RANGE_QUATERNION = 3,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_range_kind cstk_range_kind;
 #else
 typedef int32_t cstk_range_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * The C-space of one or more robots. Immutable; threads may share it. It keeps its robots.
@@ -1788,6 +1814,7 @@ typedef struct cstk_space_offset {
   uint32_t velocity;
   uint32_t reserved;
 } cstk_space_offset;
+
 
 /**
  * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
@@ -1995,9 +2022,9 @@ cstk_status cstk_space_wrap(const cstk_space *space,
  * What a change does.
  */
 enum cstk_change_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
@@ -2019,11 +2046,13 @@ enum cstk_change_kind
    */
   CSTK_CHANGE_ATTACH = 3,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_change_kind cstk_change_kind;
 #else
 typedef int32_t cstk_change_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
@@ -2097,6 +2126,7 @@ typedef struct cstk_object_info {
   void *data;
   uint64_t reserved[8];
 } cstk_object_info;
+
 
 /**
  * Makes an empty environment.
@@ -2320,6 +2350,7 @@ typedef struct cstk_pure_options {
    */
   double scale;
 } cstk_pure_options;
+
 
 /**
  * Writes the default options. `size` is sizeof(cstk_induced_options).
@@ -2556,9 +2587,9 @@ cstk_status cstk_cobject_predicate(const cstk_space *space,
  * witness takes.
  */
 enum cstk_contacts_listed
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * All: parallel features have several. With these a context begins.
@@ -2573,11 +2604,13 @@ enum cstk_contacts_listed
    */
   CSTK_CONTACTS_NONE = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_contacts_listed cstk_contacts_listed;
 #else
 typedef int32_t cstk_contacts_listed;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
@@ -2607,6 +2640,7 @@ typedef struct cstk_query_statistics {
   uint64_t primitive_distances;
   uint64_t reserved[4];
 } cstk_query_statistics;
+
 
 /**
  * Makes a query context.
@@ -2687,9 +2721,9 @@ cstk_status cstk_query_get_statistics(cstk_query *query,
  * Where a configuration stands. The order is that of the set algebra: a union takes the largest.
  */
 enum cstk_class
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * Farther from contact than the contact epsilon.
@@ -2704,19 +2738,21 @@ enum cstk_class
    */
   CSTK_CLASS_INSIDE = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_class cstk_class;
 #else
 typedef int32_t cstk_class;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * What a distance says.
  */
 enum cstk_distance_kind
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * The distance, to rounding.
@@ -2735,19 +2771,21 @@ enum cstk_distance_kind
    */
   CSTK_DISTANCE_EMPTY = 3,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_distance_kind cstk_distance_kind;
 #else
 typedef int32_t cstk_distance_kind;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * The contact modes of §4.4: the r-feature, then the s-feature.
  */
 enum cstk_contact_mode
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   CSTK_MODE_POINT_POINT = 0,
   CSTK_MODE_POINT_EDGE = 1,
@@ -2761,19 +2799,21 @@ enum cstk_contact_mode
    */
   CSTK_MODE_PURE_SET = 6,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_contact_mode cstk_contact_mode;
 #else
 typedef int32_t cstk_contact_mode;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * What was found out about a pair of links.
  */
 enum cstk_pair_verdict
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * To be tested: the two touched in some samples, or are of different robots.
@@ -2796,11 +2836,13 @@ enum cstk_pair_verdict
    */
   CSTK_PAIR_NEVER = 4,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_pair_verdict cstk_pair_verdict;
 #else
 typedef int32_t cstk_pair_verdict;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE,
@@ -3159,6 +3201,7 @@ typedef struct cstk_penetration_list {
   uint64_t reserved[5];
 } cstk_penetration_list;
 
+
 /**
  * Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
  * `nq` doubles, as many as the space has coordinates.
@@ -3405,9 +3448,9 @@ cstk_status cstk_pair_penetration(cstk_query *query,
  * How a slide ended.
  */
 enum cstk_slide_outcome
-#if __STDC_VERSION__ >= 202311L
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
-#endif // __STDC_VERSION__ >= 202311L
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
    * A step was found, and it keeps clear of the C-object all the way.
@@ -3427,11 +3470,13 @@ enum cstk_slide_outcome
    */
   CSTK_SLIDE_BLOCKED = 2,
 };
+#ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum cstk_slide_outcome cstk_slide_outcome;
 #else
 typedef int32_t cstk_slide_outcome;
 #endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
 
 /**
  * How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
@@ -3482,6 +3527,7 @@ typedef struct cstk_slide_result {
   double distance_after;
   uint64_t reserved[8];
 } cstk_slide_result;
+
 
 /**
  * Writes the default options. `size` is sizeof(cstk_slide_options).

@@ -77,7 +77,6 @@ impl Section {
         let mut config = cbindgen::Config::from_file(root().join("cbindgen.toml")).unwrap();
         config.header = None;
         config.include_guard = None;
-        config.cpp_compat = false;
         config.sys_includes.clear();
         for file in &self.files {
             // All of a section's types, whichever section's functions take them.
@@ -95,6 +94,14 @@ impl Section {
         let mut written = Vec::new();
         builder.generate().unwrap().write(&mut written);
         let text = String::from_utf8(written).unwrap();
+        // The whole header is wrapped once in extern "C", not each section.
+        let is_wrapper =
+            |three: &[&str]| three[0] == "#ifdef __cplusplus" && three[1].contains("extern \"C\"");
+        let lines: Vec<&str> = text.lines().collect();
+        let starts = (0..lines.len().saturating_sub(2)).filter(|&i| is_wrapper(&lines[i..i + 3]));
+        let left_out: BTreeSet<usize> = starts.flat_map(|i| i..i + 3).collect();
+        let kept = (0..lines.len()).filter(|i| !left_out.contains(i));
+        let text = kept.map(|i| lines[i]).collect::<Vec<_>>().join("\n");
         text.trim().to_string()
     }
 }
