@@ -2,62 +2,102 @@
 //! which features; which way is out, in joint space; which step slides along the contact.
 //!
 //! Data flow one way, in the order of the modules below; each imports only from those above it.
+//!
+//! The modules that these docs show are the Rust API: what the C API offers, without its handles. All others are internal, visible
+//! to tests and benchmarks alone, and may change with any version. docs/architecture.md explains how they work together.
 
+// Every length and angle below which the library does not distinguish, each with its reason.
 pub mod tolerance;
 
+// What can go wrong: a kind and a message that names the culprit.
 pub mod error;
+
+// Addresses of the caller's that answers hand back.
 #[doc(hidden)]
 pub mod user_data;
+
+// Counts what queries look at, and ends those that look at too much.
 #[doc(hidden)]
 pub mod work_meter;
 
+// A vector in chunks that states of an environment share.
 mod cow_vec;
+
+// Which of many indices changed.
 #[doc(hidden)]
 pub mod index_set;
+
+// SIMD: eight `f32` or four `f64` at a time, chosen for the processor at run time.
 #[doc(hidden)]
 pub mod lanes;
+
+// Buffers of borrowed items, used again by the next query.
 mod reused;
+
+// Files written whole or not at all, and read within limits.
 mod whole_file;
+
+// The elements of URDF and COLLADA files.
 mod xml;
 
+// Rigid poses, checked, composed, and subtracted in twice the digits.
 pub mod pose;
 
+// The report's yaw, pitch, roll and their rates.
 pub mod euler;
 
+// Conversions to parry's vectors, for convex hulls.
 mod parry_adapter;
 
+// GJK: bounds of a distance from below and above, whether two sets meet, simplices.
 #[doc(hidden)]
 pub mod gjk;
+
+// Convex primitives: hulls of vertices with their features, radii, smooth sets by support function.
 pub mod primitive;
 
+// Two primitives in one frame: distance, closest features, contacts, penetration.
 #[doc(hidden)]
 pub mod convex;
 
+// Axis-aligned and oriented boxes, packed in 16-bit numbers, eight side by side.
 #[doc(hidden)]
 pub mod boxes;
 
+// Bounding volume hierarchies: grouping, wrappers, and the packed tree that queries walk.
 pub mod hierarchy;
 
+// Immutable bodies: built, read from meshes, saved and loaded; solids.
 pub mod body;
 
+// Two bodies at two poses: the traversal of two packed trees, box bounds, contained pieces.
 #[doc(hidden)]
 pub mod pair;
 
+// Links and joints, forward kinematics, Jacobians, motion bounds.
 pub mod robot;
 
+// Robots from URDF files.
 pub mod urdf;
 
+// The C-space of robots: topology, ranges, steps, samples, the world box.
 pub mod space;
 
+// S-objects, changed while others query; the dynamic tree over them.
 pub mod environment;
 
+// C-objects: induced sets, pure sets, unions, intersections, complements.
 pub mod cobject;
 
+// The queries at a configuration and of pairs of bodies, one file each.
 pub mod query;
 
+// Segments proved free, and the step that slides.
 pub mod motion;
 
+// Pictures as glTF files.
 pub mod show;
 
+// The C API: converts, checks, calls; one folder or file a section of the header.
 #[doc(hidden)]
 pub mod capi;

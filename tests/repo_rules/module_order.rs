@@ -174,3 +174,25 @@ use super::convex;
     ];
     assert_eq!(names, want);
 }
+
+/// docs/architecture.md and src/lib.rs say the same of each module, in the same order.
+#[test]
+fn the_map_of_modules_is_current() {
+    let lib = std::fs::read_to_string(root().join("src/lib.rs")).unwrap();
+    let map = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let mut told = Vec::new();
+    let mut comment = String::new();
+    for line in lib.lines() {
+        if let Some(text) = line.strip_prefix("// ") {
+            comment = text.trim_end_matches('.').to_string();
+        }
+        if let [name] = &modules(line)[..] {
+            told.push((name.clone(), std::mem::take(&mut comment).to_lowercase()));
+        }
+    }
+    let rows = map.lines().filter_map(|line| {
+        let (name, text) = line.strip_prefix("| `")?.split_once("` | ")?;
+        Some((name.to_string(), text.strip_suffix(" |")?.to_lowercase()))
+    });
+    assert_eq!(told, rows.collect::<Vec<_>>());
+}
