@@ -151,8 +151,9 @@ fn random_solids_have_no_shorter_way_out() {
     assert!(close > 150, "{close}");
 }
 
+/// Case A8 of docs/cases.md.
 #[test]
-fn a08_boxes_that_made_another_library_abort() {
+fn boxes_that_made_another_library_abort() {
     let (a, b) = (cuboid([0.05, 0.55, 0.3]), cuboid([0.25, 0.2, 0.15]));
     let pose_a = turned(
         [
@@ -174,16 +175,18 @@ fn a08_boxes_that_made_another_library_abort() {
     assert!((found - 0.150059684869782).abs() <= 1e-14, "{found}");
 }
 
+/// Case A10 of docs/cases.md.
 #[test]
-fn a10_cubes_come_apart_upwards() {
+fn cubes_come_apart_upwards() {
     let cube = cuboid([2.0; 3]);
     let (found, direction) = depth((&cube, &Pose::identity()), (&cube, &at(0., 0., 1.9)));
     assert!((found - 0.1).abs() <= 1e-15);
     assert_eq!(direction, -Vec3::z());
 }
 
+/// Case A12 of docs/cases.md.
 #[test]
-fn a12_large_coordinates_in_both_dimensions() {
+fn large_coordinates_in_both_dimensions() {
     let outline = |x: [f64; 4], y: [f64; 4]| -> Vec<Vec3> {
         (0..4).map(|i| Vec3::new(x[i], y[i], 0.0)).collect()
     };
@@ -212,8 +215,9 @@ fn a12_large_coordinates_in_both_dimensions() {
     assert!(direction.z.abs() > 1.0 - 1e-12);
 }
 
+/// Case A23 of docs/cases.md.
 #[test]
-fn a23_a_small_cube_in_the_corner_of_a_large_one() {
+fn a_small_cube_in_the_corner_of_a_large_one() {
     let large = cuboid([1.0; 3]);
     for side in [0.1, 0.3] {
         let small = cuboid([side; 3]);
@@ -223,8 +227,9 @@ fn a23_a_small_cube_in_the_corner_of_a_large_one() {
     }
 }
 
+/// Case A24 of docs/cases.md.
 #[test]
-fn a24_surfaces_that_share_a_face_are_not_deep() {
+fn surfaces_that_share_a_face_are_not_deep() {
     let cube = cube_surface(2.0);
     let list = penetration((&cube, &at(-1., 0., 0.)), (&cube, &at(1., 0., 0.)));
     assert!(!list.of_whole_bodies);
@@ -234,8 +239,9 @@ fn a24_surfaces_that_share_a_face_are_not_deep() {
     }
 }
 
+/// Case A26 of docs/cases.md.
 #[test]
-fn a26_touching_cubes_point_along_x() {
+fn touching_cubes_point_along_x() {
     let cube = cuboid([1.0; 3]);
     let (found, direction) = depth((&cube, &at(0.5, 0.5, 0.5)), (&cube, &at(1.5, 0.5, 0.5)));
     assert!(found <= 1e-15);

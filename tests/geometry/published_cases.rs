@@ -47,8 +47,9 @@ fn class(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> Class {
         .unwrap()
 }
 
+/// Case A1 of docs/cases.md.
 #[test]
-fn a01_stacks_are_exact_in_every_direction() {
+fn stacks_are_exact_in_every_direction() {
     let unit = cuboid([1.0; 3]);
     assert_eq!(
         checked((&unit, &at(0., 4., 0.)), (&unit, &Pose::identity())).distance,
@@ -68,8 +69,9 @@ fn a01_stacks_are_exact_in_every_direction() {
 }
 
 /// The 48 permutations and reflections of the axes, done to both boxes.
+/// Case A1 of docs/cases.md.
 #[test]
-fn a01_axis_permutations_change_no_bit() {
+fn axis_permutations_change_no_bit() {
     let sides = [[1.0; 3], [1.0, 1.7, 0.3]];
     let offsets = [[0.0, 4.0, 0.0], [0.3, 4.1, -0.7], [2.9, 4.1, -3.3]];
     for side in sides {
@@ -108,8 +110,9 @@ fn a01_axis_permutations_change_no_bit() {
     }
 }
 
+/// Case A2 of docs/cases.md.
 #[test]
-fn a02_a_face_over_an_edge_is_never_touching() {
+fn a_face_over_an_edge_is_never_touching() {
     let a = cuboid([0.363, 0.277, 0.363]);
     let pose_a = turned(
         [
@@ -173,8 +176,9 @@ fn truth(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> f64 {
     bounds.upper
 }
 
+/// Case A3 of docs/cases.md.
 #[test]
-fn a03_nearly_touching_boxes_are_apart() {
+fn nearly_touching_boxes_are_apart() {
     let a = cuboid([0.03, 0.12, 0.1]);
     let pose_a = turned(
         [
@@ -209,8 +213,9 @@ fn a03_nearly_touching_boxes_are_apart() {
     assert_eq!(class((&a, &pose_a), (&b, &pose_b)), Class::Outside);
 }
 
+/// Case A4 of docs/cases.md.
 #[test]
-fn a04_kissing_boxes_meet() {
+fn kissing_boxes_meet() {
     let r = [
         0.96193976625564348026,
         0.15401279915737359216,
@@ -247,8 +252,9 @@ const TILT: [f64; 9] = [
     0.94096063217417758029,
 ];
 
+/// Case A5 of docs/cases.md.
 #[test]
-fn a05_the_reported_tilted_cubes_meet() {
+fn the_reported_tilted_cubes_meet() {
     let cube = cuboid([0.25; 3]);
     let one = turned(
         TILT,
@@ -263,8 +269,9 @@ fn a05_the_reported_tilted_cubes_meet() {
 }
 
 /// The generalisation: five sizes, seven separations far below what their coordinates resolve.
+/// Case A5 of docs/cases.md.
 #[test]
-fn a05_tilted_kissing_cubes_at_all_sizes() {
+fn tilted_kissing_cubes_at_all_sizes() {
     for side in [0.01, 0.25, 0.5, 10.0, 1000.0f64] {
         let cube = cuboid([side; 3]);
         let two = turned(TILT, [0.0, 0.0, 1.25]);
@@ -290,8 +297,9 @@ fn a05_tilted_kissing_cubes_at_all_sizes() {
     }
 }
 
+/// Case A10 of docs/cases.md.
 #[test]
-fn a10_overlapping_cubes_meet() {
+fn overlapping_cubes_meet() {
     let cube = cuboid([2.0; 3]);
     let up = at(0.0, 0.0, 1.9);
     assert!(meets((&cube, &Pose::identity()), (&cube, &up)));
@@ -303,8 +311,9 @@ fn a10_overlapping_cubes_meet() {
     );
 }
 
+/// Case A12 of docs/cases.md.
 #[test]
-fn a12_large_overlapping_polyhedra_meet_in_both_dimensions() {
+fn large_overlapping_polyhedra_meet_in_both_dimensions() {
     let outline = |x: [f64; 4], y: [f64; 4]| -> Vec<Vec3> {
         (0..4).map(|i| Vec3::new(x[i], y[i], 0.0)).collect()
     };
@@ -329,8 +338,9 @@ fn a12_large_overlapping_polyhedra_meet_in_both_dimensions() {
     assert!(meets((&planar(&[a]), &here), (&planar(&[b]), &here)));
 }
 
+/// Case A14 of docs/cases.md.
 #[test]
-fn a14_a_point_over_a_facet() {
+fn a_point_over_a_facet() {
     let point = hull(&vertices(&[(44.2919, 39.7508, 18.8208)]));
     let solid = hull(&vertices(&[
         (46.0659, 38.6251, 16.3637),
@@ -356,8 +366,9 @@ fn a14_a_point_over_a_facet() {
     );
 }
 
+/// Case A16 of docs/cases.md.
 #[test]
-fn a16_two_triangles_in_both_orders() {
+fn two_triangles_in_both_orders() {
     let one = vertices(&[
         (-0.37579435, 0.014414025, 0.3265663),
         (-0.37263185, 0.0108978925, 0.36118037),
@@ -389,8 +400,9 @@ fn a16_two_triangles_in_both_orders() {
     assert!((found.distance - truth((a, &here), (b, &here))).abs() <= 1e-14);
 }
 
+/// Case A17 of docs/cases.md.
 #[test]
-fn a17_a_ball_under_a_box() {
+fn a_ball_under_a_box() {
     let ball = hull(&sphere_points(1.0, 8));
     let found = checked(
         (&ball, &Pose::identity()),
@@ -400,16 +412,18 @@ fn a17_a_ball_under_a_box() {
     assert_eq!(found.points, [Vec3::y(), Vec3::y() * 4.0]);
 }
 
+/// Case A18 of docs/cases.md.
 #[test]
-fn a18_two_balls() {
+fn two_balls() {
     let (large, small) = (hull(&sphere_points(20.0, 6)), hull(&sphere_points(10.0, 6)));
     let found = checked((&large, &Pose::identity()), (&small, &at(0., 40., 0.)));
     assert_eq!(found.distance, 10.0);
     assert_eq!(found.points, [Vec3::y() * 20.0, Vec3::y() * 30.0]);
 }
 
+/// Case A19 of docs/cases.md.
 #[test]
-fn a19_long_boxes_turned_about_z() {
+fn long_boxes_turned_about_z() {
     let third = std::f64::consts::FRAC_PI_3;
     let first = Pose {
         rotation: cstk::pose::rotation_about(&Vec3::z(), third),
@@ -431,8 +445,9 @@ fn a19_long_boxes_turned_about_z() {
     }
 }
 
+/// Case A21 of docs/cases.md.
 #[test]
-fn a21_a_small_ball_in_the_surface_of_a_mesh() {
+fn a_small_ball_in_the_surface_of_a_mesh() {
     let corners = vertices(&[(1., 1., 1.), (2., 1., 1.), (1., 2., 1.), (1., 1., 2.)]);
     let tetrahedron = mesh(&corners, &[[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]]);
     let ball = hull(&sphere_points(1e-4, 3));

@@ -18,9 +18,10 @@ fn bar(length: f64, half: f64) -> Vec<Vec3> {
         .to_vec()
 }
 
-/// A36: a planar arm of two links against a disc of many sides. Points, Jacobian and gradient are of one configuration.
+/// A planar arm of two links against a disc of many sides. Points, Jacobian and gradient are of one configuration.
+/// Case A36 of docs/cases.md.
 #[test]
-fn a36_points_and_gradients_belong_to_the_configuration_asked_about() {
+fn points_and_gradients_belong_to_the_configuration_asked_about() {
     let mut links = vec![
         link(None, JointKind::Revolute, Vec3::z()),
         link(Some(0), JointKind::Revolute, Vec3::z()),
@@ -92,10 +93,11 @@ fn a36_points_and_gradients_belong_to_the_configuration_asked_about() {
     assert!(worst < 1e-6, "{worst:e}");
 }
 
-/// A35: every witness has a gradient, at contact too, of solids and of surfaces alike; never a NaN, and at ties one of the
+/// Every witness has a gradient, at contact too, of solids and of surfaces alike; never a NaN, and at ties one of the
 /// one-sided set.
+/// Case A35 of docs/cases.md.
 #[test]
-fn a35_touching_pairs_have_gradients() {
+fn touching_pairs_have_gradients() {
     let mut random = Random::new(35);
     let floor = hull(&box_corners([4.0, 4.0, 1.0]));
     let corners = box_corners([1.0, 1.0, 1.0]);

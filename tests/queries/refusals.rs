@@ -46,8 +46,9 @@ fn square_mesh(vertices: Vec<Vec3>) -> Mesh {
     }
 }
 
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_bad_polygons_are_refused_by_name() {
+fn bad_polygons_are_refused_by_name() {
     let polygon = |points: &[Vec3]| BodyBuilder::new(3).unwrap().add_polygon(points, 0);
     refused(polygon(&[]), ErrorKind::Empty, &["3 vertices"]);
     refused(
@@ -92,8 +93,9 @@ fn a44_bad_polygons_are_refused_by_name() {
     assert!(flat.is_empty());
 }
 
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_bad_polyhedra_and_meshes_are_refused_by_name() {
+fn bad_polyhedra_and_meshes_are_refused_by_name() {
     let mut builder = BodyBuilder::new(3).unwrap();
     refused(builder.add_polyhedron(&[], 0), ErrorKind::Empty, &["point"]);
     for bad in [f64::NAN, f64::INFINITY] {
@@ -134,8 +136,9 @@ fn a44_bad_polyhedra_and_meshes_are_refused_by_name() {
     );
 }
 
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_faces_without_area_are_dropped_and_counted() {
+fn faces_without_area_are_dropped_and_counted() {
     let mut builder = BodyBuilder::new(3).unwrap();
     let mut mesh = square_mesh(square());
     mesh.indices[5] = 0;
@@ -152,8 +155,9 @@ fn a44_faces_without_area_are_dropped_and_counted() {
     );
 }
 
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_bad_robots_poses_and_spaces_are_refused_by_name() {
+fn bad_robots_poses_and_spaces_are_refused_by_name() {
     let mut builder = RobotBuilder::new(3).unwrap();
     refused(builder.build(), ErrorKind::Empty, &["no link"]);
     let named = |axis| LinkDefinition {
@@ -233,8 +237,9 @@ fn a44_bad_robots_poses_and_spaces_are_refused_by_name() {
     refused(two, ErrorKind::WrongSize, &["2 ranges"]);
 }
 
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_bad_questions_are_refused_by_name() {
+fn bad_questions_are_refused_by_name() {
     let shape = planar(&[square()]);
     let space = space(vec![free_planar_body(&shape.body)]);
     let (surroundings, _) = environment(&[(&shape.body, at(3., 0., 0.))]);
@@ -303,8 +308,9 @@ fn a44_bad_questions_are_refused_by_name() {
 }
 
 /// dimforge/parry#49: four points of size 1e-23.
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_tiny_points_measure_like_any_others() {
+fn tiny_points_measure_like_any_others() {
     let points = vertices(&[
         (2.3624029, 1.3771984, 0.22062083),
         (1.3807439, 1.8596945, -0.1784406),
@@ -326,8 +332,9 @@ fn a44_tiny_points_measure_like_any_others() {
 }
 
 /// A whole scene a million times smaller or larger has a million times smaller or larger distances.
+/// Case A44 of docs/cases.md.
 #[test]
-fn a44_answers_scale_with_the_scene() {
+fn answers_scale_with_the_scene() {
     let mut random = Random::new(44);
     for _ in 0..40 {
         let (points_a, points_b) = (random.points(9, 1.0), random.points(9, 1.0));

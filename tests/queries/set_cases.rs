@@ -47,8 +47,9 @@ fn witnesses(a: (&Shape, &Pose), b: (&Shape, &Pose), epsilon: f64) -> BTreeSet<[
     set
 }
 
+/// Case A22 of docs/cases.md.
 #[test]
-fn a22_parallel_faces_show_all_that_tie_and_choose_the_lowest() {
+fn parallel_faces_show_all_that_tie_and_choose_the_lowest() {
     let (a, b) = (cube_surface(2.0), cube_surface(2.0));
     let (here, above) = (Pose::identity(), at(0.1, 0.2, 2.5));
     let ties = witnesses((&a, &here), (&b, &above), 0.5 + 1e-12);
@@ -75,8 +76,9 @@ fn a22_parallel_faces_show_all_that_tie_and_choose_the_lowest() {
     }
 }
 
+/// Case A25 of docs/cases.md.
 #[test]
-fn a25_the_pairs_that_touch_are_those_of_brute_force() {
+fn the_pairs_that_touch_are_those_of_brute_force() {
     let (large, small) = (cube_surface(2.0), cube_surface(1.0));
     let here = Pose::identity();
     for offset in [
@@ -100,9 +102,10 @@ fn a25_the_pairs_that_touch_are_those_of_brute_force() {
     }
 }
 
-/// A37: margins and thresholds hold among many objects as between two.
+/// Margins and thresholds hold among many objects as between two.
+/// Case A37 of docs/cases.md.
 #[test]
-fn a37_margins_reach_into_the_broad_phase() {
+fn margins_reach_into_the_broad_phase() {
     let link_body = cuboid([0.16, 0.27, 0.37]);
     let wall = cuboid([5.898, 0.06, 2.69]);
     let here = Pose::from_row_major(&[
@@ -157,8 +160,9 @@ fn a37_margins_reach_into_the_broad_phase() {
     }
 }
 
+/// Case A38 of docs/cases.md.
 #[test]
-fn a38_a_threshold_decides_at_the_gap() {
+fn a_threshold_decides_at_the_gap() {
     let (a, b) = (cube_surface(1.0), cube_surface(1.0));
     let here = Pose::identity();
     let mut query = QueryContext::new();
@@ -174,8 +178,9 @@ fn a38_a_threshold_decides_at_the_gap() {
     }
 }
 
+/// Case A39 of docs/cases.md.
 #[test]
-fn a39_what_is_farther_than_asked_says_so() {
+fn what_is_farther_than_asked_says_so() {
     let cube = cuboid([1.0; 3]);
     let (here, there) = (Pose::identity(), at(3.0, 0.0, 0.0));
     let mut query = QueryContext::new();

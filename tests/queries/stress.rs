@@ -6,10 +6,11 @@ use cstk::query::{DistanceKind, QueryContext};
 use helpers::random::Random;
 use helpers::shapes::{Shape, cuboid, hull, planar, widest_gap};
 
-/// A6: boxes that almost touch or just overlap, face to face, edge to edge and corner to face, many of them turned alike.
+/// Boxes that almost touch or just overlap, face to face, edge to edge and corner to face, many of them turned alike.
 /// Each has an answer, and it is the truth.
+/// Case A6 of docs/cases.md.
 #[test]
-fn a06_boxes_near_contact_always_end_in_an_answer() {
+fn boxes_near_contact_always_end_in_an_answer() {
     let mut random = Random::new(6);
     let mut query = QueryContext::new();
     let (mut touching, mut apart) = (0, 0);
@@ -76,8 +77,9 @@ fn a06_boxes_near_contact_always_end_in_an_answer() {
     assert!(touching > 10_000 && apart > 10_000, "{touching} {apart}");
 }
 
+/// Case A7 of docs/cases.md.
 #[test]
-fn a07_a_box_beside_a_round_drum() {
+fn a_box_beside_a_round_drum() {
     let quarter = Mat3::new(0., -1., 0., 1., 0., 0., 0., 0., 1.);
     let board = cuboid([0.05, 0.39, 1.47]);
     let board_at = Pose {
@@ -112,9 +114,10 @@ fn a07_a_box_beside_a_round_drum() {
     assert!(inscribed - circumscribed <= 0.18 * 2.1 * sagitta);
 }
 
-/// A9: a wall of stacked boxes that tremble, frame after frame.
+/// A wall of stacked boxes that tremble, frame after frame.
+/// Case A9 of docs/cases.md.
 #[test]
-fn a09_a_trembling_wall_never_fails() {
+fn a_trembling_wall_never_fails() {
     let mut random = Random::new(9);
     let brick = cuboid([0.3; 3]);
     let mut query = QueryContext::new();
@@ -155,9 +158,10 @@ fn a09_a_trembling_wall_never_fails() {
     assert!(met > 1000 && clear > 1000, "{met} {clear}");
 }
 
-/// A13: polygons of the plane, in the plane and lying in space, are as far apart as each other.
+/// Polygons of the plane, in the plane and lying in space, are as far apart as each other.
+/// Case A13 of docs/cases.md.
 #[test]
-fn a13_flat_polygons_are_measured_in_both_dimensions() {
+fn flat_polygons_are_measured_in_both_dimensions() {
     let mut random = Random::new(13);
     let mut query = QueryContext::new();
     let mut apart = 0;
