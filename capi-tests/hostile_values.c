@@ -339,7 +339,7 @@ int main(void) {
     cstk_link_def_trials();
     cstk_custom_joint_trials();
     cstk_environment_change_trials();
-    cstk_cobject_options_trials();
+    cstk_induced_options_trials();
     cstk_pure_options_trials();
     cstk_predicate_trials();
     cstk_slide_options_trials();
