@@ -3,5 +3,6 @@
 mod kinematics;
 mod link_pairs;
 mod motion_bound;
+mod motion_chain;
 mod spaces;
 mod urdf;
