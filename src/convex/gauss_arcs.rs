@@ -194,7 +194,7 @@ fn arc_bounds(along: &Vec3, wings: &[Vec3], slack: f64, normal: impl Fn(usize) -
     };
     let end = |side: usize| ArcEnd::of(&along, &wings[side], &normal(side), slack);
     let ends = match wings.len() {
-        // EdgeNeighbours a lone face the arc goes on to the normal of its other side.
+        // Beside a lone face the arc goes on to the normal of its other side.
         1 => end(0).map(|end| [end, end.turned()]),
         2 => end(0).zip(end(1)).map(|(a, b)| [a, b]),
         _ => None,

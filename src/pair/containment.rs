@@ -157,7 +157,7 @@ impl Pairing<'_> {
         let center = into_inner.transform_point(&extent.center()) / unit;
         let half = 0.5 * extent.size() / unit;
         let size = 1.0 + center.norm() + half.norm();
-        // BeyondCutoff this boxes are nothing in single precision.
+        // Beyond this boxes are nothing in single precision.
         const LARGE: f64 = 1e30;
         if all.len() <= FEW || size > LARGE {
             return all.collect();

@@ -88,7 +88,7 @@ impl Visitor for Nearest {
     }
 }
 
-/// Whether some primitive pair is within a threshold; stops at the first. BoundRefinement bounds (`REFINES`) pay where the threshold is
+/// Whether some primitive pair is within a threshold; stops at the first. Sharper bounds (`REFINES`) pay where the threshold is
 /// more than 0.
 pub struct Within<const REFINES: bool> {
     pub margin: f64,

@@ -95,7 +95,7 @@ fn best_covers(tree: &WrapperTree, most: usize) -> Vec<f64> {
 }
 
 /// Always opening the largest node is not the best: a node that hardly shrinks when it is opened takes the places of
-/// others that would. PrimitiveDistance over these models, the worst factor over the best cover of as many nodes is 2.53 for
+/// others that would. Measured over these models, the worst factor over the best cover of as many nodes is 2.53 for
 /// hulls and boxes (hulls of spaghetti) and 9.44 for spheres (24 tight spheres of the lamp: those of a long arm shrink
 /// only after many openings). Where opening gains nothing, as with coincident squares, fewer nodes than asked for would
 /// do.

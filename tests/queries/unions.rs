@@ -30,7 +30,7 @@ fn at(x: f64) -> Pose {
     Pose::from_translation(Vec3::new(x, 0.0, 0.0))
 }
 
-/// NodeRef cubes that shift along x, each a link of its own.
+/// Unit cubes that shift along x, each a link of its own.
 fn sliders(count: usize) -> Arc<Space> {
     let mut builder = RobotBuilder::new(3).unwrap();
     for _ in 0..count {
