@@ -81,10 +81,10 @@ class Library:
         "robot_builder_load_urdf": [c_void_p, c_char_p, POINTER(UrdfOptions), c_void_p, c_void_p, POINTER(c_uint32)],
         "robot_build": [c_void_p, POINTER(c_void_p)],
         "robot_release": [c_void_p],
-        "robot_size": [c_void_p] + [POINTER(c_size_t)] * 3,
+        "robot_get_size": [c_void_p] + [POINTER(c_size_t)] * 3,
         "robot_find_link": [c_void_p, c_char_p, POINTER(c_uint32)],
         "robot_find_joint": [c_void_p, c_char_p, POINTER(c_uint32)],
-        "robot_link_info": [c_void_p, c_uint32, POINTER(LinkInfo)],
+        "robot_get_link_info": [c_void_p, c_uint32, POINTER(LinkInfo)],
         "space_create": [POINTER(c_void_p), c_size_t, c_void_p, c_size_t, c_void_p, POINTER(c_void_p)],
         "space_release": [c_void_p],
         "space_get_range": [c_void_p, c_size_t, POINTER(Range)],
@@ -129,7 +129,7 @@ class Robot:
             library.robot_builder_release(builder)
         library.space_create(byref(self.handle), 1, None, 0, None, byref(self.space))
         sizes = [c_size_t() for _ in range(3)]
-        library.robot_size(self.handle, *map(byref, sizes))
+        library.robot_get_size(self.handle, *map(byref, sizes))
         self.nq, self.nv, self.link_count = (size.value for size in sizes)
 
     @classmethod
@@ -158,7 +158,7 @@ class Robot:
 
     def info(self, link):
         info = LinkInfo()
-        self.library.robot_link_info(self.handle, link, byref(info))
+        self.library.robot_get_link_info(self.handle, link, byref(info))
         return info
 
     def range(self, coordinate):
