@@ -1,4 +1,4 @@
-//! Both phases: from primitives to their hierarchy.
+//! Builds a hierarchy from primitives: the grouping phase, then the construction phase.
 
 use std::time::Instant;
 
@@ -15,26 +15,31 @@ use crate::primitive::{Convex, Primitives};
 /// Seconds each phase of a build took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BuildTimes {
-    /// Looking for convex pieces and cutting slender primitives.
+    /// Finding convex pieces and cutting slender primitives.
     pub preparation: f64,
+    /// The grouping phase (§3.2).
     pub grouping: f64,
+    /// The wrappers, if they are built with the body, and the packed tree.
     pub construction: f64,
 }
 
-/// What a build makes of primitives.
+/// The result of a build.
 #[derive(Debug)]
 pub struct Hierarchy {
+    /// The wrapper tree, or what builds it on first use.
     pub wrappers: Wrappers,
-    /// The tree as queries walk it.
+    /// The tree that queries traverse.
     pub packed: PackedTree,
-    /// Of the binary tree.
+    /// Number of nodes of the binary tree.
     pub nodes: usize,
+    /// Number of levels of the binary tree.
     pub depth: usize,
+    /// Seconds each phase took.
     pub times: BuildTimes,
 }
 
-/// Builds the hierarchy of primitives, of which there is at least one. `progress` hears the fraction done, on this thread,
-/// and may end the work with an error.
+/// Builds the hierarchy of at least one primitive. `progress` is called on this thread with the fraction done; an error
+/// from it cancels the build.
 pub fn build_hierarchy(
     primitives: &Primitives,
     options: &HierarchyOptions,
@@ -61,7 +66,7 @@ fn build_of_shapes(
     let parts = parts(&shapes, options.aspect_limit);
     let mut pieces = convex_pieces(&shapes, options.pieces, &mut progress.part(0.0, 0.1))?;
     if parts.len() > shapes.len() {
-        pieces = parts_of(&parts, shapes.len(), pieces);
+        pieces = pieces_of_parts(&parts, shapes.len(), pieces);
     }
     let prepared = start.elapsed().as_secs_f64();
     let mut part = progress.part(0.1, 0.6);
@@ -70,8 +75,8 @@ fn build_of_shapes(
     let (nodes, depth) = (groups.subsets.nodes.len(), groups.subsets.depth());
     let threads = options.thread_count();
     let mut rest = progress.part(0.6, 1.0);
-    // Boxes hold points best. Wrappers of other kinds are asked for so that queries walk what they hold; and slabs have
-    // points that no primitive has.
+    // By default the packed boxes are fitted to the primitives' points, the tightest choice. If the caller asks for another
+    // kind of wrapper, queries traverse boxes around those wrappers; so they do for slabs, whose points no primitive has.
     let (wrappers, packed) =
         if options.wrapper == WrapperKind::Hull && parts.len() == primitives.len() {
             let ball = Ball::around(primitives);
@@ -79,7 +84,7 @@ fn build_of_shapes(
             (Wrappers::of_groups(groups, options), packed)
         } else {
             let mut part = rest.part(0.0, 0.8);
-            let tree = wrapped(&shapes, &parts, groups, options, &mut part)?;
+            let tree = wrap_parts(&shapes, &parts, groups, options, &mut part)?;
             let packed = pack_wrappers(primitives, &tree, threads, &mut rest.part(0.8, 1.0))?;
             (Wrappers::Made(Box::new(tree)), packed)
         };
@@ -97,8 +102,8 @@ fn build_of_shapes(
     })
 }
 
-/// The wrappers of parts; their leaves name the primitives.
-fn wrapped(
+/// Builds the wrapper tree over parts; its leaves name the primitives.
+fn wrap_parts(
     shapes: &[Convex],
     parts: &[Part],
     groups: Groups,
@@ -106,8 +111,8 @@ fn wrapped(
     progress: &mut Progress,
 ) -> Result<WrapperTree> {
     let points_of = |part: u32| {
-        let (points, doubt) = parts[part as usize].vertices(shapes);
-        (points.to_vec(), doubt)
+        let (points, slack) = parts[part as usize].vertices(shapes);
+        (points.to_vec(), slack)
     };
     let mut tree = WrapperTree::build(groups, points_of, options, progress)?;
     for node in &mut tree.subsets.nodes {
@@ -118,8 +123,8 @@ fn wrapped(
     Ok(tree)
 }
 
-/// Pieces of primitives as pieces of the parts those were cut into.
-fn parts_of(parts: &[Part], primitives: usize, pieces: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+/// Replaces each primitive of a piece by the parts it was cut into.
+fn pieces_of_parts(parts: &[Part], primitives: usize, pieces: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     let mut slabs: Vec<Vec<u32>> = vec![Vec::new(); primitives];
     for (i, part) in parts.iter().enumerate() {
         slabs[part.primitive as usize].push(i as u32);

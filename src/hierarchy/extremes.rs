@@ -1,14 +1,15 @@
-//! The points of a set that lie farthest out in fixed directions.
+//! Extreme points of a set along fixed directions.
 
 use std::sync::LazyLock;
 
 use crate::pose::Vec3;
 
-/// Enough lines that a set with many hull vertices shows more than any usual limit of them.
+/// Number of sampled directions. Each gives two extreme points, so a hull with many vertices shows more of them than any
+/// usual vertex limit.
 const LINES: usize = 48;
 
 static DIRECTIONS: LazyLock<[Vec3; LINES]> = LazyLock::new(|| {
-    // Evenly spread over half a sphere, and along no axis of coordinates, where faces of models would tie.
+    // Evenly spread over a hemisphere, none along a coordinate axis, where the vertices of a face would tie.
     std::array::from_fn(|i| {
         let height = 1.0 - (i as f64 + 0.37) / LINES as f64;
         let azimuth = 2.399_963_229_728_653 * i as f64 + 0.5;
@@ -17,21 +18,21 @@ static DIRECTIONS: LazyLock<[Vec3; LINES]> = LazyLock::new(|| {
     })
 });
 
-/// Points are taken in blocks that fit the nearest cache, their coordinates apart.
+/// Points are processed in blocks of this many, structure of arrays, that fit the L1 cache.
 const BLOCK: usize = 256;
 
-/// The points farthest out along the directions, both ways: vertices of their hull, each once.
+/// The extreme points along all directions, both ways: vertices of the points' hull, each once.
 pub fn extremes(points: &[Vec3]) -> Vec<Vec3> {
     extremes_along(points, 1)
 }
 
-/// The same along a third of the directions, which are enough to fit a box.
+/// The same along every third direction, which is enough to fit a box.
 pub fn few_extremes(points: &[Vec3]) -> Vec<Vec3> {
     extremes_along(points, 3)
 }
 
-/// Along each direction of so many.
-fn extremes_along(points: &[Vec3], of: usize) -> Vec<Vec3> {
+/// The extreme points along every `step`-th direction.
+fn extremes_along(points: &[Vec3], step: usize) -> Vec<Vec3> {
     let mut low = [(0, f64::INFINITY); LINES];
     let mut high = [(0, f64::NEG_INFINITY); LINES];
     for (b, block) in points.chunks(BLOCK).enumerate() {
@@ -43,32 +44,32 @@ fn extremes_along(points: &[Vec3], of: usize) -> Vec<Vec3> {
             }
         }
         let [x, y, z] = &coordinates;
-        for (k, direction) in DIRECTIONS.iter().step_by(of).enumerate() {
+        for (k, direction) in DIRECTIONS.iter().step_by(step).enumerate() {
             for i in 0..BLOCK {
                 along[i] = direction.x * x[i] + direction.y * y[i] + direction.z * z[i];
             }
             let along = &along[..block.len()];
-            let (least, most) = ends(along);
-            let place =
+            let (least, most) = min_max(along);
+            let index =
                 |value: f64| b * BLOCK + along.iter().position(|&a| a == value).unwrap_or(0);
             if least < low[k].1 {
-                low[k] = (place(least), least);
+                low[k] = (index(least), least);
             }
             if most > high[k].1 {
-                high[k] = (place(most), most);
+                high[k] = (index(most), most);
             }
         }
     }
-    let asked = LINES.div_ceil(of);
-    let ends = low[..asked].iter().chain(&high[..asked]);
+    let count = LINES.div_ceil(step);
+    let ends = low[..count].iter().chain(&high[..count]);
     let mut indices: Vec<usize> = ends.map(|end| end.0).collect();
     indices.sort_unstable();
     indices.dedup();
     indices.into_iter().map(|i| points[i]).collect()
 }
 
-/// The least and the largest value; several at a time, so that they do not wait for each other.
-fn ends(values: &[f64]) -> (f64, f64) {
+/// The least and the largest value. Four independent chains of comparisons hide their latency.
+fn min_max(values: &[f64]) -> (f64, f64) {
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let (fours, rest) = values.as_chunks::<4>();
     for four in fours {

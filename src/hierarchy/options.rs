@@ -1,4 +1,4 @@
-//! How a hierarchy is built.
+//! The options of a hierarchy build.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::grouping::Cost;
@@ -7,11 +7,11 @@ use crate::hierarchy::grouping::Cost;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grouping {
     /// Adjacent-element clustering, then basic clustering of its chunks (§3.2.5). For models that are built once and
-    /// asked often. More than 16,384 parts, where no pieces are asked for, are first cut into regions of no more, by the
-    /// surface-area heuristic, and each is clustered.
+    /// queried often. With pieces off, more than 16,384 parts are first cut into regions of at most that many by the
+    /// surface-area heuristic, and each region is clustered.
     #[default]
     Hybrid,
-    /// Basic clustering alone (§3.2.2): needs no adjacency. In regions too.
+    /// Basic clustering alone (§3.2.2): needs no adjacency. Large models are cut into regions as for `Hybrid`.
     Basic,
     /// Top-down splits by the surface-area heuristic (§3.4). The fastest to build.
     TopDown,
@@ -20,49 +20,54 @@ pub enum Grouping {
 /// The kind of wrapper in the construction phase (§3.2.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WrapperKind {
-    /// Convex hulls of bounded size, oriented boxes where the hull has more vertices (§2.3.4). Where no primitive
-    /// is cut into slabs they are made when they are first looked at, and what queries walk is fitted to the primitives
+    /// Convex hulls of bounded size, oriented boxes where the hull has more vertices (§2.3.4). If no primitive is cut
+    /// into slabs, the hulls are built on first use, and the tree that queries traverse is fitted to the primitives
     /// themselves.
     #[default]
     Hull,
+    /// Oriented boxes of about the least volume.
     OrientedBox,
+    /// Axis-aligned boxes.
     AlignedBox,
-    /// Spheres around the vertices at the leaves below: O(N log N), much tighter than merged ones.
+    /// Spheres around the vertices of the leaves below: O(N log N), much tighter than merged ones.
     TightSphere,
     /// Spheres around the children's spheres: O(N).
     MergedSphere,
 }
 
-/// Which maximal convex pieces stand as leaves (§3.4).
+/// Which maximal convex pieces get a node of their own (§3.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pieces {
-    /// Each primitive is a leaf.
+    /// No pieces: each primitive is grouped by itself.
     #[default]
     Off,
-    /// Coplanar neighbours whose union is a convex polygon share a leaf.
+    /// Coplanar neighbours whose union is a convex polygon form a piece.
     Coplanar,
-    /// So do edge-adjacent polygons that bound a convex part of a closed body.
+    /// As `Coplanar`, and edge-adjacent polygons that bound a convex part of a closed body form a piece.
     Patches,
 }
 
-/// How a hierarchy is built. Answers do not depend on it, only their cost does.
+/// The options of a build. Answers do not depend on them, only their cost does.
 #[derive(Clone, Copy, Debug)]
 pub struct HierarchyOptions {
+    /// The algorithm that groups the primitives.
     pub grouping: Grouping,
+    /// The kind of the nodes' wrappers.
     pub wrapper: WrapperKind,
+    /// Which convex pieces get a node of their own.
     pub pieces: Pieces,
     /// Hulls with more vertices than this are replaced by oriented boxes (§2.3.4). At least 8.
     pub hull_vertex_limit: u32,
-    /// Threads to build on; 0 for as many as the machine runs at once. The tree does not depend on it.
+    /// Number of build threads; 0 for the machine's available parallelism. The tree does not depend on it.
     pub threads: u32,
     /// The cost of merging two bodies (eq. 2).
     pub cost: Cost,
-    /// The first DLimit, the largest diameter of bodies to be merged; 0 for twice the smallest primitive's.
+    /// The first DLimit, the largest diameter of bodies to be merged, a length; 0 for twice the smallest primitive's.
     pub diameter_limit: f64,
-    /// The first GLimit, the largest gap between bodies to be merged; 0 for a quarter of DLimit.
+    /// The first GLimit, the largest gap between bodies to be merged, a length; 0 for a quarter of DLimit.
     pub gap_limit: f64,
-    /// Primitives longer than this many times their width get several leaves, each bounding a part (§3.4); 0 for one leaf
-    /// each. At least 1.5.
+    /// Primitives longer than this many times their width get several leaves, each bounding a part (§3.4). At least 1.5,
+    /// or 0 for one leaf each.
     pub aspect_limit: f64,
 }
 
@@ -83,7 +88,7 @@ impl Default for HierarchyOptions {
 }
 
 impl HierarchyOptions {
-    /// Fails with the name of the option that is out of range.
+    /// Fails and names the option that is out of range.
     pub fn check(&self) -> Result<()> {
         if self.hull_vertex_limit < 8 {
             return Err(Error::invalid(format!(
@@ -97,7 +102,7 @@ impl HierarchyOptions {
                 self.threads
             )));
         }
-        let not_negative = [
+        let non_negative = [
             ("cost_diameter", self.cost.diameter),
             ("cost_fill", self.cost.fill),
             ("cost_balance", self.cost.balance),
@@ -105,7 +110,7 @@ impl HierarchyOptions {
             ("gap_limit", self.gap_limit),
             ("aspect_limit", self.aspect_limit),
         ];
-        for (name, value) in not_negative {
+        for (name, value) in non_negative {
             if !value.is_finite() {
                 return Err(Error::new(
                     ErrorKind::NotFinite,

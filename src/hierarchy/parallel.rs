@@ -1,10 +1,10 @@
-//! Work shared out to threads, with progress heard on the calling thread.
+//! A parallel map over threads that reports progress on the calling thread.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::error::Result;
 
-/// Hears the fraction done of a part of a longer work; its error ends the work.
+/// Reports the progress of one part of a longer job to the caller's function. An error from that function cancels the job.
 pub struct Progress<'a> {
     report: &'a mut dyn FnMut(f64) -> Result<()>,
     from: f64,
@@ -12,6 +12,7 @@ pub struct Progress<'a> {
 }
 
 impl<'a> Progress<'a> {
+    /// The progress of a whole job, from 0 to 1.
     pub fn new(report: &'a mut dyn FnMut(f64) -> Result<()>) -> Self {
         Self {
             report,
@@ -20,7 +21,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The progress of the part of this work that lies between two fractions of it.
+    /// The progress of the part of this job between two fractions of it.
     pub fn part(&mut self, from: f64, to: f64) -> Progress<'_> {
         let span = self.to - self.from;
         Progress {
@@ -30,12 +31,13 @@ impl<'a> Progress<'a> {
         }
     }
 
+    /// Reports the fraction done of this part.
     pub fn at(&mut self, fraction: f64) -> Result<()> {
         (self.report)(self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0))
     }
 }
 
-/// `task(i)` for all i below `count`, in order of i, on several threads.
+/// Runs `task(i)` for all i below `count` on up to `threads` threads; the results are in order of i.
 pub fn map<T: Send>(
     threads: usize,
     count: usize,

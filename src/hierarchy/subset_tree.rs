@@ -4,13 +4,23 @@
 /// of which bounds a part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
-    Leaf { primitive: u32 },
-    Interior { children: [u32; 2] },
+    /// A leaf.
+    Leaf {
+        /// Index of the primitive that it bounds, whole or in part.
+        primitive: u32,
+    },
+    /// An interior node.
+    Interior {
+        /// Indices of the two children.
+        children: [u32; 2],
+    },
 }
 
-/// The tree in depth-first order: the root is node 0, a first child follows its parent, the second one all of the first.
+/// The tree in depth-first order: the root is node 0, a first child follows its parent, a second child follows the subtree
+/// of the first.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SubsetTree {
+    /// The nodes in depth-first order.
     pub nodes: Vec<Node>,
 }
 
@@ -37,11 +47,11 @@ impl SubsetTree {
     pub fn is_sound(&self, primitives: usize) -> bool {
         let count = self.nodes.len();
         let mut sizes = vec![1usize; count];
-        let mut met = vec![false; primitives];
+        let mut seen = vec![false; primitives];
         for (i, node) in self.nodes.iter().enumerate().rev() {
             match *node {
-                Node::Leaf { primitive } => match met.get_mut(primitive as usize) {
-                    Some(met) => *met = true,
+                Node::Leaf { primitive } => match seen.get_mut(primitive as usize) {
+                    Some(seen) => *seen = true,
                     None => return false,
                 },
                 Node::Interior { children: [a, b] } => {
@@ -53,7 +63,7 @@ impl SubsetTree {
                 }
             }
         }
-        sizes.first() == Some(&count) && met.iter().all(|&met| met)
+        sizes.first() == Some(&count) && seen.iter().all(|&seen| seen)
     }
 
     /// The number of nodes of each subtree.

@@ -1,5 +1,5 @@
-//! The hierarchy of a body of nothing but points, maybe with radii: its boxes are fitted to the points themselves, and its
-//! wrappers are made only when they are asked for.
+//! The hierarchy of a point cloud, maybe with radii. Its boxes are fitted to the points themselves; its wrappers are built
+//! on first use.
 
 use std::time::Instant;
 
@@ -15,15 +15,15 @@ use crate::hierarchy::{
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::Primitives;
 
-/// Boxes around more points than this are worth a search for the best axes, among few of the points that lie farthest out.
-const MANY: usize = 512;
+/// Above this many points the axes of a box are searched for over the extreme points; below, the principal axes do.
+const MIN_SEARCHED: usize = 512;
 
-/// Whether primitives are built as a cloud: they are all points, and grouping by clusters is not asked for by name.
+/// Whether primitives are built as a cloud: all are points, and `Grouping::Basic` is not asked for.
 pub fn is_cloud(primitives: &Primitives, options: &HierarchyOptions) -> bool {
     primitives.are_points() && options.grouping != Grouping::Basic
 }
 
-/// Builds the hierarchy of points.
+/// Builds the hierarchy of a point cloud.
 pub fn build_cloud(
     primitives: &Primitives,
     options: &HierarchyOptions,
@@ -54,16 +54,16 @@ fn groups(primitives: &Primitives, threads: usize, progress: &mut Progress) -> R
     PointGroups::new(primitives.points(), margin, threads, progress)
 }
 
-/// The groups of points that were built as a cloud.
+/// Recomputes the groups of a body that was built as a cloud.
 pub fn regroup(primitives: &Primitives, options: &HierarchyOptions) -> Groups {
-    let mut unheard = |_| Ok(());
-    let made = groups(
+    let mut ignored = |_| Ok(());
+    let groups = groups(
         primitives,
         options.thread_count(),
-        &mut Progress::new(&mut unheard),
+        &mut Progress::new(&mut ignored),
     );
     Groups {
-        subsets: made.expect("nothing ends the work").subsets(),
+        subsets: groups.expect("nothing ends the work").subsets(),
         pieces: Vec::new(),
     }
 }
@@ -87,7 +87,7 @@ fn pack(
         packed.primitives.push(primitive, shape);
     }
     progress.at(0.1)?;
-    let cloud = Grouped {
+    let cloud = CloudSets {
         groups,
         points,
         radii,
@@ -97,14 +97,14 @@ fn pack(
     Ok(packed)
 }
 
-/// The points in the order of the leaves, in units of the tree.
-struct Grouped<'a> {
+/// The set tree of a cloud. Points are in leaf order, lengths in units of the packed tree.
+struct CloudSets<'a> {
     groups: &'a PointGroups,
     points: Vec<Vec3>,
     radii: Radii,
 }
 
-impl SetTree for Grouped<'_> {
+impl SetTree for CloudSets<'_> {
     type Set = PointSet;
 
     fn whole(&self) -> PointSet {
@@ -119,7 +119,7 @@ impl SetTree for Grouped<'_> {
         self.groups.eight_below(set)
     }
 
-    fn held(&self, set: &PointSet) -> ChildPoints<'_> {
+    fn child_points(&self, set: &PointSet) -> ChildPoints<'_> {
         let points = &self.points[set.leaves.clone()];
         ChildPoints {
             axes: axes_of(points),
@@ -132,16 +132,16 @@ impl SetTree for Grouped<'_> {
 fn axes_of(points: &[Vec3]) -> Mat3 {
     match points.len() {
         1 => Mat3::identity(),
-        count if count > MANY => fitted_axes(&extremes(points), None),
+        count if count > MIN_SEARCHED => fitted_axes(&extremes(points), None),
         _ => simply_fitted_axes(points),
     }
 }
 
-/// The radii around points, in units of the tree.
+/// The radii of the points, in units of the packed tree.
 enum Radii {
     /// One for all.
     Same(f64),
-    /// In the order of the leaves.
+    /// One per point, in leaf order.
     Each(Vec<f64>),
 }
 

@@ -1,18 +1,19 @@
-//! Which nodes of a binary tree become the nodes of a tree with eight children a node: those of least expected cost, by
-//! dynamic programming over how many nodes may stand for a subtree.
+//! Collapses a binary tree into a tree with up to eight children per node, at the least expected cost: dynamic programming
+//! over the number of nodes that represent a subtree.
 
 use crate::hierarchy::{Node, SubsetTree};
 
+/// The fan-out of a wide node.
 const MAX_BELOW: usize = 8;
 
-/// For each node and each count up to eight, how the subtree is best cut into at most so many wide nodes and leaves.
+/// For each node and each count up to eight, how the subtree is best cut into at most that many wide nodes and leaves.
 pub struct Cuts {
-    /// How many of them the first child gets; 0 where the subtree stands whole, as one wide node.
+    /// How many of them the first child gets; 0 if the whole subtree becomes one wide node.
     first: Vec<[u8; MAX_BELOW + 1]>,
 }
 
 impl Cuts {
-    /// Of a tree whose nodes' radii are given.
+    /// Computes the cuts of a tree; `radius` gives the radius of a node.
     pub fn of(tree: &SubsetTree, radius: impl Fn(u32) -> f64) -> Self {
         let count = tree.nodes.len();
         let whole_radius = radius(0).max(f64::MIN_POSITIVE);
@@ -33,7 +34,7 @@ impl Cuts {
                     }
                 }
             }
-            // A wide node is visited about as often as its surface is large, and takes memory at any size.
+            // A wide node is visited about in proportion to its surface; the constant charges for its memory.
             let radius = (radius(node as u32) / whole_radius) as f32;
             let whole = radius * radius + 1e-6 + own[MAX_BELOW];
             costs[node] = own.map(|cost| cost.min(whole));
@@ -47,7 +48,7 @@ impl Cuts {
         Self { first }
     }
 
-    /// The nodes that become the children of a wide node, in the order of the tree.
+    /// The nodes that become the children of the wide node at `node`, in tree order.
     pub fn below(&self, tree: &SubsetTree, node: u32) -> Vec<u32> {
         let mut below = Vec::with_capacity(MAX_BELOW);
         let mut open = Vec::with_capacity(MAX_BELOW);

@@ -1,4 +1,4 @@
-//! The tree as queries walk it: eight children a node, packed boxes, the primitives in the order of the leaves.
+//! The packed tree that queries traverse: up to eight children per node, packed boxes, the primitives in leaf order.
 
 mod cloud;
 mod eight_below;

@@ -1,4 +1,4 @@
-//! The packed tree whose boxes are fitted to the primitives' own points, without wrappers.
+//! Builds the packed tree with boxes fitted to the primitives' own points, without wrappers.
 
 use std::ops::Range;
 
@@ -11,10 +11,10 @@ use crate::hierarchy::{Ball, Node, Progress, SubsetTree, few_extremes};
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 
-/// Of more points than this only those that lie farthest out are asked for the axes of their box.
-const MANY: usize = 48;
+/// Above this many points the axes of a box are fitted to the extreme points only.
+const MAX_FITTED: usize = 48;
 
-/// Packs the tree of groups of primitives; `ball` is around all.
+/// Packs a subset tree over the primitives; `ball` bounds them all.
 pub fn pack_groups(
     primitives: &Primitives,
     subsets: &SubsetTree,
@@ -27,7 +27,7 @@ pub fn pack_groups(
     let points = LeafPoints::new(primitives, &packed);
     progress.at(0.1)?;
     let radii = radii(subsets, &points);
-    let grouped = Grouped {
+    let grouped = GroupSets {
         cuts: Cuts::of(subsets, |node| radii[node as usize]),
         sizes: subsets.sizes(),
         packed: &packed,
@@ -43,10 +43,10 @@ pub fn pack_groups(
     Ok(packed)
 }
 
-/// The points whose hulls hold the primitives, leaf after leaf, in units of the packed tree.
+/// The bounding points of the primitives, leaf after leaf, in units of the packed tree.
 struct LeafPoints {
     points: Vec<Vec3>,
-    /// Where the points of each leaf begin, and the end of all.
+    /// Index of each leaf's first point, then the number of all points.
     first: Vec<usize>,
 }
 
@@ -73,12 +73,12 @@ impl LeafPoints {
     }
 }
 
-/// Half the diameters of the boxes of all nodes along the axes of coordinates.
+/// Half the diameter of each node's axis-aligned box.
 fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
     let mut radii = vec![0.0; subsets.nodes.len()];
     let mut leaf = points.first.len() - 1;
     let mut open: Vec<Extent> = Vec::new();
-    // Backwards, children come before their parents, and the first child last.
+    // In reverse order children come before their parents, the first child last.
     for (node, radius) in subsets.nodes.iter().zip(&mut radii).rev() {
         let below = match node {
             Node::Leaf { .. } => None,
@@ -97,9 +97,10 @@ fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
     radii
 }
 
-struct Grouped<'a> {
+/// The set tree of grouped primitives.
+struct GroupSets<'a> {
     cuts: Cuts,
-    /// Nodes of each subtree.
+    /// Number of nodes of each subtree.
     sizes: Vec<u32>,
     packed: &'a PackedTree,
     primitives: &'a Primitives,
@@ -114,14 +115,14 @@ struct Group {
     first_leaf: usize,
 }
 
-impl Grouped<'_> {
+impl GroupSets<'_> {
     fn leaves(&self, group: &Group) -> Range<usize> {
         let count = (self.sizes[group.node as usize] as usize).div_ceil(2);
         group.first_leaf..group.first_leaf + count
     }
 }
 
-impl SetTree for Grouped<'_> {
+impl SetTree for GroupSets<'_> {
     type Set = Group;
 
     fn whole(&self) -> Group {
@@ -146,10 +147,10 @@ impl SetTree for Grouped<'_> {
         groups.collect()
     }
 
-    fn held(&self, group: &Group) -> ChildPoints<'_> {
+    fn child_points(&self, group: &Group) -> ChildPoints<'_> {
         let leaves = self.leaves(group);
         let points = self.points.of(leaves.clone());
-        let axes = if points.len() > MANY {
+        let axes = if points.len() > MAX_FITTED {
             fitted_axes(&few_extremes(points), None)
         } else if leaves.len() == 1 {
             let leaf = self.packed.primitives().entry(leaves.start);
@@ -166,7 +167,7 @@ impl SetTree for Grouped<'_> {
     }
 }
 
-/// Few points, each once.
+/// The points without duplicates; quadratic, for few points.
 fn distinct(points: &[Vec3]) -> Vec<Vec3> {
     let mut kept: Vec<Vec3> = Vec::with_capacity(points.len());
     for point in points {

@@ -1,36 +1,36 @@
-//! The primitives in the order of the leaves, as the kernel's first tests read them.
+//! The primitives in leaf order, packed for the first tests of a primitive pair.
 
 use crate::convex::MAX_CORNERS;
 use crate::lanes::{F64x4, Points64};
 use crate::pose::Vec3;
 use crate::primitive::{Convex, Form};
 
-/// A primitive, and where its outline is if it is a flat polygon of few corners, or its form if it has one.
+/// A primitive, with the index of its outline if it is a flat polygon of at most `MAX_CORNERS` corners, or of its form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedPrimitive {
     pub primitive: u32,
-    /// Where its outline or its form is.
+    /// Index of its outline in `data` or of its form in `forms`; `NONE` without either.
     first: u32,
-    /// 0 for what is no such polygon.
+    /// Number of corners of the outline; 0 without one.
     pub corners: u8,
-    /// The corners are the primitive's vertices, in the same order.
+    /// Whether the corners are the primitive's vertices in the same order.
     pub is_plain: bool,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackedPrimitives {
     entries: Vec<PackedPrimitive>,
-    /// Of each polygon the plane normal . x = offset, then its corners four at a time, coordinates apart: a triangle or a
-    /// quadrangle takes two cache lines.
+    /// For each outline the plane normal . x = offset, then blocks of four corners as x, y and z lanes: a triangle or a
+    /// quadrilateral takes two cache lines.
     data: Vec<F64x4>,
-    /// Of what is no such polygon, and has many vertices or is a box.
+    /// The forms of other primitives that have many vertices or are boxes.
     forms: Vec<Form>,
 }
 
-/// Stands for no form.
+/// The index of an entry without outline or form.
 const NONE: u32 = u32::MAX;
 
-/// The plane of a polygon, and its corners four at a time; the last four are filled up with the first corner.
+/// The plane of a polygon, and its corners in blocks of four; the last block is padded with the first corner.
 pub struct PackedOutline<'a> {
     pub normal: Vec3,
     pub offset: f64,
@@ -73,7 +73,7 @@ impl PackedPrimitives {
         self.entries.push(entry);
     }
 
-    /// Makes room for so many more.
+    /// Reserves memory for `more` primitives.
     pub fn reserve(&mut self, more: usize) {
         self.entries.reserve_exact(more);
     }
@@ -108,7 +108,7 @@ impl PackedPrimitives {
         }
     }
 
-    /// What the vertices of an entry's core are asked by, if they are many or a box's.
+    /// The form that finds support vertices of an entry's core, if it has many vertices or is a box.
     #[inline(always)]
     pub fn form(&self, entry: &PackedPrimitive) -> Option<&Form> {
         match entry.corners {

@@ -1,5 +1,5 @@
-//! The tree as the kernel walks it: eight children a node, oriented boxes in few bits, and the primitives in the order of
-//! the leaves.
+//! The tree that the kernel traverses: up to eight children per node, quantized oriented boxes, and the primitives in leaf
+//! order.
 
 use super::packed_primitives::PackedPrimitives;
 use crate::boxes::{ChildPoints, PackedBox, WideNode, fitted_axes};
@@ -8,16 +8,16 @@ use crate::lanes::{F64x4, Instructions, Lanes8, Points64, each3};
 use crate::pose::Vec3;
 use crate::primitive::{Primitive, Primitives};
 
-/// A node, or a leaf, which is one packed primitive: its place among the children of the node above.
+/// Refers to a node or a leaf (one packed primitive): the index of its parent node, its lane there, and the leaf bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct NodeRef(u32);
 
-/// Marks leaves, among units and children.
+/// The leaf bit of a [`NodeRef`] and of an entry of [`WideNode::children`].
 const LEAF: u32 = 1 << 31;
 
 impl NodeRef {
-    /// As a number, for lanes of them.
+    /// The raw bits, for SIMD lanes of node refs.
     #[inline(always)]
     pub fn number(self) -> u32 {
         self.0
@@ -33,20 +33,20 @@ impl NodeRef {
         self.0 & LEAF != 0
     }
 
-    /// Its lane in the node above.
+    /// Its lane in the parent node.
     #[inline(always)]
     fn lane(self) -> usize {
         (self.0 & 7) as usize
     }
 
-    /// The node above.
+    /// The index of the parent node.
     #[inline(always)]
-    fn above(self) -> usize {
+    fn parent(self) -> usize {
         ((self.0 & !LEAF) >> 3) as usize
     }
 }
 
-/// The units below a node.
+/// The node refs of a node's children.
 #[derive(Clone, Copy, Debug)]
 pub struct Children {
     pub units: [NodeRef; 8],
@@ -56,51 +56,52 @@ pub struct Children {
 /// Lengths are in units of `scale`, a power of two about as large as the body, so that they fit single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedTree {
-    /// The first has one child, the root.
+    /// Parents before children; the first has one child, the root.
     pub(crate) nodes: Vec<WideNode>,
     pub(crate) primitives: PackedPrimitives,
     scale: f64,
     whole: Whole,
-    /// Of a tree of one primitive that is round.
+    /// The core of a tree's only primitive, if that is round.
     core: Option<Box<RoundCore>>,
 }
 
-/// A primitive within a radius of its core, which a box holds much better than the whole.
+/// The core of a round primitive, whose points are within a radius of the core. A box fits the core much tighter than the
+/// whole primitive.
 #[derive(Clone, Debug, PartialEq)]
 struct RoundCore {
-    /// The only box of it.
+    /// Its only box is that of the core.
     node: WideNode,
     radius: f64,
 }
 
 impl RoundCore {
-    /// That of a primitive of space, if it is round, in a tree whose unit is `scale`.
+    /// The core of a spatial primitive, if it is round, in a tree whose unit is `scale`.
     fn of(only: &Primitive, scale: f64) -> Option<Self> {
         let curve = only.shape.curve.as_deref()?;
         if curve.smooth.is_some() || curve.planar {
             return None;
         }
         let points: Vec<Vec3> = only.vertices.iter().map(|v| v / scale).collect();
-        let held = ChildPoints {
+        let core = ChildPoints {
             axes: fitted_axes(&points, None),
             excess: only.shape.deviation / scale,
             points: points.into(),
         };
         Some(Self {
-            node: WideNode::new(&[held]),
+            node: WideNode::new(&[core]),
             radius: curve.radius,
         })
     }
 }
 
-/// The box and the ball of all, in double precision and in the body's units: the box in both meanings of a [`PackedBox`].
+/// The root's box and bounding ball in double precision and the body's units. The box bounds in both senses of [`PackedBox`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whole {
-    /// Side by side the first two axes of the box, its centre, and that of the ball. The third axis is the cross product of
-    /// the first two.
+    /// In four lanes: the first two axes of the box, its centre, and the ball's centre. The third axis is the cross product
+    /// of the first two.
     pub frame: Points64,
     pub half: Vec3,
-    /// No corner is farther from the box's centre.
+    /// An upper bound of the corners' distance from the box's centre.
     pub radius: f64,
     pub ball_radius: f64,
 }
@@ -115,7 +116,7 @@ impl Whole {
 }
 
 impl PackedTree {
-    /// Adds the primitives of a tree's leaves, in their order.
+    /// Adds the primitives of a tree's leaves, in leaf order.
     pub(crate) fn push_leaves(&mut self, subsets: &SubsetTree, primitives: &Primitives) {
         self.primitives.reserve(subsets.nodes.len().div_ceil(2));
         for node in &subsets.nodes {
@@ -126,8 +127,8 @@ impl PackedTree {
         }
     }
 
-    /// The tree of given nodes, and of primitives in the order of its leaves, with a ball around all; `None` if they do not
-    /// make one.
+    /// Assembles a tree from its nodes, the primitives in leaf order and a bounding ball of all; `None` if they do not form
+    /// one tree.
     pub fn from_parts(
         nodes: Vec<WideNode>,
         order: &[u32],
@@ -147,7 +148,7 @@ impl PackedTree {
         })
     }
 
-    /// A tree without nodes, in which lengths suit a ball around all.
+    /// A tree without nodes yet, with the scale for a body inside `ball`.
     pub(crate) fn empty(ball: Ball) -> Self {
         Self {
             nodes: Vec::new(),
@@ -184,12 +185,12 @@ impl PackedTree {
             && node_seen.iter().skip(1).chain(&leaf_seen).all(|&seen| seen)
     }
 
-    /// What a node calls the leaf of a place among the packed primitives.
+    /// The entry in [`WideNode::children`] of the leaf with the packed primitive `place`.
     pub(crate) fn leaf(place: u32) -> u32 {
         place | LEAF
     }
 
-    /// Fills in what follows from the nodes and primitives, of which there may be but one.
+    /// Derives the root's bounds, the round core and the lowest primitives. `only` is the primitive, if the tree has just one.
     pub(crate) fn finish(&mut self, ball: Ball, only: Option<Primitive>) {
         let root = self.bounding_box(self.root());
         let [x, y, _] = root.axes;
@@ -201,7 +202,7 @@ impl PackedTree {
                 F64x4([x, y, center[k] * self.scale, ball.center[k]])
             }),
             half,
-            // The axes are not quite upright.
+            // The axes are orthogonal only to rounding.
             radius: half.norm() * 1.001,
             ball_radius: ball.radius,
         };
@@ -218,7 +219,7 @@ impl PackedTree {
         }
     }
 
-    /// The nodes, each before its children; the first has one child, the root.
+    /// The nodes, parents before children; the first has one child, the root.
     pub fn nodes(&self) -> &[WideNode] {
         &self.nodes
     }
@@ -241,38 +242,38 @@ impl PackedTree {
     }
 
     #[inline(always)]
-    pub fn bounding_box(&self, unit: NodeRef) -> PackedBox {
-        self.nodes[unit.above()].get(unit.lane())
+    pub fn bounding_box(&self, node: NodeRef) -> PackedBox {
+        self.nodes[node.parent()].get(node.lane())
     }
 
     /// The same in lanes (see [`WideNode::in_lanes`]).
     #[inline(always)]
-    pub fn box_in_lanes<I: Instructions>(&self, lanes: I, unit: NodeRef) -> [Lanes8<I>; 2] {
-        self.nodes[unit.above()].in_lanes(lanes, unit.lane())
+    pub fn box_in_lanes<I: Instructions>(&self, lanes: I, node: NodeRef) -> [Lanes8<I>; 2] {
+        self.nodes[node.parent()].in_lanes(lanes, node.lane())
     }
 
-    /// That of a unit's core, where the tree has one (see [`PackedTree::core_radius`]).
+    /// The same for the round core, if the tree has one (see [`PackedTree::core_radius`]).
     #[inline(always)]
-    pub fn core_in_lanes<I: Instructions>(&self, lanes: I, unit: NodeRef) -> [Lanes8<I>; 2] {
+    pub fn core_in_lanes<I: Instructions>(&self, lanes: I, node: NodeRef) -> [Lanes8<I>; 2] {
         match &self.core {
             Some(core) => core.node.in_lanes(lanes, 0),
-            None => self.box_in_lanes(lanes, unit),
+            None => self.box_in_lanes(lanes, node),
         }
     }
 
-    /// How far around its core the only primitive reaches, where the core has a box of its own; else 0.
+    /// The radius of the only primitive around its core, if the core has a box of its own; else 0.
     #[inline(always)]
     pub fn core_radius(&self) -> f64 {
         self.core.as_ref().map_or(0.0, |core| core.radius)
     }
 
-    /// About the logarithm of a unit's size: `SIZE_STEPS` more for twice the size.
+    /// A rounded logarithm of a box's size: `SIZE_STEPS` more for twice the size.
     #[inline(always)]
-    pub fn size_code(&self, unit: NodeRef) -> i32 {
-        self.nodes[unit.above()].size_code(unit.lane())
+    pub fn size_code(&self, node: NodeRef) -> i32 {
+        self.nodes[node.parent()].size_code(node.lane())
     }
 
-    /// The node that a unit is.
+    /// The index of an interior node.
     #[inline(always)]
     pub fn index(&self, node: NodeRef) -> usize {
         self.target(node) as usize
@@ -289,7 +290,7 @@ impl PackedTree {
         NodeRef((index as u32) << 3 | lane as u32 | leaf)
     }
 
-    /// The children of a node, as [`PackedTree::child`].
+    /// The children of a node as node refs, as by [`PackedTree::child`].
     #[inline(always)]
     pub fn children(&self, index: usize) -> Children {
         let node = &self.nodes[index];
@@ -303,35 +304,35 @@ impl PackedTree {
         }
     }
 
-    /// The place of a leaf's primitive among the packed ones.
+    /// The index of a leaf's primitive among the packed ones.
     #[inline(always)]
     pub fn place(&self, leaf: NodeRef) -> u32 {
         self.target(leaf) & !LEAF
     }
 
-    /// The lowest primitive in a unit.
+    /// The lowest primitive at or below a node.
     #[inline(always)]
-    pub fn lowest(&self, unit: NodeRef) -> u32 {
-        if unit.is_leaf() {
-            self.primitives.entry(self.place(unit) as usize).primitive
+    pub fn lowest(&self, node: NodeRef) -> u32 {
+        if node.is_leaf() {
+            self.primitives.entry(self.place(node) as usize).primitive
         } else {
-            self.nodes[self.index(unit)].lowest
+            self.nodes[self.index(node)].lowest
         }
     }
 
     #[inline(always)]
-    fn target(&self, unit: NodeRef) -> u32 {
-        self.nodes[unit.above()].children[unit.lane()]
+    fn target(&self, node: NodeRef) -> u32 {
+        self.nodes[node.parent()].children[node.lane()]
     }
 
-    /// Bytes of memory it takes.
+    /// Bytes of memory of the tree.
     pub fn bytes(&self) -> usize {
         let core = self.core.as_ref().map_or(0, |_| size_of::<RoundCore>());
         size_of_val(&self.nodes[..]) + self.primitives.bytes() + core
     }
 }
 
-/// A power of two, at least the given length and at most twice it, but for lengths near the ends of the numbers.
+/// A power of two, at least the given length and at most twice it; clamped to 1e-300 and 1e300.
 pub fn power_of_two(length: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     let below = f64::from_bits(length.to_bits() & EXPONENT);

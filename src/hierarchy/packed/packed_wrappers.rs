@@ -1,4 +1,4 @@
-//! The packed tree whose boxes are fitted to wrappers: what they hold is what queries ask, as the report compares them.
+//! Builds the packed tree with boxes fitted to wrappers, so that queries traverse the kind of wrapper that was asked for.
 
 use super::eight_below::Cuts;
 use super::packed_tree::PackedTree;
@@ -10,7 +10,7 @@ use crate::hierarchy::{Node, Progress};
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 
-/// Packs the tree of wrappers over primitives.
+/// Packs a wrapper tree over the primitives.
 pub fn pack_wrappers(
     primitives: &Primitives,
     tree: &WrapperTree,
@@ -19,7 +19,7 @@ pub fn pack_wrappers(
 ) -> Result<PackedTree> {
     let mut packed = PackedTree::empty(tree.ball());
     packed.push_leaves(tree.subsets(), primitives);
-    let wrapped = Wrapped {
+    let wrapped = WrapperSets {
         cuts: Cuts::of(tree.subsets(), |node| tree.radius(node)),
         primitives,
         tree,
@@ -30,14 +30,15 @@ pub fn pack_wrappers(
     Ok(packed)
 }
 
-struct Wrapped<'a> {
+/// The set tree of wrappers.
+struct WrapperSets<'a> {
     cuts: Cuts,
     primitives: &'a Primitives,
     tree: &'a WrapperTree,
     unit: f64,
 }
 
-impl SetTree for Wrapped<'_> {
+impl SetTree for WrapperSets<'_> {
     type Set = u32;
 
     fn whole(&self) -> u32 {
@@ -52,7 +53,7 @@ impl SetTree for Wrapped<'_> {
         self.cuts.below(self.tree.subsets(), *node)
     }
 
-    fn held(&self, node: &u32) -> ChildPoints<'_> {
+    fn child_points(&self, node: &u32) -> ChildPoints<'_> {
         let wrapper = self.tree.wrapper(*node);
         let points: Vec<Vec3> = wrapper.corners.iter().map(|p| p * self.unit).collect();
         let polygon = match self.tree.node(*node) {

@@ -1,9 +1,9 @@
-//! A nearly least sphere around points (Bădoiu and Clarkson 2003: steps towards the farthest point).
+//! A nearly smallest enclosing sphere of points, by steps towards the farthest point (Bădoiu and Clarkson 2003).
 
 use crate::boxes::Extent;
 use crate::pose::Vec3;
 
-/// The centre of a sphere around the points whose radius is within a few percent of the least.
+/// The centre of an enclosing sphere whose radius is within a few percent of the smallest.
 pub fn bounding_sphere(points: &[Vec3]) -> Vec3 {
     let farthest = |center: &Vec3| -> (f64, Vec3) {
         let measured = points.iter().map(|p| ((p - center).norm_squared(), *p));
@@ -14,7 +14,7 @@ pub fn bounding_sphere(points: &[Vec3]) -> Vec3 {
             },
         )
     };
-    // The middle of the box is the report's centre; it is the best for many shapes, and never far off.
+    // The centre of the box is the report's choice; it is the best for many shapes, and never far off.
     let mut center = Extent::of(points).center();
     let mut best = (f64::INFINITY, center);
     let steps = if points.len() > 4096 { 8 } else { 24 };

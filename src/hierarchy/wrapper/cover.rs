@@ -1,4 +1,4 @@
-//! Wrappers around points: hulls, boxes and spheres that leave no point out, whatever rounding does.
+//! Builds wrappers around points: hulls, boxes and spheres that contain every point in spite of rounding.
 
 use std::cmp::Ordering;
 
@@ -9,20 +9,20 @@ use crate::pose::Vec3;
 use crate::primitive::{checked_hull, frame_of};
 use crate::tolerance;
 
-/// So few points are their own hull: what a hull would leave out costs less than finding it.
-const FEW: usize = 16;
+/// Up to this many points are all used as corners: a few points inside the hull cost less than computing the hull.
+const MAX_UNHULLED: usize = 16;
 
 /// The corners of a wrapper around points.
 pub enum Corners {
     /// All the points.
     Points,
-    /// Those of the points that are corners of their hull.
+    /// The vertices of the points' hull.
     Hull(Vec<Vec3>),
-    /// Corners of a box, or the centre of a sphere.
+    /// New points: the corners of a box, or the centre of a sphere.
     New(Vec<Vec3>),
 }
 
-/// A wrapper but for its corners.
+/// A wrapper without its corners (see [`Wrapper`](super::Wrapper)).
 #[derive(Clone, Copy, Debug)]
 pub struct Cover {
     pub excess: f64,
@@ -31,7 +31,7 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// With a sphere around all the points; the corners' hull grown by `excess` covers them.
+    /// Adds a bounding sphere of the points. The hull of the wrapper's corners, grown by `excess`, covers the points.
     fn around(points: &[Vec3], extent: &Extent, excess: f64) -> Self {
         let center = extent.center();
         Self {
@@ -41,7 +41,7 @@ impl Cover {
         }
     }
 
-    /// The sphere of a given centre as its own wrapper.
+    /// A sphere as a wrapper: its corner is the centre, its excess the radius.
     fn sphere(center: Vec3, radius: f64) -> Self {
         Self {
             excess: radius,
@@ -50,17 +50,17 @@ impl Cover {
         }
     }
 
-    /// The points' convex hull, or an oriented box where it has more than `vertex_limit` vertices. `extent` is the points'.
+    /// The points' convex hull, or an oriented box if the hull has more than `vertex_limit` vertices. `extent` is the points'.
     pub fn hull(points: &[Vec3], extent: &Extent, vertex_limit: usize) -> (Self, Corners) {
-        if points.len() <= FEW.min(vertex_limit) {
+        if points.len() <= MAX_UNHULLED.min(vertex_limit) {
             return (Self::around(points, extent, 0.0), Corners::Points);
         }
         let extremes = extremes(points);
         if extremes.len() <= vertex_limit && !has_more_vertices(points, vertex_limit) {
-            // An excess of a millionth of the size hardly loosens the bound; more, and the box is the better wrapper.
-            let tolerated = 1e-6 * extent.diameter();
-            let hull = checked_hull(points, tolerated, vertex_limit);
-            if let Some(hull) = hull.filter(|hull| hull.excess <= tolerated) {
+            // An excess of 1e-6 of the diameter hardly loosens the bound; above that the box is the better wrapper.
+            let max_excess = 1e-6 * extent.diameter();
+            let hull = checked_hull(points, max_excess, vertex_limit);
+            if let Some(hull) = hull.filter(|hull| hull.excess <= max_excess) {
                 let corners = hull.vertices.iter().map(|&i| points[i as usize]).collect();
                 let excess = hull.excess + rounding(extent);
                 return (Self::around(points, extent, excess), Corners::Hull(corners));
@@ -83,20 +83,21 @@ impl Cover {
         (cover, Corners::New(corners))
     }
 
+    /// The axis-aligned box itself.
     pub fn aligned_box(extent: &Extent) -> (Self, Corners) {
         let corners = extent.corners();
         let cover = Self::around(&corners, extent, 0.0);
         (cover, Corners::New(corners.into()))
     }
 
-    /// A nearly least sphere around the points.
+    /// A nearly smallest enclosing sphere of the points.
     pub fn tight_sphere(points: &[Vec3]) -> (Self, Corners) {
         let center = bounding_sphere(points);
         let cover = Self::sphere(center, radius_around(points, &center));
         (cover, Corners::New(vec![center]))
     }
 
-    /// The sphere around two spheres.
+    /// The smallest sphere around two spheres.
     pub fn merged_sphere(a: &Self, b: &Self) -> (Self, Corners) {
         let apart = (b.center - a.center).norm();
         let cover = if apart + b.radius <= a.radius {
@@ -113,7 +114,7 @@ impl Cover {
         (cover, Corners::New(vec![cover.center]))
     }
 
-    /// The same grown by `excess`.
+    /// The same wrapper grown by `excess`.
     pub fn grown(mut self, excess: f64) -> Self {
         self.excess += excess;
         self.radius += excess;
@@ -121,18 +122,19 @@ impl Cover {
     }
 }
 
-/// Whether the hull of many points shows more than `limit` vertices once it is stretched to unit extents: few directions
-/// meet those of a shallow cap, and the hull of thousands is dear to find only to be refused.
+/// Whether the points have more than `limit` extreme points after stretching to unit extents. Then the hull need not be
+/// computed, which is expensive for thousands of vertices. Without stretching, few directions hit the vertices of a
+/// shallow cap.
 fn has_more_vertices(points: &[Vec3], limit: usize) -> bool {
     if points.len() <= 2 * limit {
         return false;
     }
     let (center, stretch) = frame_of(points);
-    let round: Vec<Vec3> = points.iter().map(|p| stretch * (p - center)).collect();
-    extremes(&round).len() > limit
+    let stretched: Vec<Vec3> = points.iter().map(|p| stretch * (p - center)).collect();
+    extremes(&stretched).len() > limit
 }
 
-/// The radius of a sphere around the points, rounded outwards.
+/// The radius of the enclosing sphere at `center`, rounded outwards.
 fn radius_around(points: &[Vec3], center: &Vec3) -> f64 {
     let farthest = points
         .iter()
@@ -141,23 +143,23 @@ fn radius_around(points: &[Vec3], center: &Vec3) -> f64 {
     outwards(farthest.sqrt(), center)
 }
 
-/// A distance from `center`, with what its computation may have lost.
+/// A distance from `center` plus the error bound of its computation.
 pub fn outwards(distance: f64, center: &Vec3) -> f64 {
     distance + tolerance::WRAPPER_ERROR * (distance + center.amax())
 }
 
-/// What rounding can hide of the distance of a point in the box from a hull or another box.
+/// Bounds the rounding error in the distance of a point of the box from a hull or another box.
 fn rounding(extent: &Extent) -> f64 {
     tolerance::WRAPPER_ERROR * extent.low.amax().max(extent.high.amax())
 }
 
-/// The order of points in lists that are merged.
+/// The lexicographic order of points in the lists that [`merge_sorted`] merges.
 pub fn by_coordinates(p: &Vec3, q: &Vec3) -> Ordering {
     let by_x = p.x.total_cmp(&q.x);
     by_x.then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z))
 }
 
-/// Two sorted lists as one, each point once.
+/// Merges two sorted lists without duplicates into one.
 pub fn merge_sorted(a: &[Vec3], b: &[Vec3]) -> Vec<Vec3> {
     let mut merged = Vec::with_capacity(a.len() + b.len());
     let (mut i, mut j) = (0, 0);

@@ -7,7 +7,7 @@ use crate::boxes::Extent;
 use crate::pose::Vec3;
 use crate::primitive::convex_polyhedron;
 
-/// Rings and sectors of a sphere that is drawn.
+/// Rings and sectors of the polyhedron that a sphere is drawn as.
 const RINGS: usize = 12;
 const SECTORS: usize = 24;
 
@@ -44,12 +44,12 @@ impl Wrapper<'_> {
                 vertices: hull.vertices,
                 faces: hull.faces.into_iter().map(|face| face.vertices).collect(),
             },
-            // A hull thinner than can be certified is drawn as its box.
+            // A hull too thin to be checked is drawn as its box.
             Err(_) => aligned_box(&self.extent()),
         }
     }
 
-    /// The volume, and the area of the surface; a flat wrapper has two sides.
+    /// The volume and the surface area; a flat wrapper counts both sides.
     pub fn volume_and_area(&self) -> (f64, f64) {
         if self.is_sphere() {
             let r = self.excess;
@@ -60,7 +60,7 @@ impl Wrapper<'_> {
 }
 
 impl Surface {
-    /// The volume inside and the area of all faces, of a flat surface on both sides.
+    /// The volume inside and the area of all faces; a single face counts both sides.
     pub fn volume_and_area(&self) -> (f64, f64) {
         let Some(&origin) = self.vertices.first() else {
             return (0.0, 0.0);

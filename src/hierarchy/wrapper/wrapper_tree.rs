@@ -31,7 +31,7 @@ pub struct Frame {
     pub radius: f64,
 }
 
-/// Wrappers one after the other.
+/// A run of consecutive wrappers.
 #[derive(Default)]
 struct Packed {
     frames: Vec<Frame>,
@@ -50,7 +50,7 @@ impl Packed {
         self.corners.extend_from_slice(corners);
     }
 
-    /// Appends the wrappers of another, last first.
+    /// Appends the wrappers of another run, last first.
     fn append_backwards(&mut self, other: &Packed) {
         for frame in other.frames.iter().rev() {
             let cover = Cover {
@@ -66,18 +66,18 @@ impl Packed {
     }
 }
 
-/// What a finished node hands up to its parent.
+/// What the wrapper of a parent needs from a child.
 struct FinishedNode {
     cover: Cover,
-    /// Sorted points that stand for all below, and how far those may lie outside the points' hull.
+    /// Sorted points whose hull, grown by `inherited`, bounds the subtree.
     points: Vec<Vec3>,
     inherited: f64,
     extent: Extent,
 }
 
 impl WrapperTree {
-    /// Builds the wrappers from the leaves up, over groups. `points_of` tells the points whose hull holds a leaf, and how
-    /// far rounding may have left what the leaf stands for outside that hull.
+    /// Builds the wrappers bottom-up. `points_of` gives the points whose hull bounds a leaf's part, and how far rounding may
+    /// leave the part outside that hull.
     pub fn build(
         groups: Groups,
         points_of: impl Fn(u32) -> (Vec<Vec3>, f64) + Sync,
@@ -87,8 +87,8 @@ impl WrapperTree {
         let Groups { subsets, pieces } = groups;
         let threads = options.thread_count();
         let sizes = subsets.sizes();
-        // Subtrees small enough to be shared out; the nodes above them follow. A node's wrapper depends on its subtree
-        // alone, so that the cut does not show.
+        // Small subtrees are the tasks of the threads; the nodes above them follow. A node's wrapper depends on its subtree
+        // alone, so the result does not depend on the split into tasks.
         let task_size = (subsets.nodes.len() / (16 * threads)).max(512);
         let mut tasks = Vec::new();
         let mut upper = Vec::new();
@@ -110,8 +110,8 @@ impl WrapperTree {
             }
             match (subsets.nodes[node], children) {
                 (Node::Leaf { primitive }, _) => {
-                    let (points, doubt) = points_of(primitive);
-                    wrap_leaf(points, doubt, &options, packed)
+                    let (points, slack) = points_of(primitive);
+                    wrap_leaf(points, slack, &options, packed)
                 }
                 (_, Some(children)) => wrap_children(children, &options, packed),
                 (_, None) => unreachable!("an interior node has children"),
@@ -121,7 +121,7 @@ impl WrapperTree {
             let from = tasks[t];
             let mut stack: Vec<FinishedNode> = Vec::new();
             let mut packed = Packed::default();
-            // Backwards, children come before their parents, and the first child last.
+            // In reverse order children come before their parents, the first child last.
             for node in (from..from + sizes[from] as usize).rev() {
                 let children = match subsets.nodes[node] {
                     Node::Leaf { .. } => None,
@@ -131,28 +131,28 @@ impl WrapperTree {
             }
             (packed, stack.pop())
         })?;
-        let mut waiting: HashMap<usize, FinishedNode> = HashMap::new();
+        let mut parentless: HashMap<usize, FinishedNode> = HashMap::new();
         let mut packed: Vec<(usize, Packed)> = Vec::new();
         for (&from, (wrappers, root)) in tasks.iter().zip(done) {
             packed.push((from, wrappers));
-            waiting.extend(root.map(|root| (from, root)));
+            parentless.extend(root.map(|root| (from, root)));
         }
         let count = upper.len();
         for (i, node) in upper.into_iter().rev().enumerate() {
             let children = match subsets.nodes[node] {
                 Node::Leaf { .. } => None,
                 Node::Interior { children } => {
-                    let [a, b] = children.map(|child| waiting.remove(&(child as usize)));
+                    let [a, b] = children.map(|child| parentless.remove(&(child as usize)));
                     a.zip(b).map(<[_; 2]>::from)
                 }
             };
             let mut one = Packed::default();
-            waiting.insert(node, finish(node, children, &mut one));
+            parentless.insert(node, finish(node, children, &mut one));
             packed.push((node, one));
             progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
         }
-        drop(waiting);
-        // In the order of nodes: which is that of the first nodes of the runs, each backwards.
+        drop(parentless);
+        // Node order: the runs sorted by first node, each run reversed.
         packed.sort_unstable_by_key(|(first, _)| *first);
         let mut all = Packed::default();
         all.frames.reserve_exact(subsets.nodes.len());
@@ -170,7 +170,7 @@ impl WrapperTree {
         })
     }
 
-    /// A tree from what is in a file. The caller has checked that it is sound.
+    /// Assembles a tree that was read from a file. The caller has checked that it is valid.
     pub fn from_parts(
         subsets: SubsetTree,
         frames: Vec<Frame>,
@@ -215,7 +215,7 @@ impl WrapperTree {
         }
     }
 
-    /// The ball around all.
+    /// The bounding ball of the body.
     pub fn ball(&self) -> Ball {
         let root = self.wrapper(0);
         Ball {
@@ -236,16 +236,16 @@ impl WrapperTree {
     }
 }
 
-/// `doubt` says how far the leaf's part may lie outside the points' hull.
+/// `slack` is how far the leaf's part may lie outside the points' hull.
 fn wrap_leaf(
     mut points: Vec<Vec3>,
-    doubt: f64,
+    slack: f64,
     options: &HierarchyOptions,
     packed: &mut Packed,
 ) -> FinishedNode {
     points.sort_unstable_by(by_coordinates);
     points.dedup();
-    wrap(Extent::of(&points), points, doubt, None, options, packed)
+    wrap(Extent::of(&points), points, slack, None, options, packed)
 }
 
 fn wrap_children(
@@ -260,7 +260,7 @@ fn wrap_children(
     wrap(extent, points, inherited, covers, options, packed)
 }
 
-/// Wraps points, which lie no farther than `inherited` from all they stand for.
+/// Wraps the geometry of a node, which lies within `inherited` of the points' hull.
 fn wrap(
     extent: Extent,
     mut points: Vec<Vec3>,
@@ -276,12 +276,12 @@ fn wrap(
         (WrapperKind::MergedSphere, Some([a, b])) => Cover::merged_sphere(a, b),
         (WrapperKind::TightSphere | WrapperKind::MergedSphere, _) => Cover::tight_sphere(&points),
     };
-    // Children's spheres are grown already.
+    // The children's spheres have been grown already.
     let merged = options.wrapper == WrapperKind::MergedSphere && children.is_some();
     let cover = cover.grown(if merged { 0.0 } else { inherited });
     match corners {
         Corners::Points => packed.push(&cover, &points),
-        // A hull's vertices stand for all below from here on; a box's corners would loosen the hulls above.
+        // Above this node the hull's vertices replace the points; a box's corners would loosen the hulls above.
         Corners::Hull(corners) => {
             packed.push(&cover, &corners);
             points = corners;
@@ -294,7 +294,7 @@ fn wrap(
         options.wrapper,
         WrapperKind::AlignedBox | WrapperKind::MergedSphere
     ) {
-        // These need no points above the leaves.
+        // These wrappers need no points above the leaves.
         points = Vec::new();
     }
     FinishedNode {

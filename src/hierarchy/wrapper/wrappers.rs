@@ -1,4 +1,4 @@
-//! The wrapper tree of a body, which pictures, covers and whoever looks at single nodes read.
+//! The wrapper tree of a body, for drawing, covers and access to single nodes; queries use the packed tree.
 
 use std::borrow::Cow;
 use std::sync::OnceLock;
@@ -12,13 +12,13 @@ use crate::hierarchy::{
 };
 use crate::primitive::Primitives;
 
-/// Made when the body was built where the boxes that queries walk are fitted to them; else when they are first asked for:
-/// queries do without, and they take several times the time and the memory of all else.
+/// The wrappers of a body. If the packed boxes are fitted to them they are built with the body, otherwise on first use:
+/// queries do not need them, and they take several times the time and memory of everything else.
 #[derive(Debug)]
 pub enum Wrappers {
     Made(Box<WrapperTree>),
     OnDemand {
-        /// `None` for a cloud of points, whose groups are found anew.
+        /// `None` for a point cloud, whose groups are recomputed.
         groups: Option<Groups>,
         options: HierarchyOptions,
         tree: OnceLock<Box<WrapperTree>>,
@@ -34,17 +34,17 @@ impl Wrappers {
         }
     }
 
-    /// Those of a cloud.
+    /// The wrappers of a point cloud, built on first use.
     pub fn of_cloud(options: &HierarchyOptions) -> Self {
         Self::on_demand(None, options)
     }
 
-    /// Hulls over a sound tree whose leaves are primitives.
+    /// Hulls over a valid tree whose leaves are primitives, built on first use.
     pub fn of_groups(groups: Groups, options: &HierarchyOptions) -> Self {
         Self::on_demand(Some(groups), options)
     }
 
-    /// The tree over the body's primitives.
+    /// The tree over the body's primitives; built here if this is the first use.
     pub fn tree(&self, primitives: &Primitives) -> &WrapperTree {
         match self {
             Self::Made(tree) => tree,
@@ -74,8 +74,8 @@ impl Wrappers {
         }
     }
 
-    /// What the hierarchy is like; where its wrappers were not made with it, by the boxes of the primitives along the axes of
-    /// coordinates. The bytes are those of groups and wrappers that are there.
+    /// The statistics of the hierarchy; if its wrappers are built on demand, from axis-aligned boxes of the primitives. The
+    /// bytes are those of the groups and of the wrappers built so far.
     pub fn statistics(&self, primitives: &Primitives) -> TreeStatistics {
         match self {
             Self::Made(tree) => tree.statistics(),
@@ -84,11 +84,11 @@ impl Wrappers {
                 options,
                 tree,
             } => {
-                let kept = groups.as_ref().map_or(0, Groups::bytes);
+                let group_bytes = groups.as_ref().map_or(0, Groups::bytes);
                 let groups = groups_of(groups.as_ref(), primitives, options);
                 TreeStatistics {
                     pieces: groups.pieces.len() as u64,
-                    bytes: (kept + tree.get().map_or(0, |tree| tree.bytes())) as u64,
+                    bytes: (group_bytes + tree.get().map_or(0, |tree| tree.bytes())) as u64,
                     ..of_extents(&groups.subsets, &extents(&groups, primitives))
                 }
             }
@@ -97,11 +97,11 @@ impl Wrappers {
 }
 
 fn groups_of<'a>(
-    kept: Option<&'a Groups>,
+    known: Option<&'a Groups>,
     primitives: &Primitives,
     options: &HierarchyOptions,
 ) -> Cow<'a, Groups> {
-    match kept {
+    match known {
         Some(groups) => Cow::Borrowed(groups),
         None => Cow::Owned(regroup(primitives, options)),
     }
@@ -112,12 +112,12 @@ fn wrap(groups: Groups, primitives: &Primitives, options: &HierarchyOptions) -> 
         let primitive = primitives.get(primitive as usize);
         (primitive.bounding_points().collect(), 0.0)
     };
-    let mut unheard = |_| Ok(());
-    let tree = WrapperTree::build(groups, points_of, options, &mut Progress::new(&mut unheard));
+    let mut ignored = |_| Ok(());
+    let tree = WrapperTree::build(groups, points_of, options, &mut Progress::new(&mut ignored));
     tree.expect("nothing ends the work")
 }
 
-/// The boxes of all nodes along the axes of coordinates.
+/// The axis-aligned boxes of all nodes.
 fn extents(groups: &Groups, primitives: &Primitives) -> Vec<Extent> {
     let nodes = &groups.subsets.nodes;
     let mut extents = vec![Extent::default(); nodes.len()];
