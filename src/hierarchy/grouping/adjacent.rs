@@ -1,4 +1,4 @@
-//! Eligibility by adjacency (§3.2.5): bodies that own edges of one family.
+//! Eligibility by adjacency (§3.2.5): bodies may merge if they own edges of one family, which are edges at the same place.
 
 use foldhash::{HashMap, HashMapExt};
 
@@ -7,23 +7,23 @@ use super::forest::Forest;
 use super::greedy_clustering::{Eligibility, Limits};
 use crate::pose::Vec3;
 
-/// Adjacent bodies this many times smaller are left to the basic algorithm, which lets them merge among themselves: a
-/// plate would take in its thousands of rivets one by one.
+/// The largest ratio of the diameters of two bodies that merge here. Smaller bodies are left to the basic algorithm, which
+/// merges them among themselves; otherwise a plate would take in its thousands of rivets one by one.
 const LARGEST_BALANCE: f64 = 4.0;
 
-/// Which bodies are adjacent. The relation is given between the leaves and carried up as bodies merge; it may be any
-/// relation, edge families are one.
+/// Which bodies are adjacent. The relation is given between leaves, and parents inherit it from their children. It may be
+/// any relation; shared edges are one.
 pub struct Adjacent {
     cost: Cost,
-    /// The bodies next to each body when it was made; their owners stand for them later.
+    /// The bodies adjacent to each body when it was created; after merges their owners replace them.
     neighbours: Vec<Vec<u32>>,
-    /// Towards the parentless body that contains each body.
+    /// Union-find links to the parentless body that contains each body.
     owners: Vec<u32>,
     active: Vec<bool>,
 }
 
 impl Adjacent {
-    /// From pairs of adjacent leaves.
+    /// Builds the relation from pairs of adjacent leaves.
     pub fn new(cost: Cost, leaves: usize, siblings: &[[u32; 2]]) -> Self {
         let mut neighbours = vec![Vec::new(); leaves];
         for &[a, b] in siblings {
@@ -45,7 +45,7 @@ impl Adjacent {
         body
     }
 
-    /// The owner, with the way to it shortened.
+    /// The owner, with path compression.
     fn find(&mut self, body: u32) -> u32 {
         let owner = self.owner(body);
         let mut at = body;
@@ -113,8 +113,8 @@ impl Eligibility for Adjacent {
     }
 }
 
-/// The sibling pairs of parts that share edges: both vertices have the same coordinates. In a family of many edges each is
-/// the sibling of the next, not of all. `edges` tells the edges of a part.
+/// The pairs of parts that share an edge: both ends have the same coordinates. If many parts share an edge, each is paired
+/// with the next only. `edges` visits the edges of a part.
 pub fn sibling_pairs(
     parts: impl Iterator<Item = u32>,
     edges: impl Fn(u32, &mut dyn FnMut([Vec3; 2])),

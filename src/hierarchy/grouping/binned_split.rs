@@ -1,4 +1,4 @@
-//! The top-down builder: splits where a binned surface-area heuristic is least (Goldsmith and Salmon 1987; Wald 2007).
+//! The top-down builder: splits by a binned surface-area heuristic (Goldsmith and Salmon 1987; Wald 2007).
 
 use std::ops::Range;
 
@@ -8,12 +8,13 @@ use crate::error::Result;
 use crate::hierarchy::{Progress, parallel};
 use crate::pose::Vec3;
 
+/// Number of bins per axis.
 const BINS: usize = 16;
 
-/// Sets larger than this are split before the work is shared out.
+/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads.
 const TASK: usize = 4096;
 
-/// A subtree not yet in the forest: a body, or an index of a pair of them.
+/// A subtree not yet in the forest: a body, or the index of a pair of branches.
 #[derive(Clone, Copy)]
 pub enum Branch {
     Body(u32),
@@ -22,38 +23,38 @@ pub enum Branch {
 
 /// Sets of bodies, and the tree over them.
 pub struct Cut {
-    /// Where in the list of bodies each set begins and ends, and how many levels are left for the tree below it.
+    /// The range of each set in the list of bodies, and how many levels are left for the tree below it.
     pub sets: Vec<(Range<usize>, usize)>,
-    /// The root; a body is the number of a set.
+    /// The root; a `Body` is here the index of a set.
     pub root: Branch,
-    /// Each after those that it is of.
+    /// Pairs of branches, children before parents.
     pub pairs: Vec<[Branch; 2]>,
 }
 
-/// Orders bodies into sets of at most `largest`, so that the tree over all gets no more than 2 log2 N levels.
+/// Orders bodies into sets of at most `largest`, such that the tree over all bodies has at most 2 log2 N levels.
 pub fn cut(forest: &Forest, bodies: &mut [u32], largest: usize) -> Cut {
     let levels = levels_for(bodies.len());
     let (mut sets, mut pairs) = (Vec::new(), Vec::new());
-    let mut cut_whole = Cutter {
+    let mut cutter = Cutter {
         forest,
         largest,
         pairs: &mut pairs,
         sets: &mut sets,
     };
-    let root = cut_whole.cut(bodies, 0, levels);
+    let root = cutter.cut(bodies, 0, levels);
     Cut { sets, root, pairs }
 }
 
-/// Builds a tree over the bodies from the top; returns its root.
+/// Builds a tree over the bodies top-down; returns its root.
 ///
-/// No more than 2 log2 N levels: where the heuristic would lead deeper, sets are halved at the median.
+/// The tree has at most 2 log2 N levels: where the heuristic would exceed that, sets are split at the median.
 pub fn split(
     forest: &mut Forest,
     mut bodies: Vec<u32>,
     threads: usize,
     progress: &mut Progress,
 ) -> Result<u32> {
-    // Large sets first, so that the rest can be shared out.
+    // Large sets first; the sets that remain are split in parallel.
     let upper = cut(forest, &mut bodies, TASK);
     progress.at(0.3)?;
     let shared = &*forest;
@@ -75,30 +76,30 @@ pub fn split(
     }))
 }
 
-/// The same for few bodies, under `levels` more levels, which must be enough.
+/// The same on one thread, with at most `levels` levels below the root, which must be enough.
 pub fn split_within(forest: &mut Forest, mut bodies: Vec<u32>, levels: usize) -> u32 {
     let mut pairs = Vec::new();
     let root = split_whole(forest, &mut bodies, levels, &mut pairs);
     merge_all(forest, root, &pairs, &|body| body)
 }
 
-/// Enters pairs into the forest; `named` tells the body a branch stands for.
+/// Adds the pairs to the forest and returns the root; `body_of` maps the index in a `Branch::Body` to a body.
 fn merge_all(
     forest: &mut Forest,
     root: Branch,
     pairs: &[[Branch; 2]],
-    named: &dyn Fn(u32) -> u32,
+    body_of: &dyn Fn(u32) -> u32,
 ) -> u32 {
-    let mut made: Vec<u32> = Vec::with_capacity(pairs.len());
-    let body = |branch: Branch, made: &[u32]| match branch {
-        Branch::Body(body) => named(body),
-        Branch::Pair(i) => made[i as usize],
+    let mut merged: Vec<u32> = Vec::with_capacity(pairs.len());
+    let body = |branch: Branch, merged: &[u32]| match branch {
+        Branch::Body(body) => body_of(body),
+        Branch::Pair(i) => merged[i as usize],
     };
     for pair in pairs {
-        let [a, b] = pair.map(|branch| body(branch, &made));
-        made.push(forest.merge(a, b));
+        let [a, b] = pair.map(|branch| body(branch, &merged));
+        merged.push(forest.merge(a, b));
     }
-    body(root, &made)
+    body(root, &merged)
 }
 
 struct Cutter<'a> {
@@ -140,7 +141,8 @@ fn split_whole(
     Branch::Pair((pairs.len() - 1) as u32)
 }
 
-/// Orders the members into two sets that both fit under `levels` more levels; returns the size of the first.
+/// Partitions the members into two sets, each of which fits into one level fewer than `levels`; returns the size of the
+/// first.
 fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
     let centers = Extent::of(&[forest.center(members[0])]);
     let centers = members.iter().fold(centers, |all, &i| {
@@ -193,7 +195,7 @@ fn partition(forest: &Forest, members: &mut [u32], levels: usize) -> usize {
     }
     match best {
         Some((_, axis, k, left)) => {
-            // Stable, so that the order is the same on every machine.
+            // A stable partition, so that the order is the same on every machine.
             let goes_right = |&body: &u32| bin(axis, &forest.center(body)) >= k;
             let (first, second): (Vec<u32>, Vec<u32>) =
                 members.iter().partition(|&body| !goes_right(body));
@@ -221,7 +223,7 @@ fn joined(a: (usize, Option<Extent>), b: (usize, Option<Extent>)) -> (usize, Opt
     (a.0 + b.0, extent)
 }
 
-/// The most levels below the root of a tree with no more than 2 log2 n levels.
+/// The largest number of levels below the root in a tree of at most 2 log2 n levels.
 pub fn levels_for(bodies: usize) -> usize {
     (2.0 * (bodies as f64).log2() - 1.0 + 1e-9).max(0.0) as usize
 }

@@ -1,4 +1,4 @@
-//! Edge-adjacent polygons that bound a convex part of a closed body (§3.4).
+//! Finds edge-adjacent polygons that bound a convex part of a closed body (§3.4).
 
 use super::binned_split::{levels_for, split_within};
 use super::coplanar_pieces::FlatPiece;
@@ -11,14 +11,15 @@ use crate::pose::Vec3;
 use crate::primitive::{Convex, convex_polyhedron};
 use crate::tolerance;
 
-/// A patch has at most so many faces: each new one is compared with all, and its hull with all it might swallow.
+/// The most faces of a patch: each new face is compared with all, and the hull with every primitive it might contain.
 const MAX_FACES: usize = 512;
 
-/// A polygon reaches into a hull if some of it lies deeper than this times the body's diameter.
+/// A primitive intrudes into a hull if some of it lies deeper than this times the body's diameter.
 const DEPTH: f64 = 1e-9;
 
-/// Joins flat pieces into patches whose faces are faces of their common hull, which lies inside the closed body. Pieces of
-/// surfaces that are open, or not oriented outwards, stay as they are. Returns the members of each patch.
+/// Joins flat pieces into patches. The faces of a patch are faces of its hull, and the hull lies inside the closed body.
+/// Pieces of open surfaces, or of surfaces that are not oriented outwards, stay as they are. Returns the members of each
+/// patch.
 pub fn convex_patches(
     primitives: &[Convex],
     edges: &SharedEdges,
@@ -57,9 +58,9 @@ struct Surface<'a> {
     pieces: &'a [FlatPiece],
     /// The piece of each polygon.
     piece_of: Vec<u32>,
-    /// Whether each piece is on a closed surface that is oriented outwards.
+    /// Per piece, whether it is on a closed surface that is oriented outwards.
     outward: Vec<bool>,
-    /// The numbers of each piece's vertices.
+    /// Per piece, its vertices as indices into `edges.points`.
     vertices: Vec<Vec<u32>>,
     diameter: f64,
     boxes: BoxTree,
@@ -114,7 +115,7 @@ impl<'a> Surface<'a> {
         (piece.normal, piece.normal.dot(&origin))
     }
 
-    /// The pieces of the patch that a piece grows into.
+    /// Grows a patch from a piece; returns its pieces.
     fn grow(&self, seed: u32, taken: &[bool]) -> Vec<u32> {
         let mut patch = vec![seed];
         if !self.outward[seed as usize] {
@@ -127,8 +128,8 @@ impl<'a> Surface<'a> {
         };
         let mut planes = vec![self.plane(seed)];
         let mut corners = self.vertices[seed as usize].clone();
-        // A piece that does not fit now never will: a larger patch asks more.
-        let mut met = std::collections::HashSet::from([seed]);
+        // A piece that does not fit now never will: a larger patch has more constraints.
+        let mut seen = std::collections::HashSet::from([seed]);
         let mut next = 0;
         while next < patch.len() && patch.len() < MAX_FACES {
             let members = &self.pieces[patch[next] as usize].members;
@@ -138,7 +139,7 @@ impl<'a> Surface<'a> {
                 .flat_map(|&i| &self.edges.neighbours[i as usize]);
             for neighbour in around {
                 let other = self.piece_of[neighbour.polygon as usize];
-                if patch.len() >= MAX_FACES || !met.insert(other) || taken[other as usize] {
+                if patch.len() >= MAX_FACES || !seen.insert(other) || taken[other as usize] {
                     continue;
                 }
                 let plane = self.plane(other);
@@ -152,7 +153,7 @@ impl<'a> Surface<'a> {
                 }
             }
         }
-        // The first pieces of a patch are a patch themselves.
+        // Any first pieces of a patch are a patch too, so bisection finds how many keep the hull inside.
         let (mut good, mut bad) = (1, patch.len() + 1);
         let mut tried = patch.len();
         while bad - good > 1 {
@@ -167,8 +168,8 @@ impl<'a> Surface<'a> {
         patch
     }
 
-    /// Whether nothing of the surface reaches into the hull of a patch: then, as its faces are the surface's and look
-    /// outwards, all the hull is inside.
+    /// Whether no other part of the surface intrudes into the hull of a patch. Then the whole hull is inside the body, since
+    /// its faces are faces of the surface and point outwards.
     fn lies_inside(&self, patch: &[u32]) -> bool {
         let mut corners: Vec<u32> = patch
             .iter()
@@ -199,13 +200,14 @@ impl<'a> Surface<'a> {
         let extent = Extent::of(&points);
         !self.boxes.any(&extent, |i| {
             !patch.contains(&self.piece_of[i as usize])
-                && reaches(&self.primitives[i as usize], &planes)
+                && intrudes(&self.primitives[i as usize], &planes)
         })
     }
 }
 
-/// Whether some of a primitive lies below all the planes: polygons are clipped, others are taken to.
-fn reaches(primitive: &Convex, planes: &[(Vec3, f64)]) -> bool {
+/// Whether some of a primitive lies below all the planes. Polygons are clipped; other primitives count as inside unless all
+/// their points lie above one plane.
+fn intrudes(primitive: &Convex, planes: &[(Vec3, f64)]) -> bool {
     let height = |(normal, offset): &(Vec3, f64), p: &Vec3| normal.dot(p) - offset;
     if !primitive.is_flat() {
         let beyond = |plane| {
@@ -252,7 +254,7 @@ fn volume(primitives: &[Convex], component: &[u32]) -> f64 {
         .sum()
 }
 
-/// The primitives' boxes in a tree, to find those that meet a box.
+/// A tree over the primitives' boxes, to find those that intersect a box.
 struct BoxTree {
     forest: Forest,
     root: u32,
@@ -271,7 +273,7 @@ impl BoxTree {
         Self { forest, root }
     }
 
-    /// Whether a primitive whose box meets `extent` satisfies a condition.
+    /// Whether any primitive whose box intersects `extent` satisfies a condition.
     fn any(&self, extent: &Extent, condition: impl Fn(u32) -> bool) -> bool {
         let mut stack = vec![self.root];
         while let Some(body) = stack.pop() {

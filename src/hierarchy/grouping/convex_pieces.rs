@@ -1,4 +1,4 @@
-//! Maximal convex pieces (§3.4): primitives that together are one convex polygon, or bound a convex part of a body.
+//! Finds maximal convex pieces (§3.4): primitives whose union is a convex polygon, or that bound a convex part of a body.
 
 use super::convex_patches::convex_patches;
 use super::coplanar_pieces::coplanar_pieces;
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::hierarchy::{Pieces, Progress};
 use crate::primitive::Convex;
 
-/// The pieces of more than one primitive; no primitive is in two. Each ascending, ordered by their lowest members.
+/// The pieces of more than one primitive; no primitive is in two. Members are ascending, pieces ordered by lowest member.
 pub fn convex_pieces(
     primitives: &[Convex],
     pieces: Pieces,
@@ -45,7 +45,7 @@ mod tests {
     use crate::pose::Vec3;
     use crate::primitive::{convex_polygon, convex_polyhedron};
 
-    /// The triangles of an outline swept along z, caps as fans from the given triangles of the outline.
+    /// The triangles of an outline extruded along z; `caps` are the triangles of both ends.
     fn prism(outline: &[(f64, f64)], caps: &[[usize; 3]], z: [f64; 2]) -> Vec<Convex> {
         let n = outline.len();
         let at = |i: usize, top: usize| Vec3::new(outline[i % n].0, outline[i % n].1, z[top]);
@@ -68,8 +68,8 @@ mod tests {
     const SQUARE_CAPS: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
     fn pieces(primitives: &[Convex], kind: Pieces) -> Vec<Vec<u32>> {
-        let mut unheard = |_| Ok(());
-        let found = convex_pieces(primitives, kind, &mut Progress::new(&mut unheard)).unwrap();
+        let mut ignored = |_| Ok(());
+        let found = convex_pieces(primitives, kind, &mut Progress::new(&mut ignored)).unwrap();
         let mut members: Vec<u32> = found.iter().flatten().copied().collect();
         members.sort_unstable();
         assert!(members.windows(2).all(|w| w[0] < w[1]), "in two pieces");
@@ -118,7 +118,7 @@ mod tests {
         }
     }
 
-    /// The inner surface of a hollow box looks into the void: its patches would lie there.
+    /// The inner surface of a hollow box faces the void, so the hulls of its patches would lie in the void.
     #[test]
     fn a_void_and_an_open_surface_have_flat_pieces_only() {
         let mut hollow = prism(&SQUARE, &SQUARE_CAPS, [0.0, 1.0]);
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(sizes, vec![2; 5]);
     }
 
-    /// A box with a smaller one stuck into it: no hull may hold a part of the other's surface.
+    /// A box with a smaller one stuck into it: no patch's hull may contain a part of the other box's surface.
     #[test]
     fn patches_stay_out_of_each_other() {
         let mut boxes = prism(&SQUARE, &SQUARE_CAPS, [0.0, 1.0]);

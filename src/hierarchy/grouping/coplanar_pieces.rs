@@ -1,4 +1,4 @@
-//! Coplanar neighbours whose union is a convex polygon (§3.4).
+//! Finds coplanar neighbours whose union is a convex polygon (§3.4).
 
 use nalgebra::Vector2;
 
@@ -7,21 +7,21 @@ use crate::pose::Vec3;
 use crate::primitive::{Convex, monotone_chain, plane_axes};
 use crate::tolerance;
 
-/// A union is convex when its area is that of its hull to within this, relatively: a hundred times the rounding of the
-/// sums. Pieces only bound what they hold, so that a sliver more or less changes no answer.
+/// The largest relative difference between the areas of a union and its hull for which the union counts as convex: 100
+/// times the rounding of the sums. Pieces are only bounds, so a sliver more or less changes no answer.
 const SAME_AREA: f64 = 1e-11;
 
-/// Polygons that together are one convex polygon.
+/// Polygons whose union is one convex polygon.
 #[derive(Clone, Debug)]
 pub struct FlatPiece {
     /// Ascending.
     pub members: Vec<u32>,
-    /// In the direction of the members' normals.
+    /// Unit normal, in the direction of the members' normals.
     pub normal: Vec3,
     pub area: f64,
 }
 
-/// Every flat polygon in exactly one piece, ordered by their lowest members.
+/// Puts every flat polygon into exactly one piece; the pieces are ordered by their lowest members.
 pub fn coplanar_pieces(
     primitives: &[Convex],
     edges: &SharedEdges,
@@ -63,7 +63,7 @@ fn area_of(primitive: &Convex) -> f64 {
         .sum()
 }
 
-/// What can be reached from a polygon over shared edges without leaving its plane or turning over.
+/// The polygons that are connected to `seed` over shared edges, lie in its plane and face the same way.
 fn coplanar_region(
     primitives: &[Convex],
     edges: &SharedEdges,
@@ -103,7 +103,7 @@ struct Outline {
 }
 
 impl Outline {
-    /// The hull of two, if they fill it.
+    /// The hull of two outlines, if they fill it.
     fn joined(&self, other: &Outline) -> Option<Outline> {
         let both = self.corners.iter().chain(&other.corners).copied().collect();
         hull_if_filled(both, self.area + other.area)
@@ -120,7 +120,7 @@ fn hull_if_filled(points: Vec<Vector2<f64>>, area: f64) -> Option<Outline> {
     ((0.5 * twice - area).abs() <= SAME_AREA * area).then_some(Outline { corners, area })
 }
 
-/// The whole region, if it is convex; else its polygons joined across their longest edges first (Hertel and Mehlhorn).
+/// The whole region if it is convex; otherwise its polygons are joined, longest shared edges first (Hertel and Mehlhorn).
 fn split_region(
     primitives: &[Convex],
     edges: &SharedEdges,
@@ -173,7 +173,7 @@ fn split_region(
             area: areas[i as usize],
         })
         .collect();
-    // A union that was not convex may become so with what was joined since.
+    // A union that was not convex may be after other joins, so the pass is repeated until nothing joins.
     loop {
         let mut joined = false;
         shared.retain(|&(_, a, b)| {

@@ -1,7 +1,7 @@
 //! The cost of merging two bodies (§3.2.2, eq. 2).
 
-/// Cost = diameter^A (B Fill + C Balance). Fill is the merged diameter over the sum of the two, Balance the greater ratio
-/// of the two. A (`diameter`) weighs spatial balance, B (`fill`) coherence, C (`balance`) structural balance.
+/// Cost = diameter^A (B Fill + C Balance). Fill is the merged diameter over the sum of the two, Balance the larger of the
+/// two over the smaller. A (`diameter`) weighs spatial balance, B (`fill`) coherence, C (`balance`) structural balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     pub diameter: f64,
@@ -28,13 +28,13 @@ impl Cost {
         self.power(merged) * (self.fill * fill + self.balance * balance)
     }
 
-    /// The largest merged diameter that can cost as little as `cost`: Fill is at least 1/2, Balance at least 1.
+    /// The largest merged diameter whose cost can be as low as `cost`: Fill is at least 1/2, Balance at least 1.
     pub fn largest_diameter(&self, cost: f64) -> f64 {
         let ratio = cost / (0.5 * self.fill + self.balance);
         if self.diameter == 1.0 {
             ratio
         } else if self.diameter > 0.0 {
-            // A little more than the root, which may be rounded down.
+            // Slightly more than the root, which may be rounded down.
             ratio.powf(1.0 / self.diameter) * (1.0 + 1e-12)
         } else {
             f64::INFINITY

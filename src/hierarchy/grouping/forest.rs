@@ -4,15 +4,15 @@ use crate::boxes::Extent;
 use crate::hierarchy::{Node, SubsetTree};
 use crate::pose::Vec3;
 
-/// Bodies as they are made: the first `leaves` are the leaves, each later one has two children made before it.
+/// Bodies in order of creation: the first `leaves` are the leaves, each later one has two children created before it.
 #[derive(Debug)]
 pub struct Forest {
     pub leaves: usize,
     pub extents: Vec<Extent>,
-    /// Diameters of the extents, at least a tiny part of the whole's so that ratios are finite.
+    /// Diameters of the extents, at least `smallest` so that ratios are finite.
     pub diameters: Vec<f64>,
     pub children: Vec<[u32; 2]>,
-    /// The floor of diameters.
+    /// The floor of the diameters: 1e-9 of the whole diameter.
     pub smallest: f64,
 }
 
@@ -42,7 +42,7 @@ impl Forest {
         extent.diameter().max(self.smallest)
     }
 
-    /// Gives two bodies a parent.
+    /// Gives two bodies a parent, and returns it.
     pub fn merge(&mut self, a: u32, b: u32) -> u32 {
         let extent = self.extents[a as usize].union(&self.extents[b as usize]);
         self.diameters.push(self.measure(&extent));

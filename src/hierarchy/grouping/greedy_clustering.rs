@@ -1,4 +1,4 @@
-//! Bottom-up clustering (§3.2.2, §3.2.5): of all eligible pairs of parentless bodies, the cheapest gets a parent.
+//! Bottom-up clustering (§3.2.2, §3.2.5): repeatedly merges the cheapest eligible pair of parentless bodies.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,8 +7,8 @@ use super::forest::Forest;
 use crate::error::Result;
 use crate::hierarchy::{Progress, parallel};
 
-/// A body may grow by so many levels in one round before it waits for the others. Without this, bodies whose merging
-/// hardly changes the diameter (nested shells, a hub with thousands of spikes) make one long chain.
+/// The most levels that a body may grow in one round. Without this, bodies whose merging hardly changes the diameter (nested
+/// shells, a hub with thousands of spikes) form one long chain.
 const GROWTH_LIMIT: u8 = 4;
 
 /// The report's DLimit and GLimit: the largest diameter of a body that may merge, and the largest gap to its partner.
@@ -18,23 +18,23 @@ pub struct Limits {
     pub gap: f64,
 }
 
-/// Which bodies may merge. Bodies are older the lower their number.
+/// The rule for which bodies may merge. A lower index means an older body.
 pub trait Eligibility: Sync {
     /// Starts a round among the active bodies.
     fn begin(&mut self, forest: &Forest, active: &[u32], limits: &Limits);
 
-    /// The cheapest active partner among older bodies, with its cost; ties go to the oldest.
+    /// The cheapest active partner among older bodies, with the cost; ties go to the oldest.
     fn partner(&self, forest: &Forest, body: u32) -> Option<(f64, u32)>;
 
-    /// Two bodies got a parent, which takes part in this round or does not.
+    /// Notes that two bodies got a parent; `active` says whether the parent takes part in this round.
     fn merged(&mut self, forest: &Forest, children: [u32; 2], parent: u32, active: bool);
 }
 
-/// A body and its cheapest older partner. Every pair is known to its younger body, so that the least entry of the queue
-/// is the cheapest of all eligible pairs, with one entry a body.
+/// A body and its cheapest older partner. Every pair is considered by its younger body, so one entry per body suffices for
+/// the least entry to be the cheapest of all eligible pairs.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
-    /// The bits of a number that is not negative order as the number does.
+    /// The bits of a non-negative double, which order as the number does.
     cost: u64,
     body: u32,
     partner: u32,
@@ -73,12 +73,12 @@ pub fn cluster(
         if active.len() > 1 {
             let done = total - before;
             rule.begin(forest, &active, &limits);
-            let mut hear = |merged: usize| progress.at((done + merged) as f64 / total as f64);
+            let mut report = |merged: usize| progress.at((done + merged) as f64 / total as f64);
             let mut round = Round::new(forest, rule, &limits, &active, threads)?;
-            parentless = round.run(&active, dormant, &mut hear)?;
+            parentless = round.run(&active, dormant, &mut report)?;
             held_back = round.held_back;
         }
-        // A round that held bodies back is repeated, unless it came to little.
+        // A round that held bodies back is repeated with the same limits if it merged more than 1 in 8 bodies.
         let worthwhile = parentless.len() < before - before / 8;
         if !(held_back && worthwhile) {
             if limits.diameter > last && limits.gap > last && parentless.len() == before {
@@ -90,7 +90,7 @@ pub fn cluster(
     Ok(parentless)
 }
 
-/// Both limits doubled; more at once where fewer than two bodies would be active.
+/// Doubles both limits, repeatedly while fewer than two bodies would be active.
 fn widened(limits: &Limits, forest: &Forest, parentless: &[u32]) -> Limits {
     let mut least = [f64::INFINITY; 2];
     for &body in parentless {
@@ -115,11 +115,11 @@ struct Round<'a, R> {
     forest: &'a mut Forest,
     rule: &'a mut R,
     diameter_limit: f64,
-    /// The entries of the round's start, the cheapest last: a sorted list is read in order where a heap jumps about.
+    /// The entries at the start of the round, cheapest last. A sorted list is read sequentially, unlike a heap.
     first: Vec<Reverse<Entry>>,
-    /// Those that came since.
+    /// The entries added during the round.
     queue: BinaryHeap<Reverse<Entry>>,
-    /// Levels grown in this round, for bodies that take part and have no parent; `None` for others.
+    /// Levels grown in this round by each active parentless body; `None` for other bodies.
     growth: Vec<Option<u8>>,
     held_back: bool,
 }
@@ -167,7 +167,7 @@ impl<'a, R: Eligibility> Round<'a, R> {
         &mut self,
         active: &[u32],
         dormant: Vec<u32>,
-        hear: &mut dyn FnMut(usize) -> Result<()>,
+        report: &mut dyn FnMut(usize) -> Result<()>,
     ) -> Result<Vec<u32>> {
         let first_new = self.forest.extents.len() as u32;
         let mut rest = dormant;
@@ -197,7 +197,7 @@ impl<'a, R: Eligibility> Round<'a, R> {
                 self.enqueue(parent);
             }
             if parent.is_multiple_of(4096) {
-                hear((parent - first_new) as usize)?;
+                report((parent - first_new) as usize)?;
             }
         }
         let unmerged = active
@@ -250,7 +250,7 @@ mod tests {
             .collect()
     }
 
-    /// Eligible by nearness, found by looking at all pairs; checks that each merged pair was the cheapest of all.
+    /// Eligibility by nearness, by brute force; checks that each merged pair was the cheapest of all.
     struct AllPairs {
         cost: Cost,
         gap_limit: f64,
@@ -305,7 +305,7 @@ mod tests {
             diameter: 0.05,
             gap: 0.0125,
         };
-        let mut unheard = |_| Ok(());
+        let mut ignored = |_| Ok(());
         let left = cluster(
             &mut forest,
             (0..boxes.len() as u32).collect(),
@@ -313,7 +313,7 @@ mod tests {
             first,
             20.0,
             threads,
-            &mut Progress::new(&mut unheard),
+            &mut Progress::new(&mut ignored),
         );
         (forest, left.unwrap())
     }

@@ -1,4 +1,4 @@
-//! The grouping phase (§3.2): from the parts that stand as leaves to the subset tree.
+//! The grouping phase (§3.2): builds the subset tree whose leaves are parts.
 
 use super::adjacent::{Adjacent, sibling_pairs};
 use super::binned_split::{levels_for, split, split_within};
@@ -13,11 +13,11 @@ use crate::error::Result;
 use crate::hierarchy::{Grouping, HierarchyOptions, Node, Pieces, Progress, SubsetTree};
 use crate::primitive::Convex;
 
-/// The subset tree over parts (its leaves name parts, by index), and the nodes that hold the given convex pieces.
+/// The subset tree over parts (its leaves name parts by index), and the nodes that hold the given convex pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Groups {
     pub subsets: SubsetTree,
-    /// In ascending order. A piece that was opened to bound the tree's depth has none.
+    /// Nodes in ascending order. A piece that was split up to bound the tree's depth has none.
     pub pieces: Vec<u32>,
 }
 
@@ -28,8 +28,8 @@ impl Groups {
     }
 }
 
-/// Groups parts, of which there is at least one. `pieces` are sets of parts that get a common ancestor of their own. The
-/// same input gives the same tree.
+/// Groups at least one part. Each of `pieces` is a set of parts that get a subtree of their own. The same input gives the
+/// same tree.
 pub fn group(
     primitives: &[Convex],
     parts: &[Part],
@@ -47,7 +47,7 @@ pub fn group(
     group_few(primitives, parts, &all, pieces, options, progress)
 }
 
-/// Groups some of the parts at once.
+/// Groups the parts in `members`, without cutting them into regions.
 pub fn group_few(
     primitives: &[Convex],
     parts: &[Part],
@@ -61,7 +61,7 @@ pub fn group_few(
     let bounds = extents
         .iter()
         .fold(extents[0], |all, extent| all.union(extent));
-    // Along a curve, so that neighbours in space are neighbours in memory, and ties are broken between neighbours.
+    // Leaves in Morton order: neighbours in space are neighbours in memory, and ties are broken between neighbours.
     let curve = Curve::new(&bounds);
     let mut order: Vec<u32> = (0..extents.len() as u32).collect();
     order.sort_by_cached_key(|&i| (curve.code(&extents[i as usize].center()), i));
@@ -75,8 +75,8 @@ pub fn group_few(
         Grouping::TopDown => split(&mut forest, bodies, threads, &mut progress)?,
         Grouping::Basic => basic(&mut forest, bodies, &bounds, options, &mut progress)?,
         Grouping::Hybrid => {
-            let mut siblings = sibling_pairs(order.iter().copied(), |part, hear| {
-                parts[part as usize].edges(primitives, hear);
+            let mut siblings = sibling_pairs(order.iter().copied(), |part, visit| {
+                parts[part as usize].edges(primitives, visit);
             });
             for pair in &mut siblings {
                 *pair = pair.map(|leaf| holders[leaf as usize]);
@@ -115,7 +115,8 @@ pub fn group_few(
     Ok(Groups { subsets, pieces })
 }
 
-/// Gives each piece a tree of its own. Returns the parentless bodies, the one that holds each leaf, and the pieces' roots.
+/// Builds a tree for each piece. Returns the parentless bodies, the parentless body that holds each leaf, and the pieces'
+/// roots.
 fn join_pieces(
     forest: &mut Forest,
     pieces: &[Vec<u32>],
@@ -144,7 +145,7 @@ fn join_pieces(
     (bodies, holders, roots)
 }
 
-/// The basic clustering algorithm; returns the root.
+/// Runs the basic clustering algorithm; returns the root.
 fn basic(
     forest: &mut Forest,
     bodies: Vec<u32>,
@@ -156,23 +157,23 @@ fn basic(
     let first = first_limits(forest, &bodies, options);
     let last = bounds.diameter();
     let threads = options.thread_count();
-    let left = cluster(forest, bodies, &mut rule, first, last, threads, progress)?;
-    Ok(left[0])
+    let parentless = cluster(forest, bodies, &mut rule, first, last, threads, progress)?;
+    Ok(parentless[0])
 }
 
 fn first_limits(forest: &Forest, bodies: &[u32], options: &HierarchyOptions) -> Limits {
     let diameters = bodies.iter().map(|&i| forest.diameters[i as usize]);
-    // Not so small that doubling would take for ever, or leave a rounded 0.
-    let given = |value: f64, automatic: f64| {
+    // A floor, so that doubling the limit ends and does not round to 0.
+    let limit_or = |value: f64, automatic: f64| {
         let limit = if value > 0.0 { value } else { automatic };
         limit.max(forest.smallest)
     };
-    let diameter = given(
+    let diameter = limit_or(
         options.diameter_limit,
         2.0 * diameters.fold(f64::INFINITY, f64::min),
     );
     Limits {
         diameter,
-        gap: given(options.gap_limit, 0.25 * diameter),
+        gap: limit_or(options.gap_limit, 0.25 * diameter),
     }
 }

@@ -1,4 +1,4 @@
-//! The grouping phase (§3.2): which primitives come together in the subset tree.
+//! The grouping phase (§3.2): decides which primitives share a subtree of the subset tree.
 
 mod adjacent;
 mod binned_split;

@@ -10,16 +10,16 @@ use super::greedy_clustering::{Eligibility, Limits};
 use crate::boxes::Extent;
 use crate::pose::Vec3;
 
-/// Where more bodies than this have their centres around one body, only those next to it on a space-filling curve are
-/// looked at. The report's bound on eligible partners fails there: for spaghetti, for coincident polygons.
+/// If more bodies than this have their centres in the 27 voxels around a body, only its neighbours on a space-filling curve
+/// are considered. The report's bound on eligible partners fails in such crowds: spaghetti, coincident polygons.
 const CROWD: u32 = 512;
 
-/// How many bodies on each side of the curve are looked at in a crowd.
+/// How many neighbours before and after a body on the curve are considered in a crowd.
 const WINDOW: usize = 24;
 
 const NONE: u32 = u32::MAX;
 
-/// The bodies whose centres lie in one voxel: the first of a linked list, and how many.
+/// The bodies whose centres lie in one voxel: the head of a linked list, and its length.
 #[derive(Clone, Copy)]
 struct Voxel {
     first: u32,
@@ -36,7 +36,7 @@ pub struct Nearby {
     voxels: HashMap<u64, Voxel, BuildHasherDefault<KeyHasher>>,
     next: Vec<u32>,
     previous: Vec<u32>,
-    /// The active bodies along the curve, kept while some voxel is crowded.
+    /// The active bodies in curve order; present while some voxel is crowded.
     crowd: Option<BTreeSet<(u64, u32)>>,
 }
 
@@ -56,7 +56,7 @@ impl Nearby {
     }
 
     fn cell(&self, center: &Vec3) -> [i64; 3] {
-        // Saturates; far-off voxels that share a key only offer candidates that are then refused.
+        // The cast saturates. Distant voxels that share a key only add candidates, which `consider` rejects.
         let at = (center - self.origin) / self.edge;
         [at.x, at.y, at.z].map(|x| x.floor() as i64)
     }
@@ -110,7 +110,7 @@ impl Eligibility for Nearby {
         self.voxels.clear();
         self.next.clear();
         self.previous.clear();
-        // Merging adds less than one body for each active one.
+        // Merging adds fewer bodies than there are active ones.
         let bodies = forest.extents.len() + active.len();
         self.next.resize(bodies, NONE);
         self.previous.resize(bodies, NONE);
@@ -171,17 +171,17 @@ impl Eligibility for Nearby {
 }
 
 impl Nearby {
-    /// How far a point is from a voxel, at least.
+    /// A lower bound of the distance of a point from a voxel.
     fn distance(&self, cell: [i64; 3], point: &Vec3) -> f64 {
         let low = self.origin + Vec3::from(cell.map(|x| x as f64)) * self.edge;
         let high = low.add_scalar(self.edge);
         let apart = (low - point).sup(&(point - high)).sup(&Vec3::zeros());
-        // Voxel bounds are rounded; nothing is lost by a little doubt.
+        // Slack for the rounded bounds of the voxel.
         apart.norm() - 1e-9 * self.edge
     }
 }
 
-/// The cheapest partner met so far.
+/// The cheapest partner found so far.
 struct Best<'a> {
     index: &'a Nearby,
     forest: &'a Forest,
@@ -190,7 +190,7 @@ struct Best<'a> {
     center: Vec3,
     diameter: f64,
     found: Option<(f64, u32)>,
-    /// Merged bodies of a larger diameter cannot be cheaper.
+    /// Merged bodies of a larger diameter cannot be cheaper than `found`.
     largest: f64,
 }
 
@@ -247,7 +247,7 @@ fn key(cell: [i64; 3]) -> u64 {
     x | y << 21 | z << 42
 }
 
-/// Spreads voxel keys over the table: one multiplication, its halves folded.
+/// Hashes voxel keys: one multiplication, its high and low halves combined by xor.
 #[derive(Default)]
 struct KeyHasher(u64);
 
@@ -268,7 +268,7 @@ impl Hasher for KeyHasher {
     }
 }
 
-/// Places along a space-filling curve (Morton order).
+/// A space-filling curve (Morton order) through a box.
 pub struct Curve {
     low: Vec3,
     scale: f64,
@@ -287,13 +287,14 @@ impl Curve {
         }
     }
 
+    /// The position of a point along the curve.
     pub fn code(&self, point: &Vec3) -> u64 {
         let at = (point - self.low) * self.scale;
         spread(at.x) | spread(at.y) << 1 | spread(at.z) << 2
     }
 }
 
-/// 21 bits of a coordinate, two zeros after each.
+/// Spreads the 21 bits of a coordinate, with two zero bits after each.
 fn spread(coordinate: f64) -> u64 {
     let mut x = (coordinate.max(0.0) as u64).min(0x1f_ffff);
     x = (x | x << 32) & 0x001f_0000_0000_ffff;

@@ -1,17 +1,17 @@
-//! What the leaves stand for: primitives, or slabs of slender ones (§3.4).
+//! The parts that leaves bound: whole primitives, or slabs of slender ones (§3.4).
 
 use crate::boxes::Extent;
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 use crate::tolerance;
 
-/// A primitive gets at most so many leaves.
+/// The most leaves of one primitive.
 const MAX_SLABS: usize = 64;
 
-/// All primitives together get at most so many times their number, where each is slender.
+/// The most parts per primitive on average, if all are slender.
 const MAX_PARTS: usize = 8;
 
-/// A primitive, or the part of it between two planes. Queries ask the whole primitive, the part only bounds it.
+/// A primitive, or the slab of it between two planes. The slab only serves as a bound: queries test the whole primitive.
 #[derive(Clone, Debug)]
 pub struct Part {
     pub primitive: u32,
@@ -20,8 +20,8 @@ pub struct Part {
 }
 
 impl Part {
-    /// The points whose hull is the part, or holds it where it is curved, and how far rounding may have left the part
-    /// outside that hull.
+    /// The points whose hull is the part, or contains it if it is curved, and how far rounding may leave the part outside
+    /// that hull.
     pub fn vertices<'a>(&'a self, primitives: &'a [Convex]) -> (&'a [Vec3], f64) {
         match &self.slab {
             None => (primitives[self.primitive as usize].bounding_points(), 0.0),
@@ -36,20 +36,20 @@ impl Part {
         Extent::of(self.vertices(primitives).0)
     }
 
-    /// Tells the edges by which the part may be adjacent to others: those of the whole primitive, and the cuts.
-    pub fn edges(&self, primitives: &[Convex], hear: &mut dyn FnMut([Vec3; 2])) {
+    /// Visits the edges by which the part may be adjacent to others: those of the whole primitive, and the cuts.
+    pub fn edges(&self, primitives: &[Convex], visit: &mut dyn FnMut([Vec3; 2])) {
         let primitive = &primitives[self.primitive as usize];
         match &self.slab {
             None => {
                 for edge in &primitive.edges {
-                    hear(edge.map(|i| primitive.vertices[i as usize]));
+                    visit(edge.map(|i| primitive.vertices[i as usize]));
                 }
             }
-            // Every pair of corners: the cuts are among them, and neighbours know only their own cut.
+            // Every pair of corners, as the cuts' edges are among them; a neighbour shares only the edges of the common cut.
             Some(slab) if slab.len() <= 8 => {
                 for (i, &a) in slab.iter().enumerate() {
                     for &b in &slab[i + 1..] {
-                        hear([a, b]);
+                        visit([a, b]);
                     }
                 }
             }
@@ -58,7 +58,7 @@ impl Part {
     }
 }
 
-/// Cuts polytopes longer than `aspect_limit` times their width into slabs about as long as wide; 0 cuts nothing.
+/// Cuts polytopes longer than `aspect_limit` times their width into slabs about as long as wide; 0 cuts none.
 pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     let extents: Vec<Option<(Vec3, f64)>> = if aspect_limit > 0.0 {
         let slender = |p| longest_extent(p).filter(|(_, aspect)| *aspect > aspect_limit);
@@ -66,19 +66,19 @@ pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     } else {
         vec![None; primitives.len()]
     };
-    let mut most = MAX_SLABS;
-    let count = |aspect: f64, most: usize| aspect.min(most as f64).ceil() as usize;
-    let total = |most: usize| -> usize {
+    let mut max_slabs = MAX_SLABS;
+    let count = |aspect: f64, max_slabs: usize| aspect.min(max_slabs as f64).ceil() as usize;
+    let total = |max_slabs: usize| -> usize {
         let slender = extents.iter().flatten();
-        slender.map(|&(_, aspect)| count(aspect, most)).sum()
+        slender.map(|&(_, aspect)| count(aspect, max_slabs)).sum()
     };
-    while most > 2 && total(most) > MAX_PARTS * primitives.len() + MAX_SLABS {
-        most /= 2;
+    while max_slabs > 2 && total(max_slabs) > MAX_PARTS * primitives.len() + MAX_SLABS {
+        max_slabs /= 2;
     }
     let mut parts = Vec::with_capacity(primitives.len());
     for (i, (primitive, extent)) in primitives.iter().zip(&extents).enumerate() {
         let slabs = match extent {
-            Some((along, aspect)) => slabs(primitive, along, count(*aspect, most)),
+            Some((along, aspect)) => slabs(primitive, along, count(*aspect, max_slabs)),
             None => Vec::new(),
         };
         if slabs.is_empty() {
@@ -95,7 +95,7 @@ pub fn parts(primitives: &[Convex], aspect_limit: f64) -> Vec<Part> {
     parts
 }
 
-/// So many slabs of a primitive, of equal height in the direction `along`.
+/// Cuts a primitive into `count` slabs of equal height in the direction `along`.
 fn slabs(primitive: &Convex, along: &Vec3, count: usize) -> Vec<Vec<Vec3>> {
     let vertices = &primitive.vertices;
     let lowest = range(vertices, along).0;
@@ -106,7 +106,7 @@ fn slabs(primitive: &Convex, along: &Vec3, count: usize) -> Vec<Vec<Vec3>> {
         k if k == count => f64::INFINITY,
         k => top * k as f64 / count as f64,
     };
-    // Both neighbours of a cut get the very same points.
+    // Both slabs at a cut get identical points.
     let on_cut = |height: f64| {
         let heights = &heights;
         primitive.edges.iter().filter_map(move |edge| {
@@ -130,9 +130,9 @@ fn slabs(primitive: &Convex, along: &Vec3, count: usize) -> Vec<Vec<Vec3>> {
         .collect()
 }
 
-/// The direction in which a primitive is longest for its width, and how many times: along its diameter or longest edge.
+/// The direction of the largest aspect ratio, along the diameter or the longest edge, and that ratio.
 fn longest_extent(primitive: &Convex) -> Option<(Vec3, f64)> {
-    // What is curved is not cut.
+    // Curved primitives are not cut.
     if primitive.curve.is_some() {
         return None;
     }
@@ -165,7 +165,7 @@ fn longest_extent(primitive: &Convex) -> Option<(Vec3, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// From where to where points reach in a direction.
+/// The interval of the points' projections onto a direction.
 fn range(points: &[Vec3], direction: &Vec3) -> (f64, f64) {
     let extents = points.iter().map(|p| direction.dot(p));
     extents.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {

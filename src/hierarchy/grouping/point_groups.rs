@@ -1,9 +1,8 @@
-//! The grouping of points: top-down splits where a surface-area heuristic is least, at such counts that the nodes of eight
-//! children are full.
+//! Groups points by top-down splits with a surface-area heuristic, at counts that make the nodes of eight children full.
 //!
-//! The nodes of eight children follow from the binary tree: the set of one holds more than 8^k points and at most 8^(k + 1),
-//! and its children are the largest sets below it of at most 8^k. Sets of more than 8 points are split at multiples of 8, so
-//! that but one of the nodes that hold points has eight of them.
+//! The nodes of eight children follow from the binary tree: the set of such a node holds more than 8^k points and at most
+//! 8^(k + 1), and its children are the largest sets below it of at most 8^k. Sets of more than 8 points are split at
+//! multiples of 8, so that all but one of the lowest nodes hold eight points.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -14,26 +13,27 @@ use crate::error::Result;
 use crate::hierarchy::{Node, Progress, SubsetTree, parallel};
 use crate::pose::Vec3;
 
-/// The children of a full node.
+/// The number of children of a full node.
 const FULL: usize = 8;
 
+/// Number of bins per axis.
 const BINS: usize = 16;
 
-/// The heuristic looks at so many points of a set, or somewhat more: the best place to split hardly changes with the rest.
+/// The heuristic samples at least this many points of a larger set; the best split hardly changes with more.
 const SAMPLE: usize = 1024;
 
-/// Sets larger than this are split before the work is shared out.
+/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads.
 const TASK: usize = 8192;
 
 /// The binary tree over points.
 pub struct PointGroups {
     /// The points' indices in the order of the leaves.
     pub order: Vec<u32>,
-    /// Of the interior nodes in depth-first order: how many leaves the first child has.
+    /// Per interior node in depth-first order, the number of leaves of its first child.
     splits: Vec<u32>,
 }
 
-/// A set of points in the order of the leaves, and its interior nodes' places among all.
+/// A set of points as a range in leaf order, and the index of its first interior node.
 #[derive(Clone, Debug)]
 pub struct PointSet {
     pub leaves: Range<usize>,
@@ -52,26 +52,26 @@ struct Task<'a> {
     limits: Limits,
 }
 
-/// What bounds the tree over a set.
+/// The limits on the tree over a set.
 #[derive(Clone, Copy)]
 struct Limits {
-    /// Levels below it.
+    /// The most levels below the set.
     levels: usize,
-    /// The node of eight children that the set belongs to: what its children hold at most, and how many of them the set may
-    /// become.
+    /// The most points in a child of the node of eight that the set belongs to.
     unit: usize,
+    /// The most children of that node that the set may become.
     children: usize,
 }
 
-/// In depth-first order, what the splits of large sets leave.
+/// One step of the tree over the large sets, in depth-first order: a split, or a set left to a task.
 enum Upper {
     Split(u32),
     Task,
 }
 
 impl PointGroups {
-    /// Groups points, of which there is at least one, each with the same margin around it. No subtree of n leaves has more
-    /// than 2 log2 n levels. The same points give the same tree on any number of threads.
+    /// Groups at least one point, each with the same margin around it. No subtree of n leaves has more than 2 log2 n levels.
+    /// The tree does not depend on the number of threads.
     pub fn new(
         points: &[Vec3],
         margin: f64,
@@ -141,13 +141,13 @@ impl PointGroups {
             },
             PointSet {
                 leaves: middle..set.leaves.end,
-                // Those of the first child, of which there is one fewer than leaves, come before.
+                // The first child's interior nodes come before; there is one fewer of them than leaves.
                 splits: set.splits + first,
             },
         ]
     }
 
-    /// The children that a set of more than one point has as a node of eight.
+    /// The children of a set of more than one point, as a node of eight.
     pub fn eight_below(&self, set: &PointSet) -> Vec<PointSet> {
         let unit = unit_of(set.leaves.len());
         let mut below = Vec::with_capacity(FULL);
@@ -198,7 +198,7 @@ impl PointGroups {
     }
 }
 
-/// What each of the eight children of a node over so many points holds at most.
+/// The most points that each of the eight children of a node over `count` points holds.
 fn unit_of(count: usize) -> usize {
     let mut unit = 1;
     while unit * FULL < count {
@@ -207,7 +207,7 @@ fn unit_of(count: usize) -> usize {
     unit
 }
 
-/// The least number of levels below a set.
+/// The least possible number of levels below a set.
 fn least_levels(count: usize) -> usize {
     if count < 2 {
         return 0;
@@ -246,12 +246,12 @@ fn split(entries: &mut [Entry], limits: Limits, margin: f64, splits: &mut Vec<u3
     split(other, below[1], margin, splits);
 }
 
-/// Orders the entries, of which there are two at least, into two sets that both keep the limits; returns the size of the
-/// first, and the limits of both.
+/// Partitions at least two entries into two sets that both keep the limits; returns the size of the first and the limits of
+/// both.
 fn partition(entries: &mut [Entry], limits: Limits, margin: f64) -> (usize, [Limits; 2]) {
     let count = entries.len();
     let limits = match count <= limits.unit {
-        // A node of its own.
+        // The set becomes a node of its own.
         true => Limits {
             unit: unit_of(count),
             children: FULL,
@@ -266,7 +266,7 @@ fn partition(entries: &mut [Entry], limits: Limits, margin: f64) -> (usize, [Lim
         true => best_split(entries, &extent, &limits, margin),
         false => None,
     }
-    // The whole units of the set are halved.
+    // Fallback: halve the set's whole units along its longest side.
     .unwrap_or_else(|| (longest, count.div_ceil(limits.unit) / 2 * limits.unit));
     entries.select_nth_unstable_by(first, |a, b| {
         let order = a.point[axis].total_cmp(&b.point[axis]);
@@ -276,12 +276,12 @@ fn partition(entries: &mut [Entry], limits: Limits, margin: f64) -> (usize, [Lim
 }
 
 impl Limits {
-    /// The children that sets of these sizes become at least.
+    /// The least numbers of children that sets of these sizes become.
     fn needed(&self, sizes: [usize; 2]) -> [usize; 2] {
         sizes.map(|size| size.div_ceil(self.unit))
     }
 
-    /// Whether a set may be split into two of these sizes.
+    /// Whether a set may be split into two sets of these sizes.
     fn allow(&self, sizes: [usize; 2]) -> bool {
         let [a, b] = self.needed(sizes);
         a + b <= self.children && sizes.into_iter().all(|n| least_levels(n) < self.levels)
@@ -299,8 +299,8 @@ impl Limits {
     }
 }
 
-/// The axis, and the size of the first set, for which the surfaces of both sets times their sizes add up to least; `None`
-/// where all points coincide or no place for the split keeps the limits.
+/// The split of the least surface-area cost: its axis and the size of the first set. `None` if all points coincide or no
+/// split keeps the limits.
 fn best_split(
     entries: &[Entry],
     extent: &Extent,
@@ -309,9 +309,9 @@ fn best_split(
 ) -> Option<(usize, usize)> {
     let count = entries.len();
     let size = extent.size();
-    // Flat and straight sets have no surface, but some are longer than others.
+    // Flat and straight sets have no surface; the margin makes them comparable.
     let margin = margin + 1e-3 * size.amax();
-    // Sets below are full when they are made of whole units, or of eighths of them where nodes of eight follow.
+    // Sets are split at multiples of an eighth of a unit, but at least of 8 points, so that the nodes below are full.
     let grain = (limits.unit / FULL).max(FULL);
     let step = (count / SAMPLE).max(1);
     let sampled = count.div_ceil(step);
@@ -353,7 +353,7 @@ fn best_split(
     best.map(|(_, axis, first)| (axis, first))
 }
 
-/// Points in a slice of a set.
+/// The number and the box of the points in one bin.
 #[derive(Clone, Copy)]
 struct Bin {
     count: usize,
@@ -382,7 +382,7 @@ impl Bin {
         }
     }
 
-    /// The surface of the box around its points, grown by a margin, times their number.
+    /// Half the surface of its box, grown by a margin, times the number of its points.
     fn cost(&self, margin: f64) -> f64 {
         let size = (self.high - self.low).add_scalar(2.0 * margin);
         (size.x * size.y + size.y * size.z + size.z * size.x) * self.count as f64
@@ -401,7 +401,7 @@ fn extent_of(entries: &[Entry]) -> Extent {
     }
 }
 
-/// Without the care for NaN that `inf` takes: coordinates are finite.
+/// `inf` without its treatment of NaN; coordinates are finite.
 #[inline(always)]
 fn lower(a: &Vec3, b: &Vec3) -> Vec3 {
     let less = |a: f64, b: f64| if b < a { b } else { a };
@@ -423,7 +423,7 @@ mod tests {
         PointGroups::new(points, 0.0, threads, &mut Progress::new(&mut report)).unwrap()
     }
 
-    /// Points on a jagged line, in a heap, and with far outliers.
+    /// Points in a slab, on a line, coincident, and with far outliers.
     fn point(i: usize, sort: usize) -> Vec3 {
         let x = (i * 7919 % 1009) as f64;
         match sort {

@@ -1,13 +1,12 @@
-//! A bound on the depth of clustered trees: no subtree of n leaves has more than 2 log2 n levels.
+//! Bounds the depth of clustered trees: no subtree of n leaves has more than 2 log2 n levels.
 //!
-//! The report's trees mostly keep it (§3.3.2), but nothing in the cost makes them: a large body with many small
+//! The report's trees mostly keep this bound (§3.3.2), but the cost does not enforce it: a large body with many small
 //! neighbours takes them in one by one.
 
 use super::binned_split::{levels_for, split_within};
 use super::forest::Forest;
 
-/// The same tree with every subtree that is too deep split anew from above. Returns the forest, and what became of each
-/// body.
+/// Rebuilds every subtree that is too deep top-down. Returns the new forest, and the new body of each old one.
 pub fn rebalanced(old: Forest) -> (Forest, Vec<u32>) {
     let leaves = old.leaves;
     let mut forest = Forest::new(old.extents[..leaves].to_vec());
@@ -36,7 +35,7 @@ pub fn rebalanced(old: Forest) -> (Forest, Vec<u32>) {
 #[derive(Clone, Copy)]
 struct Shape {
     leaves: u32,
-    /// Levels below this one.
+    /// Levels below the root.
     height: u32,
 }
 
@@ -46,7 +45,7 @@ impl Shape {
     }
 }
 
-/// Measures the bodies that were made since the last time.
+/// Adds the shapes of the bodies created since the last call.
 fn measure(forest: &Forest, shapes: &mut Vec<Shape>) {
     for body in shapes.len()..forest.extents.len() {
         let [a, b] = forest.children[body - forest.leaves].map(|child| shapes[child as usize]);
@@ -57,22 +56,22 @@ fn measure(forest: &Forest, shapes: &mut Vec<Shape>) {
     }
 }
 
-/// Opens a body from its deepest side until what it falls into fits under the limit, and joins that anew.
+/// Opens the deepest subtrees of a body until a new tree over the parts keeps the limit, and builds that tree.
 fn rebuild(forest: &mut Forest, shapes: &mut Vec<Shape>, body: u32) -> u32 {
     let limit = shapes[body as usize].limit();
     let height = |body: u32| shapes[body as usize].height;
-    let mut fallen = std::collections::BinaryHeap::from([(height(body), body)]);
-    while let Some(&(deepest, body)) = fallen.peek() {
-        let needed = fallen.len().next_power_of_two().trailing_zeros();
+    let mut open = std::collections::BinaryHeap::from([(height(body), body)]);
+    while let Some(&(deepest, body)) = open.peek() {
+        let needed = open.len().next_power_of_two().trailing_zeros();
         if deepest + needed <= limit {
             break;
         }
-        fallen.pop();
+        open.pop();
         let children = forest.children[body as usize - forest.leaves];
-        fallen.extend(children.map(|child| (height(child), child)));
+        open.extend(children.map(|child| (height(child), child)));
     }
-    let deepest = fallen.peek().map_or(0, |top| top.0);
-    let mut parts: Vec<u32> = fallen.into_iter().map(|(_, body)| body).collect();
+    let deepest = open.peek().map_or(0, |top| top.0);
+    let mut parts: Vec<u32> = open.into_iter().map(|(_, body)| body).collect();
     parts.sort_unstable();
     let root = split_within(forest, parts, (limit - deepest) as usize);
     measure(forest, shapes);
@@ -90,7 +89,7 @@ mod tests {
         (0..n).map(|i| Extent::of(&[at(i)])).collect()
     }
 
-    /// A chain, the deepest tree there is.
+    /// A chain is the deepest tree.
     #[test]
     fn a_chain_becomes_a_balanced_tree() {
         for n in [2usize, 3, 4, 5, 7, 8, 9, 100, 5000] {

@@ -1,5 +1,5 @@
-//! The grouping of large bodies, region by region: clusters of neighbours all over a body of a million primitives wait for
-//! memory, those of a region find it near, and regions are shared out to threads.
+//! Groups large bodies region by region. Clustering a million primitives at once misses the cache; a region fits it, and
+//! regions are grouped in parallel.
 
 use super::binned_split::{Branch, Cut, cut, split_within};
 use super::forest::Forest;
@@ -10,10 +10,10 @@ use crate::error::Result;
 use crate::hierarchy::{HierarchyOptions, Node, Progress, SubsetTree, parallel};
 use crate::primitive::Convex;
 
-/// A region has no more parts.
+/// The most parts of a region.
 pub const REGION: usize = 16_384;
 
-/// Groups parts, of which there is at least one, by regions that are cut from above. The same input gives the same tree.
+/// Groups at least one part by regions that are split top-down. The same input gives the same tree.
 pub fn group_by_regions(
     primitives: &[Convex],
     parts: &[Part],
@@ -33,11 +33,11 @@ pub fn group_by_regions(
         if tree.depth() <= levels + 1 {
             return tree;
         }
-        // The regions above lie too deep for what the tree needs.
+        // The region's tree is too deep for its place in the whole tree; split top-down instead.
         let extents = members.iter().map(|&part| forest.extents[part as usize]);
         split_region(extents.collect(), members, *levels)
     })?;
-    Ok(joined(&regions, &grouped))
+    Ok(join(&regions, &grouped))
 }
 
 fn group_region(
@@ -50,13 +50,13 @@ fn group_region(
         threads: 1,
         ..*options
     };
-    let mut unheard = |_| Ok(());
-    let mut progress = Progress::new(&mut unheard);
+    let mut ignored = |_| Ok(());
+    let mut progress = Progress::new(&mut ignored);
     let groups = group_few(primitives, parts, members, &[], &one_thread, &mut progress);
     groups.expect("nothing ends the work").subsets
 }
 
-/// A tree of no more than so many levels below its root.
+/// Builds a tree with at most `levels` levels below its root.
 fn split_region(extents: Vec<Extent>, members: &[u32], levels: usize) -> SubsetTree {
     let mut forest = Forest::new(extents);
     let leaves = (0..members.len() as u32).collect();
@@ -70,8 +70,8 @@ fn split_region(extents: Vec<Extent>, members: &[u32], levels: usize) -> SubsetT
     tree
 }
 
-/// The trees of all regions under the one that was cut.
-fn joined(regions: &Cut, trees: &[SubsetTree]) -> SubsetTree {
+/// Joins the trees of all regions under the tree of the regions.
+fn join(regions: &Cut, trees: &[SubsetTree]) -> SubsetTree {
     let count = trees.iter().map(|tree| tree.nodes.len()).sum::<usize>() + regions.pairs.len();
     let mut nodes = Vec::with_capacity(count);
     // A branch and, for second children, their parent.

@@ -1,4 +1,4 @@
-//! Which flat polygons share an edge: found by the coordinates of its ends.
+//! Finds which flat polygons share an edge, by the coordinates of its ends.
 
 use foldhash::{HashMap, HashMapExt};
 
@@ -9,18 +9,18 @@ use crate::primitive::Convex;
 #[derive(Clone, Copy, Debug)]
 pub struct Neighbour {
     pub polygon: u32,
-    /// The two run along the edge in opposite directions, as neighbours on an oriented surface do.
+    /// Whether the two polygons run along the edge in opposite directions, as neighbours on an oriented surface do.
     pub opposite: bool,
     pub length: f64,
 }
 
-/// The edges of a body's flat polygons. Edges that more than two polygons share join nothing.
+/// The edges shared by a body's flat polygons. Edges of more than two polygons are ignored.
 pub struct SharedEdges {
     /// Per primitive, its neighbours; empty for solids, segments and points.
     pub neighbours: Vec<Vec<Neighbour>>,
     /// Per primitive, whether each of its edges has exactly one neighbour, in the opposite direction.
     pub closed: Vec<bool>,
-    /// Per primitive, the numbers of its vertices; the same number stands for the same coordinates.
+    /// Per primitive, its vertices as indices into `points`; equal coordinates have equal indices.
     pub vertices: Vec<Vec<u32>>,
     pub points: Vec<Vec3>,
 }
@@ -41,7 +41,7 @@ impl SharedEdges {
                 (points.len() - 1) as u32
             })
         };
-        // Ends in ascending order, polygon, whether it runs from the lower end to the higher.
+        // The ends in ascending order, the polygon, and whether it runs from the lower end to the higher.
         let mut uses: Vec<([u32; 2], u32, bool)> = Vec::new();
         let mut vertices = Vec::with_capacity(primitives.len());
         for (i, primitive) in primitives.iter().enumerate() {
@@ -87,19 +87,19 @@ impl SharedEdges {
         }
     }
 
-    /// What hangs together over shared edges: lists of polygons, each ascending.
+    /// The connected components over shared edges: lists of primitives, each ascending.
     pub fn components(&self) -> Vec<Vec<u32>> {
-        let mut met = vec![false; self.neighbours.len()];
+        let mut seen = vec![false; self.neighbours.len()];
         let mut components = Vec::new();
-        for seed in 0..met.len() {
-            if std::mem::replace(&mut met[seed], true) {
+        for seed in 0..seen.len() {
+            if std::mem::replace(&mut seen[seed], true) {
                 continue;
             }
             let mut component = vec![seed as u32];
             let mut next = 0;
             while next < component.len() {
                 for neighbour in &self.neighbours[component[next] as usize] {
-                    if !std::mem::replace(&mut met[neighbour.polygon as usize], true) {
+                    if !std::mem::replace(&mut seen[neighbour.polygon as usize], true) {
                         component.push(neighbour.polygon);
                     }
                 }
