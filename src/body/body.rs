@@ -13,8 +13,9 @@ use crate::pose::Vec3;
 use crate::primitive::Primitives;
 use crate::user_data::UserData;
 
-/// A rigid union of convex primitives, in a frame of its own whose origin is `center` in the caller's frame: the middle
-/// of the primitives' box. Distances are computed around it, so that bodies modelled far from their origin lose nothing.
+/// A rigid union of convex primitives with its hierarchy. Its own frame has its origin at `center` in the caller's frame, the
+/// middle of the primitives' box. Distances are computed in it, so that bodies modelled far from their origin lose no
+/// precision.
 #[derive(Debug)]
 pub struct Body {
     serial: u64,
@@ -27,27 +28,32 @@ pub struct Body {
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
     pub(super) solid: Option<Solid>,
-    /// Made when first asked for, but for solids. Bodies of nothing but points do without.
+    /// Computed on first use, for solids with the body. Point clouds need none.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
 }
 
-/// What became of the input, and what was built.
+/// Counts, size and build times of a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BodyStatistics {
+    /// Number of primitives.
     pub primitives: u64,
     /// Faces of meshes that were not convex or not planar and became several triangles.
     pub faces_split: u64,
-    /// Faces of meshes that had no area and were left out.
+    /// Faces of meshes that had no area and became no primitive.
     pub faces_dropped: u64,
+    /// Number of nodes of the binary tree.
     pub nodes: u64,
+    /// Number of levels of the binary tree.
     pub depth: u64,
-    /// The body was declared solid.
+    /// Whether the body was declared solid.
     pub is_solid: bool,
-    /// The box of the body, in the caller's frame.
+    /// The lowest coordinates of the body's box, in the caller's frame.
     pub low: [f64; 3],
+    /// The highest coordinates of the body's box, in the caller's frame.
     pub high: [f64; 3],
+    /// Seconds each phase of the build took.
     pub times: BuildTimes,
 }
 
@@ -78,8 +84,8 @@ impl Body {
         }
     }
 
-    /// The same body with what its polygons bound.
-    pub(super) fn bounding(mut self, solid: Option<Solid>) -> Self {
+    /// Adds the solid that the body's polygons bound, if they bound one.
+    pub(super) fn with_solid(mut self, solid: Option<Solid>) -> Self {
         if let Some(solid) = &solid {
             self.pieces = Pieces::new(&self.primitives, solid.scraps()).into();
         }
@@ -87,7 +93,7 @@ impl Body {
         self
     }
 
-    /// A number no other body of this process has; caches key on it.
+    /// A number that no other body of this process has; caches key on it.
     pub fn serial(&self) -> u64 {
         self.serial
     }
@@ -102,22 +108,22 @@ impl Body {
         &self.center
     }
 
-    /// The largest distance of a vertex from the centre; of a bounding point of what is curved.
+    /// The largest distance of a vertex from the centre; of a curved primitive, that of a bounding point.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// No point is farther from the origin of the caller's frame.
+    /// An upper bound of the points' distance from the origin of the caller's frame.
     pub fn radius_from_origin(&self) -> f64 {
         self.center.norm() + self.radius
     }
 
-    /// The largest deviation of a primitive from its faces (see [`Convex`]).
+    /// The largest deviation of a primitive from its faces (see [`Convex`](crate::primitive::Convex)).
     pub fn deviation(&self) -> f64 {
         self.deviation
     }
 
-    /// Whether queries run support functions of the caller's.
+    /// Whether queries call support functions of the caller.
     pub fn has_functions(&self) -> bool {
         self.has_functions
     }
@@ -127,76 +133,77 @@ impl Body {
         &self.primitives
     }
 
-    /// The number of the caller's data, or 0.
+    /// The value of the caller's data, or 0.
     pub fn data(&self) -> usize {
         self.data.get().map_or(0, |data| data.value)
     }
 
-    /// Attaches the caller's data; once.
+    /// Attaches the caller's data. Fails if the body has data already.
     pub fn set_data(&self, data: UserData) -> Result<()> {
         self.data
             .set(data)
             .map_err(|_| Error::invalid("the body has data already"))
     }
 
+    /// The caller's tag of a primitive.
     pub fn tag(&self, primitive: u32) -> u64 {
         self.primitives.tag(primitive as usize)
     }
 
-    /// The wrapper tree; of hulls and of clouds it is made when first asked for.
+    /// The wrapper tree; for hulls and clouds it is built on first use.
     pub fn tree(&self) -> &WrapperTree {
         self.wrappers.tree(&self.primitives)
     }
 
-    /// Fails for a level that the hierarchy does not have. Makes no wrappers.
+    /// Fails for a level that the hierarchy does not have. Builds no wrappers.
     pub fn require_level(&self, level: u32) -> Result<()> {
         require_level(level, self.statistics.depth as usize)
     }
 
-    /// The kind of the wrappers, made or not.
+    /// The kind of the wrappers, built or not.
     pub fn wrapper_kind(&self) -> WrapperKind {
         self.wrappers.kind()
     }
 
-    /// What the hierarchy is like, with the bytes that it and the points of clouds take. Makes
-    /// no wrappers.
+    /// The statistics of the hierarchy; the bytes include the packed tree and the points of clouds. Builds no wrappers.
     pub fn tree_statistics(&self) -> TreeStatistics {
         let statistics = self.wrappers.statistics(&self.primitives);
-        let read = self.packed.bytes() + self.primitives.point_bytes();
+        let packed = self.packed.bytes() + self.primitives.point_bytes();
         TreeStatistics {
-            bytes: statistics.bytes + read as u64,
+            bytes: statistics.bytes + packed as u64,
             ..statistics
         }
     }
 
-    /// The tree as queries walk it.
+    /// The tree that queries traverse.
     pub fn packed(&self) -> &PackedTree {
         &self.packed
     }
 
-    /// The place of its primitive, if it has but one.
+    /// The index of its packed primitive, if the tree is a single leaf.
     pub fn only_place(&self) -> Option<u32> {
         let root = self.packed.root();
         root.is_leaf().then(|| self.packed.place(root))
     }
 
-    /// Whether it is one primitive, and no more than that.
+    /// Whether it is a single leaf and no boundary of a solid.
     pub fn is_single(&self) -> bool {
         self.only_place().is_some() && self.solid.is_none()
     }
 
-    /// What its polygons bound, if the body is a solid of space that has some.
+    /// The solid that its polygons bound, if a spatial body was declared solid and has any.
     #[inline(always)]
     pub fn solid(&self) -> Option<&Solid> {
         self.solid.as_ref()
     }
 
-    /// What of it hangs together.
+    /// The connected pieces; computed on first use.
     pub fn pieces(&self) -> &Pieces {
         self.pieces
             .get_or_init(|| Pieces::new(&self.primitives, &[]))
     }
 
+    /// Number of connected pieces.
     pub fn piece_count(&self) -> usize {
         match self.primitives.are_points() {
             true => self.primitives.len(),
@@ -204,7 +211,7 @@ impl Body {
         }
     }
 
-    /// A piece by its number; pieces are in the order of their lowest primitives.
+    /// A piece by its index; pieces are in the order of their lowest primitives.
     pub fn piece(&self, number: u32) -> Piece {
         match self.primitives.are_points() {
             true => Piece::of_point(number, &self.primitives.points()[number as usize]),
@@ -212,7 +219,7 @@ impl Body {
         }
     }
 
-    /// The number of the piece that a primitive belongs to.
+    /// The index of the piece that a primitive belongs to.
     pub fn piece_of(&self, primitive: u32) -> u32 {
         match self.primitives.are_points() {
             true => primitive,
@@ -220,6 +227,7 @@ impl Body {
         }
     }
 
+    /// Counts, size and build times.
     pub fn statistics(&self) -> &BodyStatistics {
         &self.statistics
     }

@@ -1,4 +1,4 @@
-//! A folder that keeps built bodies, each under a digest of what it was built from.
+//! A folder of built bodies, each stored under a digest of its input.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -12,13 +12,13 @@ use crate::whole_file::{read_whole, write_whole};
 
 const MAGIC: [u8; 8] = *b"cstkkept";
 
-/// The SHA-256 digest of all that a body is built from. Bodies with equal keys are equal.
+/// The SHA-256 digest of everything a body is built from. Bodies with equal keys are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BodyKey([u8; 32]);
 
 impl BodyKey {
-    /// From a description that names everything the body depends on. This library's version and that of its body files are
-    /// part of every key.
+    /// The key of a description that names everything the body depends on. The versions of this library and of its body
+    /// files are part of every key.
     pub fn of(description: &str) -> Self {
         let library = env!("CARGO_PKG_VERSION");
         Self(Sha256::digest(format!("{library} {VERSION}\n{description}")).into())
@@ -37,25 +37,25 @@ fn hexadecimal(digest: &[u8; 32]) -> String {
     })
 }
 
-/// The folder. A file in it holds the key and a body file; one that is damaged, or of another key, is as good as none.
+/// A folder of built bodies. Each file holds the key and a body file; a file that is damaged or has another key is ignored.
 #[derive(Debug)]
 pub struct BodyCache {
     folder: PathBuf,
 }
 
 impl BodyCache {
-    /// Makes the folder if there is none.
+    /// Opens a folder, and creates it if it does not exist.
     pub fn open(folder: &Path) -> Result<Self> {
         let failed = |e: std::io::Error| Error::io(e).within(folder.display());
         std::fs::create_dir_all(folder).map_err(failed)?;
-        // An empty name is no failure of the line above.
+        // `create_dir_all` accepts an empty name; this does not.
         std::fs::read_dir(folder).map_err(failed)?;
         Ok(Self {
             folder: folder.to_path_buf(),
         })
     }
 
-    /// The body kept under a key.
+    /// The body stored under a key.
     pub fn load(&self, key: &BodyKey) -> Option<Body> {
         let bytes = read_whole(&self.path(key), MAX_FILE_BYTES).ok()?;
         let (magic, rest) = bytes.split_at_checked(MAGIC.len())?;
@@ -65,7 +65,7 @@ impl BodyCache {
             .flatten()
     }
 
-    /// Keeps a body. A file of its key is replaced.
+    /// Stores a body. A file of the same key is replaced.
     pub fn store(&self, key: &BodyKey, body: &Body) -> Result<()> {
         let content = [&MAGIC[..], &key.0, &body.to_bytes()?].concat();
         write_whole(&self.path(key), &content)

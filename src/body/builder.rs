@@ -1,4 +1,4 @@
-//! Collects primitives, checks each as it comes, and builds the body.
+//! Collects primitives, checks each when it is added, and builds the body.
 
 use std::path::Path;
 
@@ -13,14 +13,14 @@ use crate::primitive::{
     Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
 };
 
-/// Primitives on their way to a body. A failed call adds nothing.
+/// Collects the primitives of a body. A call that fails adds nothing.
 #[derive(Debug)]
 pub struct BodyBuilder {
     pub(super) dimension: u32,
     primitives: Primitives,
-    /// Which of the shapes among the primitives are polygons, that may bound a solid; the others were given as polyhedra.
+    /// Per shape added (points have no entry), whether it is a polygon that may bound a solid.
     is_face: Vec<bool>,
-    /// What of the meshes' faces had no area.
+    /// The faces of meshes, or parts of them, that had no area.
     scraps: Vec<DegenerateFace>,
     is_solid: bool,
     faces_split: u64,
@@ -28,7 +28,7 @@ pub struct BodyBuilder {
 }
 
 impl BodyBuilder {
-    /// For bodies of the plane (2) or of space (3).
+    /// An empty builder for planar (2) or spatial (3) bodies.
     pub fn new(dimension: u32) -> Result<Self> {
         check_dimension(dimension)?;
         Ok(Self {
@@ -48,28 +48,28 @@ impl BodyBuilder {
         self.push(convex_polygon(vertices)?, tag, true)
     }
 
-    /// Adds the convex hull of points: a solid, or a flat polygon, segment or point where the points are no more.
+    /// Adds the convex hull of points: a solid, or a flat polygon, segment or point if the points are degenerate.
     pub fn add_polyhedron(&mut self, points: &[Vec3], tag: u64) -> Result<()> {
         self.require_planar(points)?;
         self.push(convex_polyhedron(points)?, tag, false)
     }
 
-    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: what is wholly inside meets
-    /// the body. Inside is where the boundary's winding number is not 0. So shells that face the same way may overlap; a
-    /// cavity is a shell that faces the other way than the one around it; and a boundary that faces inwards all over
-    /// bounds the same solid.
+    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: a body wholly inside is in
+    /// collision. Inside is where the boundary's winding number is not 0. So shells that face the same way may overlap; a
+    /// cavity is a shell that faces the other way than the one around it; and a boundary that faces inwards everywhere bounds
+    /// the same solid.
     ///
-    /// It is [`BodyBuilder::build`] that checks whether the boundary is closed. Edges join where their ends have the same
-    /// coordinates, to the last bit; as many faces must run along each one way as the other. Faces that alone share an edge
-    /// are first turned round where they have to be: the larger part by area of what so hangs together stays as it is.
-    /// Polyhedra are solid by themselves and take no part, flat ones neither; nor does it matter in the plane, where polygons
-    /// are solid too.
+    /// [`BodyBuilder::build`] checks that the boundary is closed. Edges join if their ends have the same coordinates, to the
+    /// last bit; each edge must be used by as many faces one way as the other. Faces without area count where others need
+    /// them to join. If exactly two faces share an edge, one is first reversed where necessary; of each component connected
+    /// that way, the larger part by area keeps its orientation. Polyhedra, flat ones too, are solid by themselves and no part
+    /// of the boundary. In the plane, where polygons are solid too, this changes nothing.
     pub fn set_solid(&mut self, is_solid: bool) {
         self.is_solid = is_solid;
     }
 
-    /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles;
-    /// those without area are left out and counted.
+    /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles. Faces
+    /// without area are counted and become no primitive; they only serve to close the boundary of a solid.
     pub fn add_mesh(&mut self, mesh: &Mesh) -> Result<()> {
         self.require_planar(&mesh.vertices)?;
         let mut added: Vec<(Convex, u64)> = Vec::new();
@@ -118,7 +118,7 @@ impl BodyBuilder {
                         let corners = triangle.map(|i| corners[i as usize]);
                         match convex_polygon(&corners) {
                             Ok(polygon) => added.push((polygon, tag)),
-                            // A triangle without area covers nothing that its neighbours do not.
+                            // A triangle without area covers nothing beyond its neighbours.
                             Err(error) if error.kind == ErrorKind::Degenerate => {
                                 drop(corners.to_vec());
                             }
@@ -135,7 +135,7 @@ impl BodyBuilder {
             ));
         }
         self.push_all(added, true)?;
-        // Others are no more than a segment to and fro.
+        // A scrap of two vertices is a segment there and back, whose edge uses cancel.
         self.scraps
             .extend(scraps.into_iter().filter(|s| s.vertices.len() > 2));
         self.faces_split += split;
@@ -151,16 +151,18 @@ impl BodyBuilder {
         self.add_mesh(&mesh).map_err(named)
     }
 
+    /// Number of primitives added so far.
     pub fn len(&self) -> usize {
         self.primitives.len()
     }
 
+    /// Whether no primitive was added yet.
     pub fn is_empty(&self) -> bool {
         self.primitives.is_empty()
     }
 
-    /// Builds the body from what was added so far; the builder stays as it is and may go on. Fails for a body declared solid
-    /// whose boundary is not closed, naming the edges.
+    /// Builds the body from the primitives added so far; the builder does not change and may be used further. Fails without
+    /// primitives, and for a body declared solid whose boundary is not closed (the message names edges) or bounds nothing.
     pub fn build(
         &self,
         options: &HierarchyOptions,
@@ -216,7 +218,7 @@ impl BodyBuilder {
             built.packed,
             statistics,
         )
-        .bounding(solid))
+        .with_solid(solid))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
@@ -226,14 +228,14 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Adds points of one shape, tagged by their indices among these: all of them or none.
+    /// Adds points of one shape, tagged with their indices in `points`: all of them or none.
     pub(super) fn push_points(&mut self, shape: &Convex, points: &[Vec3]) -> Result<()> {
         self.require_room(points.len())?;
         self.primitives.push_points(shape, points);
         Ok(())
     }
 
-    /// Adds all of one kind, or none: polygons that may bound a solid, or others.
+    /// Adds all primitives or none; `are_faces` says whether they are polygons that may bound a solid.
     pub(super) fn push_all(&mut self, added: Vec<(Convex, u64)>, are_faces: bool) -> Result<()> {
         self.require_room(added.len())?;
         for (primitive, tag) in added {
@@ -254,7 +256,7 @@ impl BodyBuilder {
     }
 
     pub(super) fn require_planar(&self, points: &[Vec3]) -> Result<()> {
-        // What is not finite is refused as such later.
+        // Coordinates that are not finite are refused later, with their own message.
         match points.iter().position(|p| p.z != 0.0 && p.z.is_finite()) {
             Some(i) if self.dimension == 2 => Err(Error::new(
                 ErrorKind::NotPlanar,
@@ -265,7 +267,7 @@ impl BodyBuilder {
     }
 }
 
-/// The rings between a face and its triangles, where those leave out vertices that repeat others.
+/// The rings between a face and its triangles where the triangulation skips vertices that repeat others.
 fn left_out(face: &[Vec3], triangles: &[[u32; 3]]) -> impl Iterator<Item = Vec<Vec3>> {
     let n = face.len();
     let mut is_used = vec![false; n];

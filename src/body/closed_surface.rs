@@ -1,4 +1,4 @@
-//! Whether faces are the closed boundary of a solid, and which way round each has to be for that.
+//! Checks that faces form the closed boundary of a solid, and orients them consistently.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -9,24 +9,24 @@ use super::surface_edges::{EdgeUse, Outline, SurfaceEdges};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
 
-/// So many edges are named in a message.
-const NAMED: usize = 3;
+/// The most edges that an error message names.
+const MAX_NAMED: usize = 3;
 
-/// How the closed surface uses each face: 1 as it was given, -1 the other way round, 0 not at all (a face without area that
-/// the others can do without).
+/// Orients the faces of a closed surface. Returns for each face 1 as given, -1 reversed, 0 unused (a face without area that
+/// the others do not need).
 ///
-/// Closed means that as many faces run along an edge one way as the other. Faces that alone share an edge are brought to
-/// run along it in opposite directions; of what so hangs together, the larger part by area stays as it was given (of equal
-/// parts, that of the first face). Fails where edges are open, where what hangs together has one side only, and where each
-/// face of it has a copy the other way round, so that it bounds nothing.
+/// Closed means that as many faces run along each edge one way as the other. If exactly two faces share an edge, they are
+/// oriented to run along it in opposite directions; of each component connected that way, the larger part by area stays as
+/// given (of equal parts, that of the first face). Fails if edges are open, if a component is one-sided, and if each face of
+/// a component has a reversed copy, so that it bounds nothing.
 pub fn closed_surface(faces: &[Outline]) -> Result<Vec<i8>> {
     let mut edges = SurfaceEdges::of(faces);
     let is_kept = edges.closing(faces);
     edges.retain(&is_kept);
     let surface = Surface { faces, edges };
     surface.refuse_open(is_fillable, "open")?;
-    let turned = surface.turned()?;
-    let sign = |face: usize| if turned[face] { -1 } else { 1 };
+    let reversed = surface.reversed_faces()?;
+    let sign = |face: usize| if reversed[face] { -1 } else { 1 };
     let is_even = |family: &[EdgeUse]| {
         let sum: i32 = family.iter().map(|u| u.net * sign(u.face as usize)).sum();
         sum == 0
@@ -39,7 +39,7 @@ pub fn closed_surface(faces: &[Outline]) -> Result<Vec<i8>> {
     Ok(signs)
 }
 
-/// Whether the faces along an edge could balance.
+/// Whether the uses of an edge can balance under some orientation of its faces.
 fn is_fillable(family: &[EdgeUse]) -> bool {
     let sum: i32 = family.iter().map(|used| used.net.abs()).sum();
     let largest = family.iter().map(|used| used.net.abs()).max();
@@ -52,8 +52,8 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Which faces have to be turned round, if one way round there is.
-    fn turned(&self) -> Result<Vec<bool>> {
+    /// Which faces to reverse; fails for a one-sided surface.
+    fn reversed_faces(&self) -> Result<Vec<bool>> {
         let mut sides = Sides::new(self.faces.len());
         for family in self.edges.families() {
             if let [a, b] = family
@@ -68,7 +68,7 @@ impl Surface<'_> {
                 ));
             }
         }
-        // Per root, the area that faces as the first face does, less that which faces the other way; and how that faces.
+        // Per root, the area on the side of its first face minus the area on the other side, and the side of that face.
         let mut balance: HashMap<u32, (f64, bool), RandomState> = HashMap::default();
         let found: Vec<(u32, bool)> = (0..self.faces.len() as u32)
             .map(|face| sides.find(face))
@@ -78,11 +78,11 @@ impl Surface<'_> {
             let area = area_vector(face.vertices).norm();
             *sum += if side == *first { area } else { -area };
         }
-        let is_turned = |&(root, side): &(u32, bool)| {
+        let is_reversed = |&(root, side): &(u32, bool)| {
             let (sum, first) = balance[&root];
             (side != first) != (sum < 0.0)
         };
-        Ok(found.iter().map(is_turned).collect())
+        Ok(found.iter().map(is_reversed).collect())
     }
 
     fn refuse_open(&self, is_closed: impl Fn(&[EdgeUse]) -> bool, what: &str) -> Result<()> {
@@ -94,27 +94,27 @@ impl Surface<'_> {
             1 => format!("the surface is not closed, 1 edge is {what}: "),
             count => format!("the surface is not closed, {count} edges are {what}: "),
         };
-        for (i, family) in open.iter().take(NAMED).enumerate() {
+        for (i, family) in open.iter().take(MAX_NAMED).enumerate() {
             let comma = if i == 0 { "" } else { "; " };
             // Writing to a String cannot fail.
             let _ = write!(message, "{comma}{}", self.name(family));
         }
-        if open.len() > NAMED {
-            let _ = write!(message, "; and {} more", open.len() - NAMED);
+        if open.len() > MAX_NAMED {
+            let _ = write!(message, "; and {} more", open.len() - MAX_NAMED);
         }
         Err(Error::new(ErrorKind::NotClosed, message))
     }
 
-    /// An edge, and the faces that use it.
+    /// The text that names an edge and the faces that use it.
     fn name(&self, family: &[EdgeUse]) -> String {
         let [from, to] = family[0].edge.map(|i| self.edges.points[i as usize]);
         let point = |p: Vec3| format!("({}, {}, {})", p.x, p.y, p.z);
         let mut name = format!("the edge from {} to {} of", point(from), point(to));
-        for (i, used) in family.iter().take(NAMED + 1).enumerate() {
+        for (i, used) in family.iter().take(MAX_NAMED + 1).enumerate() {
             let face = &self.faces[used.face as usize];
             let comma = if i == 0 { "" } else { "," };
             let _ = match face.primitive {
-                _ if i == NAMED => write!(name, ", ..."),
+                _ if i == MAX_NAMED => write!(name, ", ..."),
                 Some(primitive) => write!(name, "{comma} primitive {primitive} (tag {})", face.tag),
                 None => write!(name, "{comma} a face without area (tag {})", face.tag),
             };
@@ -122,12 +122,12 @@ impl Surface<'_> {
         name
     }
 
-    /// Refuses what hangs together and has no inside, as each face has a copy that faces the other way: a mesh whose faces
-    /// were all given from both sides. It would seem solid, and hold nothing.
+    /// Refuses a component without inside because each face has a reversed copy: a mesh whose faces were all given from both
+    /// sides. It would pass as solid but contain nothing.
     fn refuse_cancelled(&self, signs: &[i8]) -> Result<()> {
         let mut sums: HashMap<Vec<u32>, i32, RandomState> = HashMap::default();
         let is_face = |face: usize| self.faces[face].primitive.is_some();
-        let keys = self.edges.rings.iter().map(|ring| unturned(ring));
+        let keys = self.edges.rings.iter().map(|ring| canonical(ring));
         let keys: Vec<(Vec<u32>, i32)> = keys.collect();
         for (face, (key, way)) in keys.iter().enumerate().filter(|(face, _)| is_face(*face)) {
             *sums.entry(key.clone()).or_insert(0) += way * i32::from(signs[face]);
@@ -159,8 +159,9 @@ impl Surface<'_> {
     }
 }
 
-/// A ring from its lowest vertex towards the lower of the neighbours, and whether that is the way it runs (1) or not (-1).
-fn unturned(ring: &[u32]) -> (Vec<u32>, i32) {
+/// The canonical form of a ring, from its lowest vertex towards the lower of its neighbours, and whether the ring runs that
+/// way (1) or the other (-1).
+fn canonical(ring: &[u32]) -> (Vec<u32>, i32) {
     let n = ring.len();
     let start = (0..n).min_by_key(|&i| ring[i]).unwrap_or(0);
     let forwards = (0..n).map(|k| ring[(start + k) % n]);
@@ -172,7 +173,7 @@ fn unturned(ring: &[u32]) -> (Vec<u32>, i32) {
     }
 }
 
-/// Twice the area, along the normal.
+/// The normal of a face, with twice the area as its length.
 fn area_vector(vertices: &[Vec3]) -> Vec3 {
     let origin = vertices[0];
     let pairs = vertices.windows(2);
@@ -181,42 +182,42 @@ fn area_vector(vertices: &[Vec3]) -> Vec3 {
         .sum()
 }
 
-/// Which faces hang together, and which of them lie on the same side: sets by their roots.
+/// Union-find over faces with a parity: which faces are connected, and which of those are on the same side.
 struct Sides {
-    /// Towards the root, and whether that is of the other side.
-    above: Vec<(u32, bool)>,
+    /// The link towards the root, and whether the linked face is on the other side.
+    parents: Vec<(u32, bool)>,
 }
 
 impl Sides {
     fn new(count: usize) -> Self {
         Self {
-            above: (0..count as u32).map(|i| (i, false)).collect(),
+            parents: (0..count as u32).map(|i| (i, false)).collect(),
         }
     }
 
     /// The root, and whether the face is on its other side.
     fn find(&mut self, face: u32) -> (u32, bool) {
         let (mut root, mut side) = (face, false);
-        while self.above[root as usize].0 != root {
-            let (next, other) = self.above[root as usize];
+        while self.parents[root as usize].0 != root {
+            let (next, other) = self.parents[root as usize];
             (root, side) = (next, side ^ other);
         }
-        // The way is shortened for the next time.
+        // Path compression.
         let (mut at, mut rest) = (face, side);
         while at != root {
-            let (next, other) = std::mem::replace(&mut self.above[at as usize], (root, rest));
+            let (next, other) = std::mem::replace(&mut self.parents[at as usize], (root, rest));
             (at, rest) = (next, rest ^ other);
         }
         (root, side)
     }
 
-    /// Puts two faces on the same side, or on different ones; false if they are known to be otherwise.
+    /// Joins two faces on the same side or, if they differ, on opposite sides; false if that contradicts earlier joins.
     fn join(&mut self, a: u32, b: u32, differ: bool) -> bool {
         let ((root_a, side_a), (root_b, side_b)) = (self.find(a), self.find(b));
         if root_a == root_b {
             return (side_a != side_b) == differ;
         }
-        self.above[root_a.max(root_b) as usize] = (root_a.min(root_b), side_a ^ side_b ^ differ);
+        self.parents[root_a.max(root_b) as usize] = (root_a.min(root_b), side_a ^ side_b ^ differ);
         true
     }
 }

@@ -1,23 +1,24 @@
-//! How far a body reaches along a direction.
+//! The support point of a body along a direction.
 
 use super::body::Body;
 use crate::boxes::PackedBox;
 use crate::hierarchy::packed::NodeRef;
 use crate::pose::Vec3;
 
-/// The point of a body that is farthest along a direction, and its primitive.
+/// The support point of a body: the point farthest along a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Farthest {
     /// In the body's own frame.
     pub point: Vec3,
+    /// The primitive that the point belongs to.
     pub primitive: u32,
-    /// How far along the direction.
+    /// The point's coordinate along the direction.
     pub along: f64,
 }
 
 impl Body {
-    /// The farthest point along a unit direction of the body's own frame; of several primitives that reach as far, that of
-    /// the lowest number. It goes down the tree to what may be farthest.
+    /// The farthest point along a unit direction of the body's own frame; among primitives that tie, that of the lowest
+    /// index. Traverses the packed tree, farthest boxes first.
     pub fn farthest(&self, direction: &Vec3) -> Farthest {
         let tree = self.packed();
         let mut best = Farthest {
@@ -26,12 +27,12 @@ impl Body {
             along: f64::NEG_INFINITY,
         };
         let mut open = vec![(f64::INFINITY, tree.root())];
-        while let Some((most, unit)) = open.pop() {
-            if most < best.along {
+        while let Some((bound, node)) = open.pop() {
+            if bound < best.along {
                 continue;
             }
-            if unit.is_leaf() {
-                let place = tree.place(unit) as usize;
+            if node.is_leaf() {
+                let place = tree.place(node) as usize;
                 let primitive = tree.primitives().entry(place).primitive;
                 let point = self
                     .primitives()
@@ -49,29 +50,29 @@ impl Body {
                 }
                 continue;
             }
-            let index = tree.index(unit);
+            let index = tree.index(node);
             let children = tree.children(index);
             let first = open.len();
             let below = |lane: usize| -> (f64, NodeRef) {
                 let bound = extent_along(&tree.node(index).get(lane), direction);
-                // For the rounding of the point's place.
+                // For the rounding of the point's coordinates.
                 let slack = 1e-14 * self.radius();
                 (bound * tree.scale() + slack, children.units[lane])
             };
             open.extend((0..children.count).map(below));
-            // The farthest goes on top.
+            // The farthest goes on top of the stack.
             open[first..].sort_by(|a, b| a.0.total_cmp(&b.0));
         }
         best
     }
 }
 
-/// No point of a box is farther along a direction.
-fn extent_along(given: &PackedBox, direction: &Vec3) -> f64 {
+/// The largest coordinate of a box along a direction.
+fn extent_along(bounding_box: &PackedBox, direction: &Vec3) -> f64 {
     let along = |v: &[f32; 3]| direction.dot(&Vec3::from(v.map(f64::from)));
-    let sides = given.axes.iter().zip(&given.half);
+    let sides = bounding_box.axes.iter().zip(&bounding_box.half);
     let sides: f64 = sides
         .map(|(axis, half)| along(axis).abs() * f64::from(*half))
         .sum();
-    along(&given.center) + sides
+    along(&bounding_box.center) + sides
 }

@@ -1,5 +1,5 @@
-//! Bodies in files: the primitives and the whole hierarchy, so that loading builds nothing. docs/body-file.md describes
-//! the format.
+//! Body files: the primitives and the whole hierarchy, so that loading builds nothing. docs/body-file.md describes the
+//! format.
 
 use std::path::Path;
 
@@ -15,18 +15,18 @@ const MAGIC: [u8; 8] = *b"cstkbody";
 pub const VERSION: u32 = 5;
 const HEADER_BYTES: usize = 32;
 
-/// 16 GiB: many times what the largest body that a mesh file can give (`mesh_size`) takes.
+/// The largest body file, 16 GiB: many times the size of the largest body from a mesh file (see `mesh_budget`).
 pub const MAX_FILE_BYTES: u64 = 1 << 34;
 
 impl Body {
-    /// Writes the body to a file. A file of that name is replaced when all is written, or left as it is. Fails for a body
-    /// with a support function of the caller's.
+    /// Writes the body to a file. An existing file is replaced only after everything is written. Fails for a body with a
+    /// support function of the caller.
     pub fn save(&self, path: &Path) -> Result<()> {
         let bytes = self.to_bytes();
         write_whole(path, &bytes.map_err(|error| error.within(path.display()))?)
     }
 
-    /// Reads a body from a file that [`Body::save`] wrote. It answers as the saved one does, bit for bit.
+    /// Reads a body that [`Body::save`] wrote. Its answers equal those of the saved body, bit for bit.
     pub fn load(path: &Path) -> Result<Self> {
         read_whole(path, MAX_FILE_BYTES)
             .and_then(|bytes| Self::from_bytes(&bytes))
@@ -62,7 +62,7 @@ impl Body {
         Ok(bytes.0)
     }
 
-    /// The body of such content, which is checked.
+    /// Reads a body from the content of a body file, and checks it.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let payload = checked_payload(bytes)?;
         let mut reader = Reader {
@@ -96,12 +96,12 @@ impl Body {
         statistics.primitives = primitives.len() as u64;
         Ok(
             Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
-                .bounding(solid),
+                .with_solid(solid),
         )
     }
 }
 
-/// The part after the header, if the file is whole, unaltered and of a known version.
+/// The content after the header, if the file is complete, undamaged and of this version.
 fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
     let fail = |message: String| Err(Error::new(ErrorKind::Parse, message));
     let Some((header, payload)) = bytes.split_at_checked(HEADER_BYTES) else {
@@ -120,7 +120,7 @@ fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
     };
     let (version, header_bytes) = (fields.u32()?, fields.u32()?);
     let (length, sum, header_sum) = (fields.u64()?, fields.u32()?, fields.u32()?);
-    // Before its sum: a newer version may have another header.
+    // Before the checksum: a newer version may have another header.
     if version != VERSION {
         return Err(Error::new(
             ErrorKind::Unsupported,
@@ -236,7 +236,7 @@ mod tests {
         assert!(error.message.contains("version 6"), "{}", error.message);
     }
 
-    /// Content that passes the checksum but was not written by us must not lead out of bounds.
+    /// Forged content that passes the checksum must not cause reads out of bounds.
     #[test]
     fn forged_content_is_refused_or_harmless() {
         let bytes = steps(WrapperKind::Hull).to_bytes().unwrap();

@@ -1,4 +1,4 @@
-//! Numbers, primitives and hierarchies from the bytes of a body file.
+//! Reads numbers, primitives and hierarchies from the bytes of a body file.
 
 use super::file_writer::{
     CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, MADE, OF_CLOUD, OF_GROUPS, PLAIN, POINTS, ROUNDED,
@@ -15,13 +15,13 @@ use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
 use crate::tolerance;
 
-/// A tree over 2^31 leaves has no more than 2 log2 of them.
+/// The most levels of a tree: 2 log2 n for n = 2^31 leaves.
 const MAX_DEPTH: u32 = 62;
 
-/// Reads a payload that passed its checksum; what it says is still not trusted.
+/// Reads a payload that passed its checksum. Its content is still not trusted.
 pub struct Reader<'a> {
     pub payload: &'a [u8],
-    /// Where in the file the rest begins, for messages.
+    /// The offset of the rest in the file, for messages.
     pub place: usize,
 }
 
@@ -73,7 +73,7 @@ impl Reader<'_> {
         Ok(Vec3::new(self.f64()?, self.f64()?, self.f64()?))
     }
 
-    /// A number of things of which each takes `bytes` at least, so that it cannot ask for more memory than the file has.
+    /// Checks a count of items of at least `bytes` bytes each against the rest of the file, which bounds the memory needed.
     pub fn fitting(&self, count: u64, bytes: usize) -> Result<usize> {
         usize::try_from(count)
             .ok()
@@ -139,9 +139,9 @@ impl Reader<'_> {
         Ok(Some((radius, Some(Smooth { kind, axes }))))
     }
 
-    /// The primitives of a body of the plane or of space.
+    /// The primitives of a planar or spatial body.
     pub fn primitives(&mut self, planar: bool) -> Result<Primitives> {
-        // A point takes the least.
+        // A point is the smallest primitive.
         let count = self.count(24)?;
         if count == 0 || count >= LEAF as usize {
             return Err(self.damaged("the number of primitives"));
@@ -171,7 +171,7 @@ impl Reader<'_> {
         Ok(primitives)
     }
 
-    /// A shape of a body of the plane or of space.
+    /// A shape of a planar or spatial body.
     fn primitive(&mut self, planar: bool) -> Result<Convex> {
         let (vertices, edges, faces) = (
             self.short_count(24)?,
@@ -213,7 +213,7 @@ impl Reader<'_> {
         };
         if let Some((radius, smooth)) = curve {
             let curve = Curve::new(&read, radius, smooth, planar);
-            // Not so where a face does not fit its edges.
+            // False if a face does not fit its edges.
             if !curve.bounds().iter().flatten().all(|x| x.is_finite()) {
                 return Err(self.damaged("a curved primitive"));
             }
@@ -222,7 +222,7 @@ impl Reader<'_> {
         Ok(read)
     }
 
-    /// The wrapper tree, or how it is made; the numbers of nodes and of levels.
+    /// The wrapper tree or what builds it on demand, and the numbers of nodes and levels.
     pub fn wrappers(&mut self, primitives: &Primitives) -> Result<(Wrappers, [u64; 2])> {
         let wrapper = *KINDS
             .get(self.u32()? as usize)
@@ -270,7 +270,7 @@ impl Reader<'_> {
         let nodes = (0..count).map(|i| self.node(i as u32));
         let nodes = nodes.collect::<Result<_>>()?;
         let groups = self.sound(nodes, primitives)?;
-        // Wrappers take time that grows with the levels.
+        // The time to build wrappers grows with the levels.
         match groups.subsets.depth() <= MAX_DEPTH as usize + 1 {
             true => Ok(groups),
             false => Err(self.damaged("the depth of the tree")),
@@ -289,7 +289,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Nodes that make a tree, and which of them hold pieces.
+    /// Reads which nodes hold pieces, and checks that the nodes form a tree.
     fn sound(&mut self, nodes: Vec<Node>, primitives: usize) -> Result<Groups> {
         let count = self.count(4)?;
         let pieces: Vec<u32> = (0..count)
@@ -299,7 +299,7 @@ impl Reader<'_> {
         if !subsets.is_sound(primitives) {
             return Err(self.damaged("the tree"));
         }
-        // One after the other, none in another: their hulls are as large as they come.
+        // Pieces must not be nested: the hull of a piece has no vertex limit.
         let sizes = subsets.sizes();
         if !pieces.is_sorted_by(|&a, &b| a + sizes[a as usize] <= b) {
             return Err(self.damaged("the pieces"));
@@ -390,7 +390,7 @@ mod tests {
     use super::super::file_writer::Writer;
     use super::*;
 
-    /// A tree that is one long chain, sound but for its depth, would have its wrappers take for ever.
+    /// A chain of nodes is a valid tree but for its depth, and its wrappers would take far too long to build.
     #[test]
     fn deep_trees_are_refused() {
         let read = |leaves: u32| {
@@ -412,7 +412,7 @@ mod tests {
         assert!(read(64).is_err());
     }
 
-    /// Pieces lie side by side: hulls of all that nested ones hold would be kept at every level.
+    /// Nested pieces would store a hull without vertex limit at every level.
     #[test]
     fn nested_pieces_are_refused() {
         let read = |pieces: &[u32]| {
@@ -433,7 +433,7 @@ mod tests {
         assert!(!read(&[1, 2]) && !read(&[0, 1]) && !read(&[4, 1]) && !read(&[4, 4]));
     }
 
-    /// The first edge of the core runs along the normal of its face, so that no box has both for axes.
+    /// The first edge of the core is parallel to the normal of its face, so that no box can have both as axes.
     #[test]
     fn faces_upright_to_their_edges_are_refused() {
         let read = |normal: [f64; 3]| {

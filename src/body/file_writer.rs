@@ -1,4 +1,4 @@
-//! Numbers, primitives and hierarchies as bytes of a body file.
+//! Writes numbers, primitives and hierarchies as the bytes of a body file.
 
 use super::solid::Solid;
 use crate::error::{Error, ErrorKind, Result};
@@ -9,26 +9,26 @@ use crate::hierarchy::{Node, WrapperKind};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, PrimitiveGroup, Primitives, Smooth, SmoothKind};
 
-/// Marks leaves among the codes of nodes.
+/// The leaf bit in the code of a node.
 pub const LEAF: u32 = 1 << 31;
 
-/// What follows in the list of primitives.
+/// The codes of the groups of primitives: one shape, or points of one radius.
 pub const SHAPE: u32 = 0;
 pub const POINTS: u32 = 1;
 
-/// What of the wrappers follows.
+/// The codes of what follows of the wrappers: nothing, the wrapper tree, or the groups.
 pub const OF_CLOUD: u32 = 0;
 pub const MADE: u32 = 1;
 pub const OF_GROUPS: u32 = 2;
 
-/// The kinds of shapes by their numbers in files.
+/// The codes of the kinds of shapes.
 pub const PLAIN: u32 = 0;
 pub const ROUNDED: u32 = 1;
 pub const CYLINDER: u32 = 2;
 pub const CONE: u32 = 3;
 pub const ELLIPSOID: u32 = 4;
 
-/// The kinds of wrappers by their numbers in files.
+/// The kinds of wrappers, indexed by their codes.
 pub const KINDS: [WrapperKind; 5] = [
     WrapperKind::Hull,
     WrapperKind::OrientedBox,
@@ -63,7 +63,7 @@ impl Writer {
         }
     }
 
-    /// Fails for a support function, naming the primitive.
+    /// Fails for a support function and names the primitive.
     pub fn primitives(&mut self, primitives: &Primitives) -> Result<()> {
         self.count(primitives.len());
         let mut index = 0;
@@ -113,7 +113,7 @@ impl Writer {
         Ok(())
     }
 
-    /// The kind of a primitive's core, and what there is of its numbers.
+    /// Writes the kind of a primitive, and the radius, sizes and axes that the kind has.
     fn curve(&mut self, primitive: &Convex) -> Result<()> {
         let Some(curve) = &primitive.curve else {
             self.u32(PLAIN);
@@ -228,7 +228,7 @@ impl Writer {
         }
     }
 
-    /// Which primitives bound a solid, and what closes their boundary.
+    /// Writes the signs and scraps of the solid, if there is one.
     pub fn solid(&mut self, solid: Option<&Solid>) {
         let Some(solid) = solid else {
             return self.u32(0);

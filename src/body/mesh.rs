@@ -1,4 +1,4 @@
-//! Meshes as callers give them and files hold them.
+//! Meshes from callers and mesh files.
 
 use crate::error::{Error, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
@@ -7,14 +7,17 @@ use crate::tolerance::SMALLEST_DIAMETER;
 /// A mesh: vertices, and faces as runs of vertex indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
+    /// The vertices, in the mesh's own frame.
     pub vertices: Vec<Vec3>,
+    /// Number of vertices of each face.
     pub face_sizes: Vec<u32>,
+    /// The vertex indices of all faces, face after face, counted from 0.
     pub indices: Vec<u32>,
 }
 
 impl Mesh {
-    /// The mesh scaled along its own axes, then moved. One that is mirrored runs round its faces the other way, so that they
-    /// face outwards as before. Without scale or motion it stays the same to the last bit.
+    /// The mesh scaled along its own axes, then moved by `pose`. If the scale mirrors it, its faces are reversed, so that they
+    /// face outwards as before. With scale 1 and the identity pose it is unchanged to the last bit.
     pub fn placed(mut self, pose: &Pose, scale: &Vec3) -> Result<Self> {
         check_scale(scale)?;
         if *pose == Pose::identity() && *scale == Vec3::repeat(1.0) {
@@ -29,7 +32,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// Sizes that do not match the indices are left to who adds the mesh.
+    /// Stops where sizes and indices do not match; the builder that the mesh is added to reports that.
     fn reverse_faces(&mut self) {
         let mut rest = &mut self.indices[..];
         for &size in &self.face_sizes {

@@ -1,32 +1,37 @@
-//! How much geometry one file may make: a small file can instance a mesh again and again, and ask for any amount.
+//! Limits the geometry that one file may create: a small file can instance a mesh many times over.
 
 use super::mesh::Mesh;
 use crate::error::{Error, ErrorKind, Result};
 
-/// The largest collision meshes known have a few million triangles. A body of as many takes some 10 GB while it is built.
+/// The most faces of a mesh. The largest collision meshes known have a few million triangles. A body of that many takes some
+/// 10 GB while it is built.
 pub const MAX_FACES: u64 = 1 << 23;
 
-/// Indices of all faces: four for each of the most faces there may be.
+/// The most indices of all faces: four per face.
 pub const MAX_INDICES: u64 = 4 * MAX_FACES;
 
-/// Faces that a file does not write out, but makes by referring to a mesh once more.
+/// The most faces that a file creates by instancing meshes again, without listing them.
 pub const MAX_REPEATED_FACES: u64 = 1 << 20;
+/// The most indices of such faces: four per face.
 pub const MAX_REPEATED_INDICES: u64 = 4 * MAX_REPEATED_FACES;
 
-/// Corners of one face. A face that is not convex is split in time that grows with their square: some 10 s for as many.
+/// The most corners of one face. Splitting a non-convex face takes quadratic time: some 10 s for this many corners.
 const MAX_FACE_CORNERS: u32 = 1 << 14;
 
-/// The largest mesh file that is read, 1 GiB: ASCII STL needs some 128 bytes for a face.
+/// The largest mesh file that is read, 1 GiB: ASCII STL takes some 128 bytes per face.
 pub const MAX_MESH_FILE_BYTES: u64 = 1 << 30;
 
-/// What a mesh, or several, come to.
+/// The size of one or several meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshSize {
+    /// Number of faces.
     pub faces: u64,
+    /// Number of vertex indices of all faces.
     pub indices: u64,
 }
 
 impl MeshSize {
+    /// The size of a mesh.
     pub fn of(mesh: &Mesh) -> Self {
         Self {
             faces: mesh.face_sizes.len() as u64,
@@ -56,7 +61,7 @@ impl MeshSize {
     }
 }
 
-/// What the instances of one file, or of one robot, come to so far.
+/// The total size of the mesh instances of one file or one robot so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MeshBudget {
     all: MeshSize,
@@ -64,7 +69,8 @@ pub struct MeshBudget {
 }
 
 impl MeshBudget {
-    /// Counts an instance of a mesh before it is made. `is_repeated` says that the mesh was instanced before.
+    /// Counts an instance of a mesh before it is created; fails above the limits. `is_repeated` says whether the mesh was
+    /// instanced before.
     pub fn take(&mut self, size: MeshSize, is_repeated: bool) -> Result<()> {
         self.all = self.all.plus(size);
         let max = MeshSize {
@@ -96,7 +102,7 @@ pub fn require_face_sizes(mesh: &Mesh) -> Result<()> {
     }
 }
 
-/// Fails for a mesh that is larger than one file may make.
+/// Fails for a mesh above the limits of one file.
 pub fn require_mesh_size(mesh: &Mesh) -> Result<()> {
     MeshBudget::default().take(MeshSize::of(mesh), false)
 }

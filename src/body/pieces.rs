@@ -1,4 +1,4 @@
-//! What of a body hangs together.
+//! The connected pieces of a body.
 
 use super::vertex_numbers::VertexNumbers;
 use crate::pose::Vec3;
@@ -9,12 +9,12 @@ use crate::primitive::Primitives;
 pub struct Piece {
     /// The lowest primitive.
     pub lowest: u32,
-    /// The first vertex of that, and of the piece's vertices one that is farthest from it.
+    /// The first vertex of that primitive, and a vertex of the piece that is farthest from it.
     pub ends: [Vec3; 2],
 }
 
 impl Piece {
-    /// A point by itself.
+    /// The piece that is a single point.
     pub(super) fn of_point(primitive: u32, point: &Vec3) -> Self {
         Self {
             lowest: primitive,
@@ -28,25 +28,25 @@ impl Piece {
 pub struct Pieces {
     /// In the order of their lowest primitives.
     pub list: Vec<Piece>,
-    /// The piece of each primitive.
+    /// Per primitive, the index of its piece.
     of: Vec<u32>,
-    /// The piece of each scrap.
+    /// Per scrap, the index of its piece.
     of_scraps: Vec<u32>,
 }
 
 impl Pieces {
-    /// Scraps are rings of vertices that join the polygons which they share vertices with.
+    /// Finds the pieces. Scraps are rings of vertices that join the polygons they share vertices with.
     pub(super) fn new(primitives: &Primitives, scraps: &[Vec<Vec3>]) -> Self {
         let mut numbers = VertexNumbers::default();
         let mut firsts = Vec::with_capacity(primitives.len());
-        // Vertices that hang together, each towards the first of them.
-        let mut above: Vec<u32> = Vec::new();
+        // Union-find links of connected vertices; the root is the lowest vertex.
+        let mut parents: Vec<u32> = Vec::new();
         let mut join_all = |vertices: &[Vec3]| {
             let mut first = None;
             for vertex in vertices {
                 let number = numbers.number(vertex);
-                above.extend(above.len() as u32..numbers.len() as u32);
-                join(&mut above, *first.get_or_insert(number), number);
+                parents.extend(parents.len() as u32..numbers.len() as u32);
+                join(&mut parents, *first.get_or_insert(number), number);
             }
             first
         };
@@ -60,11 +60,11 @@ impl Pieces {
             of: Vec::with_capacity(primitives.len()),
             of_scraps: Vec::new(),
         };
-        let mut piece_at: Vec<Option<u32>> = vec![None; above.len()];
+        let mut piece_at: Vec<Option<u32>> = vec![None; parents.len()];
         for (i, (primitive, first)) in (0..).zip(primitives.iter().zip(firsts)) {
             let next = pieces.list.len() as u32;
             let piece = match first {
-                Some(first) => *piece_at[find(&mut above, first) as usize].get_or_insert(next),
+                Some(first) => *piece_at[find(&mut parents, first) as usize].get_or_insert(next),
                 None => next,
             };
             if piece == next {
@@ -82,9 +82,9 @@ impl Pieces {
                 }
             }
         }
-        // A scrap is there for the polygons around it.
+        // A scrap is only kept if polygons need it, so it has a piece.
         let of_scrap = |first: Option<u32>| {
-            let piece = first.and_then(|first| piece_at[find(&mut above, first) as usize]);
+            let piece = first.and_then(|first| piece_at[find(&mut parents, first) as usize]);
             piece.unwrap_or(0)
         };
         pieces.of_scraps = scrap_firsts.into_iter().map(of_scrap).collect();
@@ -102,19 +102,19 @@ impl Pieces {
     }
 }
 
-fn find(above: &mut [u32], vertex: u32) -> u32 {
+fn find(parents: &mut [u32], vertex: u32) -> u32 {
     let mut root = vertex;
-    while above[root as usize] != root {
-        root = above[root as usize];
+    while parents[root as usize] != root {
+        root = parents[root as usize];
     }
     let mut at = vertex;
     while at != root {
-        at = std::mem::replace(&mut above[at as usize], root);
+        at = std::mem::replace(&mut parents[at as usize], root);
     }
     root
 }
 
-fn join(above: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (find(above, a), find(above, b));
-    above[a.max(b) as usize] = a.min(b);
+fn join(parents: &mut [u32], a: u32, b: u32) {
+    let (a, b) = (find(parents, a), find(parents, b));
+    parents[a.max(b) as usize] = a.min(b);
 }

@@ -1,4 +1,4 @@
-//! Ready-made shapes, point clouds and height fields on their way to a body.
+//! Adds ready-made shapes, point clouds and height fields to a body builder.
 
 use std::sync::Arc;
 
@@ -10,16 +10,16 @@ use crate::primitive::{
     ellipsoid, rounded, sphere, support_set,
 };
 
-/// Heights over the nodes of a grid in the plane of x and y.
+/// Heights over the nodes of a grid in the xy plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightField<'a> {
-    /// Nodes along x and along y, two at least.
+    /// Number of nodes along x and along y, at least two each.
     pub nodes: [usize; 2],
-    /// One a node, those along x one after another: the height at node (i, j) is number j * nodes[0] + i.
+    /// One height per node, x varying fastest: node (i, j) has index j * nodes[0] + i.
     pub heights: &'a [f64],
-    /// From node to node, along x and along y. The first node is at the origin.
+    /// The distance between nodes along x and along y. The first node is at the origin.
     pub cell: [f64; 2],
-    /// How far down the ground reaches; without it the field is a surface.
+    /// The z of the ground's lower side; without it the field is a surface.
     pub base: Option<f64>,
 }
 
@@ -43,8 +43,8 @@ impl BodyBuilder {
     }
 
     /// Adds the solid cylinder around the z axis of `pose`, from -half_length to half_length. Distances are known to
-    /// [`SMOOTH_ERROR`](crate::tolerance::SMOOTH_ERROR) times its diameter besides 1e-12 L. It has one contact only, also
-    /// where it stands or lies on a face, and no penetration.
+    /// [`SMOOTH_ERROR`](crate::tolerance::SMOOTH_ERROR) times its diameter plus 1e-12 L. It gives one contact only, even
+    /// if it stands or lies on a face, and no penetration depth.
     pub fn add_cylinder(
         &mut self,
         pose: &Pose,
@@ -83,17 +83,18 @@ impl BodyBuilder {
         self.push(rounded(core, radius, self.is_planar())?, tag, false)
     }
 
-    /// Adds the bounded convex set that a support function describes, which is asked about 300 directions here. As exact as
-    /// a cylinder where the function is exact to rounding; else its own error counts too.
+    /// Adds the bounded convex set of a support function, which is called for about 300 directions here. As exact as a
+    /// cylinder if the function is exact to rounding; otherwise its own error adds.
     pub fn add_support(&mut self, function: Arc<dyn SupportFunction>, tag: u64) -> Result<()> {
         self.require_space("a support function")?;
         self.push(support_set(function)?, tag, false)
     }
 
-    /// Adds balls of one radius around points, tagged with their indices; a radius of 0 leaves the points. Exact to 1e-12 L.
+    /// Adds balls of one radius around points, tagged with their indices; radius 0 adds the points themselves. Exact to
+    /// 1e-12 L.
     pub fn add_points(&mut self, points: &[Vec3], radius: f64) -> Result<()> {
         self.require_planar(points)?;
-        // The first that is at fault is named.
+        // The message names the first invalid point.
         for (i, point) in points.iter().enumerate() {
             let checked = require_coordinates(point.as_slice(), "coordinate");
             checked.map_err(|e| e.within(format_args!("point {i}: the center")))?;
@@ -108,9 +109,9 @@ impl BodyBuilder {
         self.push_points(&shape, points)
     }
 
-    /// Adds a grid of heights over the plane of x and y: two triangles a cell, split along the diagonal from (i, j) to
-    /// (i + 1, j + 1), both tagged with the cell's number j * (nodes[0] - 1) + i. With a base, which must be below all
-    /// heights, each triangle becomes the solid prism that reaches down to it. Exact to 1e-12 L.
+    /// Adds a grid of heights over the xy plane: two triangles per cell, split along the diagonal from (i, j) to
+    /// (i + 1, j + 1), both tagged with the cell's index j * (nodes[0] - 1) + i. With a base, which must be below all
+    /// heights, each triangle becomes the solid prism from it down to the base. Exact to 1e-12 L.
     pub fn add_height_field(&mut self, field: &HeightField) -> Result<()> {
         self.require_space("a height field")?;
         let [nx, ny] = field.nodes;

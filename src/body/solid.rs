@@ -7,18 +7,19 @@ use crate::error::Result;
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 
-/// Which polygons of a body are the boundary of a solid, and which way round. The solid is where the boundary's winding
-/// number is not 0: where shells overlap too, and not in a cavity, whose shell faces the other way than the one around it.
+/// The boundary of a solid: which polygons of a body it uses, and in which orientation. The solid is where the boundary's
+/// winding number is not 0: also where shells overlap, and not in a cavity, whose shell faces the other way than the one
+/// around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
-    /// Per primitive how the boundary uses it: 1 as its vertices run, -1 the other way round, 0 not at all.
+    /// Per primitive how the boundary uses it: 1 in the order of its vertices, -1 reversed, 0 not at all.
     pub(super) signs: Vec<i8>,
-    /// Faces that had no area, without which the boundary would not close: their vertices as the boundary runs round them.
+    /// The faces without area that the boundary needs to close: their vertices in the orientation of the boundary.
     pub(super) scraps: Vec<Vec<Vec3>>,
     extent: Extent,
 }
 
-/// A face without area, which became no primitive.
+/// A face without area, which is no primitive.
 #[derive(Clone, Debug)]
 pub(super) struct DegenerateFace {
     pub vertices: Vec<Vec3>,
@@ -26,8 +27,8 @@ pub(super) struct DegenerateFace {
 }
 
 impl Solid {
-    /// The solid that polygons bound, if they bound one. `is_face` tells which of the shapes are the faces
-    /// of it.
+    /// Checks that the faces and scraps bound a solid. Returns the signs of the primitives, and the scraps that the boundary
+    /// needs. `is_face` says which of the shapes are faces.
     pub(super) fn checked(
         primitives: &Primitives,
         is_face: &[bool],
@@ -60,7 +61,8 @@ impl Solid {
         Ok((signs, needed))
     }
 
-    /// From what [`Solid::checked`] found, or a file holds, in the body's own frame; `None` where nothing bounds a solid.
+    /// The solid of the signs and scraps that [`Solid::checked`] returned or a file holds, in the body's own frame; `None` if
+    /// the boundary is empty.
     pub(super) fn new(
         signs: Vec<i8>,
         scraps: Vec<Vec<Vec3>>,
@@ -80,12 +82,12 @@ impl Solid {
         })
     }
 
-    /// How the boundary uses a primitive: 1 as its vertices run, -1 the other way round, 0 not at all.
+    /// How the boundary uses a primitive: 1 in the order of its vertices, -1 reversed, 0 not at all.
     pub fn sign(&self, primitive: u32) -> i32 {
         self.signs[primitive as usize].into()
     }
 
-    /// What closes the boundary between the primitives, as it runs round them.
+    /// The faces without area that close the boundary between the primitives, in its orientation.
     pub fn scraps(&self) -> &[Vec<Vec3>] {
         &self.scraps
     }

@@ -1,12 +1,12 @@
-//! The edges of a surface's faces, and which faces without area it needs to close.
+//! The edges of a surface's faces, and the choice of faces without area that close it.
 
 use super::vertex_numbers::VertexNumbers;
 use crate::pose::Vec3;
 
-/// A face as it was given: its vertices in cyclic order, and what it is called.
+/// A face as it was given: its vertices in cyclic order, and its primitive and tag for messages.
 pub struct Outline<'a> {
     pub vertices: &'a [Vec3],
-    /// The primitive it became; none for a face without area, which is taken only where the others need it to close.
+    /// The primitive it became; `None` for a face without area, which is used only if the others need it to close.
     pub primitive: Option<u32>,
     pub tag: u64,
 }
@@ -14,19 +14,19 @@ pub struct Outline<'a> {
 /// How a face uses an edge.
 #[derive(Clone, Copy)]
 pub struct EdgeUse {
-    /// The numbers of its ends, the lower first.
+    /// The vertex numbers of its ends, the lower first.
     pub edge: [u32; 2],
     pub face: u32,
-    /// How often it runs from the lower to the higher, less how often back; not 0.
+    /// How often the face runs from the lower end to the higher minus how often back; not 0.
     pub net: i32,
 }
 
-/// The edges of faces, those with the same ends side by side.
+/// The edge uses of faces, sorted by edge.
 pub struct SurfaceEdges {
     pub uses: Vec<EdgeUse>,
     /// The vertices by their numbers.
     pub points: Vec<Vec3>,
-    /// The numbers of the vertices of each face.
+    /// The vertex numbers of each face.
     pub rings: Vec<Vec<u32>>,
 }
 
@@ -68,18 +68,18 @@ impl SurfaceEdges {
         }
     }
 
-    /// The uses of each edge.
+    /// The uses of each edge, as one slice per edge.
     pub fn families(&self) -> impl Iterator<Item = &[EdgeUse]> {
         self.uses.chunk_by(|a, b| a.edge == b.edge)
     }
 
-    /// Leaves the uses of some faces.
+    /// Keeps only the uses of the faces that are kept.
     pub fn retain(&mut self, is_kept: &[bool]) {
         self.uses.retain(|used| is_kept[used.face as usize]);
     }
 
-    /// The faces that close the surface, as far as they can: all primitives, and of the faces without area those that fill
-    /// what primitives leave open, one after the other.
+    /// Chooses the faces of the surface: all primitives, and faces without area that close edges left open, added one by one
+    /// as far as they can.
     pub fn closing(&self, faces: &[Outline]) -> Vec<bool> {
         let mut is_kept: Vec<bool> = faces.iter().map(|face| face.primitive.is_some()).collect();
         if !is_kept.contains(&false) {
@@ -98,7 +98,7 @@ impl SurfaceEdges {
                 }
             }
         }
-        // How many uses of each family are passed: faces that are kept stay so.
+        // How many uses of each family have been tried; kept faces stay kept, so none is tried again.
         let mut passed = vec![0; families.len()];
         let mut open: Vec<u32> = (0..families.len() as u32)
             .filter(|&i| is_open[i as usize])

@@ -1,4 +1,4 @@
-//! Numbers for vertices: the same number stands for the same coordinates.
+//! Numbers vertices by their coordinates: equal coordinates get equal numbers.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use crate::pose::Vec3;
 pub struct VertexNumbers(HashMap<[u64; 3], u32, RandomState>);
 
 impl VertexNumbers {
-    /// The number of a vertex; the first is 0, each that is new has the next.
+    /// The number of a vertex: 0 for the first, the next one for each new vertex.
     pub fn number(&mut self, p: &Vec3) -> u32 {
         // Adding 0 makes -0 the same as 0.
         let key = [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());

@@ -2,7 +2,7 @@
 
 use crate::pose::Vec3;
 
-/// The box of a set of points.
+/// The axis-aligned box of a set of points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extent {
     pub low: Vec3,
@@ -10,12 +10,12 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The box of points, of which there is at least one.
+    /// The box of at least one point.
     pub fn of(points: &[Vec3]) -> Self {
         Self::of_points(points.iter().copied())
     }
 
-    /// The same of points that come one by one.
+    /// The same for an iterator.
     pub fn of_points(points: impl Iterator<Item = Vec3>) -> Self {
         let boxes = points.map(|point| Self {
             low: point,
@@ -37,7 +37,7 @@ impl Extent {
         (0..3).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
     }
 
-    /// Whether one of its sides is one of the other's: a box around both may shrink without it.
+    /// Whether one of its faces lies in the plane of the other's: the union of both may shrink if it is removed.
     pub fn shares_a_side(&self, other: &Self) -> bool {
         (0..3).any(|k| self.low[k] == other.low[k] || self.high[k] == other.high[k])
     }
@@ -72,7 +72,7 @@ impl Extent {
         apart.max().max(0.0)
     }
 
-    /// How far outside a point is along the axis of coordinates along which it is farthest; 0 inside.
+    /// The L∞ distance of a point from the box; 0 inside.
     pub fn outside(&self, point: &Vec3) -> f64 {
         let beyond = (self.low - point).sup(&(point - self.high));
         beyond.max().max(0.0)

@@ -1,4 +1,4 @@
-//! Boxes: axis-aligned and oriented, in double precision and packed for the kernel, eight side by side.
+//! Boxes: axis-aligned and oriented, in double precision and packed for the kernel, eight to a node.
 
 mod extent;
 mod oriented_box;

@@ -1,4 +1,4 @@
-//! A box of about the least volume around points: the wrapper where a hull has too many vertices (§2.3.4).
+//! An oriented box of about the least volume: the wrapper if a hull has too many vertices (§2.3.4).
 
 use nalgebra::{SymmetricEigen, Vector2};
 
@@ -7,13 +7,14 @@ use crate::primitive::outline;
 
 /// The eight corners of a box that covers the points, up to rounding.
 ///
-/// Starts from the axes of coordinates and from the principal axes of few points that lie farthest out; each is turned
-/// about its own three axes to the least rectangle (whose side lies along an edge of the projection's hull), twice.
+/// Starts from the coordinate axes and from the principal axes of the extreme points `few`. Each start is rotated about its
+/// own axes, each at most twice, to the least rectangle around the projection, which has a side along an edge of the
+/// projection's hull.
 pub fn oriented_box(points: &[Vec3], few: &[Vec3]) -> Vec<Vec3> {
     corners_along(points, &least_volume_axes(few))
 }
 
-/// The axes of that box.
+/// The axes of the box of [`oriented_box`].
 pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
     let mut best = (f64::INFINITY, Mat3::identity());
     let mut turner = Turner::default();
@@ -26,7 +27,7 @@ pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
             let smaller = measure(few, &turned);
             if smaller < size {
                 (size, axes) = (smaller, turned);
-                // About the same axis nothing is left to be gained.
+                // Another rotation about the same axis would gain nothing.
                 (fruitless, enough) = (0, 2);
             } else {
                 fruitless += 1;
@@ -35,7 +36,7 @@ pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
                 break;
             }
         }
-        // The axes of coordinates are kept where nothing is gained: their boxes are exact.
+        // The coordinate axes are kept unless another start gains: their boxes are exact.
         if size < best.0 * (1.0 - 1e-9) {
             best = (size, axes);
         }
@@ -43,7 +44,7 @@ pub fn least_volume_axes(few: &[Vec3]) -> Mat3 {
     best.1
 }
 
-/// The same axes, that along which points reach least first: turns about it gain most.
+/// Reorders axes, the one of the shortest extent first: rotations about it gain most.
 fn shortest_first(points: &[Vec3], axes: &Mat3) -> Mat3 {
     let (low, high) = span(points, axes);
     let shortest = (high - low).imin();
@@ -66,7 +67,7 @@ pub fn principal_axes(points: &[Vec3]) -> Mat3 {
     SymmetricEigen::new(covariance).eigenvectors
 }
 
-/// Turns axes; its memory is used again and again.
+/// Rotates axes; holds the scratch memory for that.
 #[derive(Default)]
 struct Turner {
     flat: Vec<Vector2<f64>>,
@@ -74,7 +75,7 @@ struct Turner {
 }
 
 impl Turner {
-    /// The axes turned about one of them so that the projection along it fills the least rectangle.
+    /// The axes rotated about one of them to the least rectangle around the projection along it.
     fn least_rectangle(&mut self, points: &[Vec3], axes: &Mat3, about: usize) -> Mat3 {
         let (w, u, v) = (
             axes.column(about).into_owned(),
@@ -86,7 +87,7 @@ impl Turner {
         self.flat.extend(flat);
         outline(&mut self.flat, &mut self.outline);
         let along = self.side_of_least_rectangle();
-        // Made upright again: errors would add up over the turns.
+        // Orthonormalized again, or errors would add up over the rotations.
         let first = (u * along.x + v * along.y).normalize();
         let w = (w - first * first.dot(&w)).normalize();
         let mut turned = Mat3::zeros();
@@ -96,7 +97,7 @@ impl Turner {
         turned
     }
 
-    /// The direction of an edge of the outline along which the rectangle around it is least.
+    /// The direction of the outline's edge along which the bounding rectangle is least.
     fn side_of_least_rectangle(&self) -> Vector2<f64> {
         let mut best = (f64::INFINITY, Vector2::x());
         let mut from = self.outline[self.outline.len() - 1];
@@ -114,7 +115,7 @@ impl Turner {
             }
             let sides = high - low;
             let area = sides.x * sides.y / along.norm_squared();
-            // Not so for an edge of no length, whose area is no number.
+            // False for an edge without length, whose area is NaN.
             if area < best.0 {
                 best = (area, along);
             }
@@ -123,12 +124,12 @@ impl Turner {
     }
 }
 
-/// The box's volume, its sides lengthened a little so that flat boxes are told apart too.
+/// The box's volume, its sides padded by 0.1 % of the longest so that flat boxes compare too.
 fn measure(points: &[Vec3], axes: &Mat3) -> f64 {
     let (low, high) = span(points, axes);
     let sides = high - low;
-    let least = 1e-3 * sides.amax();
-    sides.iter().map(|side| side + least).product()
+    let padding = 1e-3 * sides.amax();
+    sides.iter().map(|side| side + padding).product()
 }
 
 pub fn span(points: &[Vec3], axes: &Mat3) -> (Vec3, Vec3) {

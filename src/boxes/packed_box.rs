@@ -1,12 +1,11 @@
-//! Oriented boxes in single precision, and how they are fitted to points.
+//! Oriented boxes in single precision, and the choice of their axes for points.
 
 use super::oriented_box::{least_volume_axes, principal_axes, span};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::Convex;
 
-/// A box in two meanings, so that it can be relied on whatever rounding did to its axes, which are orthonormal to within
-/// 2^-12: the points it holds are center + sum c_i axis_i with |c_i| <= half_i, and for them |axis_i . (x - center)| <=
-/// half_i.
+/// An oriented box whose axes are orthonormal to within 2^-12. It bounds its points in two senses, so that both are safe in
+/// spite of rounding: a point x is center + sum c_i axis_i with |c_i| <= half_i, and |axis_i . (x - center)| <= half_i.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedBox {
     pub axes: [[f32; 3]; 3],
@@ -14,28 +13,28 @@ pub struct PackedBox {
     pub half: [f32; 3],
 }
 
-/// More points than this are worth a search for their axes.
-const FEW: usize = 5;
+/// Above this many points the axes of least volume are searched for too.
+const MAX_UNSEARCHED: usize = 5;
 
-/// The axes of a box of little surface around points, that of its shortest side last: distances are bounded best by such
-/// boxes, as those turn away the most of what comes from all sides. `flat` is a polygon among the points.
+/// The axes of a bounding box of small surface, the axis of its shortest side last. A small surface gives the best lower
+/// bounds of distance over all directions. `flat` is the polygon that has the points as vertices, if there is one.
 pub fn fitted_axes(points: &[Vec3], flat: Option<&Convex>) -> Mat3 {
-    let searched = (points.len() > FEW).then(|| least_volume_axes(points));
+    let searched = (points.len() > MAX_UNSEARCHED).then(|| least_volume_axes(points));
     let natural = flat.and_then(polygon_axes);
     let natural = natural.unwrap_or_else(|| principal_axes(points));
     best_axes(points, searched.into_iter().chain([natural]))
 }
 
-/// The same without a search: in time that grows with the points alone.
+/// The same without a search, in linear time.
 pub fn simply_fitted_axes(points: &[Vec3]) -> Mat3 {
     best_axes(points, [principal_axes(points)])
 }
 
-fn best_axes(points: &[Vec3], offers: impl IntoIterator<Item = Mat3>) -> Mat3 {
+fn best_axes(points: &[Vec3], candidates: impl IntoIterator<Item = Mat3>) -> Mat3 {
     let mut best = (surface(points, &Mat3::identity()), Mat3::identity());
-    for axes in offers {
+    for axes in candidates {
         let size = surface(points, &axes);
-        // The axes of coordinates are kept where nothing is gained.
+        // The coordinate axes are kept unless others gain.
         if size < best.0 * (1.0 - 1e-6) {
             best = (size, axes);
         }
@@ -66,7 +65,7 @@ fn polygon_axes(polygon: &Convex) -> Option<Mat3> {
 fn frame(first: &Vec3, second: &Vec3) -> Option<Mat3> {
     let x = first.try_normalize(0.0)?;
     let y = (second - x * x.dot(second)).try_normalize(0.0)?;
-    // Made upright once more: what is left of a small remainder leans.
+    // Orthogonalized once more: a small remainder still has a component along x.
     let y = (y - x * x.dot(&y)).normalize();
     Some(Mat3::from_columns(&[x, y, x.cross(&y)]))
 }

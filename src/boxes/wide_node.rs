@@ -1,6 +1,6 @@
-//! Up to eight boxes side by side, in 16-bit numbers.
+//! Up to eight boxes in one node, in 16-bit numbers.
 //!
-//! Four cache lines hold a node, so that a walk through large trees waits for memory half as often as with single precision.
+//! A node takes four cache lines, so traversal of large trees waits for memory half as often as with single precision.
 
 use std::borrow::Cow;
 
@@ -10,43 +10,47 @@ use super::packed_box::PackedBox;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
-/// The components of an axis are whole numbers in units of 2^-15.
+/// The unit of the components of an axis, which are integers.
 const AXIS_STEP: f32 = 1.0 / 32768.0;
+/// The largest component of an axis.
 pub(crate) const MAX_AXIS: f64 = 32767.0;
+/// The largest coordinate of a centre, in steps.
 pub(crate) const MAX_PLACE: f64 = 32767.0;
-/// Less than fits, for what rounding of the centres adds.
+/// The largest half side in steps before rounding; the rest up to `u16::MAX` is for the rounding of the centres.
 const MAX_HALF: f64 = 65500.0;
 
-/// Axes, and those dual to them, are no longer.
+/// An upper bound of the length of the axes and of the axes dual to them.
 const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
 
-/// Codes of sizes grow by so many for a factor of two.
+/// The increase of the size code for a factor of two in size.
 pub const SIZE_STEPS: i32 = 8;
+/// The size code of size 1.
 const SIZE_OF_ONE: f64 = 200.0;
 
-/// The boxes of a node's children. Two axes of a box are stored, the third, along its shortest side, is their cross product
-/// and so upright to them; centres are relative to an origin, and like half sides in units of a step.
+/// The boxes of a node's children. Two axes of a box are stored; the third, along its shortest side, is their cross product
+/// and so orthogonal to them. Centres are relative to an origin. Centres and half sides are in units of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct WideNode {
     pub(crate) axes: [[[i16; 8]; 3]; 2],
     pub(crate) center: [[i16; 8]; 3],
     pub(crate) half: [[u16; 8]; 3],
-    /// What the children are, to the tree.
+    /// The children, in the encoding of the tree that owns the node.
     pub children: [u32; 8],
     /// The origin, then the step.
     pub(crate) frame: [f32; 4],
     pub(crate) sizes: [u8; 8],
     pub count: u32,
-    /// The lowest primitive below.
+    /// The lowest primitive below the node.
     pub lowest: u32,
 }
 
-/// The points of a child, and how far what it holds may be outside them.
+/// The points that the box of a child bounds.
 pub struct ChildPoints<'a> {
     pub points: Cow<'a, [Vec3]>,
+    /// How far the child may extend beyond the points' hull.
     pub excess: f64,
-    /// Those of a box around them, that of its shortest side last.
+    /// The axes of the box, that of its shortest side last.
     pub axes: Mat3,
 }
 
@@ -58,18 +62,21 @@ pub struct EightBoxes<I: Instructions> {
 }
 
 impl WideNode {
-    /// The boxes of up to eight children, which it leaves to be named. Lengths are at most about 1.
-    pub fn new(held: &[ChildPoints]) -> Self {
+    /// Fits the boxes of up to eight children; the caller sets `children`. Lengths are at most about 1.
+    pub fn new(children: &[ChildPoints]) -> Self {
         let mut node = Self {
-            count: held.len() as u32,
+            count: children.len() as u32,
             ..Self::default()
         };
-        let spans: Vec<(Vec3, Vec3)> = held
+        let spans: Vec<(Vec3, Vec3)> = children
             .iter()
-            .map(|held| {
-                let (low, high) = span(&held.points, &held.axes);
-                let grown = Vec3::repeat(held.excess);
-                (held.axes * ((low + high) * 0.5), (high - low) * 0.5 + grown)
+            .map(|child| {
+                let (low, high) = span(&child.points, &child.axes);
+                let grown = Vec3::repeat(child.excess);
+                (
+                    child.axes * ((low + high) * 0.5),
+                    (high - low) * 0.5 + grown,
+                )
             })
             .collect();
         let first = spans[0].0;
@@ -86,19 +93,19 @@ impl WideNode {
             .max(1e-30);
         loop {
             node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
-            let mut lanes = held.iter().zip(&spans).enumerate();
-            if lanes.all(|(lane, (held, (center, _)))| {
-                node.set(lane, &held.points, held.excess, &held.axes, center)
+            let mut lanes = children.iter().zip(&spans).enumerate();
+            if lanes.all(|(lane, (child, (center, _)))| {
+                node.set(lane, &child.points, child.excess, &child.axes, center)
             }) {
                 return node;
             }
-            // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
+            // The boxes are tiny relative to their coordinates: the room for rounding was too small.
             step *= 1.25;
         }
     }
 
-    /// A node without children, whose boxes may have their centres within `half` of `center` along each axis, and half sides
-    /// of nearly twice that.
+    /// A node without children, for boxes whose centres are within `half` of `center` along each axis and whose half sides
+    /// are at most nearly twice that.
     pub fn around(center: &Vec3, half: f64) -> Self {
         let origin = each3(|k| center[k] as f32);
         let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());
@@ -109,27 +116,27 @@ impl WideNode {
         }
     }
 
-    /// What the children are.
+    /// The children, in the encoding of the tree that owns the node.
     pub fn children(&self) -> &[u32] {
         &self.children[..self.count as usize]
     }
 
-    /// The box, along the axes of coordinates, around one of the boxes.
+    /// The axis-aligned box around one of the boxes.
     pub fn extent(&self, lane: usize) -> Extent {
-        let given = self.get(lane);
+        let own = self.get(lane);
         let extent = |k: usize| {
             (0..3)
-                .map(|i| given.axes[i][k].abs() * given.half[i])
+                .map(|i| own.axes[i][k].abs() * own.half[i])
                 .sum::<f32>()
         };
-        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| given.center[k] + side * extent(k)));
+        let [low, high] = [-1.0, 1.0].map(|side| each3(|k| own.center[k] + side * extent(k)));
         Extent {
             low: low.map(f64::from).into(),
             high: high.map(f64::from).into(),
         }
     }
 
-    /// Takes out a child; the last one takes its lane.
+    /// Removes a child; the last child moves to its lane.
     pub fn take_out(&mut self, lane: usize) {
         self.count -= 1;
         let last = self.count as usize;
@@ -142,7 +149,7 @@ impl WideNode {
         self.children[lane] = self.children[last];
     }
 
-    /// Whether the box fits the step.
+    /// Sets the box of a child; false if it does not fit the step.
     fn set(
         &mut self,
         lane: usize,
@@ -159,7 +166,7 @@ impl WideNode {
             let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
             self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
         }
-        // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
+        // The half sides are fitted to the rounded axes and centre, and bound the points in both senses of `PackedBox`.
         let rounded = self.get(lane);
         let center = Vec3::from(rounded.center.map(f64::from));
         let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
@@ -192,7 +199,7 @@ impl WideNode {
         self.frame[3]
     }
 
-    /// About the logarithm of a box's size.
+    /// A rounded logarithm of a box's size, in 1 / `SIZE_STEPS` of a factor of two.
     #[inline(always)]
     pub fn size_code(&self, lane: usize) -> i32 {
         i32::from(self.sizes[lane])
@@ -209,7 +216,8 @@ impl WideNode {
         }
     }
 
-    /// One of the boxes in two times eight lanes: its first two axes, its centre and half sides, each with a lane unused.
+    /// One of the boxes in two times eight lanes: the first two axes; the centre and the half sides. Every fourth lane is
+    /// unused.
     #[inline(always)]
     pub fn in_lanes<I: Instructions>(&self, lanes: I, lane: usize) -> [Lanes8<I>; 2] {
         let lane = lane & 7;
@@ -249,8 +257,8 @@ impl WideNode {
         ]
     }
 
-    /// All of the boxes, bit for bit as one at a time but for their centres; in units that are `unit` of the tree's, a
-    /// power of two.
+    /// All boxes at once, bit for bit as by [`WideNode::get`] but for the centres. Lengths are multiplied by `unit`, a power
+    /// of two.
     #[inline(always)]
     pub fn boxes<I: Instructions>(&self, lanes: I, unit: f32) -> EightBoxes<I> {
         let axis_step = lanes.splat(AXIS_STEP);

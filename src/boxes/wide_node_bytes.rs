@@ -1,12 +1,12 @@
-//! Wide nodes as files hold them.
+//! Wide nodes in the byte format of body files.
 
 use super::wide_node::WideNode;
 
-/// What a node takes in a file.
+/// The bytes of a node in a file.
 pub const NODE_BYTES: usize = 252;
 
 impl WideNode {
-    /// As files hold it, without the lowest primitive, in the order of the fields, little-endian.
+    /// The node as bytes: the fields in order, little-endian, without the lowest primitive.
     pub fn to_bytes(&self) -> [u8; NODE_BYTES] {
         let mut bytes = [0; NODE_BYTES];
         let mut at = 0;
@@ -25,7 +25,7 @@ impl WideNode {
         bytes
     }
 
-    /// A node of a file, if it could be one.
+    /// Reads a node; `None` if its frame or count is out of range.
     pub fn from_bytes(bytes: &[u8; NODE_BYTES]) -> Option<Self> {
         let mut rest = &bytes[..];
         fn take<const N: usize>(rest: &mut &[u8]) -> [u8; N] {

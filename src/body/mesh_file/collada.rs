@@ -1,7 +1,7 @@
-//! Meshes from COLLADA files (.dae, version 1.4 and 1.5): the polygons of the scene, its nodes' transforms applied.
+//! Reads meshes from COLLADA files (.dae, version 1.4 and 1.5): the polygons of the scene with its nodes' transforms applied.
 //!
-//! Lengths are scaled to metres by the file's unit. `up_axis` is not applied: like the tools of ROS, for which most such
-//! files are made, this takes coordinates as they are written.
+//! Lengths are scaled to metres by the file's unit. `up_axis` is not applied: coordinates are taken as written, as the tools
+//! of ROS do, for which most such files are made.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -16,10 +16,11 @@ use crate::pose::Vec3;
 use crate::whole_file::text_of;
 use crate::xml::{child, children, fault, list, numbers, parse, required, required_child};
 
-/// Nodes of a scene may be nested so deep; instances of nodes that hold themselves end here.
+/// The deepest nesting of scene nodes; refuses nodes that instance themselves.
 const MAX_DEPTH: usize = 64;
 
-/// Nodes with their transforms and parts, counted in every instance: nodes that hold others twice, again and again, end here.
+/// The most nodes, transforms and parts of a scene, counted per instance; refuses scenes that grow exponentially, each node
+/// instancing another twice.
 const MAX_NODE_PARTS: usize = 1 << 20;
 
 pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
@@ -61,9 +62,9 @@ pub fn parse_collada(bytes: &[u8]) -> Result<Mesh> {
     Ok(reader.mesh)
 }
 
-/// What a node of a scene says: read once, however often it is instanced.
+/// A scene node, parsed once, however often it is instanced.
 struct SceneNode<'a, 'i> {
-    /// In the order in which they stand and are applied.
+    /// In file order, in which they are applied.
     transforms: Vec<Matrix4<f64>>,
     parts: Vec<Part<'a, 'i>>,
 }
@@ -211,7 +212,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(read)
     }
 
-    /// The faces of a geometry, over those of its positions that they use.
+    /// The faces of a geometry, with only the positions that they use.
     fn read_geometry(&mut self, geometry: Node<'a, 'i>) -> Result<Mesh> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Err(fault(
@@ -221,7 +222,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             ));
         };
         let mut own = Mesh::default();
-        // Elements that share their vertices share them in the mesh too.
+        // Elements that refer to the same <vertices> share vertices in the mesh.
         let mut used: HashMap<(NodeId, u32), u32, RandomState> = HashMap::default();
         for element in mesh.children().filter(Node::is_element) {
             let kind = element.tag_name().name();
@@ -310,7 +311,7 @@ fn read_positions(source: Node) -> Result<Vec<Vec3>> {
     Ok(whole.map(|p| Vec3::new(p[0], p[1], p[2])).collect())
 }
 
-/// Of the indices of a <p>, those of the vertices.
+/// The vertex indices among the indices of a <p>.
 fn corners(
     p: Node,
     indices: Vec<u32>,
@@ -410,7 +411,7 @@ fn add_faces(element: Node, runs: &[Vec<u32>], mesh: &mut Mesh) -> Result<()> {
     Ok(())
 }
 
-/// What an element of a node does to what is in the node; `None` if it is no transform.
+/// The matrix of a transform element of a node; `None` for other elements.
 fn transform(element: Node) -> Result<Option<Matrix4<f64>>> {
     let text = element.text().unwrap_or_default();
     let name = element.tag_name().name();

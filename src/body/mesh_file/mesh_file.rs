@@ -1,4 +1,4 @@
-//! Mesh files: OBJ, STL and COLLADA, by the ending of their names.
+//! Reads mesh files: OBJ, STL and COLLADA, chosen by the file name's extension.
 
 use std::path::Path;
 
@@ -12,13 +12,16 @@ use crate::whole_file::read_whole;
 /// The formats of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
+    /// Wavefront OBJ.
     Obj,
+    /// STL, ASCII or binary.
     Stl,
+    /// COLLADA 1.4 or 1.5.
     Collada,
 }
 
 impl MeshFormat {
-    /// The ending of the file's name tells its format.
+    /// The format by the file name's extension; fails for any other extension.
     pub fn of(path: &Path) -> Result<Self> {
         let ending = path
             .extension()
@@ -37,7 +40,7 @@ impl MeshFormat {
         }
     }
 
-    /// The mesh of a file's bytes, which are read whole or refused.
+    /// Parses the bytes of a file. A file is read completely or refused.
     pub fn parse(self, bytes: &[u8]) -> Result<Mesh> {
         let mesh = match self {
             Self::Obj => parse_obj(bytes),
@@ -52,12 +55,12 @@ impl MeshFormat {
     }
 }
 
-/// The bytes of a mesh file.
+/// Reads the bytes of a mesh file of at most [`MAX_MESH_FILE_BYTES`].
 pub fn read_mesh_bytes(path: &Path) -> Result<Vec<u8>> {
     read_whole(path, MAX_MESH_FILE_BYTES)
 }
 
-/// Reads a mesh.
+/// Reads a mesh file of the format that its extension names.
 pub fn read_mesh_file(path: &Path) -> Result<Mesh> {
     let format = MeshFormat::of(path)?;
     format.parse(&read_mesh_bytes(path)?)

@@ -1,5 +1,5 @@
-//! Meshes from OBJ files: positions, and the faces and lines over them. Read here rather than by a crate: of those at hand,
-//! tobj overflows on negative indices, others round coordinates to single precision, and none says at which line it stopped.
+//! Reads meshes from OBJ files: positions, faces and lines. No crate is used: tobj overflows on negative indices, others
+//! round coordinates to single precision, and none reports the line of an error.
 
 use crate::body::{Mesh, require_mesh_size};
 use crate::error::{Error, ErrorKind, Result};
@@ -9,11 +9,11 @@ use crate::whole_file::text_of;
 /// The parts of a corner `v/vt/vn`.
 const PARTS: [&str; 3] = ["vertex", "texture vertex", "normal"];
 
-/// Lines stay faces, without area, so that the numbers of the faces are those of the file. Objects, groups and materials
-/// number their vertices through and do not matter.
+/// Parses an OBJ file. Line elements become faces without area, so that face indices match the file. Objects, groups and
+/// materials are ignored, as vertex numbers run through them.
 pub fn parse_obj(bytes: &[u8]) -> Result<Mesh> {
     let mut reader = Reader::default();
-    // The beginning of a statement that goes on in the next line.
+    // The beginning of a statement that continues on the next line.
     let mut begun = String::new();
     for (number, line) in text_of(bytes)?.lines().enumerate() {
         let number = number + 1;
@@ -52,10 +52,10 @@ fn at_line(number: usize, error: Error) -> Error {
 #[derive(Default)]
 struct Reader {
     mesh: Mesh,
-    /// The texture vertices and normals so far; only their numbers matter.
+    /// The numbers of texture vertices and normals so far.
     others: [usize; 2],
-    /// The largest index of a vertex and its line: a face may come before its vertices. Texture vertices and normals may be
-    /// missing: tools that simplify collision meshes leave them out.
+    /// The largest vertex index, counted from 1, and its line: it is checked at the end, as a face may precede its vertices.
+    /// Texture vertices and normals may be missing: tools that simplify collision meshes drop them.
     largest: (usize, usize),
 }
 
@@ -104,7 +104,7 @@ impl Reader {
         vertex.ok_or_else(|| fail("a corner has no vertex"))
     }
 
-    /// An index counts from 1; a negative one backwards from what stands before it, -1 for the last.
+    /// Positive indices count from 1; negative ones count backwards from the elements read so far, -1 being the last.
     fn index(&self, part: usize, text: &str) -> Option<u32> {
         let number: i64 = text.parse().ok()?;
         let index = match number {
@@ -142,7 +142,7 @@ impl Reader {
     }
 }
 
-/// Three coordinates; a fourth number divides them, and three more are a colour.
+/// Three coordinates; a fourth number is a weight that divides them, three more are a colour.
 fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3> {
     let mut numbers = [0.0f64; 6];
     let mut count = 0;

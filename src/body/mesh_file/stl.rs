@@ -1,5 +1,5 @@
-//! Meshes from STL files, ASCII and binary. Read here rather than by a crate: those at hand round the numbers of ASCII files to
-//! single precision and do not say at which line they stopped.
+//! Reads meshes from STL files, ASCII and binary. No crate is used: the available ones round the numbers of ASCII files to
+//! single precision and do not report the line of an error.
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 
 pub fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
-    // A binary file is known by its length; its free header may begin like an ASCII file.
+    // A binary file is recognized by its length, since its header may begin like an ASCII file.
     let is_binary = bytes.get(80..84).is_some_and(|count| {
         let count = u32::from_le_bytes([count[0], count[1], count[2], count[3]]);
         bytes.len() as u64 == 84 + 50 * u64::from(count)
@@ -34,7 +34,7 @@ pub fn parse_stl(bytes: &[u8]) -> Result<Mesh> {
     ascii_stl(&String::from_utf8_lossy(bytes))
 }
 
-/// Triangles, each vertex once.
+/// Triangles with equal vertices merged.
 #[derive(Default)]
 struct TriangleSoup {
     mesh: Mesh,
@@ -78,8 +78,7 @@ fn binary_stl(records: &[u8]) -> Mesh {
     soup.mesh
 }
 
-/// The lines of a text with their numbers, counted from 1. `\r\n` ends one line; a lone `\r` is a blank of it that ends a
-/// statement.
+/// The lines of a text with their numbers, counted from 1. `\r\n` ends one line; a lone `\r` ends a statement within a line.
 fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.split('\n').enumerate();
     lines.flat_map(|(i, line)| line.split('\r').map(move |part| (i + 1, part)))
