@@ -1,4 +1,4 @@
-//! What bounds a body at a pose.
+//! The bounding volumes of a body at a pose.
 
 use crate::body::Body;
 use crate::boxes::Extent;
@@ -7,7 +7,7 @@ use crate::lanes::{along64, each3};
 use crate::pose::{Pose, Vec3};
 use crate::tolerance;
 
-/// What bounds a body at a pose: a ball, and a box.
+/// The bounding ball and the oriented bounding box of a body at a pose, in the world.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds {
     center: Vec3,
@@ -16,15 +16,16 @@ pub struct Bounds {
     /// The first two axes, orthonormal to within 2^-12 (see `PackedBox`); the third is their cross product.
     pub(super) axes: [Vec3; 2],
     pub(super) half: Vec3,
-    /// No corner of the box is farther from its centre.
+    /// An upper bound of the distance of the box's corners from its centre.
     pub(super) box_radius: f64,
-    /// How far the body's primitives may be from what their features say (see `Body::deviation`).
+    /// The largest deviation of the body's primitives from their features (see `Body::deviation`).
     pub(super) deviation: f64,
-    /// No coordinate that went into these is larger: their rounding is in proportion to it.
+    /// An upper bound of the coordinates in the computation, to which the rounding is proportional.
     pub(super) largest_coordinate: f64,
 }
 
 impl Bounds {
+    /// The bounds of a body at a pose.
     #[inline(always)]
     pub fn of(body: &Body, pose: &Pose) -> Self {
         let whole = body.packed().whole();
@@ -46,7 +47,7 @@ impl Bounds {
         }
     }
 
-    /// A safe lower and a safe upper bound of the distance of two bodies, by their balls.
+    /// A safe lower and a safe upper bound of the distance between two bodies, from their balls.
     #[inline(always)]
     pub fn distance(&self, other: &Bounds) -> [f64; 2] {
         let apart = (self.center - other.center).norm();
@@ -56,7 +57,7 @@ impl Bounds {
         [apart - radii - slack, apart + radii + slack]
     }
 
-    /// The box, along the axes of coordinates, around that of the body.
+    /// The axis-aligned box around the oriented one.
     #[inline(always)]
     pub(super) fn extent(&self) -> Extent {
         let [x, y] = &self.axes;
@@ -82,8 +83,8 @@ fn l1_norm(v: &Vec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-/// What a bound in the world must be lowered by so that nothing it excludes could have mattered: its rounding, and the
-/// error of the distances on both sides of a comparison (see `Pairing::slack`).
+/// The slack by which a bound in the world is lowered so that pruning is safe: its rounding, and the error of the distances
+/// on both sides of a comparison (see `Pairing::slack`).
 #[inline(always)]
 pub(super) fn slack(largest_coordinate: f64, deviation: f64) -> f64 {
     let rounding = tolerance::BOUND_ERROR + 2.0 * tolerance::DISTANCE_ERROR;

@@ -1,4 +1,4 @@
-//! The live set of s-objects.
+//! The set of s-objects that changes while queries run.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,24 +14,34 @@ use crate::user_data::UserData;
 /// One change of an environment.
 #[derive(Clone, Debug)]
 pub enum Change {
-    /// Adds a body at a pose, with data of the caller's.
+    /// Adds a body at a pose, with data of the caller.
     Add {
+        /// The body, which the object keeps alive.
         body: Arc<Body>,
+        /// The body's pose in the world.
         pose: Pose,
+        /// The caller's data, if any.
         data: Option<UserData>,
     },
-    /// Places an object in the world; one that was attached is let go.
+    /// Places an object in the world; an attached one is detached.
     Move {
+        /// The object's id.
         id: u64,
+        /// The new pose in the world.
         pose: Pose,
     },
-    /// Fixes an object to a link, at a pose in the link's frame.
+    /// Fixes an object to a link.
     Attach {
+        /// The object's id.
         id: u64,
+        /// The pose in the link's frame.
         pose: Pose,
+        /// The link, and the links that may touch the object.
         attachment: Attachment,
     },
+    /// Deletes an object.
     Delete {
+        /// The object's id.
         id: u64,
     },
 }
@@ -42,18 +52,18 @@ pub enum Change {
 pub struct Environment {
     serial: u64,
     frozen: bool,
-    /// Held by who changes the environment, so that `state` is never held for long.
+    /// Locked during a whole change, so that `state` is only locked briefly.
     writer: Mutex<Writer>,
     state: Mutex<Arc<Snapshot>>,
 }
 
-/// Memory that goes from one change to the next.
+/// Memory that is reused from one change to the next.
 #[derive(Debug, Default)]
 struct Writer {
-    /// The state before the last change. It becomes the next one if nobody else holds it: what little differs is copied, and
-    /// nothing is allocated. It holds no object that is gone.
+    /// The state before the last change. It becomes the next one if nobody else holds it: only the differences are copied, and
+    /// nothing is allocated. It holds no deleted object.
     spare: Option<Arc<Snapshot>>,
-    /// The last change about each place of those that were changed.
+    /// Per changed place, the index of the last change to it.
     latest: Vec<u32>,
 }
 
@@ -76,30 +86,29 @@ impl Environment {
         }
     }
 
-    /// A number no other environment of this process has.
+    /// A number that no other environment of this process has.
     pub fn serial(&self) -> u64 {
         self.serial
     }
 
-    /// The state now.
+    /// The current state.
     pub fn snapshot(&self) -> Arc<Snapshot> {
-        // A snapshot is replaced whole, so a panic elsewhere cannot have left half of one.
+        // A snapshot is replaced as a whole, so a panic elsewhere cannot have left it half changed.
         self.state
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .clone()
     }
 
-    /// An environment that stays at the state of now.
+    /// An environment that keeps the current state for ever.
     pub fn freeze(&self) -> Self {
         Self::with_state(self.snapshot(), true)
     }
 
-    /// Applies all changes as one, or none of them. Returns the id of the object each change is about, and the version.
+    /// Applies all changes atomically, or none of them. Returns the id of each change's object, and the new version.
     ///
-    /// Takes time in proportion to the number of changes, times the logarithm of that of the objects, on average: at times
-    /// the tree over the objects is built anew. One pass over an array of bits, 64 objects a word, comes on top. Nobody who
-    /// reads waits for it.
+    /// Takes time proportional to the number of changes times the logarithm of the number of objects, amortized over rebuilds
+    /// of the tree over the objects; plus one pass over a bit array, 64 objects per word. Readers do not wait for it.
     pub fn apply(&self, changes: &[Change]) -> Result<(Vec<u64>, u64)> {
         if self.frozen {
             return Err(Error::new(
@@ -107,8 +116,8 @@ impl Environment {
                 "the environment is a snapshot; it cannot be changed",
             ));
         }
-        // What is no longer part of any state is freed when no lock is held any more: that runs functions of the caller.
-        let _gone;
+        // Declared before the locks and so dropped after them: freeing objects runs functions of the caller.
+        let _dropped_last;
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let Writer { spare, latest } = &mut *writer;
         let before = self.snapshot();
@@ -131,7 +140,7 @@ impl Environment {
         *self.state.lock().unwrap_or_else(PoisonError::into_inner) = next;
         let is_deletion = |change: &Change| matches!(change, Change::Delete { .. });
         if changes.iter().any(is_deletion) {
-            _gone = before;
+            _dropped_last = before;
         } else {
             *spare = Some(before);
         }
@@ -140,7 +149,7 @@ impl Environment {
 }
 
 impl Change {
-    /// Where the object is to go, and what holds it there, if it is moved.
+    /// The object's new pose and attachment, if it is moved.
     fn target(&self) -> Option<(&Pose, Option<&Attachment>)> {
         match self {
             Change::Move { pose, .. } => Some((pose, None)),
@@ -152,8 +161,8 @@ impl Change {
     }
 }
 
-/// A state equal to the one before the changes, but for where objects are that they move: the spare one brought up to date,
-/// if nobody else holds it.
+/// A copy of the state before the changes: the spare one brought up to date if nobody else holds it, otherwise a clone. The
+/// poses of objects that the changes move may be out of date.
 fn next_state(
     spare: Option<Arc<Snapshot>>,
     before: &Snapshot,
@@ -177,8 +186,8 @@ fn next_state(
 }
 
 impl Snapshot {
-    /// Checks a change, and adds or deletes its object; those that are to move stay until [`Snapshot::settle`]. Returns the id
-    /// and the place of the one it is about.
+    /// Checks a change, and adds or deletes its object; [`Snapshot::settle`] does the moves. Returns the id and the place of
+    /// the object.
     fn change(&mut self, change: &Change) -> Result<(u64, usize)> {
         match change {
             Change::Add { body, pose, data } => {

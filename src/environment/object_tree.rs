@@ -1,5 +1,5 @@
-//! One tree over the bodies of an environment, so that a query asks only those that are near. It goes after the objects as
-//! they come, move and go, until it is worn.
+//! The broad phase: one tree over the objects of an environment, so that a query tests only near ones. It is updated as
+//! objects are added, moved and deleted, and rebuilt when it has degraded.
 
 use std::sync::Arc;
 
@@ -11,50 +11,50 @@ use crate::environment::box_tree::{BoxTree, BoxTreeChanges, Boxes, OrientedBox};
 use crate::index_set::IndexSet;
 use crate::pair::ROUNDING;
 
-/// If more than one of so many objects leave their neighbours at once, the tree is made anew in haste. With one of ten jumping that
-/// took less than half of the time of putting each in alone (`scripts/bench.sh objects --only "jump"`).
+/// If more than 1 in this many objects leave their nodes in one update, the tree is rebuilt in haste. With 1 in 10 jumping,
+/// that took less than half the time of reinserting each (`scripts/bench.sh objects --only "jump"`).
 const LEAVING: usize = 16;
 
-/// The same for objects that come or go, each of which is put in or taken out once: a guess from the above.
+/// The same for objects that are added or deleted, each a single insertion or removal: a guess from the measurement above.
 const COMING: usize = 4;
 
-/// Up to one of so many objects are put into the tree anew sooner than many at once: that keeps it tighter, and costs each
-/// some times what a refit does.
+/// If at most 1 in this many objects changes, objects are reinserted at a smaller growth of their nodes than otherwise. That
+/// keeps the tree tighter, but a reinsertion costs several times a refit.
 const FEW: usize = 16;
 
-/// The objects of one state of an environment, by their places in it.
+/// The tree over the objects of one snapshot; it refers to them by their places.
 #[derive(Clone, Debug, Default)]
 pub struct ObjectTree {
     pub(super) tree: BoxTree,
-    /// The objects that are beyond the tree's limits, by their places, in order: each is visited.
+    /// The places of the objects beyond the tree's limits, in order. Queries visit each of them.
     pub(super) strays: Arc<Vec<u32>>,
     limits: TreeLimits,
-    /// Of the objects in the tree, now or since it was built; no deviation is larger.
+    /// The largest deviation of an object in the tree since it was built.
     pub(super) deviation: f64,
-    /// No corner of a box was farther from the tree's centre.
+    /// The largest distance of a box's corner from the tree's centre since it was built.
     pub(super) radius: f64,
-    /// No coordinate of an object, in the world or on its way there, was larger.
+    /// The largest coordinate of an object, in its bounds or in their computation, since the tree was built.
     pub(super) largest_coordinate: f64,
     count: usize,
     wear: Wear,
 }
 
-/// What became of a tree since it was built.
+/// How much a tree has changed since it was built; decides when it is rebuilt.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wear {
     changes: usize,
-    /// Boxes put in and taken out.
+    /// Number of boxes inserted and removed.
     reshapings: usize,
-    /// Whether it was made in haste.
+    /// Whether it was built in haste.
     is_hasty: bool,
-    /// As they were then.
+    /// The values when it was built.
     count: usize,
     surface: f64,
     strays: usize,
 }
 
 impl ObjectTree {
-    /// The tree over those objects that are in the world; each place has one.
+    /// The tree over the objects in the world; every place must have an object.
     pub(super) fn new(places: &Places) -> Self {
         let limits = TreeLimits::of(places);
         let all = (0..places.len() as u32).filter(|&i| places[i as usize].is_in_world());
@@ -78,12 +78,12 @@ impl ObjectTree {
         for &place in &taken {
             built.measure(&places[place as usize].bounds);
         }
-        let blur = slack(built.largest_coordinate, built.deviation);
-        built.limits = TreeLimits::around(built.tree.frame().center, built.radius, blur);
+        let slack = slack(built.largest_coordinate, built.deviation);
+        built.limits = TreeLimits::around(built.tree.frame().center, built.radius, slack);
         built
     }
 
-    /// Takes over what was changed in a tree that was cloned from this one, or followed it.
+    /// Copies what changed in a tree that was cloned from this one, or followed it.
     pub(super) fn follow(&mut self, other: &Self) {
         self.tree.follow(&other.tree);
         self.strays = other.strays.clone();
@@ -100,18 +100,19 @@ impl ObjectTree {
         (self.largest_coordinate, self.count, self.wear) = (largest_coordinate, count, wear);
     }
 
+    /// Whether there is no object, in the tree or a stray.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// Half the surfaces of the boxes of all nodes below the root: a descent opens about as many nodes as it is large.
+    /// The sum of half the surfaces of all nodes below the root; a traversal opens a number of nodes about proportional to it.
     pub fn surface(&self) -> f64 {
         self.tree.surface()
     }
 
-    /// Goes after the objects of some places, which are new, gone, or elsewhere. Boxes that stay about where they were are
-    /// refitted, all in one pass; one that leaves its neighbours is put into the tree anew, unless many do: then the tree is made
-    /// anew in haste. False where so many come and go that the tree is to be built anew, and is left unfinished.
+    /// Updates the tree for places whose objects were added, deleted or moved. Boxes that stay about where they were are
+    /// refitted, all in one pass; boxes that make their node grow too much are reinserted. If many do, the tree is rebuilt in
+    /// haste. Returns false if so many were added or deleted that the caller must rebuild the tree, which is left invalid.
     pub(super) fn update(&mut self, changed: &IndexSet, places: &Places) -> bool {
         let mut refitted = IndexSet::new(places.len());
         let (mut removed, mut inserted, mut leaving) = (Vec::new(), Vec::new(), Vec::new());
@@ -163,7 +164,7 @@ impl ObjectTree {
         true
     }
 
-    /// Makes the tree anew over all objects in the world that are no strays, within the limits it had.
+    /// Rebuilds the tree quickly over all objects in the world that are not strays; keeps its limits.
     fn rebuild_in_haste(&mut self, places: &Places) {
         let is_taken = |&place: &u32| {
             places[place as usize].is_in_world() && self.strays.binary_search(&place).is_err()
@@ -184,7 +185,7 @@ impl ObjectTree {
         };
     }
 
-    /// Notes whether the object of a place is a stray; returns whether it was.
+    /// Records whether the object of a place is a stray; returns whether it was.
     fn note_stray(&mut self, place: usize, is_stray: bool) -> bool {
         let found = self.strays.binary_search(&(place as u32));
         match (found, is_stray) {
@@ -195,8 +196,8 @@ impl ObjectTree {
         found.is_ok()
     }
 
-    /// Whether the tree is to be built anew: after so many changes that each bears a small part of it. `objects` counts those
-    /// too that are not in the world, `places` also what was deleted since the places were closed up.
+    /// Whether the tree should be rebuilt. It takes enough changes that the amortized cost of each is small. `objects` counts
+    /// attached ones too; `places` counts objects deleted since the gaps were closed too.
     pub fn is_worn(&self, objects: usize, places: usize) -> bool {
         let Wear {
             changes,
@@ -206,13 +207,13 @@ impl ObjectTree {
             surface,
             strays,
         } = self.wear;
-        // What is left of far or ill known objects that are gone.
+        // Objects that were far away or imprecise, and are gone, have left a large slack.
         let size = self.tree.extent().map_or(0.0, Extent::diameter);
-        let blur = ROUNDING * self.radius + slack(self.largest_coordinate, self.deviation);
-        let is_blurred = blur > 0.5 * FAR * ROUNDING * size;
-        let more = (self.count as f64 / count.max(1) as f64).max(1.0);
-        let is_loose = self.surface() > 1.3 * more * surface;
-        is_blurred && changes > self.count / 16
+        let slack = ROUNDING * self.radius + slack(self.largest_coordinate, self.deviation);
+        let has_large_slack = slack > 0.5 * FAR * ROUNDING * size;
+        let count_growth = (self.count as f64 / count.max(1) as f64).max(1.0);
+        let is_loose = self.surface() > 1.3 * count_growth * surface;
+        has_large_slack && changes > self.count / 16
             || self.strays.len() > strays + self.count / 8
             || (is_loose || is_hasty) && changes > self.count
             || self.count > 2 * count + 8

@@ -1,4 +1,4 @@
-//! What a query sees of an environment: whole or not at all.
+//! One consistent state of an environment, as a query sees it.
 
 use std::sync::Arc;
 
@@ -15,17 +15,20 @@ use crate::user_data::UserData;
 /// An obstacle: a body at a pose.
 #[derive(Clone, Debug)]
 pub struct SObject {
-    /// Never used again after the object is deleted, by any environment of the process.
+    /// Never reused by any environment of the process, even after the object is deleted.
     pub id: u64,
+    /// The body, which the object keeps alive.
     pub body: Arc<Body>,
     /// In the world; in the link's frame while it is attached.
     pub pose: Pose,
+    /// The link it is fixed to, if it is attached.
     pub attachment: Option<Arc<Attachment>>,
+    /// The caller's data, if any.
     pub data: Option<UserData>,
 }
 
 impl SObject {
-    /// The number of its data, or of its body's where it has none of its own.
+    /// The value of its data, or of its body's data if it has none.
     pub fn data(&self) -> usize {
         match &self.data {
             Some(data) => data.value,
@@ -34,31 +37,31 @@ impl SObject {
     }
 }
 
-/// What is at each place.
+/// The places of a snapshot, each for one object.
 pub(super) type Places = CowVec<Place, 16>;
 
 #[derive(Debug, Default)]
 pub(super) struct Place {
-    /// None for a while after it was deleted.
+    /// `None` after the object was deleted, until the gaps are closed.
     pub object: Option<SObject>,
-    /// Those of the object, or the last one.
+    /// The bounds of the object, or of the last one.
     pub bounds: Bounds,
 }
 
-/// One state of an environment. A clone shares with it what is not changed.
+/// One state of an environment. A clone shares with it the memory that neither changes.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Counts the changes applied, each whole set as one: 0 for a new environment.
+    /// Number of calls that changed the environment; 0 for a new one.
     pub version: u64,
     /// In order of ids.
     places: Places,
     ids: CowVec<u64, 128>,
     count: usize,
-    /// No object has a place before this.
+    /// No place below this has an object.
     first: usize,
-    /// Of the objects that are not attached.
+    /// The tree over the objects that are not attached.
     tree: ObjectTree,
-    /// The places of those that are, in order.
+    /// The places of the attached objects, in order.
     attached: Arc<Vec<usize>>,
 }
 
@@ -68,10 +71,12 @@ impl Snapshot {
         (self.first..self.places.len()).filter_map(|place| self.places[place].object.as_ref())
     }
 
+    /// Number of objects, attached ones included.
     pub fn len(&self) -> usize {
         self.count
     }
 
+    /// Whether there is no object.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -81,26 +86,27 @@ impl Snapshot {
         self.objects().next()
     }
 
+    /// The object with an id.
     pub fn find(&self, id: u64) -> Option<&SObject> {
         self.place_of(id).map(|place| self.object(place))
     }
 
-    /// The object at a place that the tree or [`Snapshot::place_of`] told.
+    /// The object at a place from the tree or from [`Snapshot::place_of`]. Panics for other places.
     #[inline]
     pub fn object(&self, place: usize) -> &SObject {
         let object = self.places[place].object.as_ref();
         object.expect("an object is at each place that is told")
     }
 
-    /// What bounds that object.
+    /// The bounds of that object.
     #[inline(always)]
     pub fn bounds(&self, place: usize) -> &Bounds {
         &self.places[place].bounds
     }
 
-    /// The place of an object among all.
+    /// The place of the object with an id.
     pub fn place_of(&self, id: u64) -> Option<usize> {
-        // Ids count up, so that an object before which none is missing is found at once.
+        // Ids count up, so this guess is right if no id before it is missing.
         let from_first = usize::try_from(id.checked_sub(*self.ids.get(0)?)?);
         let guess = from_first.unwrap_or(usize::MAX).min(self.ids.len() - 1);
         let place = if self.ids[guess] == id {
@@ -111,7 +117,7 @@ impl Snapshot {
         self.places[place].object.is_some().then_some(place)
     }
 
-    /// The place of an id before another.
+    /// The place of an id at or before a place, by binary search.
     fn search(&self, id: u64, before: usize) -> Option<usize> {
         let (mut low, mut high) = (0, before);
         while low < high {
@@ -125,12 +131,12 @@ impl Snapshot {
         (self.ids[low] == id).then_some(low)
     }
 
-    /// The tree over the objects, which it names by their places.
+    /// The tree over the objects; it refers to them by their places.
     pub fn tree(&self) -> &ObjectTree {
         &self.tree
     }
 
-    /// Appends an object, whose id is higher than all before. The tree is not told. Returns its place.
+    /// Appends an object, whose id must be the highest. Does not update the tree. Returns its place.
     pub(super) fn push(&mut self, object: SObject) -> usize {
         self.ids.push(object.id);
         self.places.push(Place {
@@ -146,12 +152,12 @@ impl Snapshot {
         self.attached.iter().map(|&place| self.object(place))
     }
 
-    /// The number of places: more than there are objects where some were deleted.
+    /// The number of places, which exceeds the number of objects after deletions.
     pub(super) fn place_count(&self) -> usize {
         self.places.len()
     }
 
-    /// Notes whether the object at a place is attached.
+    /// Records whether the object at a place is attached.
     pub(super) fn note_attached(&mut self, place: usize, is_attached: bool) {
         match self.attached.binary_search(&place) {
             Ok(i) if !is_attached => drop(Arc::make_mut(&mut self.attached).remove(i)),
@@ -160,7 +166,7 @@ impl Snapshot {
         }
     }
 
-    /// Takes the object out of its place. The tree is not told.
+    /// Removes the object from its place. Does not update the tree.
     pub(super) fn take(&mut self, place: usize) {
         self.note_attached(place, false);
         let taken = self.places.get_mut(place).object.take();
@@ -171,8 +177,8 @@ impl Snapshot {
         }
     }
 
-    /// Moves the objects at changed places to where `target` says, if it does, with what holds them there; the tree goes
-    /// after all that changed.
+    /// Moves the objects at changed places to the pose and attachment that `target` gives, if it gives any, and updates the
+    /// tree.
     pub(super) fn settle<'a>(
         &mut self,
         changed: &IndexSet,
@@ -194,18 +200,18 @@ impl Snapshot {
         self.tree = ObjectTree::new(&self.places);
     }
 
-    /// Gives the objects new places, so that each place has one.
+    /// Gives the objects new places without gaps.
     fn close_gaps(&mut self) {
         self.ids = self.objects().map(|object| object.id).collect();
-        let left = self.places.iter().filter(|place| place.object.is_some());
-        self.places = left.cloned().collect();
+        let occupied = self.places.iter().filter(|place| place.object.is_some());
+        self.places = occupied.cloned().collect();
         self.first = 0;
         let is_attached = |place: &usize| self.places[*place].is_attached();
         self.attached = Arc::new((0..self.places.len()).filter(is_attached).collect());
     }
 
-    /// Takes over what was changed in a state that was cloned from this one, or followed it; not where the objects of some
-    /// places were, which will be moved.
+    /// Copies what changed in a state that was cloned from this one, or followed it; but not the poses at the places `to_move`,
+    /// which will be moved anyway.
     pub(super) fn follow(&mut self, other: &Self, to_move: &IndexSet) {
         self.version = other.version;
         self.places.follow_by(&other.places, |index, own, now| {
@@ -220,7 +226,7 @@ impl Snapshot {
     }
 }
 
-/// Changed places, whose objects go to where they are to be.
+/// Moves the objects at changed places and computes their bounds.
 struct ObjectMoves<'m, F> {
     places: &'m mut Places,
     changed: &'m IndexSet,
@@ -264,7 +270,7 @@ impl Clone for Place {
 
     fn clone_from(&mut self, other: &Self) {
         match (&mut self.object, &other.object) {
-            // An id keeps its body and its data for good.
+            // The body and the data of an id never change.
             (Some(own), Some(now)) if own.id == now.id => {
                 own.pose = now.pose;
                 if own.attachment.is_some() || now.attachment.is_some() {
@@ -292,7 +298,7 @@ impl Place {
         object.is_some_and(|object| object.attachment.is_some())
     }
 
-    /// Whether the tree holds what is here.
+    /// Whether the object here belongs to the tree.
     pub fn is_in_world(&self) -> bool {
         self.object.is_some() && !self.is_attached()
     }
@@ -307,7 +313,7 @@ mod tests {
     use crate::hierarchy::HierarchyOptions;
     use crate::pose::{Pose, Vec3};
 
-    /// Objects far from all others are beside the tree, which they do not wear.
+    /// Objects far from all others are strays outside the tree and do not wear it.
     #[test]
     fn far_objects_that_come_and_go_leave_no_places_behind() {
         let mut builder = BodyBuilder::new(3).unwrap();

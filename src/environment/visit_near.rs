@@ -1,4 +1,4 @@
-//! The descent to the objects that are near a body.
+//! The traversal to the objects near a body.
 
 use super::bounds::{Bounds, slack};
 use super::object_tree::ObjectTree;
@@ -12,9 +12,8 @@ use crate::pose::{Pose, Vec3};
 use crate::reused::emptied;
 
 impl ObjectTree {
-    /// Visits, for each of some bodies, the objects that may be within a limit of it: by the body's name and pose, what
-    /// bounds it, the object's place, and a safe lower bound of the distance; nearer parts of the tree first. `visit`
-    /// returns the limit from then on.
+    /// Visits, for each of some bodies, the objects that may be within `limit` of it, near subtrees first. `visit` gets the
+    /// named body, its bounds, the object's place and a safe lower bound of the distance; it returns the limit from then on.
     pub fn visit_near<'b>(
         &self,
         bodies: impl Iterator<Item = Named<'b>>,
@@ -26,21 +25,21 @@ impl ObjectTree {
             return;
         }
         let NearScratch { open, boxes, near } = scratch;
-        let mut together = emptied(std::mem::take(near));
+        let mut batch = emptied(std::mem::take(near));
         with_widest(Visit {
             objects: self,
             bodies,
             limit,
             open,
             boxes,
-            together: &mut together,
+            batch: &mut batch,
             visit,
         });
-        *near = emptied(together);
+        *near = emptied(batch);
     }
 }
 
-/// Memory of a descent, reused from one to the next.
+/// Memory of a traversal, reused from one to the next.
 #[derive(Debug, Default)]
 pub struct NearScratch {
     open: Vec<QueueEntry>,
@@ -52,17 +51,17 @@ pub struct NearScratch {
 #[derive(Clone, Copy, Debug)]
 struct QueueEntry {
     bound: f32,
-    /// The name of a node, or [`BOX`] + the place of a stray.
+    /// The index of a node, or [`BOX`] + the place of a stray.
     name: u32,
-    /// For which bodies: a bit each.
+    /// The bodies to test, one bit each.
     bodies: u64,
 }
 
 /// A name, a body and its pose.
 pub type Named<'b> = (usize, &'b Body, &'b Pose);
 
-/// So many bodies go down the tree together.
-const TOGETHER: usize = u64::BITS as usize;
+/// Number of bodies that traverse the tree together, one per bit of a mask.
+const BATCH: usize = u64::BITS as usize;
 
 struct Visit<'a, 'b, B, V> {
     objects: &'a ObjectTree,
@@ -70,8 +69,8 @@ struct Visit<'a, 'b, B, V> {
     limit: f64,
     open: &'a mut Vec<QueueEntry>,
     boxes: &'a mut Vec<PackedBox>,
-    /// The bodies that go down the tree together.
-    together: &'a mut Vec<(Named<'b>, Bounds)>,
+    /// The bodies that traverse the tree together.
+    batch: &'a mut Vec<(Named<'b>, Bounds)>,
     visit: V,
 }
 
@@ -84,9 +83,9 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        let mut bodies = std::mem::take(self.together);
+        let mut bodies = std::mem::take(self.batch);
         loop {
-            let next = self.bodies.by_ref().take(TOGETHER);
+            let next = self.bodies.by_ref().take(BATCH);
             bodies.extend(next.map(|named| (named, Bounds::of(named.1, named.2))));
             if bodies.is_empty() {
                 break;
@@ -94,7 +93,7 @@ where
             self.descend(lanes, &bodies);
             bodies.clear();
         }
-        *self.together = bodies;
+        *self.batch = bodies;
     }
 }
 
@@ -105,14 +104,14 @@ where
     #[inline(always)]
     fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
         let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
-        let all = u64::MAX >> (TOGETHER - bodies.len());
+        let all = u64::MAX >> (BATCH - bodies.len());
         let first = |name| QueueEntry {
             bound: f32::NEG_INFINITY,
             name,
             bodies: all,
         };
         self.open.clear();
-        // Those that are not in the tree come first: they may be the only near ones, and how near shortens the way.
+        // Strays go on top and are visited first: their distances may lower the limit for the tree.
         let root = self.objects.tree.root();
         self.open.extend(root.map(first));
         let strays = self.objects.strays.iter();
@@ -121,8 +120,8 @@ where
             if next.name & BOX != 0 {
                 let place = (next.name & !BOX) as usize;
                 for (named, body) in bodies {
-                    let at_least = f64::NEG_INFINITY;
-                    self.limit = (self.visit)(named, body, place, at_least);
+                    let lower = f64::NEG_INFINITY;
+                    self.limit = (self.visit)(named, body, place, lower);
                 }
                 continue;
             }
@@ -134,7 +133,7 @@ where
             let eight = wide.boxes(lanes, descent.unit);
             let children = (1 << wide.count) - 1;
             if next.bodies == all && bodies.len() > 1 {
-                // Far from the bodies, all of them are elsewhere, or go the same way.
+                // Far from the bodies, one test for the box around all of them prunes the node or leaves one child.
                 let bounds = bounds(lanes, &eight, &descent.around);
                 let near = lanes.at_most(bounds, cutoff) & children;
                 if near == 0 {
@@ -152,7 +151,7 @@ where
                 }
             }
             let mut nearest = [f32::INFINITY; 8];
-            let mut of_lanes = [0; 8];
+            let mut bodies_of_lanes = [0; 8];
             let mut rest = next.bodies;
             while rest != 0 {
                 let at = rest.trailing_zeros() as usize;
@@ -166,13 +165,13 @@ where
                     near &= near - 1;
                     let child = wide.children[lane];
                     if child & BOX == 0 {
-                        of_lanes[lane] |= bit;
+                        bodies_of_lanes[lane] |= bit;
                         nearest[lane] = nearest[lane].min(bounds[lane]);
                     } else if bounds[lane] <= cutoff {
                         let (named, body) = &bodies[at];
                         let place = (child & !BOX) as usize;
-                        let at_least = descent.lower(bounds[lane]);
-                        self.limit = (self.visit)(named, body, place, at_least);
+                        let lower = descent.lower(bounds[lane]);
+                        self.limit = (self.visit)(named, body, place, lower);
                         cutoff = descent.cutoff(self.limit);
                     }
                 }
@@ -180,7 +179,7 @@ where
             let first = self.open.len();
             for lane in 0..wide.count as usize & 15 {
                 let lane = lane & 7;
-                if of_lanes[lane] == 0 {
+                if bodies_of_lanes[lane] == 0 {
                     continue;
                 }
                 let bound = nearest[lane];
@@ -188,9 +187,9 @@ where
                 self.open.push(QueueEntry {
                     bound,
                     name: wide.children[lane],
-                    bodies: of_lanes[lane],
+                    bodies: bodies_of_lanes[lane],
                 });
-                // The nearest goes on top.
+                // The nearest goes on top of the stack.
                 while at > first && self.open[at - 1].bound < bound {
                     self.open.swap(at - 1, at);
                     at -= 1;
@@ -201,17 +200,19 @@ where
     }
 }
 
-/// Bodies as they go down the tree. Lengths in single precision are in units of a power of two next above the size of all.
+/// The bodies and units of one traversal. Lengths in single precision are in units of `scale`, a power of two about as large
+/// as the extent of everything.
 struct Descent {
-    /// The bodies' boxes, from the tree's centre.
+    /// The bodies' boxes, relative to the tree's centre.
     bodies: Vec<PackedBox>,
     /// A box around all of them.
     around: PackedBox,
-    /// The unit of the tree, and that of the descent.
+    /// The unit of the tree in units of `scale`.
     unit: f32,
+    /// The unit of the traversal.
     scale: f64,
     inverse_scale: f64,
-    /// Bounds are lowered by this.
+    /// The slack by which bounds are lowered.
     slack: f64,
 }
 
@@ -258,20 +259,20 @@ impl Descent {
         }
     }
 
-    /// Bounds above this tell that a distance is above a limit.
+    /// A single-precision bound above this proves that the distance is above `limit`.
     #[inline(always)]
     fn cutoff(&self, limit: f64) -> f32 {
         (((limit + self.slack) * self.inverse_scale) as f32).next_up()
     }
 
-    /// The distance that a bound tells of, at least.
+    /// The safe lower bound of the distance that follows from a single-precision bound.
     #[inline(always)]
     fn lower(&self, bound: f32) -> f64 {
         f64::from(bound) * self.scale - self.slack
     }
 }
 
-/// A box in single precision, in units of a power of two.
+/// A box in single precision; lengths are multiplied by `inverse_scale`, a power of two.
 #[inline(always)]
 fn packed([x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3, inverse_scale: f64) -> PackedBox {
     let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));

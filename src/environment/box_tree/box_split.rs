@@ -1,15 +1,15 @@
-//! How the boxes of a full node and one more are shared between two nodes.
+//! Splits the boxes of a full node and one more between two nodes.
 
 use crate::boxes::Extent;
 
 /// The most children a node has.
 pub const FULL: usize = 8;
 
-/// Fewer than this do not get a node of their own: so nodes are rarely split again soon, and the tree stays low.
-const LEAST: usize = 3;
+/// The fewest boxes of a node after a split, so that nodes are rarely split again soon and the tree stays shallow.
+const MIN_CHILDREN: usize = 3;
 
-/// Which of nine boxes go to another node, the fewer ones: those on one side along an axis, so that the surfaces of the two
-/// sets, times their numbers, add up to least.
+/// Chooses which of nine boxes move to a new node: the smaller side of the split along an axis with the least surface-area
+/// cost.
 pub fn split(extents: &[Extent]) -> [bool; FULL + 1] {
     let mut best = f64::INFINITY;
     let mut goes = [true, true, true, true, false, false, false, false, false];
@@ -17,7 +17,7 @@ pub fn split(extents: &[Extent]) -> [bool; FULL + 1] {
         let mut order: [usize; FULL + 1] = std::array::from_fn(|i| i);
         let middle = |i: usize| extents[i].low[axis] + extents[i].high[axis];
         order.sort_by(|&i, &j| middle(i).total_cmp(&middle(j)));
-        for first in LEAST..=FULL + 1 - LEAST {
+        for first in MIN_CHILDREN..=FULL + 1 - MIN_CHILDREN {
             let (left, right) = order.split_at(first);
             let cost = cost(extents, left) + cost(extents, right);
             if cost < best {

@@ -1,5 +1,5 @@
-//! A tree over oriented boxes, eight children a node: which of many bodies are near. The nodes lie side by side in chunks;
-//! clones of the tree share the chunks that none of them has changed since.
+//! A tree over oriented boxes with up to eight children per node, which finds the near ones among many bodies. Nodes are
+//! stored in chunks; clones of the tree share the chunks that neither has changed.
 
 use super::four_boxes::FourBoxes;
 use crate::boxes::{Extent, WideNode};
@@ -10,51 +10,55 @@ use crate::hierarchy::{Node, SubsetTree};
 use crate::lanes::F64x4;
 use crate::pose::Vec3;
 
-/// A box around a body: of its axes the first two, orthonormal to within 2^-12 (see [`PackedBox`]); the third is their cross
-/// product. The box is the points center + sum c_i axis_i with |c_i| <= half_i.
+/// The oriented box of a body: the points center + sum c_i axis_i with |c_i| <= half_i. The third axis is the cross product
+/// of the first two, which are orthonormal to within 2^-12 (see [`PackedBox`]).
 ///
 /// [`PackedBox`]: crate::boxes::PackedBox
 #[derive(Clone, Copy, Debug)]
 pub struct OrientedBox {
+    /// The centre, in the world.
     pub center: Vec3,
+    /// The first two axes.
     pub axes: [Vec3; 2],
+    /// Half the side along each axis.
     pub half: Vec3,
 }
 
-/// The boxes that a tree is over, by their places.
+/// The boxes that a tree is built over, each with a place as its index.
 pub trait Boxes {
-    /// The box along the axes of coordinates around one of them.
+    /// The axis-aligned box around a box.
     fn extent(&self, place: usize) -> Extent;
+    /// The oriented box itself.
     fn oriented(&self, place: usize) -> OrientedBox;
 }
 
-/// A child that is one of the given boxes.
+/// The bit of a child that is a box and not a node.
 pub const BOX: u32 = 1 << 31;
 
-/// The node above what is in none.
+/// The parent of the root, and of boxes that are not in the tree.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
-/// Nodes have names, which are their places among all. Each box of a node stands around all that is below.
+/// The name of a node is its index in `nodes`. The box of a child in a node bounds everything below the child.
 #[derive(Clone, Debug, Default)]
 pub struct BoxTree {
     pub(crate) nodes: CowVec<BoxNode, 8>,
     pub(crate) root: Option<u32>,
-    /// The node above each node, by their names.
+    /// The parent of each node.
     pub(crate) parents: CowVec<u32, 128>,
-    /// The node of each box, by its place.
-    pub(crate) above: CowVec<u32, 128>,
+    /// The node of each box, indexed by place.
+    pub(crate) box_parents: CowVec<u32, 128>,
     pub(crate) frame: BoxFrame,
     /// The sum of half the surfaces of all nodes' boxes.
     pub(crate) surface: f64,
 }
 
-/// It has two children at least, unless it is the root.
+/// A node. It has at least two children, unless it is the root.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct BoxNode {
     /// In the units of the tree's frame. A child is the name of another node, or [`BOX`] + the place of a box.
     pub wide: WideNode,
-    /// The box, along the axes of coordinates, of all that is below.
+    /// The axis-aligned box of everything below, in the world.
     pub(crate) extent: Extent,
 }
 
@@ -75,9 +79,9 @@ impl Default for BoxFrame {
 }
 
 impl BoxTree {
-    /// The tree over some of `places` boxes.
+    /// Builds the tree over the boxes `taken`; places are below `places`.
     pub fn new(taken: &[u32], places: usize, boxes: &impl Boxes) -> Self {
-        let mut above = vec![NOWHERE; places];
+        let mut box_parents = vec![NOWHERE; places];
         let mut built = Self::default();
         if !taken.is_empty() {
             let extents = taken.iter().map(|&place| boxes.extent(place as usize));
@@ -87,7 +91,7 @@ impl BoxTree {
             let all = forest.extents.clone();
             let (tree, at) = forest.into_tree(root);
             let whole = all[root as usize];
-            // Boxes that are small for where they stand may have no extent there, but for their sides.
+            // Boxes that are tiny relative to their coordinates may have an extent of 0, but their sides have a length.
             let sides = taken.iter().map(|&place| boxes.oriented(place as usize));
             let largest = sides.map(|side| side.half.amax()).fold(0.0, f64::max);
             built.frame = BoxFrame::new(whole.center(), largest.max(whole.size().amax()));
@@ -98,21 +102,21 @@ impl BoxTree {
                 plans: Vec::new(),
             };
             builder.plan();
-            built.fill(&builder.plans, &mut above, boxes);
+            built.fill(&builder.plans, &mut box_parents, boxes);
         }
-        built.above = above.into_iter().collect();
+        built.box_parents = box_parents.into_iter().collect();
         built
     }
 
-    /// Makes the nodes: their names are the places of their plans.
-    fn fill(&mut self, plans: &[Plan], above: &mut [u32], boxes: &impl Boxes) {
-        let made = plans.iter().enumerate().map(|(name, plan)| {
+    /// Builds the nodes; the name of a node is the index of its plan.
+    fn fill(&mut self, plans: &[Plan], box_parents: &mut [u32], boxes: &impl Boxes) {
+        let nodes = plans.iter().enumerate().map(|(name, plan)| {
             let given = |lane: usize| match plan.children[lane] {
                 child if child & BOX == 0 => OrientedBox::from(&plans[child as usize].extent),
                 child => boxes.oriented((child & !BOX) as usize),
             };
             for &child in plan.children.iter().filter(|&&child| child & BOX != 0) {
-                above[(child & !BOX) as usize] = name as u32;
+                box_parents[(child & !BOX) as usize] = name as u32;
             }
             self.surface += plan.extent.half_surface();
             BoxNode {
@@ -120,7 +124,7 @@ impl BoxTree {
                 extent: plan.extent,
             }
         });
-        self.nodes = made.collect();
+        self.nodes = nodes.collect();
         self.root = Some(0);
         self.parents = plans.iter().map(|plan| plan.parent).collect();
     }
@@ -130,43 +134,45 @@ impl BoxTree {
         self.root
     }
 
+    /// The node with a name.
     #[inline(always)]
     pub fn node(&self, name: u32) -> &BoxNode {
         &self.nodes[name as usize]
     }
 
-    /// Takes over what was changed in a tree that was cloned from this one, or followed it.
+    /// Copies what changed in a tree that was cloned from this one, or followed it.
     pub fn follow(&mut self, other: &Self) {
         self.nodes.follow(&other.nodes);
         self.parents.follow(&other.parents);
-        self.above.follow(&other.above);
+        self.box_parents.follow(&other.box_parents);
         (self.root, self.frame, self.surface) = (other.root, other.frame, other.surface);
     }
 
+    /// The unit and the origin of lengths in the nodes.
     pub fn frame(&self) -> &BoxFrame {
         &self.frame
     }
 
-    /// The box, along the axes of coordinates, of all.
+    /// The axis-aligned box of everything.
     pub fn extent(&self) -> Option<&Extent> {
         self.root.map(|root| &self.node(root).extent)
     }
 
-    /// Half the surfaces of the boxes of all nodes below the root: a descent opens about as many nodes as it is large.
+    /// The sum of half the surfaces of all nodes below the root; a traversal opens a number of nodes about proportional to it.
     pub fn surface(&self) -> f64 {
         let root = self.extent().map_or(0.0, Extent::half_surface);
         (self.surface - root).max(0.0)
     }
 
-    /// No box with this place or a higher one was ever in the tree.
+    /// Places from this on were never in the tree.
     pub fn places(&self) -> usize {
-        self.above.len()
+        self.box_parents.len()
     }
 
-    /// How much larger the surface of a box's node becomes to hold the box as it is now: more than 1 where it leaves its
-    /// neighbours. That of the root counts for nothing: there is no better place.
+    /// The factor by which the surface of a box's node grows to hold the box as it is now; above 1 if the box leaves the node.
+    /// Always 1 in the root, as there is no better node.
     pub fn growth(&self, place: usize, now: &Extent) -> f64 {
-        let name = self.above[place];
+        let name = self.box_parents[place];
         let own = &self.node(name).extent;
         let grown = own.union(now).half_surface();
         if grown > 0.0 && self.root != Some(name) {
@@ -178,14 +184,16 @@ impl BoxTree {
 
     /// Whether a box is in the tree.
     pub fn holds(&self, place: usize) -> bool {
-        self.above.get(place).is_some_and(|&node| node != NOWHERE)
+        self.box_parents
+            .get(place)
+            .is_some_and(|&node| node != NOWHERE)
     }
 }
 
 impl BoxFrame {
-    /// For boxes about a centre, within some size of it.
+    /// A frame for boxes within `size` of a centre.
     pub(crate) fn new(center: Vec3, size: f64) -> Self {
-        // The squares of smaller lengths are 0, by which what is far would be taken for near.
+        // The squares of smaller lengths round to 0, which would make far boxes seem near.
         const SMALLEST: f64 = 1e-150;
         let scale = power_of_two(size.max(SMALLEST));
         Self { center, scale }
@@ -198,7 +206,7 @@ impl BoxFrame {
         }
     }
 
-    /// A node with some children, given the box of each and that of all.
+    /// Packs a node from its children, the box of each and the extent of all.
     #[inline(always)]
     pub(crate) fn packed(
         &self,
@@ -206,13 +214,13 @@ impl BoxFrame {
         extent: &Extent,
         given: impl Fn(usize) -> OrientedBox,
     ) -> WideNode {
-        // Boxes that grow a little are to fit too.
+        // Room for boxes that grow a little in later refits.
         const ROOM: f64 = 1.25;
         let center = (extent.center() - self.center) / self.scale;
         let largest = (0..children.len())
             .map(|lane| given(lane).half.amax())
             .fold(0.0, f64::max);
-        // Sides may be nearly twice as large as what centres are within.
+        // Half sides may be nearly twice as large as the range of the centres.
         let mut half = 0.5 * largest.max(ROOM * extent.size().amax()) / self.scale;
         loop {
             let mut wide = WideNode::around(&center, half);
@@ -222,13 +230,13 @@ impl BoxFrame {
             if self.put(&mut wide, all, &given) {
                 return wide;
             }
-            // Boxes that are tiny for where they stand: rounding of the centres outgrew what was left for it.
+            // The boxes are tiny relative to their coordinates: the room for rounding was too small.
             half = (2.0 * half).max(1e-30);
             assert!(half < 1e30, "boxes lie within reach of the tree's frame");
         }
     }
 
-    /// Sets the boxes of some children, a bit each, to hold those given; false if one does not fit.
+    /// Sets the boxes of the children whose bits are set in `lanes` to hold the given ones; false if one does not fit.
     #[inline(always)]
     pub(crate) fn put(
         &self,
@@ -268,7 +276,7 @@ impl From<&Extent> for OrientedBox {
 }
 
 struct Builder<'a> {
-    /// Over the boxes taken.
+    /// The binary tree over the boxes taken.
     tree: SubsetTree,
     taken: &'a [u32],
     /// The box of each node of the tree.
@@ -276,7 +284,7 @@ struct Builder<'a> {
     plans: Vec<Plan>,
 }
 
-/// A node to be made. Children that are nodes have later plans, by whose places they are named.
+/// A node to be built. A child that is a node is named by the index of its plan, which comes later.
 struct Plan {
     children: Vec<u32>,
     extent: Extent,
@@ -314,7 +322,7 @@ impl Builder<'_> {
         self.plans.len() as u32 - 1
     }
 
-    /// Up to eight nodes that stand for one, the largest opened first.
+    /// Up to eight nodes that cover a subtree; the largest is opened first.
     fn eight_below(&self, node: u32) -> Vec<u32> {
         let mut below = vec![node];
         while below.len() < 8 {

@@ -1,17 +1,19 @@
-//! Boxes that come and go: each change costs the levels of the tree. As in an R-tree (Guttman 1984), a box goes where boxes
-//! grow least, and a node that is full is split.
+//! Inserts and removes boxes, in time proportional to the levels of the tree. As in an R-tree (Guttman 1984), a box is
+//! inserted where boxes grow least, and a full node is split.
 
 use super::box_split::{FULL, split};
 use super::box_tree::{BOX, BoxNode, BoxTree, Boxes, NOWHERE};
 use crate::boxes::Extent;
 
-/// A tree under change, with the boxes as they are after it.
+/// A tree being changed, with the boxes as they are after the change.
 pub struct BoxTreeChanges<'a, B> {
+    /// The tree.
     pub tree: &'a mut BoxTree,
+    /// All boxes, by their places.
     pub boxes: &'a B,
 }
 
-/// A node or one of the given boxes.
+/// A child of a node: another node, or a box.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Child {
     pub name: u32,
@@ -19,10 +21,10 @@ pub(crate) struct Child {
 }
 
 impl<B: Boxes> BoxTreeChanges<'_, B> {
-    /// Puts a box into the tree.
+    /// Inserts a box into the tree.
     pub fn insert(&mut self, place: usize) {
-        while self.tree.above.len() <= place {
-            self.tree.above.push(NOWHERE);
+        while self.tree.box_parents.len() <= place {
+            self.tree.box_parents.push(NOWHERE);
         }
         let child = Child {
             name: place as u32 | BOX,
@@ -38,10 +40,10 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         }
     }
 
-    /// Takes a box out.
+    /// Removes a box from the tree.
     pub fn remove(&mut self, place: usize) {
-        let mut name = self.tree.above[place];
-        *self.tree.above.get_mut(place) = NOWHERE;
+        let mut name = self.tree.box_parents[place];
+        *self.tree.box_parents.get_mut(place) = NOWHERE;
         let node = self.tree.nodes.get_mut(name as usize);
         node.wide.take_out(node.lane_of(place as u32 | BOX));
         let mut lanes = 0;
@@ -58,7 +60,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
             }
             let lane = self.tree.node(parent).lane_of(name);
             if let [left] = *node.wide.children() {
-                // The only child left takes the place of the node.
+                // The only child left replaces the node.
                 self.tree.surface -= node.extent.half_surface();
                 self.set_child(parent, lane, left);
             } else if !self.settle(name, lanes) {
@@ -68,7 +70,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         }
     }
 
-    /// Puts a child where it makes boxes grow least. If the node was full, returns a new one to stand beside it.
+    /// Inserts a child where boxes grow least. If the node was full, returns its new sibling.
     fn insert_below(&mut self, name: u32, child: Child) -> Option<u32> {
         let Some(lane) = self.best_lane(name, &child.extent) else {
             return self.add(name, child);
@@ -82,7 +84,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         self.add(name, self.child(sibling?))
     }
 
-    /// The child whose box grows least to hold another, unless all are given boxes.
+    /// The child whose box grows least to hold another; `None` if all children are boxes.
     fn best_lane(&self, name: u32, given: &Extent) -> Option<usize> {
         let wide = &self.tree.node(name).wide;
         wide.children().iter().find(|&&child| child & BOX == 0)?;
@@ -99,7 +101,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         Some(best.2)
     }
 
-    /// Gives a node one more child. If it was full, returns a new one to stand beside it.
+    /// Adds a child to a node. If the node was full, returns its new sibling.
     fn add(&mut self, name: u32, child: Child) -> Option<u32> {
         let node = self.tree.nodes.get_mut(name as usize);
         let count = node.wide.count as usize;
@@ -112,7 +114,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         None
     }
 
-    /// Shares the children of a full node and one more between it and a new one.
+    /// Splits the children of a full node and one more between the node and a new one.
     fn split(&mut self, name: u32, child: Child) -> u32 {
         let node = *self.tree.node(name);
         let mut children: Vec<Child> = node
@@ -147,7 +149,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         self.tree.parents.len() as u32 - 1
     }
 
-    /// Makes a node anew over some children.
+    /// Refills a node with some children.
     fn fill_node(&mut self, name: u32, children: &[Child]) {
         let extents = children.iter().map(|child| child.extent);
         let whole = extents.reduce(|all, own| all.union(&own));
@@ -158,19 +160,19 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         let wide = self.tree.frame.packed(&names, &extent, given);
         *self.tree.nodes.get_mut(name as usize) = BoxNode { wide, extent };
         for child in names {
-            self.set_above(child, name);
+            self.set_parent(child, name);
         }
     }
 
     fn set_child(&mut self, name: u32, lane: usize, child: u32) {
         self.tree.nodes.get_mut(name as usize).wide.children[lane] = child;
-        self.set_above(child, name);
+        self.set_parent(child, name);
     }
 
-    fn set_above(&mut self, child: u32, name: u32) {
+    fn set_parent(&mut self, child: u32, name: u32) {
         match child & BOX {
             0 => *self.tree.parents.get_mut(child as usize) = name,
-            _ => *self.tree.above.get_mut((child & !BOX) as usize) = name,
+            _ => *self.tree.box_parents.get_mut((child & !BOX) as usize) = name,
         }
     }
 }

@@ -1,13 +1,13 @@
-//! Oriented boxes four at a time, as nodes take them.
+//! Packs oriented boxes into nodes, four at a time.
 
 use super::box_tree::OrientedBox;
 use crate::boxes::{MAX_AXIS, MAX_PLACE, WideNode};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3};
 
-/// The components of an axis are whole numbers in units of 2^-15.
+/// The components of an axis are integers in units of 2^-15.
 const AXIS_UNITS: f64 = 32768.0;
 
-/// Up to four boxes, coordinates apart.
+/// Up to four boxes as structure of arrays.
 pub struct FourBoxes {
     pub center: Points64,
     /// The first two axes of each; the third is their cross product.
@@ -16,7 +16,7 @@ pub struct FourBoxes {
 }
 
 impl FourBoxes {
-    /// Those of some lanes, a bit each; the others are points.
+    /// Gathers the boxes of the lanes set in `lanes`; the other lanes are points.
     #[inline(always)]
     pub fn of(lanes: u8, given: impl Fn(usize) -> OrientedBox) -> Self {
         let none = [F64x4::splat(0.0); 3];
@@ -39,8 +39,8 @@ impl FourBoxes {
 }
 
 impl WideNode {
-    /// Sets the boxes of some children, those of four lanes from `first` on that `lanes` has bits for: each becomes one around
-    /// that given. False if one does not fit the node. Their size codes are not set.
+    /// Sets the boxes of those of four children from `first` on whose bits are set in `lanes`; each contains the given box.
+    /// False if one does not fit the node. Does not set size codes.
     #[inline(always)]
     pub fn put(&mut self, first: usize, lanes: u8, given: &FourBoxes) -> bool {
         let first = first & 4;
@@ -50,10 +50,10 @@ impl WideNode {
             let origin = F64x4::splat(f64::from(self.frame[k]));
             (given.center[k] - origin) * inverse_step
         });
-        // Which of two neighbours a half becomes does not matter: the sides make up for it.
+        // The rounding direction of halves does not matter: the half sides compensate for it.
         let center = each3(|k| nearest(place[k], MAX_PLACE));
         let axes = [axis_units(&given.axes[0]), axis_units(&given.axes[1])];
-        // The sides follow from what the axes and the centre have become: enough of them for both meanings of a box.
+        // The half sides are fitted to the rounded axes and centre, and bound the box in both senses of `PackedBox`.
         let unit = 1.0 / AXIS_UNITS;
         let (a, b) = (each3(|k| axes[0][k] * unit), each3(|k| axes[1][k] * unit));
         let c = single_cross(&a, &b);
@@ -70,8 +70,8 @@ impl WideNode {
                 + given.half[1] * dot64(rounded[i], y).abs()
                 + given.half[2] * dot64(rounded[i], &z).abs()
         });
-        // So much for the projections. Coefficients are the products of these with the inverse of the axes' Gram matrix,
-        // I + E; the third axis is upright to the others but for its rounding to single precision.
+        // `farthest` bounds the projections. The coefficients are the projections times the inverse of the axes' Gram matrix,
+        // I + E; the third axis is orthogonal to the others up to rounding to single precision.
         let one = F64x4::splat(1.0);
         let off_unit = each3(|i| (dot64(rounded[i], rounded[i]) - one).abs());
         let skew = off_unit[0]
@@ -85,7 +85,7 @@ impl WideNode {
             farthest[1] + skewed + rounding,
             farthest[2] * (one + skew * 2.5) + rounding,
         ];
-        // A little more, as the product with the step is rounded to single precision.
+        // Slightly more, as the product with the step is rounded to single precision.
         let more = inverse_step * (1.0 + 1e-6);
         let half = each3(|i| needed[i].map(|x| (x * more).ceil()));
         let farthest_place = place[0].abs().max(place[1].abs()).max(place[2].abs());
@@ -112,11 +112,11 @@ impl WideNode {
     }
 }
 
-/// The nearest whole numbers that are not larger than `most`.
+/// Rounds to the nearest integers of magnitude at most `max`.
 #[inline(always)]
-fn nearest(x: F64x4, most: f64) -> F64x4 {
+fn nearest(x: F64x4, max: f64) -> F64x4 {
     let whole = x.map(|x| (x + 0.5).floor());
-    whole.min(F64x4::splat(most)).max(F64x4::splat(-most))
+    whole.min(F64x4::splat(max)).max(F64x4::splat(-max))
 }
 
 #[inline(always)]
@@ -124,7 +124,7 @@ fn axis_units(axis: &Points64) -> Points64 {
     each3(|k| nearest(axis[k] * AXIS_UNITS, MAX_AXIS))
 }
 
-/// The cross product as single precision has it, of numbers that it holds.
+/// The cross product computed in single precision, of numbers that are exact in it.
 #[inline(always)]
 fn single_cross(a: &Points64, b: &Points64) -> Points64 {
     each3(|k| {
@@ -135,7 +135,7 @@ fn single_cross(a: &Points64, b: &Points64) -> Points64 {
     })
 }
 
-/// Writes whole numbers to some of four lanes.
+/// Writes integers to the lanes set in `lanes`.
 #[inline(always)]
 fn write<N: Copy>(
     numbers: &mut [N; 8],

@@ -1,4 +1,4 @@
-//! The tree made anew in haste: each set of boxes is halved at the median of their centres.
+//! Rebuilds the tree in haste: each set of boxes is split at the median of the centres.
 
 use super::box_split::FULL;
 use super::box_tree::{BOX, BoxFrame, BoxTree, Boxes, NOWHERE, OrientedBox};
@@ -7,8 +7,8 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 
 impl BoxTree {
-    /// Makes the tree anew over some of `places` boxes, in the memory it has. Takes a small part of the time that
-    /// [`BoxTree::new`] takes; the boxes of nodes overlap more. Boxes that come later are within `radius` of a centre.
+    /// Rebuilds the tree over the boxes `taken` in the memory it has; places are below `places`. Takes a small fraction of the
+    /// time of [`BoxTree::new`], but the nodes' boxes overlap more. Boxes inserted later must be within `radius` of `center`.
     pub fn rebuild_in_haste(
         &mut self,
         taken: &[u32],
@@ -39,14 +39,15 @@ struct Center {
     place: u32,
 }
 
-/// A node to be made. Children that are nodes have later plans, by whose places they are named.
+/// A node to be built. A child that is a node is named by the index of its plan, which comes later.
 struct Plan {
     children: [u32; FULL],
     count: usize,
     parent: u32,
 }
 
-/// The frame in which the boxes have a size, and what comes later none that single precision does not hold.
+/// The frame of the tree, and the boxes' centres in it. Its scale suits the boxes, and is large enough that later boxes
+/// within `radius` stay in the range of single precision.
 fn frame_around(
     taken: &[u32],
     boxes: &impl Boxes,
@@ -74,7 +75,7 @@ fn frame_around(
     (frame, centers)
 }
 
-/// Plans the node over some boxes and all below it. Returns its name.
+/// Plans the node over some boxes and all nodes below it. Returns its name.
 fn plan(centers: &mut [Center], parent: u32, plans: &mut Vec<Plan>) -> u32 {
     let name = plans.len() as u32;
     plans.push(Plan {
@@ -88,13 +89,13 @@ fn plan(centers: &mut [Center], parent: u32, plans: &mut Vec<Plan>) -> u32 {
         }
         return name;
     }
-    // All leaves are on one level, and nodes as full as they can be.
+    // All boxes are on one level, and the nodes as full as possible.
     let mut below = FULL;
     while FULL * below < centers.len() {
         below *= FULL;
     }
     let parts = centers.len().div_ceil(below);
-    share(centers, parts, &mut |part| {
+    split_evenly(centers, parts, &mut |part| {
         let child = plan(part, name, plans);
         add_child(&mut plans[name as usize], child);
     });
@@ -106,8 +107,8 @@ fn add_child(plan: &mut Plan, child: u32) {
     plan.count += 1;
 }
 
-/// Cuts a set into parts of about the same number, across its longest side each time.
-fn share(centers: &mut [Center], parts: usize, visit: &mut dyn FnMut(&mut [Center])) {
+/// Splits a set into parts of about equal counts, each time across its longest side.
+fn split_evenly(centers: &mut [Center], parts: usize, visit: &mut dyn FnMut(&mut [Center])) {
     if parts == 1 {
         return visit(centers);
     }
@@ -129,11 +130,11 @@ fn share(centers: &mut [Center], parts: usize, visit: &mut dyn FnMut(&mut [Cente
         order.then(a.place.cmp(&b.place))
     });
     let (left, right) = centers.split_at_mut(middle);
-    share(left, first, visit);
-    share(right, parts - first, visit);
+    split_evenly(left, first, visit);
+    split_evenly(right, parts - first, visit);
 }
 
-/// Nodes as they are made from plans, those below others first.
+/// Fills the nodes from their plans, children before parents.
 struct TreeFilling<'t, 'p, B> {
     tree: &'t mut BoxTree,
     plans: &'p [Plan],
@@ -152,7 +153,7 @@ impl<B: Boxes> Work for TreeFilling<'_, '_, B> {
             places,
             boxes,
         } = self;
-        let mut above = vec![NOWHERE; places];
+        let mut box_parents = vec![NOWHERE; places];
         let mut extents = vec![Extent::default(); plans.len()];
         let (frame, surface) = (tree.frame, &mut tree.surface);
         tree.nodes.resize(plans.len());
@@ -171,7 +172,7 @@ impl<B: Boxes> Work for TreeFilling<'_, '_, B> {
                     child => boxes.oriented((child & !BOX) as usize),
                 });
                 for &child in children.iter().filter(|&&child| child & BOX != 0) {
-                    above[(child & !BOX) as usize] = name as u32;
+                    box_parents[(child & !BOX) as usize] = name as u32;
                 }
                 extents[name] = whole;
                 *surface += whole.half_surface();
@@ -180,8 +181,8 @@ impl<B: Boxes> Work for TreeFilling<'_, '_, B> {
         tree.parents.resize(plans.len());
         let parents = (0..plans.len()).map(|name| plans[name].parent);
         tree.parents.set_all(parents);
-        tree.above.resize(places);
-        tree.above.set_all(above);
+        tree.box_parents.resize(places);
+        tree.box_parents.set_all(box_parents);
     }
 }
 

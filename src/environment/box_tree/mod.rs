@@ -1,4 +1,4 @@
-//! The dynamic tree over the boxes of s-objects, an R-tree with eight children a node.
+//! The dynamic tree over the boxes of s-objects: an R-tree with up to eight children per node.
 
 mod box_split;
 #[allow(clippy::module_inception)]

@@ -1,4 +1,4 @@
-//! The boxes of nodes after what is below them changed.
+//! Refits the boxes of nodes after boxes below them changed.
 
 use super::box_split::FULL;
 use super::box_tree::{BOX, BoxFrame, BoxNode, Boxes, NOWHERE, OrientedBox};
@@ -7,13 +7,12 @@ use crate::index_set::IndexSet;
 use crate::lanes::{Instructions, Work, with_widest};
 
 impl<B: Boxes> BoxTreeChanges<'_, B> {
-    /// Goes after boxes of the tree that changed, and leaves the tree's shape as it is: each node above them is looked at
-    /// once, from the leaves up.
+    /// Refits the nodes that contain changed boxes, bottom-up and each once. The structure of the tree stays.
     pub fn refit(&mut self, changed: &IndexSet) {
         let tree = &*self.tree;
         let mut touched = IndexSet::new(tree.nodes.len());
         for place in changed.iter() {
-            let mut name = tree.above[place];
+            let mut name = tree.box_parents[place];
             while name != NOWHERE && touched.insert(name as usize) {
                 name = tree.parents[name as usize];
             }
@@ -25,7 +24,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         });
     }
 
-    /// Nodes of a set that holds what is above each, those below others first.
+    /// Orders a set of nodes, which holds the parent of each, children before parents.
     fn bottom_up(&self, nodes: &IndexSet) -> Vec<u32> {
         let is_member = |&name: &u32| nodes.contains(name as usize);
         let mut found: Vec<u32> = self.tree.root.filter(is_member).into_iter().collect();
@@ -40,7 +39,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         found
     }
 
-    /// Makes a node hold its children, of which those of some lanes have changed. Returns whether its own box changed.
+    /// Refits a node whose children in `lanes` have changed. Returns whether its own extent changed.
     pub(crate) fn settle(&mut self, name: u32, lanes: u8) -> bool {
         with_widest(NodeRefit {
             changes: self,
@@ -62,7 +61,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
     }
 }
 
-/// A node whose children changed in some lanes.
+/// Refits one node, whose children in `lanes` have changed.
 struct NodeRefit<'c, 'a, B> {
     changes: &'c mut BoxTreeChanges<'a, B>,
     name: u32,
@@ -93,7 +92,7 @@ impl<B: Boxes> Work for NodeRefit<'_, '_, B> {
     }
 }
 
-/// The nodes above changed boxes: first those that only hold boxes, in the order they lie in.
+/// Refits the nodes that contain changed boxes: first those with only boxes as children, in memory order.
 struct TreeRefit<'c, 'a, B> {
     changes: &'c mut BoxTreeChanges<'a, B>,
     changed: &'c IndexSet,
@@ -112,7 +111,7 @@ impl<B: Boxes> Work for TreeRefit<'_, '_, B> {
         } = self;
         let boxes = changes.boxes;
         let tree = &mut *changes.tree;
-        // The nodes whose own box changed, and those that hold nodes.
+        // The nodes whose own extent changed, and the nodes with nodes as children.
         let mut moved = IndexSet::new(tree.nodes.len());
         let mut inner = IndexSet::new(tree.nodes.len());
         let (frame, surface) = (tree.frame, &mut tree.surface);
@@ -153,7 +152,7 @@ impl<B: Boxes> Work for TreeRefit<'_, '_, B> {
     }
 }
 
-/// The children of a node that only holds boxes, and which of them have changed.
+/// The children of a node with only boxes, and the lanes of those that changed; `None` for other nodes.
 #[inline(always)]
 fn given_boxes(
     node: &BoxNode,
@@ -186,7 +185,7 @@ impl Child {
 }
 
 impl BoxNode {
-    /// Sets the box of all, and those of some lanes.
+    /// Refits the node's extent, and the boxes of the children in `lanes`.
     #[inline(always)]
     fn settle(
         &mut self,
@@ -203,7 +202,7 @@ impl BoxNode {
         self.extent = whole;
         let given = |lane: usize| children[lane].oriented(boxes);
         if !frame.put(&mut self.wide, lanes, given) {
-            // One that does not fit: all are given room.
+            // A box does not fit: the whole node is packed again with room.
             let names = self.wide.children;
             self.wide = frame.packed(&names[..children.len()], &self.extent, given);
         }
