@@ -149,7 +149,7 @@ impl Writer {
         Ok(())
     }
 
-    /// The wrapper tree, or how it is made when it is asked for.
+    /// Writes the wrapper tree, or what it is built from on demand.
     pub fn wrappers(&mut self, wrappers: &Wrappers, depth: u64) {
         let kind = KINDS.iter().position(|&kind| kind == wrappers.kind());
         self.u32(kind.unwrap_or(0) as u32);

@@ -17,7 +17,7 @@ pub struct PackedBox {
 const MAX_UNSEARCHED: usize = 5;
 
 /// The axes of a bounding box of small surface, the axis of its shortest side last. A small surface gives the best lower
-/// bounds of distance over all directions. `flat` is the polygon that has the points as vertices, if there is one.
+/// bounds of distance over all directions. `flat` is the polygon that the points bound, if they bound one.
 pub fn fitted_axes(points: &[Vec3], flat: Option<&Convex>) -> Mat3 {
     let searched = (points.len() > MAX_UNSEARCHED).then(|| least_volume_axes(points));
     let natural = flat.and_then(polygon_axes);

@@ -100,7 +100,7 @@ impl Environment {
             .clone()
     }
 
-    /// An environment that keeps the current state for ever.
+    /// A frozen environment with the current state.
     pub fn freeze(&self) -> Self {
         Self::with_state(self.snapshot(), true)
     }

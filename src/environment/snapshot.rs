@@ -51,7 +51,7 @@ pub(super) struct Place {
 /// One state of an environment. A clone shares with it the memory that neither changes.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Number of calls that changed the environment; 0 for a new one.
+    /// Number of sets of changes applied so far; 0 for a new environment.
     pub version: u64,
     /// In order of ids.
     places: Places,

@@ -133,7 +133,7 @@ where
             let eight = wide.boxes(lanes, descent.unit);
             let children = (1 << wide.count) - 1;
             if next.bodies == all && bodies.len() > 1 {
-                // Far from the bodies, one test for the box around all of them prunes the node or leaves one child.
+                // Far from the bodies, one test of the box around all of them often prunes the node or leaves one child.
                 let bounds = bounds(lanes, &eight, &descent.around);
                 let near = lanes.at_most(bounds, cutoff) & children;
                 if near == 0 {

@@ -357,10 +357,10 @@ mod tests {
             .map(|i| square(i % 20, if i < 20 { 0.0 } else { 1.001 }))
             .collect();
         let extents: Vec<Extent> = squares.iter().map(|s| Extent::of(s)).collect();
-        let siblings = sibling_pairs(0..40, |part, hear| {
+        let siblings = sibling_pairs(0..40, |part, visit| {
             let s = squares[part as usize];
             for k in 0..4 {
-                hear([s[k], s[(k + 1) % 4]]);
+                visit([s[k], s[(k + 1) % 4]]);
             }
         });
         assert_eq!(siblings.len(), 38);

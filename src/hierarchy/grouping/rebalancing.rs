@@ -6,7 +6,7 @@
 use super::binned_split::{levels_for, split_within};
 use super::forest::Forest;
 
-/// Rebuilds every subtree that is too deep top-down. Returns the new forest, and the new body of each old one.
+/// Rebuilds every subtree that is too deep by top-down splits. Returns the new forest, and the new body of each old one.
 pub fn rebalanced(old: Forest) -> (Forest, Vec<u32>) {
     let leaves = old.leaves;
     let mut forest = Forest::new(old.extents[..leaves].to_vec());

@@ -13,7 +13,7 @@ use crate::primitive::{Primitive, Primitives};
 #[repr(transparent)]
 pub struct NodeRef(u32);
 
-/// The leaf bit of a [`NodeRef`] and of an entry of [`WideNode::children`].
+/// The leaf bit of a [`NodeRef`] and of an entry of `WideNode::children`.
 const LEAF: u32 = 1 << 31;
 
 impl NodeRef {
@@ -185,7 +185,7 @@ impl PackedTree {
             && node_seen.iter().skip(1).chain(&leaf_seen).all(|&seen| seen)
     }
 
-    /// The entry in [`WideNode::children`] of the leaf with the packed primitive `place`.
+    /// The entry in `WideNode::children` of the leaf with the packed primitive `place`.
     pub(crate) fn leaf(place: u32) -> u32 {
         place | LEAF
     }
