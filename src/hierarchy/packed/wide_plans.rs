@@ -75,8 +75,11 @@ fn plans<T: SetTree>(tree: &T) -> Vec<Plan<T::Set>> {
 }
 
 fn fit<T: SetTree>(tree: &T, plan: &Plan<T::Set>) -> WideNode {
-    let sets = plan.children.iter();
-    let points: Vec<ChildPoints> = sets.map(|set| tree.child_points(set)).collect();
+    let points: Vec<ChildPoints> = plan
+        .children
+        .iter()
+        .map(|set| tree.child_points(set))
+        .collect();
     let mut node = WideNode::new(&points);
     node.children = plan.links;
     node
