@@ -20,6 +20,7 @@ mod point_to_smooth;
 mod polygon_crossing;
 mod polygon_distance;
 mod surface_part;
+mod swept_gap;
 
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode, contacts, first_contact};
@@ -30,3 +31,4 @@ pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::{Penetration, penetration};
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};
+pub use swept_gap::{Sweep, swept_gap};

@@ -1,6 +1,10 @@
 //! Motions: segments of C-space that are proved free, and the step that slides (Appendix A).
 
 mod half_spaces;
+mod interval_proof;
+#[allow(clippy::module_inception)]
+mod motion;
+mod moving_pair;
 mod segment;
 mod slide;
 mod slide_contacts;
@@ -8,5 +12,6 @@ mod slide_step;
 mod step_limits;
 
 pub use half_spaces::HalfSpace;
+pub use motion::{MotionAnswer, MotionOptions, MotionOutcome};
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};
 pub use slide_step::{Approach, slide_step, spring_step};

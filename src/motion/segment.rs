@@ -350,12 +350,12 @@ impl Obstacle for PureSet {
 }
 
 impl<'a> LinearMotion<'a> {
-    fn at(&self, t: f64) -> Vec<f64> {
+    pub(super) fn at(&self, t: f64) -> Vec<f64> {
         let way: Vec<f64> = self.v.iter().map(|x| x * t).collect();
         self.cobject.space().step(self.q, &way)
     }
 
-    fn scene<'s>(&'s self, q: &'s [f64]) -> Result<Scene<'s>> {
+    pub(super) fn scene<'s>(&'s self, q: &'s [f64]) -> Result<Scene<'s>> {
         Scene::new(
             self.cobject.space(),
             self.world,
@@ -377,7 +377,7 @@ impl<'a> LinearMotion<'a> {
     }
 
     /// No distance of a pair of the set changes by more than this; `None` where none changes.
-    fn fastest_pair(&self, term: &Induced) -> Option<f64> {
+    pub(super) fn fastest_pair(&self, term: &Induced) -> Option<f64> {
         let &Self { world, q, v, .. } = self;
         let space = self.cobject.space();
         let fastest = match &term.pairs {

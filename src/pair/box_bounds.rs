@@ -34,7 +34,7 @@ use crate::pose::{Pose, Vec3};
 pub const ROUNDING: f64 = 1.0 / 65536.0;
 
 /// What is left for certain of a gap along an axis or a diagonal.
-const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
+pub(super) const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
 
 /// The squares of sides down to this are numbers of full precision.
 const SHORTEST: f32 = 1e-18;
@@ -288,7 +288,7 @@ fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> T
 
 /// What boxes reach along a direction, given its products with their axes, beyond what is given.
 #[inline(always)]
-fn extent_along<I: Instructions>(
+pub(super) fn extent_along<I: Instructions>(
     lanes: I,
     along: &Triple<I>,
     half: &Triple<I>,
@@ -300,7 +300,7 @@ fn extent_along<I: Instructions>(
 }
 
 #[inline(always)]
-fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
+pub(super) fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
     [lanes.splat(v[0]), lanes.splat(v[1]), lanes.splat(v[2])]
 }
 
@@ -319,6 +319,6 @@ fn extent_of(given: &PackedBox, direction: &[f32; 3]) -> f32 {
 }
 
 #[inline(always)]
-fn dot(a: &[f32; 3], b: &[f32; 3]) -> f32 {
+pub(super) fn dot(a: &[f32; 3], b: &[f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

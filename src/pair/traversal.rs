@@ -101,6 +101,13 @@ impl Scratch {
         &mut self.state.primitives
     }
 
+    /// Counts a pair of primitives that is looked at.
+    pub fn count_primitive_pair(&mut self) {
+        let meter = &mut self.state.meter;
+        meter.count_primitives(1);
+        meter.done.primitive_distances += 1;
+    }
+
     /// Counts a pair of primitives whose distance is to be computed, and lends the memory for it.
     pub fn for_one_pair(&mut self) -> Result<&mut PrimitiveScratch> {
         let meter = &mut self.state.meter;

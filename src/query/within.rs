@@ -23,7 +23,7 @@ impl QueryContext {
         })
     }
 
-    pub(super) fn set_within(
+    pub(crate) fn set_within(
         &mut self,
         cobject: &CObject,
         scene: &Scene,

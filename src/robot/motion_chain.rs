@@ -50,6 +50,8 @@ pub struct MotionRates {
     pub turn: f64,
     /// The first three derivatives of the origin.
     pub origin: [f64; 3],
+    /// The sum of the lengths of all that the origin's place is a sum of: what its rounding is relative to.
+    pub size: f64,
 }
 
 impl MotionState {
@@ -213,6 +215,7 @@ impl MotionRates {
     /// it.
     fn carry(&mut self, arm: &Vec3, rate: f64, last: Option<(Vec3, f64)>) {
         let length = arm.norm();
+        self.size += length;
         let (along, before) = match last {
             Some((axis, before)) => (axis.dot(arm).abs().min(length), before),
             None => (0.0, self.turn),
@@ -221,12 +224,8 @@ impl MotionRates {
             Some((axis, _)) => axis.cross(arm).norm().min(length),
             None => length,
         };
-        // Of a shift's rate the same parts; one of no length has the direction of its axis all the same.
-        let parts = if length > 0.0 {
-            [along / length, across / length]
-        } else {
-            [1.0, 1.0]
-        };
+        // Of a shift's rate the same parts; where the length is 0, so is the rate.
+        let parts = [along, across].map(|part| if length > 0.0 { part / length } else { 1.0 });
         for (k, origin) in self.origin.iter_mut().enumerate() {
             let order = k as i32 + 1;
             let of = |turn: f64, length: f64, rate: f64| {

@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::WorldBox;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{Block, Column, Coordinate, Link, Robot, RobotState, check_configuration};
+use crate::robot::{
+    Block, Column, Coordinate, Link, MotionChain, Robot, RobotState, check_configuration,
+};
 
 /// Where a robot's links, coordinates and velocities begin in the space.
 #[derive(Clone, Copy, Debug)]
@@ -288,6 +290,36 @@ impl Space {
         let shared = robot.common_carrier(sides.map(|(link, _)| link));
         let in_shared = |(link, extent)| robot.motion_bound_in(shared, link, extent, q, v);
         sides.map(in_shared).iter().sum()
+    }
+
+    /// The motion of a link as another one sees it, or the world, while the space goes from q with constant velocity v for a unit
+    /// of time. `None` where a custom joint in between moves.
+    pub fn relative_motion(
+        &self,
+        link: usize,
+        seen_from: Option<usize>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Option<MotionChain> {
+        let chain = |frame: Option<usize>, link: usize| {
+            let robot = self.robot_of(link);
+            let offset = self.offsets[robot];
+            let own = &self.robots[robot];
+            let v = &v[offset.velocity..offset.velocity + own.nv()];
+            let q = &q[self.coordinates_of(robot)];
+            own.motion_chain(frame, link - offset.link, q, v)
+        };
+        let Some(base) = seen_from else {
+            return chain(None, link);
+        };
+        let robot = self.robot_of(link);
+        let shared = (robot == self.robot_of(base)).then(|| {
+            let first = self.offsets[robot].link;
+            self.robots[robot].common_carrier([link, base].map(|link| link - first))
+        });
+        let shared = shared.flatten();
+        let from_shared = chain(shared, base)?.inverse();
+        Some(from_shared.followed_by(&chain(shared, link)?))
     }
 
     /// The link that a link is joined to; `None` for the world.

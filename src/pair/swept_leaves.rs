@@ -1,0 +1,116 @@
+//! Two primitives over an interval of time: whether they stay apart, or meet at its middle.
+
+use super::pairing::{BeyondCutoff, EMPTY, PairClearance, Pairing, PrimitiveScratch};
+use crate::convex::{PlacedPrimitive, Sweep, swept_gap};
+use crate::gjk::DistanceLimits;
+use crate::pose::Vec3;
+use crate::primitive::SmoothKind;
+
+/// What is asked of primitives over an interval.
+#[derive(Clone, Copy, Debug)]
+pub struct SweptLimits {
+    /// Primitives at most this far apart meet.
+    pub threshold: f64,
+    /// What the rounding of a gap may take off.
+    pub slack: f64,
+    /// No point of A moves farther than this, seen from B, from the middle of the interval to an end.
+    pub displacement: f64,
+}
+
+/// What is known of two primitives over an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SweptLeaves {
+    /// They stay farther apart than the threshold.
+    Free,
+    /// They are within the threshold at its middle, up to rounding.
+    Meet,
+    /// They are apart at its middle, and more is not known. The direction in B's frame, from B to A, parts them there.
+    Undecided([f32; 3]),
+}
+
+impl Pairing<'_> {
+    /// Looks at the primitives at two places. `direction` may part them: in B's frame, or zero.
+    pub fn swept_leaves(
+        &self,
+        places: [u32; 2],
+        direction: &[f32; 3],
+        sweep: &Sweep,
+        limits: &SweptLimits,
+        scratch: &mut PrimitiveScratch,
+    ) -> SweptLeaves {
+        let needed = limits.threshold + limits.slack;
+        if *direction != [0.0; 3] {
+            let direction = self.relative.rotation * Vec3::from(direction.map(f64::from));
+            if self.stays_apart(places, &direction, sweep, needed, scratch) {
+                return SweptLeaves::Free;
+            }
+        }
+        let mut buffer = EMPTY;
+        let outline = self.outline_b(places[1], &mut buffer);
+        let exact = DistanceLimits {
+            cutoff: needed + limits.displacement,
+            ..DistanceLimits::EXACT
+        };
+        let found = self.distance_to(places, &outline, &Vec3::zeros(), exact, scratch);
+        let apart = match found {
+            Ok(apart) => apart,
+            Err(BeyondCutoff { .. }) => return SweptLeaves::Free,
+        };
+        let error = self.precision.error + apart.doubt;
+        let lower = apart.distance - error;
+        if apart.distance == 0.0 || lower <= 0.0 || lower <= limits.threshold {
+            return SweptLeaves::Meet;
+        }
+        if lower - limits.displacement > needed {
+            return SweptLeaves::Free;
+        }
+        let outlines = self.outline_a(places[0]).zip(outline);
+        let between = match (&outlines, &apart) {
+            (
+                Some((a, b)),
+                PairClearance {
+                    nearest: Some(nearest),
+                    ..
+                },
+            ) => nearest.across(a, b),
+            (_, PairClearance { measured, .. }) => measured.map_or_else(Vec3::zeros, |measured| {
+                if measured.direction == Vec3::zeros() {
+                    measured.closest.points[0] - measured.closest.points[1]
+                } else {
+                    measured.direction
+                }
+            }),
+        };
+        let Some(direction) = between.try_normalize(0.0) else {
+            return SweptLeaves::Undecided([0.0; 3]);
+        };
+        if self.stays_apart(places, &direction, sweep, needed, scratch) {
+            return SweptLeaves::Free;
+        }
+        let in_b = self.relative.rotation.tr_mul(&direction);
+        SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+    }
+
+    /// Whether a direction of A's frame, of about unit length, parts two primitives by more than `needed` through the interval.
+    fn stays_apart(
+        &self,
+        places: [u32; 2],
+        direction: &Vec3,
+        sweep: &Sweep,
+        needed: f64,
+        scratch: &mut PrimitiveScratch,
+    ) -> bool {
+        let [a, b] = self.placed(places, &mut scratch.buffer);
+        // What a function of the caller's calls farthest is so but for an error of its own.
+        if is_function(&a) || is_function(&b) {
+            return false;
+        }
+        let direction = direction.normalize();
+        swept_gap(&a, &b, &direction, sweep) > needed
+    }
+}
+
+fn is_function(placed: &PlacedPrimitive) -> bool {
+    let smooth = placed.shape.smooth();
+    smooth.is_some_and(|smooth| matches!(smooth.kind, SmoothKind::Function(_)))
+}

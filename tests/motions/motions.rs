@@ -1,0 +1,327 @@
+//! Whole motions: what is proved free is free at every sample, what hits does so where it is said, and known cases.
+
+use std::sync::Arc;
+
+use cstk::body::{Body, BodyBuilder};
+use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
+use cstk::environment::{Attachment, Change};
+use cstk::error::ErrorKind;
+use cstk::hierarchy::HierarchyOptions;
+use cstk::motion::{MotionAnswer, MotionOptions, MotionOutcome};
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{JointKind, LinkDefinition};
+use cstk::space::Space;
+
+use helpers::pure::pure;
+use helpers::random::Random;
+use helpers::robots::{against, against_with, environment, link, robot, space};
+use helpers::shapes::{box_corners, cube_surface, cuboid, hull};
+
+fn built(add: impl FnOnce(&mut BodyBuilder)) -> Arc<Body> {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    add(&mut builder);
+    let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    Arc::new(body.unwrap())
+}
+
+/// A body of any kind, about 1 across.
+fn body(random: &mut Random) -> Arc<Body> {
+    let identity = Pose::identity();
+    match random.below(9) {
+        0 => hull(&random.points(12, 0.4)).body,
+        1 => cuboid([1.2, 0.8, 1e-4]).body,
+        2 => cube_surface(0.7).body,
+        3 => built(|b| b.add_sphere(&random.point(0.2), 0.3, 0).unwrap()),
+        4 => built(|b| {
+            let [from, to] = [random.point(0.5), random.point(0.5)];
+            b.add_capsule(&from, &to, 0.1, 0).unwrap();
+        }),
+        5 => built(|b| b.add_cylinder(&identity, 0.3, 0.4, 0).unwrap()),
+        6 => built(|b| {
+            let axes = Vec3::new(0.5, 0.2, 0.1);
+            b.add_ellipsoid(&identity, &axes, 0).unwrap();
+        }),
+        7 => built(|b| {
+            for _ in 0..12 {
+                let around = random.point(0.4);
+                let corners = random.points(3, 0.15).into_iter().map(|p| p + around);
+                b.add_polygon(&corners.collect::<Vec<_>>(), 0).unwrap();
+            }
+        }),
+        _ => built(|b| b.add_points(&random.points(30, 0.4), 0.02).unwrap()),
+    }
+}
+
+const KINDS: [JointKind; 6] = [
+    JointKind::Revolute,
+    JointKind::Prismatic,
+    JointKind::Planar,
+    JointKind::Spherical,
+    JointKind::Free,
+    JointKind::FreeEuler,
+];
+
+/// A robot of up to four links among objects, one of which it may hold, against them and itself.
+fn scene(random: &mut Random) -> CObject {
+    let length = 1 + random.below(4);
+    let links = (0..length).map(|i| LinkDefinition {
+        at: random.pose(0.8),
+        body: (random.below(5) > 0).then(|| body(random)),
+        ..link(
+            i.checked_sub(1),
+            KINDS[random.below(KINDS.len())].clone(),
+            random.unit(),
+        )
+    });
+    let links: Vec<LinkDefinition> = links.collect();
+    let space = space(vec![robot(3, links)]);
+    let objects: Vec<_> = (0..8).map(|_| (body(random), random.pose(3.0))).collect();
+    let objects: Vec<_> = objects.iter().map(|(body, pose)| (body, *pose)).collect();
+    let (environment, ids) = environment(&objects);
+    if random.below(3) == 0 {
+        let attachment = Attachment {
+            space: space.serial(),
+            link: length - 1,
+            touch_links: vec![],
+        };
+        let change = Change::Attach {
+            id: ids[0],
+            pose: random.pose(0.5),
+            attachment,
+        };
+        environment.apply(&[change]).unwrap();
+    }
+    let options = InducedOptions {
+        margin: [0.0, 0.05][random.below(2)],
+        ..InducedOptions::default()
+    };
+    let mut parts = vec![Arc::new(against_with(&space, &environment, options))];
+    let pairs: Vec<[usize; 2]> = (0..length)
+        .flat_map(|s| (0..s).map(move |r| [r, s]))
+        .filter(|[r, s]| {
+            r + 1 < *s
+                && [*r, *s]
+                    .iter()
+                    .all(|&l| space.link(l).unwrap().body.is_some())
+        })
+        .collect();
+    if !pairs.is_empty() {
+        let itself = CObject::induced_links(space.clone(), &pairs, InducedOptions::default());
+        parts.push(Arc::new(itself.unwrap()));
+    }
+    if random.below(2) == 0 {
+        let floor = PureShape::Floor {
+            links: (0..length).collect(),
+            normal: Vec3::z(),
+            offset: -2.5,
+        };
+        parts.push(pure(&space, floor, None));
+    }
+    CObject::union(&parts).unwrap()
+}
+
+fn class(context: &mut QueryContext, cobject: &CObject, q: &[f64]) -> Class {
+    let at = Configuration::Coordinates(q);
+    context.classify(cobject, at).unwrap()
+}
+
+fn at(space: &Space, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+    let part: Vec<f64> = v.iter().map(|x| x * t).collect();
+    space.step(q, &part)
+}
+
+/// `CSTK_MOTIONS=200000 cargo test --release --test motions free_motions -- --nocapture` runs a campaign with 10,000 samples each.
+#[test]
+fn free_motions_are_free_at_every_sample_and_hits_are_hits() {
+    let campaign: Option<usize> = std::env::var("CSTK_MOTIONS")
+        .ok()
+        .map(|n| n.parse().unwrap());
+    let (count, samples) = campaign.map_or((1500, 100), |count| (count, 10_000));
+    let mut random = Random::new(191);
+    let mut outcomes = [0usize; 4];
+    let context = &mut QueryContext::new();
+    let mut cobject = scene(&mut random);
+    for round in 0..count {
+        if round % 10 == 0 {
+            cobject = scene(&mut random);
+        }
+        let space = cobject.space().clone();
+        let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
+            (0..space.nv())
+                .map(|_| random.within(-size, size))
+                .collect()
+        };
+        let q = space.step(&space.neutral(), &drawn(&mut random, 2.0));
+        let size = [0.05, 0.3, 1.0, 3.0][random.below(4)];
+        let v = drawn(&mut random, size);
+        let options = MotionOptions {
+            any_contact: random.below(4) == 0,
+            tolerance: [1e-3, 1e-6][random.below(2)],
+            ..MotionOptions::default()
+        };
+        let answer = context.motion_along(&cobject, &q, &v, &options).unwrap();
+        let [free, end] = answer.times;
+        let free_until = match answer.outcome {
+            MotionOutcome::Free => 1.0,
+            MotionOutcome::Hit if options.any_contact => 0.0,
+            _ => free,
+        };
+        outcomes[answer.outcome as usize] += 1;
+        for i in 0..samples {
+            let t = random.within(0.0, 1.0) * free_until;
+            let t = if i == 0 { free_until } else { t };
+            let is_start = t == 0.0 && free_until == 0.0;
+            if (answer.outcome == MotionOutcome::Free || t < free_until) && !is_start {
+                let q = at(&space, &q, &v, t);
+                let found = class(context, &cobject, &q);
+                assert_ne!(found, Class::Inside, "round {round}: at {t} of {answer:?}");
+            }
+        }
+        if answer.outcome == MotionOutcome::Hit {
+            let q = at(&space, &q, &v, end);
+            assert_eq!(class(context, &cobject, &q), Class::Inside, "round {round}");
+            assert_eq!(q, answer.configuration);
+            assert!(options.any_contact || end - free <= options.tolerance);
+            assert_eq!(answer.distance.unwrap().lower, 0.0);
+        }
+    }
+    println!("free, hit, near, undecided: {outcomes:?}");
+    assert!(
+        outcomes[0] > count / 10 && outcomes[1] > count / 10,
+        "{outcomes:?}"
+    );
+    assert!(
+        outcomes[2] <= count / 50 && outcomes[3] == 0,
+        "{outcomes:?}"
+    );
+}
+
+/// A body that shifts along x among one object.
+fn gantry(body: &Arc<Body>, object: &Arc<Body>, pose: Pose) -> CObject {
+    let links = vec![LinkDefinition {
+        body: Some(body.clone()),
+        ..link(None, JointKind::Prismatic, Vec3::x())
+    }];
+    let (environment, _) = environment(&[(object, pose)]);
+    against(&space(vec![robot(3, links)]), &environment)
+}
+
+fn first_contact(cobject: &CObject, from: f64, to: f64) -> MotionAnswer {
+    let options = MotionOptions::default();
+    let answer = QueryContext::new().motion(cobject, &[from], &[to], &options);
+    answer.unwrap()
+}
+
+/// Case A28 of docs/cases.md (BerkeleyAutomation/python-fcl#38): the box meets the cone's rim at .425.
+#[test]
+fn a_box_meets_the_rim_of_a_cone() {
+    let cone = built(|b| b.add_cone(&Pose::identity(), 1.0, 3.0, 0).unwrap());
+    let cell = gantry(&cuboid([1.0, 2.0, 3.0]).body, &cone, Pose::identity());
+    let answer = first_contact(&cell, -10.0, 10.0);
+    assert_eq!(answer.outcome, MotionOutcome::Hit);
+    assert!((answer.times[1] - 0.425).abs() < 2e-6, "{:?}", answer.times);
+}
+
+/// A ball past a plate that steps of 0.05 jump over.
+#[test]
+fn a_thin_plate_is_not_jumped_over() {
+    let ball = built(|b| b.add_sphere(&Vec3::zeros(), 0.005, 0).unwrap());
+    let plate = cuboid([0.001, 1.0, 1.0]).body;
+    let cell = gantry(
+        &ball,
+        &plate,
+        Pose::from_translation(Vec3::new(0.0255, 0.0, 0.0)),
+    );
+    let answer = first_contact(&cell, -0.5, 0.5);
+    assert_eq!(answer.outcome, MotionOutcome::Hit);
+    assert!((answer.times[1] - 0.52).abs() < 2e-6, "{:?}", answer.times);
+}
+
+/// Two walls 3 mm apart and a plate of 2.9 mm between them.
+#[test]
+fn a_narrow_slot_is_passed() {
+    let walls = built(|b| {
+        for (y, tag) in [(-0.5015, 0), (0.5015, 1)] {
+            let corners = box_corners([2.0, 1.0, 2.0]);
+            let moved: Vec<Vec3> = corners.iter().map(|p| p + Vec3::new(0.0, y, 0.0)).collect();
+            b.add_polyhedron(&moved, tag).unwrap();
+        }
+    });
+    let plate = cuboid([0.1, 0.0029, 0.1]).body;
+    let cell = gantry(&plate, &walls, Pose::identity());
+    let context = &mut QueryContext::new();
+    let answer = context.motion(&cell, &[-3.0], &[3.0], &MotionOptions::default());
+    assert_eq!(answer.unwrap().outcome, MotionOutcome::Free);
+    let work = context.statistics();
+    assert!(work.primitive_distances <= 8, "{work:?}");
+    // With a threshold of less and of more than the play of .05 mm.
+    for (threshold, outcome) in [(4.9e-5, MotionOutcome::Free), (5.1e-5, MotionOutcome::Hit)] {
+        let options = MotionOptions {
+            threshold,
+            ..MotionOptions::default()
+        };
+        let answer = context.motion(&cell, &[-3.0], &[3.0], &options).unwrap();
+        assert_eq!(answer.outcome, outcome, "{threshold}");
+    }
+}
+
+/// Case A33 of docs/cases.md: two links pass the same place, one after the other.
+#[test]
+fn links_that_pass_the_same_place_at_different_times_are_free() {
+    let cube = cuboid([0.4; 3]).body;
+    let slider = |axis: Vec3, start: Vec3| LinkDefinition {
+        body: Some(cube.clone()),
+        at: Pose::from_translation(start),
+        ..link(None, JointKind::Prismatic, axis)
+    };
+    let links = vec![
+        slider(Vec3::x(), Vec3::new(-1.0, 0.0, 0.0)),
+        slider(Vec3::y(), Vec3::new(0.0, -3.0, 0.0)),
+    ];
+    let space = space(vec![robot(3, links)]);
+    let itself = CObject::induced_links(space, &[[0, 1]], InducedOptions::default()).unwrap();
+    let context = &mut QueryContext::new();
+    let options = MotionOptions::default();
+    let passes = context
+        .motion(&itself, &[0.0; 2], &[4.0; 2], &options)
+        .unwrap();
+    assert_eq!(passes.outcome, MotionOutcome::Free);
+    // The second starts a unit ahead: now they are in the middle together from 0.65 to 0.75 or so.
+    let meets = context
+        .motion(&itself, &[0.0, 1.8], &[4.0, 5.8], &options)
+        .unwrap();
+    assert_eq!(meets.outcome, MotionOutcome::Hit);
+}
+
+#[test]
+fn bad_input_is_refused_and_what_starts_inside_says_so() {
+    let cube = cuboid([1.0; 3]).body;
+    let cell = gantry(&cube, &cube, Pose::identity());
+    let context = &mut QueryContext::new();
+    let options = MotionOptions::default();
+    let starts_inside = context.motion(&cell, &[0.2], &[5.0], &options).unwrap();
+    assert_eq!(starts_inside.outcome, MotionOutcome::Hit);
+    assert_eq!(starts_inside.times, [0.0, 0.0]);
+    let rests = context.motion(&cell, &[5.0], &[5.0], &options).unwrap();
+    assert_eq!(rests.outcome, MotionOutcome::Free);
+    let kind = |q0: &[f64], q1: &[f64], options: MotionOptions| {
+        let refused = QueryContext::new().motion(&cell, q0, q1, &options);
+        refused.unwrap_err().kind
+    };
+    assert_eq!(kind(&[f64::NAN], &[1.0], options), ErrorKind::NotFinite);
+    assert_eq!(kind(&[0.0, 1.0], &[1.0], options), ErrorKind::WrongSize);
+    for tolerance in [0.0, -1.0, f64::NAN, 2.0] {
+        let options = MotionOptions {
+            tolerance,
+            ..options
+        };
+        assert_eq!(kind(&[4.0], &[5.0], options), ErrorKind::InvalidArgument);
+    }
+    context.set_limit(Some(0));
+    let limited = context.motion(&cell, &[-2.0], &[2.0], &options);
+    match limited {
+        Ok(answer) => assert_eq!(answer.outcome, MotionOutcome::Undecided),
+        Err(error) => assert_eq!(error.kind, ErrorKind::Limit),
+    }
+}
