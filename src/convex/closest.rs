@@ -1,23 +1,23 @@
 //! The closest points of two primitives in closed form, by enumeration of feature pairs.
 //!
-//! Every candidate is a pair of points on the two primitives, so the minimum is an upper bound whatever the rounding;
-//! it is the distance when the features that hold the closest points are among those enumerated.
+//! Every candidate is a pair of points on the two primitives, so the minimum is an upper bound in spite of rounding. It is the
+//! distance if the enumerated features include those that hold the closest points.
 
 use super::placed::PlacedPrimitive;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
-/// A pair of closest points and the features that hold them. For a meeting pair the distance is 0 and both points are
-/// one point of the intersection.
+/// A pair of closest points and the features that hold them. Where the sets meet, the distance is 0 and both points are the
+/// same point of the intersection.
 #[derive(Clone, Copy, Debug)]
 pub struct Closest {
     pub distance: f64,
     pub points: [Vec3; 2],
     pub features: [Feature; 2],
-    /// How much more than the pair's error the distance may be above the true one: 0 but for smooth sets whose bounds did
-    /// not come together.
+    /// How far the distance may exceed the true one, beyond the pair's error. Above 0 only for smooth sets whose bounds did not
+    /// converge.
     pub doubt: f64,
-    /// Sets that meet are known to be at least this deep in one another.
+    /// A lower bound of the depth by which meeting sets overlap.
     pub depth: f64,
 }
 
@@ -42,7 +42,7 @@ impl Closest {
         }
     }
 
-    /// The same with the sides changed.
+    /// The same with A and B swapped.
     pub fn swapped(self) -> Self {
         let ([on_a, on_b], [of_a, of_b]) = (self.points, self.features);
         Self {
@@ -84,7 +84,7 @@ pub struct FeatureSet {
     pub vertices: Vec<u32>,
     pub edges: Vec<u32>,
     pub faces: Vec<u32>,
-    /// How far vertices are along a direction.
+    /// Scratch: the vertices' projections on a direction.
     heights: Vec<f64>,
 }
 
@@ -108,7 +108,7 @@ impl FeatureSet {
         self.edges.extend(0..placed.shape.edges.len() as u32);
     }
 
-    /// The features all of whose vertices lie within `tolerance` of the farthest along `direction`.
+    /// The features whose vertices all lie within `tolerance` of the farthest vertex along `direction`.
     pub fn set_supporting(&mut self, placed: &PlacedPrimitive, direction: &Vec3, tolerance: f64) {
         self.clear();
         self.heights.clear();
@@ -136,7 +136,7 @@ impl FeatureSet {
         }
     }
 
-    /// The edges as pairs of vertices with the feature they stand for; lone vertices stand as edges of length 0.
+    /// The edges as segments with their vertices and index. Without edges, each vertex gives a segment of length 0.
     fn segments<'a>(
         &'a self,
         placed: &'a PlacedPrimitive,
@@ -218,7 +218,7 @@ fn vertices_over_faces(
         for &i in &features_a.vertices {
             let point = a.vertex(i);
             let (height, inside) = b.over_face(f as usize, &point);
-            // Below the face of a solid is not outside of it there.
+            // A point below the face of a solid is not outside it there.
             if inside && (height >= 0.0 || !b.shape.is_solid()) {
                 let foot = point - b.normal(f as usize) * height;
                 offer(Closest {
@@ -276,7 +276,7 @@ impl Segment {
         }
     }
 
-    /// Of no length.
+    /// A segment of length 0.
     pub fn point(at: Vec3) -> Self {
         Self {
             start: at,
@@ -305,9 +305,9 @@ impl Segment {
 
 /// Parameters of the closest points of two segments.
 ///
-/// For the lines, the parameters are formed with the cross product of the directions: its relative error grows as the
-/// directions become parallel just as the distance's dependence on the parameters falls, so that the distance keeps
-/// full accuracy at any angle; the usual determinant loses half the digits.
+/// The lines' parameters are computed from the cross product of the directions. As the directions become parallel, its relative
+/// error grows at the rate at which the distance's dependence on the parameters falls, so the distance is fully accurate at any
+/// angle; the usual determinant loses half the digits.
 pub fn closest_parameters(p: &Segment, q: &Segment) -> (f64, f64) {
     let cross = p.along.cross(&q.along);
     let square = cross.norm_squared();

@@ -12,7 +12,7 @@ use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
 
-/// The report's contact modes, r-feature first; and that of sets without features.
+/// The report's contact modes, r-feature first, and one for sets without features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactMode {
     PointPoint,
@@ -31,16 +31,17 @@ pub struct Contact {
     pub points: [Vec3; 2],
     pub normal: Vec3,
     pub distance: f64,
-    /// The distance with its sign: negative just inside.
+    /// The signed distance: negative where the primitives overlap slightly.
     pub gap: f64,
     pub mode: ContactMode,
     pub features: [Feature; 2],
 }
 
-/// The contacts of the pair (r, s) whose closest points are `closest`, the one at these points first. Empty when the
+/// The contacts of the pair (r, s) with the given closest points; the contact at these points comes first. Empty when the
 /// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
 ///
-/// Curved primitives have those of their cores: smooth ones one contact only, whatever touches them along a line or a face.
+/// Curved primitives have the contacts of their cores. Smooth cores have a single contact even where they touch along a line or
+/// a face.
 pub fn contacts(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -54,7 +55,7 @@ pub fn contacts(
     }
 }
 
-/// The first of these contacts.
+/// The first contact that [`contacts`] returns.
 pub fn first_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -72,7 +73,7 @@ pub fn first_contact(
     contacts(r, s, measured, precision).into_iter().next()
 }
 
-/// The contact at the closest points of two hulls that are apart, if their features say one.
+/// The contact at the closest points of two hulls that are apart, if their features have a contact mode.
 pub(super) fn first_polytope_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -90,7 +91,7 @@ pub(super) fn first_polytope_contact(
         precision,
     };
     let normal = pair.normal_if_apart()?;
-    // Cores that are apart are nearest along their normal there: of what is round around them that is the deepest contact.
+    // Cores that are apart are nearest along this normal, so this is also the deepest contact of the rounded sets around them.
     Some(contact_between(
         closest.points,
         closest.features,
@@ -138,7 +139,7 @@ pub(super) fn polytope_contacts(
     };
     let slack = tolerance::PARALLEL * size;
     let mode = mode_of(closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge));
-    // Where a lone corner is nearest, mostly so, there is no other contact.
+    // Common case: a single corner is nearest, and there is no other contact.
     if let Some(mode) = mode
         && closest.distance > precision.error
         && (has_lone_extreme(r, &-normal, slack) || has_lone_extreme(s, &normal, slack))
@@ -161,7 +162,7 @@ pub(super) fn polytope_contacts(
     if mode.is_some() {
         offer(closest.points, closest.features);
     }
-    // A corner of one supporting feature over the other one.
+    // Corners of one supporting feature over the other.
     for (i, corner) in on_r.corners() {
         if on_s.covers(&corner, slack) {
             offer(
@@ -178,7 +179,7 @@ pub(super) fn polytope_contacts(
             );
         }
     }
-    // Outlines that cross over one another.
+    // Crossings of the two outlines, seen along the normal.
     if !planar {
         let sides_r = on_r.sides();
         let sides_s = if sides_r.is_empty() {
@@ -200,7 +201,7 @@ pub(super) fn polytope_contacts(
         }
     }
     deepest_first(&mut found, precision);
-    // Parallel edges of a planar pair that overlap by less than the slack.
+    // Parallel edges of a planar pair may overlap by less than the slack.
     if found.is_empty()
         && let Some(mode) = mode_of(closest.features)
     {
@@ -223,7 +224,8 @@ fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> b
     heights.filter(|height| *height >= farthest - slack).count() == 1
 }
 
-/// Just inside, the closest points say nothing: the deepest contact comes first, unless that at the closest points is as deep.
+/// Where the sets overlap slightly, the closest points are arbitrary: moves the deepest contact to the front, unless the one at
+/// the closest points is as deep.
 pub(super) fn deepest_first(found: &mut [Contact], precision: &Precision) {
     let Some(first) = found.first().map(|first| first.gap) else {
         return;
@@ -248,7 +250,7 @@ pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
     }
 }
 
-/// The feature of a primitive that is farthest along a direction: its corners in order around the direction.
+/// The supporting feature of a primitive along a direction, with its corners in order around the direction.
 struct SupportFeature<'a> {
     placed: PlacedPrimitive<'a>,
     ring: Vec<u32>,
@@ -262,7 +264,7 @@ impl<'a> SupportFeature<'a> {
         let level: Vec<u32> = (0..placed.vertex_count() as u32)
             .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
             .collect();
-        // Mostly it is a lone corner.
+        // Common case: a single corner.
         let ring = if level.len() == 1 {
             level
         } else {
@@ -281,7 +283,7 @@ impl<'a> SupportFeature<'a> {
         self.ring.iter().map(|&i| (i, self.placed.vertex(i)))
     }
 
-    /// The sides of the outline that are edges of the primitive.
+    /// The sides of the ring that are edges of the primitive.
     fn sides(&self) -> Vec<(u32, Segment)> {
         let n = self.ring.len();
         let pairs = if n == 2 { 1 } else { n };
@@ -295,7 +297,7 @@ impl<'a> SupportFeature<'a> {
             .collect()
     }
 
-    /// Whether the feature, seen along its normal, covers the point. A lone corner covers only itself.
+    /// Whether the feature, seen along its normal, covers the point. A single corner covers only itself.
     fn covers(&self, point: &Vec3, slack: f64) -> bool {
         let to_foot = point - self.foot(point);
         match self.ring.len() {
@@ -329,7 +331,7 @@ impl<'a> SupportFeature<'a> {
     }
 }
 
-/// Those of some vertices that are corners of their outline, seen along a direction, in order around it.
+/// The vertices of `level` that are corners of their outline seen along a direction, in order around it.
 fn outline(placed: &PlacedPrimitive, level: &[u32], direction: &Vec3, slack: f64) -> Vec<u32> {
     let (x, y) = plane_axes(direction);
     let points = level.iter().map(|&i| placed.vertex(i));
@@ -347,12 +349,12 @@ fn edge_between(placed: &PlacedPrimitive, ends: [u32; 2]) -> Option<u32> {
         .map(|e| e as u32)
 }
 
-/// The feature with these corners: the edge that joins two, the face that holds most of more.
+/// The feature with these corners: for two the edge that joins them, for more the face that holds most of them.
 fn feature_of(placed: &PlacedPrimitive, ring: &[u32]) -> Feature {
     match ring {
         [i] => Feature::vertex(*i),
         [i, j] => {
-            // Along a straight outline the two ends may be joined by several edges; the first of them stands for all.
+            // Along a straight outline several edges may lie between the two ends; the first of them is taken.
             let edge = edge_between(placed, [*i, *j]).or_else(|| {
                 let starts = placed.shape.edges.iter();
                 starts.clone().position(|e| e.contains(i)).map(|e| e as u32)

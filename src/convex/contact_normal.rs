@@ -1,4 +1,5 @@
-//! The normal of a contact: exact where features define it, however near the points; the least overlap at touch.
+//! The normal of a contact. Where features define it, it is exact at any distance; at touch it is the direction of least
+//! overlap.
 
 use smallvec::SmallVec;
 
@@ -11,16 +12,16 @@ use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
-/// Beyond this distance, in L, the direction between two closest points is known: to 1e-4 at least.
+/// Beyond this distance, in L, the direction between two closest points is known to at least 1e-4.
 const DIRECTION_KNOWN: f64 = 1e-12;
 
-/// A normal with less doubt than this shows parallel features as parallel by itself (see [`tolerance::PARALLEL`]).
+/// A normal with a smaller error than this is accurate enough to detect parallel features (see [`tolerance::PARALLEL`]).
 const PARALLEL_SEEN: f64 = 1e-12;
 
-/// Of fans of very many edges that meet at two touching vertices, so many pairs are tried.
+/// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices.
 const MAX_EDGE_PAIRS: usize = 4096;
 
-/// Directions that are mostly few.
+/// A list of usually few directions.
 type Few = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
@@ -33,7 +34,7 @@ pub struct ContactPair<'a> {
 }
 
 impl ContactPair<'_> {
-    /// The unit normal from s to r of primitives that are far enough apart for it to be told by their closest points.
+    /// The unit normal from s to r, if the primitives are far enough apart for their closest points to determine it.
     pub fn normal_if_apart(&self) -> Option<Vec3> {
         self.is_apart().then(|| self.normal_apart()).flatten()
     }
@@ -59,9 +60,9 @@ impl ContactPair<'_> {
         touching.or_else(|| self.normal_just_inside())
     }
 
-    /// Apart, the normal is that of the features where they define it alone; else the direction between the points, less
-    /// what rounding can have put along an edge. Where a face's or two edges' normal agrees with it within rounding, the
-    /// features are parallel and that one is exact.
+    /// The normal of primitives that are apart: that of the features where they define one, else the direction between the
+    /// points, minus its components along the edges that hold them, which are rounding. Where a face's or two edges' normal
+    /// agrees with it within rounding, the features are parallel and that normal is exact.
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
         let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
@@ -96,8 +97,8 @@ impl ContactPair<'_> {
         Some(best.1)
     }
 
-    /// Touching, the normal is the direction, among those that the touching features offer, along which the sets overlap
-    /// least.
+    /// The normal of touching primitives: among the candidate normals of the touching features, the one along which the sets
+    /// overlap least.
     fn normal_at_touch(&self) -> Option<Vec3> {
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {
@@ -112,14 +113,15 @@ impl ContactPair<'_> {
             .map(|(_, normal)| normal)
     }
 
-    /// In one another, the normal is the direction of the shortest way out, if that is short. Surfaces have no inside.
+    /// The normal of primitives that overlap slightly: the direction of the shortest way out, if that is short. Surfaces have
+    /// no inside.
     fn normal_just_inside(&self) -> Option<Vec3> {
         let planar = self.precision.planar;
         let sides = [self.r, self.s];
         if !planar && !sides.iter().any(|side| side.shape.is_solid()) {
             return None;
         }
-        // What takes the sets apart takes their common point out of each: most are seen to be deep by that alone.
+        // Early out for most deep pairs: the penetration depth is at least the depth of the common point in either set.
         let common = &self.closest.points[0];
         let most = tolerance::JUST_INSIDE * self.precision.size;
         if sides
@@ -128,7 +130,7 @@ impl ContactPair<'_> {
         {
             return None;
         }
-        // Round bodies of very many edges would take longer than the answer is worth.
+        // For round bodies with very many edges this would take too long.
         if !planar && self.r.shape.edges.len() * self.s.shape.edges.len() > MAX_EDGE_PAIRS {
             return None;
         }
@@ -137,8 +139,8 @@ impl ContactPair<'_> {
         (found.depth <= most).then_some(found.direction)
     }
 
-    /// The unit normals that the features around the closest points offer: of faces, across pairs of edges, and of a flat
-    /// polygon's outline within its plane.
+    /// The candidate normals of the features around the closest points: face normals, cross products of edge pairs, and the
+    /// normals of a flat polygon's edges within its plane. Unit vectors.
     fn local_normals(&self) -> Few {
         let near = 1e-8 * self.precision.size;
         let local_r = Local::around(self.r, &self.closest.points[0], near);
@@ -175,7 +177,7 @@ impl ContactPair<'_> {
     }
 }
 
-/// How far a point is from the outside of a set; 0 or less where it is not inside, or the set has no inside.
+/// The depth of a point below the boundary of a set; at most 0 where it is not inside, or the set has no inside.
 fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
     let faces = 0..placed.shape.faces.len();
     if faces.is_empty() {

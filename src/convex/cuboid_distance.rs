@@ -45,15 +45,14 @@ pub fn segment_to_cuboid(
     })
 }
 
-/// Where the segment start + t along, t from 0 to 1, is nearest to the box of these half extents around the origin.
+/// The t in [0, 1] at which the segment start + t along is nearest to the box of these half extents around the origin.
 ///
-/// The square of the distance is convex in t; its derivative rises from piece to piece, linear between the places where the
-/// segment's line crosses the planes of the box's faces. It is found at all of these at once, and solved in the piece in which
-/// it is 0.
+/// The squared distance is convex in t. Its derivative is increasing, and linear between the crossings of the segment's line
+/// with the planes of the box's faces. It is evaluated at all crossings at once, and solved in the interval where it is 0.
 fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
     let crossing = |k: usize, bound: f64| {
         let t = (bound - start[k]) / along[k];
-        // Parallel to the faces there is none.
+        // A segment parallel to the faces has no crossing.
         if along[k] == 0.0 {
             0.0
         } else {
@@ -77,7 +76,7 @@ fn nearest_parameter(start: &Vec3, along: &Vec3, half: &Vec3) -> f64 {
             *rise += (x - x.clamp(-half[k], half[k])) * along[k];
         }
     }
-    // The last place up to which it falls, and the first from which it rises.
+    // The last crossing where the distance still falls, and the first where it rises.
     let (mut low, mut high) = (0.0f64, 1.0f64);
     for (rise, t) in rises.iter().zip(places) {
         low = if *rise <= 0.0 { low.max(t) } else { low };

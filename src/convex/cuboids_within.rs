@@ -1,5 +1,5 @@
-//! Whether two boxes are within a distance of one another, told by the directions that can part them: those of their edges, and
-//! the common perpendiculars of two.
+//! Whether two boxes are within a distance of one another, by the separating axis test: the boxes' axes, and the cross products
+//! of two.
 
 use super::placed::PlacedPrimitive;
 use crate::gjk::DistanceLimits;
@@ -8,15 +8,15 @@ use crate::pose::{turned, turned_axes, turned_back};
 use crate::primitive::Cuboid;
 use crate::tolerance;
 
-/// What rounding may hide of a gap, in L: of two centres, of a box's vertices beside its corners, of six half extents turned and
-/// added.
+/// The rounding error of a gap, in L: of the two centres, of a box's vertices against its corners, and of the sum of six
+/// rotated half extents.
 const GAP_ERROR: f64 = 64.0 * tolerance::EPSILON;
 
-/// Edges whose directions differ by less than this, as a sine, have no common perpendicular worth computing.
+/// The cross product of two edges is skipped when the sine of the angle between them is below this.
 const NEARLY_PARALLEL: f64 = 1e-6;
 
-/// Whether two boxes meet, or are farther apart than the cutoff; `None` of others. `size` is no less than any coordinate of
-/// the two.
+/// `Some(true)` if two boxes meet, `Some(false)` if they are farther apart than the cutoff, else `None`. `size` is no less than
+/// any coordinate of the two.
 pub fn cuboids_within(
     placed: [&PlacedPrimitive; 2],
     cuboids: [&Cuboid; 2],
@@ -47,7 +47,7 @@ impl Work for Axes<'_> {
     fn run<I: Instructions>(self, _: I) -> Option<bool> {
         let [a, b] = self.placed;
         let [on_a, on_b] = self.cuboids;
-        // All as A's box sees it.
+        // Everything in the frame of A's box.
         let axes = a.turned_axes(&on_a.axes).transpose();
         let between = b.moved(&on_b.center) - a.moved(&on_a.center);
         let between = turned(&axes, &between);
@@ -76,8 +76,8 @@ impl Work for Axes<'_> {
                 let (up, down) = (turn[(next, j)], turn[(last, j)]);
                 let length = (up * up + down * down).sqrt();
                 if length < NEARLY_PARALLEL {
-                    // Turned by so little that the two edges are parallel, the boxes would be parted by a face if by their
-                    // perpendicular.
+                    // If the cross product of nearly parallel edges separates the boxes, so does a face axis once one box is
+                    // rotated until the edges are parallel.
                     meet &= across < -(8.0 * length * self.size + self.error);
                     continue;
                 }

@@ -1,5 +1,5 @@
-//! Curved primitives: the closest points of their cores, moved outwards by the radii. What is round is as exact as its core;
-//! smooth cores are known by their support functions alone.
+//! Curved primitives: the closest points of their cores, moved outwards by the radii. A rounded primitive is as exact as its
+//! core; smooth cores are known only by their support functions.
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::distance::{DistanceScratch, closest_polytopes};
@@ -11,7 +11,7 @@ use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{Feature, Smooth};
 use crate::tolerance;
 
-/// A core as GJK asks it.
+/// The support function of a core, for GJK.
 pub struct Core<'a> {
     placed: &'a PlacedPrimitive<'a>,
     smooth: Option<(&'a Smooth, Mat3)>,
@@ -33,13 +33,13 @@ impl<'a> Core<'a> {
         Self::shifted(placed, Vec3::zeros())
     }
 
-    /// The smooth set that it is, with the directions of its axes in the frame.
+    /// The smooth set, if the core is one, with the directions of its axes in the common frame.
     pub fn smooth(&self) -> Option<(&Smooth, &Mat3)> {
         let (smooth, axes) = self.smooth.as_ref()?;
         Some((smooth, axes))
     }
 
-    /// A vertex; the first is where a smooth set is.
+    /// A vertex in the common frame. Vertex 0 of a smooth core is its origin.
     pub fn vertex(&self, index: u32) -> Vec3 {
         self.placed.vertex(index) + self.shift
     }
@@ -70,13 +70,13 @@ pub fn is_curved(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
     a.shape.curve.is_some() || b.shape.curve.is_some()
 }
 
-/// Whether one of two cores is known by its support function alone.
+/// Whether one of two cores is smooth: known only by its support function.
 pub fn is_smooth(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
     a.shape.smooth().is_some() || b.shape.smooth().is_some()
 }
 
-/// The closest points of the cores, and the unit direction from B to A that bounds their distance where one is smooth and a
-/// direction does; `None` where they are proved to be farther apart than the cutoff.
+/// The closest points of the cores, and for smooth cores the unit direction from B to A that certifies their distance; zero if
+/// there is none. `None` where the cores are proved to be farther apart than the cutoff.
 pub fn core_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -106,7 +106,7 @@ fn smooth_closest(
         let direction = (found.points[0] - found.points[1]) / found.distance;
         return Some((found, direction));
     }
-    // A guess that the primitives alone decide, so that the answer depends on nothing else.
+    // A start that depends on the two primitives alone, so that the answer does too.
     let start = a.middle() - b.middle();
     let found = refined_pair(&core_a, &core_b, start, pair, limits);
     if found.lower > limits.cutoff {
@@ -135,7 +135,7 @@ fn smooth_closest(
     Some((closest, found.direction))
 }
 
-/// The closest points of a lone point and a smooth core in closed form, where these are far enough apart to tell a direction.
+/// The closest points of a single point and a smooth core in closed form, if they are far enough apart to define a direction.
 fn from_point(point: &PlacedPrimitive, core: &Core, pair: &Precision) -> Option<Closest> {
     let is_point = point.vertex_count() == 1 && point.shape.smooth().is_none();
     if !is_point {
@@ -144,11 +144,11 @@ fn from_point(point: &PlacedPrimitive, core: &Core, pair: &Precision) -> Option<
     point_to_smooth(&point.vertex(0), core, APART * pair.size)
 }
 
-/// Cores that are farther apart than this, in L, have a normal that their closest points tell.
+/// Beyond this distance, in L, the closest points of two cores determine the contact normal.
 pub const APART: f64 = 1e-6;
 
-/// How much more than the pair's error the upper bound may be above the distance: all of it where no direction proves that
-/// the sets are apart, so that everything reads a lower bound of 0.
+/// How far the upper bound may exceed the distance, beyond the pair's error. Where no direction proves the sets apart it is the
+/// whole upper bound, so that callers get a lower bound of 0.
 fn doubt(found: &RefinedBounds, pair: &Precision) -> f64 {
     if found.lower == 0.0 {
         return found.upper;
@@ -157,7 +157,7 @@ fn doubt(found: &RefinedBounds, pair: &Precision) -> f64 {
     (found.upper - proved - pair.error).max(0.0)
 }
 
-/// The distance of the cores where A's has moved by `shift`.
+/// The distance of the cores after A's has moved by `shift`.
 pub fn refined_cores(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -184,11 +184,11 @@ fn refined_pair(
     })
 }
 
-/// A point is held by the vertex or edge that is nearer than this, in L: along a surface closest points are known to about
-/// the root of their distance's error.
+/// A point nearer than this to a vertex or edge, in L, counts as lying on it. Along a surface, closest points are known only to
+/// about the square root of the distance's error.
 const HOLDS: f64 = 1e-7;
 
-/// The feature of a polytope that holds the point found on it.
+/// The feature of a polytope that holds its closest point.
 fn holding_feature(
     placed: &PlacedPrimitive,
     found: &RefinedBounds,
@@ -210,7 +210,7 @@ fn holding_feature(
     feature_at(placed, point, slack)
 }
 
-/// The first feature of a polytope that is near a point of it, least ones first.
+/// The first feature of a polytope near a point of it: vertices first, then edges, then faces.
 fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     let near = |v: &Vec3| (v - point).norm() <= slack;
     if let Some(i) = placed.vertices().iter().position(near) {
@@ -229,13 +229,13 @@ fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     face.map_or(Feature::interior(), |f| Feature::face(f as u32))
 }
 
-/// The distance of two sets given that of their cores.
+/// The distance of two sets, from that of their cores.
 #[inline(always)]
 pub fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
     if cores >= a + b { cores - a - b } else { 0.0 }
 }
 
-/// The closest points of two sets given those of their cores. Of sets that overlap both are one point of the two, between
+/// The closest points of two sets, from those of their cores. Where the sets overlap, both are the same common point, between
 /// the cores.
 pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
     let apart = cores.distance;
@@ -252,7 +252,7 @@ pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
             ..*cores
         };
     }
-    // From where B reaches to, to where A does.
+    // The middle of the overlap along the line between the cores.
     let between = 0.5 * ((apart - b).max(0.0) + a.min(apart));
     Closest {
         doubt: cores.doubt,
@@ -311,8 +311,8 @@ mod tests {
         }
     }
 
-    /// The bounds are their own oracle: one rests on two points of the sets, the other on a direction. 20 000 pairs of each
-    /// kind gave the numbers at [`tolerance::SMOOTH_ERROR`].
+    /// The bounds check each other: the upper one comes from two points of the sets, the lower one from a direction. 20 000
+    /// pairs of each kind gave the numbers at [`tolerance::SMOOTH_ERROR`].
     #[test]
     fn bounds_come_together() {
         let mut overlaps = 0;

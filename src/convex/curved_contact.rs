@@ -12,8 +12,8 @@ use crate::pose::Vec3;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
-/// The contacts of a pair of which one at least is curved. As long as the cores are apart they are exact, however deep the
-/// sets around them are in one another.
+/// The contacts of a pair of which at least one is curved. They are exact as long as the cores are apart, however deep the
+/// rounded sets overlap.
 pub fn curved_contacts(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -33,7 +33,7 @@ pub fn curved_contacts(
     found
 }
 
-/// The first of these contacts, where that is told without the others: of cores that are apart.
+/// The first of these contacts, if the cores are apart: it is then found without the others.
 pub fn first_curved_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -49,7 +49,7 @@ pub fn first_curved_contact(
     Some(contact)
 }
 
-/// Cores that are nearer than the pair's error touch.
+/// Sets the distance of the cores to 0 where it is at most the pair's error.
 fn touching(cores: &Closest, precision: &Precision) -> Closest {
     let distance = if cores.distance <= precision.error {
         0.0
@@ -73,7 +73,7 @@ fn grow(contact: &mut Contact, sides: [&PlacedPrimitive; 2], precision: &Precisi
     contact.points[1] += contact.normal * radius_s;
 }
 
-/// The contact of two cores of which one at least is smooth; a smooth surface counts as a point.
+/// The contact of two cores of which at least one is smooth; a smooth surface counts as a point.
 fn smooth_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -100,10 +100,11 @@ fn smooth_contact(
     })
 }
 
-/// The normal of cores that touch, or are just in one another, with the gap along it and the points there.
+/// The normal of cores that touch or overlap slightly, with the gap along it and the points there.
 ///
-/// Moved apart along the normal by a little, the cores are nearest along that same normal. It is found by moving them apart
-/// along the last guess, from far to near. Whatever that comes to, the gap is that of the supports along the direction.
+/// If the cores are moved apart a little along the normal, that normal is also the direction between their closest points. It
+/// is found by moving them apart along the last guess, by less each time. Even if this does not converge, the gap is that of
+/// the support points along the returned direction.
 fn touch(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -119,7 +120,7 @@ fn touch(
         .iter()
         .find_map(|guess| guess.try_normalize(1e-3 * precision.error))
         .unwrap_or_else(Vec3::x);
-    // Where a direction is known the sets are not in one another, and it is a good guess.
+    // A known direction means that the cores do not overlap, and is a good guess.
     let mut shift = if direction == Vec3::zeros() {
         1.0
     } else {
@@ -145,8 +146,8 @@ fn touch(
     (gap >= -tolerance::JUST_INSIDE * precision.size).then_some((normal, gap, points))
 }
 
-/// The penetration of two sets of which one at least is curved. Smooth cores are refused: the shortest way out of them has no
-/// closed form.
+/// The penetration of two sets of which at least one is curved. Smooth cores are refused: their shortest way out has no closed
+/// form.
 pub fn curved_penetration(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,

@@ -1,4 +1,5 @@
-//! The exact distance of two primitives: GJK proposes, features decide, a supporting direction certifies.
+//! The exact distance of two primitives: GJK finds the candidate features, closed forms give their distance, a supporting
+//! direction certifies it.
 
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
@@ -11,26 +12,26 @@ use crate::pose::Vec3;
 use crate::primitive::{Cuboid, Feature, FeatureKind, Smooth, SmoothKind};
 use crate::tolerance;
 
-/// Memory of the distance computation, reused from pair to pair.
+/// Scratch memory of the distance computation, reused from pair to pair.
 #[derive(Default)]
 pub struct DistanceScratch {
     a: FeatureSet,
     b: FeatureSet,
 }
 
-/// The closest points of two primitives, and what tells their contacts.
+/// The closest points of two primitives, and what their contacts are computed from.
 #[derive(Clone, Copy, Debug)]
 pub struct PrimitiveDistance {
-    /// Distances up to the pair's error are 0.
+    /// The distance is 0 if it is at most the pair's error.
     pub closest: Closest,
-    /// Those of the cores: the same but for what is round.
+    /// The closest points of the cores: the same for primitives without a radius.
     pub cores: Closest,
-    /// The unit direction from B to A that proves smooth cores apart; zero for others.
+    /// The unit direction from B to A that proves smooth cores apart; zero if there is none.
     pub direction: Vec3,
 }
 
 impl PrimitiveDistance {
-    /// Of two primitives that are the hulls of their vertices.
+    /// For two primitives that are the hulls of their vertices.
     pub fn of_hulls(closest: Closest) -> Self {
         Self {
             closest,
@@ -84,9 +85,9 @@ pub fn parts(
     direction.dot(&(a - b)) > cutoff
 }
 
-/// The cutoff beyond which any direction that parts two primitives leaves no doubt about their distance, so that what is asked
-/// first decides nothing: more than that where one is smooth. `None` for functions of the caller's, which are true but for
-/// an error of their own.
+/// The cutoff that a separating direction must exceed to prove what the full distance would also say, so that the order of the
+/// tests does not change the answer: larger than `cutoff` where one primitive is smooth. `None` for the caller's support
+/// functions, which have an error of their own.
 fn proved_cutoff(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -102,7 +103,8 @@ fn proved_cutoff(
     (!has_function).then(|| cutoff.max(tolerance::SMOOTH_ERROR * pair.size))
 }
 
-/// Whether two primitives meet, or are farther apart than the cutoff, where that is told at less than the price of a distance.
+/// `Some(true)` if two primitives meet, `Some(false)` if they are farther apart than the cutoff; `None` where only the full
+/// distance decides.
 pub fn meeting_or_beyond(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -114,7 +116,7 @@ pub fn meeting_or_beyond(
         let limits = limits.of_cores(radii);
         return cuboids_within([a, b], [on_a, on_b], pair.size, limits);
     }
-    // Round ones, and those that need not meet, may be near enough without it.
+    // Rounded primitives, or ones that only need to be near, may be within the limits without their cores meeting.
     if pair.planar || limits.enough > 0.0 || radii > 0.0 {
         return None;
     }
@@ -127,7 +129,7 @@ pub fn meeting_or_beyond(
     }
 }
 
-/// The distance of two primitives in closed form, if their cores have one; maybe less than the error.
+/// The distance of two primitives, if their cores have a closed form. It is not set to 0 below the pair's error.
 pub fn closed_distance(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<f64> {
     if is_smooth(a, b) {
         return None;
@@ -159,7 +161,8 @@ pub fn closest_polytopes(
     Some(found)
 }
 
-/// Those of a point or a segment and another, a box, or of a point and a small polygon, in space.
+/// The closest points in closed form, in space: of a point or segment with a point, segment or box, and of a point with a small
+/// polygon.
 fn closed_form(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<Closest> {
     if pair.planar {
         return None;
@@ -195,7 +198,7 @@ fn cuboid<'a>(placed: &PlacedPrimitive<'a>) -> Option<&'a Cuboid> {
     placed.form()?.cuboid()
 }
 
-/// How far a set is from the plane of a flat polygon, on either side.
+/// The distance of a set from the plane of a flat polygon, on either side.
 fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
     if !flat.shape.is_flat() {
         return f64::NEG_INFINITY;
@@ -204,7 +207,7 @@ fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
     gap_along(other, flat, &normal).max(gap_along(flat, other, &normal))
 }
 
-/// A point at the end of an edge, but for rounding, is held by the vertex there.
+/// Moves the feature from an edge to its end vertex where the point is within `slack` of it.
 fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, slack: f64) {
     let feature = found.features[side];
     if feature.kind == FeatureKind::Edge {
@@ -216,7 +219,7 @@ fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, sl
     }
 }
 
-/// Polygons with at most so many edges are compared edge by edge.
+/// Polygons with at most this many edges are compared edge by edge.
 const MAX_EDGES_ENUMERATED: usize = 32;
 
 fn is_large(placed: &PlacedPrimitive) -> bool {
@@ -233,7 +236,7 @@ fn all_features(
     closest_features(a, &scratch.a, b, &scratch.b, true)
 }
 
-/// Of polygons in one plane the outlines are compared, then the insides.
+/// The closest points of polygons in one plane: compares the outlines, then tests containment.
 fn planar_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -260,7 +263,7 @@ fn planar_closest(
     }
 }
 
-/// Of solids, and of polygons too large to enumerate, the features around the supporting planes are compared.
+/// The closest points of solids, and of polygons too large to enumerate: compares the features near the supporting planes.
 fn bounded_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -279,7 +282,7 @@ fn bounded_closest(
     if bounds.lower > limits.cutoff {
         return None;
     }
-    // A proof that the sets are apart outweighs a tetrahedron.
+    // A separating direction is trusted over a tetrahedron around the origin.
     let may_meet = bounds.lower <= tolerance::SUPPORT_ERROR * size;
     if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
         let interior = [Feature::interior(); 2];
@@ -314,7 +317,7 @@ fn bounded_closest(
             return Some(found);
         }
     }
-    // Surfaces that touch or cross say more, by their features, than that one set holds a vertex of the other.
+    // Features that touch or cross are tested first: they say more than a vertex of one set inside the other.
     let found = all_features(a, b, scratch);
     if found.distance <= pair.error {
         return Some(found);
@@ -332,7 +335,7 @@ fn bounded_closest(
     Some(found)
 }
 
-/// The nearest points between corners that the search found, if they are of a feature each.
+/// The nearest points between the corners that GJK ended with, if the corners of each side span a feature.
 fn between_corners(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -344,7 +347,7 @@ fn between_corners(
     };
     let features = [feature(a, 0)?, feature(b, 1)?];
     let found = Closest::between(nearest.points, features);
-    // A foot under a vertex is known better than what corners combine to.
+    // The foot of a vertex in a face is more accurate than a combination of corners.
     let [on_a, on_b] = found.points;
     Some(match (features[0].kind, features[1].kind) {
         (FeatureKind::Vertex, FeatureKind::Face) => Closest {
@@ -359,7 +362,7 @@ fn between_corners(
     })
 }
 
-/// The foot of a point in a face, if it is there.
+/// The foot of a point on a face, if it is inside the face.
 fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<Vec3> {
     let face = face.index as usize;
     let (height, is_over) = placed.over_face(face, point);
@@ -375,7 +378,8 @@ fn contained_vertex(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Option<(u32, Ve
         .next()
 }
 
-/// The largest gap that a direction proves: those of the features that hold the points, and the two directions known.
+/// The largest gap proved by one of these directions: the given one, the one between the points, and the normal of their
+/// features.
 fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
     let mut best = gap_along(a, b, &direction);
     let mut offer = |n: Vec3| {

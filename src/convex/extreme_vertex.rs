@@ -1,14 +1,14 @@
-//! The vertex of a polytope that is farthest along a direction, by climbing along its edges.
+//! The support vertex of a polytope by hill climbing along its edges.
 
 use crate::pose::Vec3;
 
-/// Climbs from where the last climb ended: for directions that turn little a step or two.
+/// A hill climb that starts where the last one ended: a step or two if the direction has turned little.
 pub struct ExtremeVertex<'a> {
     vertices: &'a [Vec3],
     /// The neighbours of vertex i are `neighbours[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     neighbours: Vec<u32>,
-    /// Where climbs along a direction, and along its opposite, have ended.
+    /// Where the last climbs along a direction and along its opposite ended.
     ends: [u32; 2],
 }
 
@@ -38,8 +38,8 @@ impl<'a> ExtremeVertex<'a> {
         }
     }
 
-    /// What vertices reach along a direction, lowest and highest: the extremes of a convex polytope, but for rounding; of any
-    /// set something between them.
+    /// The lowest and highest projection on a direction: for a convex polytope its extent up to rounding, for other sets values
+    /// within it.
     pub fn extent_within(&mut self, direction: &Vec3) -> (f64, f64) {
         let [up, down] = self.ends;
         let (up, high) = self.climb(up, direction);

@@ -1,9 +1,9 @@
-//! The Gauss map of a polytope's edges: each maps to the arc of the directions in which it supports, from the normal of the
-//! face on one side of it to that on the other.
+//! The Gauss map of a polytope's edges: each edge maps to the arc of directions along which it is the supporting feature, from
+//! the normal of one adjacent face to that of the other.
 //!
-//! An edge of r and one of s make a facet of the Minkowski difference s - r where the arc of the one, reversed, crosses the arc
-//! of the other. Boxes around the arcs, in a tree, tell which may. They hold all directions in which the edge supports to
-//! within a slack, so that rounding takes no pair away.
+//! An edge of r and one of s make a facet of the Minkowski difference s - r where the reversed arc of the one crosses the arc
+//! of the other. Candidates are found by a tree of boxes around the arcs. A box holds all directions along which its edge
+//! supports to within a slack, so that rounding loses no pair.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -17,9 +17,9 @@ use crate::work_meter::WorkMeter;
 /// The edges of a polytope with their arcs.
 pub struct GaussArcs {
     edges: Vec<Edge>,
-    /// For each edge, from it to a corner of each face beside it.
+    /// For each edge, the vectors from it to a corner of each adjacent face.
     wings: Vec<Vec3>,
-    /// Numbers of edges, those of a leaf together.
+    /// Edge indices, grouped by leaf.
     order: Vec<u32>,
     /// The arcs' boxes, in that order.
     boxes: Vec<Bounds>,
@@ -29,7 +29,7 @@ pub struct GaussArcs {
 
 struct Edge {
     along: Vec3,
-    /// Where its wings are.
+    /// Its range in `wings`.
     wings: Range<usize>,
 }
 
@@ -43,15 +43,15 @@ enum NodeKind {
     Interior { children: [usize; 2] },
 }
 
-/// Edges to a leaf.
+/// Edges per leaf, at most.
 const LEAF: usize = 8;
 
-/// What is added to boxes for the rounding of the arcs they hold.
+/// The slack added to the boxes for the rounding of their arcs.
 const ROUNDING: f64 = 1e-9;
 
 impl GaussArcs {
-    /// The arcs of a polytope in space, or the arcs reversed. `slack` is the length by which a vertex may reach beyond what
-    /// supports.
+    /// The arcs of a polytope in space, or the reversed arcs. `slack` is the length by which a vertex may lie beyond a
+    /// supporting edge.
     pub fn new(placed: &PlacedPrimitive, is_reversed: bool, slack: f64) -> Self {
         let beside = EdgeNeighbours::of(placed);
         let count = placed.shape.edges.len();
@@ -76,7 +76,7 @@ impl GaussArcs {
                 wings: first..wings.len(),
             });
         }
-        // An edge without length has no direction: a point's stands for the point.
+        // An edge of length 0 has no direction; a point has one such edge.
         let has_length = |&i: &u32| edges[i as usize].along != Vec3::zeros();
         let mut order: Vec<u32> = (0..edges.len() as u32).filter(has_length).collect();
         let mut nodes = Vec::new();
@@ -100,14 +100,15 @@ impl GaussArcs {
         &self.edges[edge as usize].along
     }
 
-    /// How far the corners beside an edge reach along a normal of it.
+    /// The lowest and highest projection of the corners beside an edge on a normal of it, relative to the edge.
     pub fn extent_at(&self, edge: u32, normal: &Vec3) -> [f64; 2] {
         let wings = &self.wings[self.edges[edge as usize].wings.clone()];
         let heights = wings.iter().map(|wing| normal.dot(wing));
         heights.fold([0.0f64; 2], |[low, high], x| [low.min(x), high.max(x)])
     }
 
-    /// Shows the pairs of edges whose arcs may cross, until the call has done enough: each pair compared is counted.
+    /// Visits the pairs of edges whose arcs may cross. Each pair compared is charged to the meter; stops when its limit is
+    /// exceeded.
     pub fn visit_crossing(
         &self,
         other: &Self,
@@ -160,7 +161,7 @@ impl GaussArcs {
     }
 }
 
-/// The faces beside each edge, each with the corner of the face that follows the edge.
+/// The faces adjacent to each edge, each with its corner after the edge.
 struct EdgeNeighbours(HashMap<[u32; 2], Vec<(u32, u32)>, RandomState>);
 
 impl EdgeNeighbours {
@@ -186,15 +187,15 @@ impl EdgeNeighbours {
     }
 }
 
-/// A box around the directions in which an edge supports to within the slack, given a corner of each face beside it and the
-/// normals of these.
+/// A box around the directions along which an edge supports to within the slack, given a corner and the normal of each adjacent
+/// face.
 fn arc_bounds(along: &Vec3, wings: &[Vec3], slack: f64, normal: impl Fn(usize) -> Vec3) -> Bounds {
     let Some(along) = along.try_normalize(0.0) else {
         return Bounds::default();
     };
     let end = |side: usize| ArcEnd::of(&along, &wings[side], &normal(side), slack);
     let ends = match wings.len() {
-        // Beside a lone face the arc goes on to the normal of its other side.
+        // An edge with one face: the arc goes on to the normal of the face's other side.
         1 => end(0).map(|end| [end, end.turned()]),
         2 => end(0).zip(end(1)).map(|(a, b)| [a, b]),
         _ => None,
@@ -203,22 +204,22 @@ fn arc_bounds(along: &Vec3, wings: &[Vec3], slack: f64, normal: impl Fn(usize) -
     arc.unwrap_or_else(|| Bounds::of_circle(&along))
 }
 
-/// Where an arc ends: at the normal of a face.
+/// One end of an arc: the normal of a face.
 #[derive(Clone, Copy)]
 struct ArcEnd {
     normal: Vec3,
-    /// From the edge into the face: a unit vector upright to the edge.
+    /// The unit vector from the edge into the face, perpendicular to the edge.
     inwards: Vec3,
-    /// How far beyond the normal the edge supports to within the slack, at most.
+    /// An upper bound of the angle beyond the normal, in radians, up to which the edge supports to within the slack.
     beyond: f64,
 }
 
 impl ArcEnd {
-    /// None for a face so narrow beside the edge that its normal says too little.
+    /// `None` for a face too narrow beside the edge for its normal to be reliable.
     fn of(along: &Vec3, wing: &Vec3, face_normal: &Vec3, slack: f64) -> Option<Self> {
         let across = wing - along * along.dot(wing);
         let width = across.norm();
-        // The angle's sine; the angle is at most pi / 2 times that.
+        // The sine of that angle; the angle is at most pi / 2 times the sine.
         let sine = slack / width;
         if sine.is_nan() || sine > 0.5 {
             return None;
@@ -250,7 +251,7 @@ struct Bounds {
 }
 
 impl Default for Bounds {
-    /// Holds nothing.
+    /// The empty box.
     fn default() -> Self {
         Self {
             low: Vec3::repeat(f64::INFINITY),
@@ -260,9 +261,9 @@ impl Default for Bounds {
 }
 
 impl Bounds {
-    /// Around an arc of a great circle, of half a turn at most. None if its ends contradict one another.
+    /// The box of an arc of a great circle, of at most half a turn. `None` if its ends are inconsistent.
     fn of_arc([a, b]: &[ArcEnd; 2]) -> Option<Self> {
-        // Normals and what points outwards lie on one side; of flat and of sharp edges one of the two sums is about 0.
+        // Both sums point to the middle of the arc; at flat or at sharp edges one of them is about 0.
         let outwards = (a.normal + b.normal) - (a.inwards + b.inwards);
         let middle = outwards.try_normalize(1.0)?;
         let mut bounds = Self {
@@ -275,14 +276,14 @@ impl Bounds {
                 low: end.normal,
                 high: end.normal,
             });
-            // How far the arc lies from its chord.
+            // The distance of the arc from its chord.
             let half_chord = 0.5 * (end.normal - middle).norm();
             bulge = bulge.max(1.0 - (1.0 - half_chord * half_chord).max(0.0).sqrt());
         }
         Some(bounds.grown(bulge + a.beyond.max(b.beyond) + ROUNDING))
     }
 
-    /// Around all directions upright to a unit vector.
+    /// The box of all directions perpendicular to a unit vector.
     fn of_circle(along: &Vec3) -> Self {
         let high = along.map(|x| (1.0 - x * x).max(0.0).sqrt());
         Self { low: -high, high }.grown(ROUNDING)
@@ -319,8 +320,8 @@ impl Bounds {
     }
 }
 
-/// A tree over some of the boxes, halved at the middle one along the longest axis; returns its root. `first` is the place of
-/// the first of them.
+/// Builds a tree over the boxes of `order`, split at the median along the longest axis, and returns its root. `first` is the
+/// position of `order` in the whole order.
 fn build(boxes: &[Bounds], order: &mut [u32], first: usize, nodes: &mut Vec<Node>) -> usize {
     let around = |order: &[u32]| {
         let all = order.iter().map(|&i| &boxes[i as usize]);

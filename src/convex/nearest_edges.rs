@@ -6,8 +6,8 @@ use crate::lanes::{F64x4, Points64, cross64, dot64, each3, sub64};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// The best of four pairs of edges, by the squares of their distances. A pair is called `MAX_CORNERS` * the block of the
-/// second's edges + the first's edge; the lane is the second's.
+/// The nearest pair of edges found so far in each lane, by squared distance. A pair is stored as `MAX_CORNERS` * the block of
+/// B's edge + A's edge; the lane is that of B's edge within its block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestEdges {
     squares: F64x4,
@@ -59,7 +59,7 @@ impl NearestEdges {
         Vec3::new(x, y, z)
     }
 
-    /// The nearest pair: the first's edge, and the block of the second's edge and its lane.
+    /// The nearest pair: A's edge, then the block and the lane of B's edge.
     #[inline(always)]
     fn best(&self) -> (usize, usize, usize) {
         let mut lane = 0;
@@ -72,7 +72,7 @@ impl NearestEdges {
         (pair % MAX_CORNERS, pair / MAX_CORNERS, lane)
     }
 
-    /// The closest points. One no farther than `error` from a corner is held by that.
+    /// The closest points. A point within `error` of a corner counts as that corner.
     #[inline(always)]
     pub fn points(&self, a: &Outline, b: &Outline, error: f64) -> Closest {
         let (i, block, lane) = self.best();
@@ -95,7 +95,7 @@ impl NearestEdges {
     }
 }
 
-/// The nearest edges of two polygons, given where each is of the other's plane.
+/// The nearest edges of two polygons, given the side of each other's plane on which they lie.
 #[inline(always)]
 pub fn nearest_edges(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> NearestEdges {
     let mut found = NearestEdges {
@@ -110,7 +110,8 @@ pub fn nearest_edges(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> 
     found
 }
 
-/// Compares those edges of A that meet in corners which look nearest, until a plane proves that no others are nearer.
+/// Compares only A's edges at its nearest-looking corners, with all of B's. Returns true once a separating plane proves that no
+/// other edge is nearer.
 #[inline(always)]
 fn search_edges(
     a: &Outline,
@@ -150,10 +151,10 @@ fn search_edges(
     false
 }
 
-/// Where an edge, the same in all lanes, and each of four others are closest, as parameters along them, and how far apart,
-/// squared. `inverse_square` is of the first one's length.
+/// The closest points of one edge, the same in all lanes, and each of four others: their parameters, and the squared distance.
+/// `inverse_square` is 1 / the squared length of the first edge.
 ///
-/// The places along the lines are formed with the cross product of the directions, see `closest_parameters`.
+/// The lines' parameters are computed from the cross product of the directions, see `closest_parameters`.
 #[inline(always)]
 fn edge_places(
     p: &Points64,
@@ -168,7 +169,7 @@ fn edge_places(
     let s = dot64(&cross64(&between, dq), &cross).quotient(square);
     let (b, e) = (dot64(dp, dq), dot64(dq, dq));
     let (c, f) = (dot64(dp, &between), dot64(dq, &between));
-    // The best place on the other edge for s, then the best place on this one for that.
+    // The nearest point of the other edge for s, then the nearest point of this edge for that.
     let t = (b * s.unit() - f).quotient(e).unit();
     let s = ((b * t + c) * inverse_square).unit();
     let apart = each3(|k| between[k] + dq[k] * t - dp[k] * s);

@@ -1,21 +1,21 @@
-//! Newton's steps on the direction in which two parts of surfaces are nearest, once a search has told which parts these are: it
-//! comes to the last digit in a few steps, where the search alone halves what is left.
+//! Newton's method for the direction between the closest points of two surface parts, once GJK has found which parts these are.
+//! It reaches the last digit in a few steps, where GJK alone halves the error in each.
 
 use super::curved::Core;
 use super::surface_part::SurfacePart;
 use crate::gjk::{Nearby, Support};
 use crate::pose::Vec3;
 
-/// At most 10 Newton steps; then the search goes on by itself.
+/// At most 10 Newton steps; then GJK goes on by itself.
 const MAX_STEPS: usize = 10;
 
-/// At most this turn in one step, in radians.
+/// The largest turn in one step, in radians.
 const MAX_TURN: f64 = 0.7;
 
-/// Lines whose directions have a smaller sine between them count as parallel.
+/// Lines count as parallel when the sine of the angle between them is below this.
 const PARALLEL: f64 = 1e-9;
 
-/// Two cores, their parts that are nearest, and how near the bounds of a distance must come together to be it.
+/// Two cores, their nearest surface parts, and the gap between upper and lower bound at which a distance is accepted.
 pub struct NearestParts<'a> {
     cores: [&'a Core<'a>; 2],
     parts: [SurfacePart; 2],
@@ -23,7 +23,7 @@ pub struct NearestParts<'a> {
 }
 
 impl<'a> NearestParts<'a> {
-    /// Of the parts between named points of the two; `None` where there is none.
+    /// Takes the surface parts between the named extreme points of the two cores; `None` where a core has no such part.
     pub fn new(cores: [&'a Core<'a>; 2], names: [&[u32]; 2], accepted: f64) -> Option<Self> {
         let part = |side: usize| SurfacePart::between(cores[side], names[side]);
         Some(Self {
@@ -33,7 +33,7 @@ impl<'a> NearestParts<'a> {
         })
     }
 
-    /// The nearest points, from a guess of the unit direction from B to A; `None` unless a direction proves them nearest.
+    /// The closest points, from a guess of the unit direction from B to A; `None` unless a direction certifies them.
     pub fn solve(&self, guess: &Vec3) -> Option<Nearby> {
         for side in 0..2 {
             if let Some(found) = self.over_face(side, guess) {
@@ -47,7 +47,7 @@ impl<'a> NearestParts<'a> {
         {
             return None;
         }
-        // As of the direction from B to A: A looks along the opposite.
+        // Constraints on the direction from B to A; A's own direction is the opposite.
         let on_a = self.parts[0]
             .constraint()
             .map(|(along, value)| (along, -value));
@@ -59,7 +59,7 @@ impl<'a> NearestParts<'a> {
         }
     }
 
-    /// The point of the other set that is farthest towards a face of one, if it is over it.
+    /// The other set's support point towards a face of one set, if it lies over that face.
     fn over_face(&self, side: usize, guess: &Vec3) -> Option<Nearby> {
         let outwards = if side == 0 { -guess } else { *guess };
         let normal = self.parts[side].face_normal(&outwards)?;
@@ -73,7 +73,7 @@ impl<'a> NearestParts<'a> {
         self.accept(&direction, points)
     }
 
-    /// The points of two lines, of a direction that both admit.
+    /// The closest points of two lines, for a direction that satisfies both constraints.
     fn between_lines(&self, direction: &Vec3) -> Option<Nearby> {
         let [p, q] = self.points(direction);
         let (along_p, half_p) = self.parts[0].line(&-direction)?;
@@ -93,7 +93,7 @@ impl<'a> NearestParts<'a> {
         self.accept(direction, [p + along_p * on_p, q + along_q * on_q])
     }
 
-    /// Steps along the circle of directions that a line on one side admits.
+    /// Newton steps along the circle of directions that satisfy the constraint of the one line.
     fn turn_around(&self, (axis, height): (Vec3, f64), guess: &Vec3) -> Option<Nearby> {
         let radius = (1.0 - height * height).sqrt();
         let on_circle = |n: &Vec3| {
@@ -117,7 +117,7 @@ impl<'a> NearestParts<'a> {
         None
     }
 
-    /// Steps over the sphere of directions.
+    /// Newton steps over the sphere of directions.
     fn turn_freely(&self, guess: &Vec3) -> Option<Nearby> {
         let mut direction = *guess;
         for _ in 0..MAX_STEPS {
@@ -143,13 +143,13 @@ impl<'a> NearestParts<'a> {
         None
     }
 
-    /// The points of both parts that are farthest towards one another along a direction from B to A.
+    /// The support points of both parts towards each other, for a direction from B to A.
     fn points(&self, direction: &Vec3) -> [Vec3; 2] {
         let [a, b] = &self.parts;
         [a.point(&-direction), b.point(direction)]
     }
 
-    /// The same where one part is a line: of it the point nearest to the other, and where on the lines they are.
+    /// The same where one part is a line: its point nearest to the other part, and the places of both points along their lines.
     fn points_on_line(&self, direction: &Vec3) -> ([Vec3; 2], [f64; 2]) {
         let [a, b] = &self.parts;
         let [p, q] = self.points(direction);
@@ -164,18 +164,18 @@ impl<'a> NearestParts<'a> {
         }
     }
 
-    /// How the points move apart, to first order, as the direction turns, with the opposite sign.
+    /// Minus the derivative of the vector between the points as the direction turns by `by`.
     fn bend(&self, direction: &Vec3, by: &Vec3, places: [f64; 2]) -> Vec3 {
         let [a, b] = &self.parts;
         b.bend(direction, by, places[1]) - a.bend(&-direction, &-by, places[0])
     }
 
-    /// Whether what is left aside of the direction lengthens the distance by no more than is accepted.
+    /// Whether the remaining offset across the direction lengthens the distance by no more than the accepted gap.
     fn is_near_enough(&self, off: &Vec3, apart: f64) -> bool {
         off.norm_squared() <= self.accepted * apart.abs()
     }
 
-    /// Points that the direction proves nearest, but for what is accepted.
+    /// The points, if the direction certifies their distance to within the accepted gap.
     fn accept(&self, direction: &Vec3, points: [Vec3; 2]) -> Option<Nearby> {
         let [a, b] = self.cores;
         let lower = direction.dot(&(a.support(&-direction) - b.support(direction)));
@@ -188,14 +188,14 @@ impl<'a> NearestParts<'a> {
     }
 }
 
-/// The part of the way from B to A that is aside of a direction, and the part along it.
+/// The components of the vector from B's point to A's across a direction and along it.
 fn split(points: &[Vec3; 2], direction: &Vec3) -> (Vec3, f64) {
     let way = points[0] - points[1];
     let apart = direction.dot(&way);
     (way - direction * apart, apart)
 }
 
-/// A unit direction after a step, if that makes sense.
+/// A unit direction after a step of at most `MAX_TURN`; `None` if the step is not finite.
 fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
     let length = step.norm();
     if !length.is_finite() {
@@ -209,7 +209,7 @@ fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
     (direction + step * part).try_normalize(0.0)
 }
 
-/// Two unit vectors upright to a third and to each other.
+/// Two unit vectors perpendicular to a third and to each other.
 fn upright_to(direction: &Vec3) -> (Vec3, Vec3) {
     let other = if direction.x.abs() < 0.6 {
         Vec3::x()
@@ -220,8 +220,8 @@ fn upright_to(direction: &Vec3) -> (Vec3, Vec3) {
     (x, direction.cross(&x))
 }
 
-/// The unit direction that two constraints admit, of two the one nearer to a guess; `None` where they are parallel, or admit
-/// none.
+/// The unit direction that satisfies two constraints; of two solutions the one nearer to a guess. `None` where the constraints
+/// are parallel or have no solution.
 fn on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);
@@ -229,7 +229,7 @@ fn on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     if square <= PARALLEL * PARALLEL {
         return None;
     }
-    // In the plane of the two, and then out of it.
+    // The component in the plane of the two axes, then the one across it.
     let in_plane = h.cross(&across) * (s / square) + across.cross(&g) * (t / square);
     let rest = 1.0 - in_plane.norm_squared();
     if rest < 0.0 {

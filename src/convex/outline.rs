@@ -4,10 +4,10 @@ use crate::lanes::{F64x4, Points64, along64, cross64, dot64, each3, splat64, sub
 use crate::pose::{Pose, Vec3};
 use crate::primitive::Feature;
 
-/// Polygons of up to so many corners are measured four edges at a time.
+/// Polygons of at most this many corners are measured four edges at a time.
 pub const MAX_CORNERS: usize = 64;
 
-/// A convex polygon in space: its corners in cyclic order, four at a time, the last four filled up with the first corner.
+/// A convex polygon in space: its corners in cyclic order, in blocks of four; the last block is padded with the first corner.
 #[derive(Clone, Copy)]
 pub struct Outline<'a> {
     pub blocks: &'a [Points64],
@@ -24,7 +24,8 @@ impl Outline<'_> {
         Vec3::new(block[0].0[i % 4], block[1].0[i % 4], block[2].0[i % 4])
     }
 
-    /// The point of an edge at a parameter, and the corner or edge that holds it. The edges of filled-up places are corners.
+    /// The point of an edge at a parameter, and the corner or edge that holds it. An edge index in the padding stands for
+    /// corner 0.
     pub fn on_edge(&self, edge: usize, parameter: f64, error: f64) -> (Vec3, Feature) {
         let edge = if edge < self.corners { edge } else { 0 };
         let next = if edge + 1 == self.corners {
@@ -43,7 +44,7 @@ impl Outline<'_> {
         }
     }
 
-    /// A corner and the edge that leaves it, the same in all lanes.
+    /// A corner and the edge vector from it to the next, the same in all lanes.
     #[inline(always)]
     pub fn edge(&self, i: usize) -> (Points64, Points64) {
         let next = if i + 1 == self.corners { 0 } else { i + 1 };
@@ -55,7 +56,7 @@ impl Outline<'_> {
         (start, sub64(&corner(next), &start))
     }
 
-    /// The corners of a block, each with the one after it: pairs of filled-up places have length 0.
+    /// The next corner of each corner of a block. Edges in the padding have length 0.
     #[inline(always)]
     pub fn following(&self, block: usize) -> Points64 {
         let next = self.blocks.get(block + 1).unwrap_or(&self.blocks[0]);
@@ -78,8 +79,8 @@ impl Outline<'_> {
         (low.least(), high.greatest())
     }
 
-    /// How far another polygon is from this one's plane, and on which side; negative where it reaches over to both, less
-    /// far to the other side.
+    /// The distance of another polygon from this one's plane, and its corner nearest to it. Negative where the other polygon
+    /// crosses the plane: minus its smaller extent to one side.
     #[inline(always)]
     pub fn side(&self, other: &Outline) -> Side {
         let (low, high) = other.extent_along(&self.normal.into());
@@ -96,7 +97,7 @@ impl Outline<'_> {
         self.normal.dot(&(point - self.corner(0)))
     }
 
-    /// A corner whose product with a direction is as given, one of the extremes.
+    /// The first corner whose projection on a direction equals `extreme`.
     #[inline(always)]
     pub fn corner_with(&self, direction: &[f64; 3], extreme: f64) -> usize {
         for (block, corners) in self.blocks.iter().enumerate() {
@@ -127,7 +128,7 @@ impl Outline<'_> {
         best
     }
 
-    /// Whether the foot of a point is inside.
+    /// Whether the foot of a point lies inside the polygon.
     #[inline(always)]
     pub fn is_under(&self, point: &Vec3) -> bool {
         let mut least = F64x4::splat(0.0);
@@ -140,7 +141,7 @@ impl Outline<'_> {
         least.least() >= 0.0
     }
 
-    /// The least of the areas that points span with the edges of the polygon, negative outside.
+    /// For each point the least signed area that it spans with an edge of the polygon; negative outside.
     #[inline(always)]
     pub fn innermost(&self, points: &Points64) -> F64x4 {
         let mut least = F64x4::splat(f64::INFINITY);
@@ -177,7 +178,7 @@ pub fn moved<'a>(outline: &Outline, pose: &Pose, buffer: &'a mut [Points64]) -> 
     }
 }
 
-/// Where a polygon is of another's plane: how far, and the product of the normal with its nearest corner.
+/// Where a polygon lies relative to another's plane: its distance, and the product of the normal with its nearest corner.
 #[derive(Clone, Copy)]
 pub struct Side {
     pub gap: f64,

@@ -1,10 +1,10 @@
-//! Penetration: the shortest translation that takes two convex sets apart.
+//! Penetration: the shortest translation that separates two convex sets.
 //!
-//! The sets are apart after a translation of r along n when it is at least what s reaches along n less what r begins at. The
-//! shortest one goes along the normal of a facet of the sets' Minkowski difference: a face's normal, or the cross product of
-//! an edge of each (in the plane, an edge's normal). All of those are tried, so the result is exact to rounding and there is
-//! no iteration that could stop early. Edges are tried only where both support along their cross product, as far as the
-//! neighbouring corners tell; pairs that may do so are those whose arcs of the Gauss map may cross.
+//! A translation of r along n separates the sets when it is at least the highest projection of s on n minus the lowest of r.
+//! The shortest one goes along the normal of a facet of the sets' Minkowski difference: a face's normal, or the cross product
+//! of an edge of each (in the plane, an edge's normal). All of those are tried, so the result is exact to rounding and there is
+//! no iteration that could stop early. A pair of edges is tried only where both support along their cross product, as tested on
+//! the neighbouring corners; candidates are the pairs whose arcs of the Gauss map may cross.
 
 use super::closest::{FeatureSet, closest_features};
 use super::curved::is_curved;
@@ -21,18 +21,18 @@ use crate::work_meter::WorkMeter;
 /// The shortest translation of r that leaves r and s touching: by `depth` along `direction`, a unit vector from s to r.
 #[derive(Clone, Copy, Debug)]
 pub struct Penetration {
-    /// 0 for sets that only touch, or have no inside in common: flat ones in one plane, say.
+    /// 0 for sets that only touch, or whose interiors do not overlap, such as flat sets in one plane.
     pub depth: f64,
     pub direction: Vec3,
     /// A point of r and one of s that the translation brings together: s = r + depth * direction.
     pub points: [Vec3; 2],
 }
 
-/// How far a corner may reach beyond an edge that supports, relative to the pair's size.
+/// The slack by which a corner may lie beyond a supporting edge, relative to the pair's size.
 const SUPPORT_SLACK: f64 = 1e-9;
 
-/// The penetration of two sets that meet. Fails for smooth ones. The meter counts the pairs of edges that are compared; where
-/// it says that the call has done enough, the result means nothing.
+/// The penetration of two sets that meet. Fails for smooth ones. The meter counts the edge pairs compared; if its limit is
+/// exceeded, the result is meaningless.
 pub fn penetration(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -71,7 +71,7 @@ pub(super) fn polytope_penetration(
         offer_edges(r, s, SUPPORT_SLACK * precision.size, meter, &mut shortest);
     }
     shortest.settle();
-    // Sets without an inside in common and without faces: upright to what there is of them.
+    // Sets without faces and without candidate normals: a direction perpendicular to their longest edge.
     if shortest.depth == f64::INFINITY {
         let along = [r, s]
             .iter()
@@ -107,7 +107,7 @@ pub(super) fn polytope_penetration(
     }
 }
 
-/// Offers the cross products of edges that both support along them.
+/// Offers the cross products of the edge pairs that support along them.
 fn offer_edges(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -136,9 +136,9 @@ fn offer_edges(
     shortest.next += (arcs_r.len() * arcs_s.len()) as u64;
 }
 
-/// Points of both sets that meet when r has moved by `depth` along `direction`, the normal of the planes in which they touch
-/// then: the nearest, with r moved a little farther, of the features in these planes. Where features are nearly parallel these
-/// may be too few; then more are looked at, and at last all.
+/// Points of both sets that coincide after r has moved by `depth` along `direction`, the normal of the planes in which they
+/// then touch: the closest points, with r moved a little farther, of the features in these planes. Where features are nearly
+/// parallel these may be too few; then the slack is increased, and finally all features are compared.
 fn brought_together(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -169,28 +169,30 @@ fn brought_together(
     [met.points[0] - way, met.points[1]]
 }
 
-/// The shortest way out of all lines tried.
+/// The shortest way out among the candidate lines tried so far.
 struct Shortest<'a> {
     sets: [&'a PlacedPrimitive<'a>; 2],
     extremes: [ExtremeVertex<'a>; 2],
     depth: f64,
     direction: Vec3,
-    /// Of the line that the direction is of, and whether it is the line's opposite: of equal depths the first counts.
+    /// The number of the direction's line, and whether it is the opposite of its normal. Ties of the depth go to the lowest
+    /// rank.
     rank: (u64, bool),
-    /// The number of the line to come.
+    /// The number of the next line.
     next: u64,
-    /// Lines of which the depth may be least, to be measured with all vertices.
+    /// Lines that may be the shortest, not yet measured with all vertices.
     waiting: Vec<Line>,
 }
 
 struct Line {
     number: u64,
     normal: Vec3,
-    /// No way along it is shorter.
+    /// A lower bound of the depth along the line, either way.
     at_least: f64,
 }
 
-/// Lines that are measured together: those of them that vertices say least of first, which mostly proves the others longer.
+/// Lines are measured in batches of this many, in the order of their lower bounds: mostly the first then proves the others
+/// longer.
 const TOGETHER: usize = 64;
 
 impl<'a> Shortest<'a> {
@@ -207,18 +209,18 @@ impl<'a> Shortest<'a> {
         }
     }
 
-    /// Tries a line, of any length, both ways.
+    /// Tries the directions of a vector of any length and of its opposite, as the next line.
     fn offer_next(&mut self, line: &Vec3) {
         self.offer(self.next, line);
         self.next += 1;
     }
 
-    /// The same for the line of a number.
+    /// The same for a line of the given number.
     fn offer(&mut self, number: u64, line: &Vec3) {
         let Some(normal) = line.try_normalize(0.0) else {
             return;
         };
-        // Any vertex bounds what all reach, rounded as they are.
+        // The projections of any vertices bound the extent from within, also in rounded arithmetic.
         let [(low_r, high_r), (low_s, high_s)] =
             [0, 1].map(|i| self.extremes[i].extent_within(&normal));
         let at_least = (high_s - low_r).min(high_r - low_s);
@@ -235,7 +237,7 @@ impl<'a> Shortest<'a> {
         }
     }
 
-    /// Measures the lines that wait.
+    /// Measures the waiting lines.
     fn settle(&mut self) {
         let mut waiting = std::mem::take(&mut self.waiting);
         waiting.sort_unstable_by(|a, b| {

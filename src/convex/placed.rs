@@ -1,4 +1,4 @@
-//! A primitive's coordinates in the frame in which a pair is examined.
+//! A primitive in the common frame of a pair.
 
 use std::cell::{Cell, OnceCell};
 
@@ -6,43 +6,44 @@ use crate::gjk::{Extreme, PointCloud, Support};
 use crate::pose::{Mat3, Pose, Vec3, turned, turned_back};
 use crate::primitive::{Convex, Face, Feature, Form, Primitive};
 
-/// The lengths that decide about a pair of bodies, their dimension with them.
+/// The size and error of a pair of bodies, and whether it is planar.
 #[derive(Clone, Copy, Debug)]
 pub struct Precision {
-    /// L, the largest coordinate of the pair in the frame in which it is examined.
+    /// L, the largest coordinate of the pair in its common frame.
     pub size: f64,
-    /// A distance is known to this; below it the pair touches.
+    /// The error of a distance; at smaller distances the pair touches.
     pub error: f64,
     /// In planar worlds polygons are solid, and normals lie in the plane.
     pub planar: bool,
 }
 
-/// A primitive as it stands in some common frame. Its vertices are moved one by one, or all at once when all are asked for.
+/// A primitive posed in a common frame. Its vertices are transformed one by one, or all at once when a caller needs all of
+/// them.
 #[derive(Clone, Copy)]
 pub struct PlacedPrimitive<'a> {
     pub shape: &'a Convex,
     vertices: Vertices<'a>,
-    /// Where it is known: of the shape, and so of its vertices at home.
+    /// The form of the shape, in the primitive's own frame; `None` if unknown.
     form: Option<&'a Form>,
 }
 
 #[derive(Clone, Copy)]
 enum Vertices<'a> {
-    /// As they are in the common frame, which turns them no more.
+    /// Already in the common frame, and not rotated.
     Here(&'a [Vec3]),
     Moved {
         home: &'a [Vec3],
         pose: &'a Pose,
         buffer: &'a PlacedBuffer,
     },
-    /// The same, moved on by a translation.
+    /// Already in the common frame, rotated by `rotation` and translated.
     Shifted {
         vertices: &'a [Vec3],
         rotation: Option<&'a Mat3>,
     },
 }
 
-/// Memory for one moved primitive, reused from pair to pair.
+/// Memory for one transformed primitive, reused from pair to pair.
 #[derive(Default)]
 pub struct PlacedBuffer {
     moved: OnceCell<Vec<Vec3>>,
@@ -73,7 +74,7 @@ impl PlacedBuffer {
         }
     }
 
-    /// All vertices, moved.
+    /// All vertices, transformed.
     fn all(&self, home: &[Vec3], pose: &Pose) -> &[Vec3] {
         self.moved.get_or_init(|| {
             let mut moved = self.spare.take();
@@ -94,7 +95,7 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
-    /// The same primitive with its vertices elsewhere, and turned as it was.
+    /// The same primitive with translated vertices; its rotation stays.
     pub fn shifted<'b>(&'b self, vertices: &'b [Vec3]) -> PlacedPrimitive<'b> {
         PlacedPrimitive {
             shape: self.shape,
@@ -115,21 +116,22 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
-    /// A direction of the shape, in the frame.
+    /// A direction of the shape's frame, in the common frame.
     #[inline(always)]
     pub fn turned(&self, direction: &Vec3) -> Vec3 {
         self.rotation()
             .map_or(*direction, |rotation| turned(rotation, direction))
     }
 
-    /// A direction of the frame, as the shape sees it.
+    /// A direction of the common frame, in the shape's frame.
     #[inline(always)]
     pub fn turned_back(&self, direction: &Vec3) -> Vec3 {
         self.rotation()
             .map_or(*direction, |rotation| turned_back(rotation, direction))
     }
 
-    /// A point of the frame as the shape sees it, which its form or its smooth core tell about: of a shape that is not shifted.
+    /// A point of the common frame, in the shape's frame, in which its form and its smooth core are given. Only for a shape
+    /// that is not shifted.
     #[inline(always)]
     pub fn seen(&self, point: &Vec3) -> Vec3 {
         match self.vertices {
@@ -140,7 +142,7 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
-    /// A point of the shape, in the frame.
+    /// A point of the shape's frame, in the common frame. Only for a shape that is not shifted.
     #[inline(always)]
     pub fn moved(&self, point: &Vec3) -> Vec3 {
         match self.vertices {
@@ -154,7 +156,7 @@ impl<'a> PlacedPrimitive<'a> {
         self.turned(&self.shape.faces[face].normal)
     }
 
-    /// Directions of the shape, as columns, in the frame.
+    /// Axes of the shape's frame, as columns, in the common frame.
     pub fn turned_axes(&self, axes: &Mat3) -> Mat3 {
         self.rotation()
             .map_or(*axes, |rotation| crate::pose::turned_axes(rotation, axes))
@@ -166,7 +168,7 @@ impl<'a> PlacedPrimitive<'a> {
         self.form
     }
 
-    /// The least feature that holds some vertices, where it is easily found.
+    /// The lowest-dimensional feature that holds the given vertices, or `None` if there is none.
     pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
         match (self.form, vertices) {
             (Some(form), _) => form.feature_of(self.shape, vertices),
@@ -184,7 +186,7 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
-    /// About the mean of the vertices.
+    /// The mean of the vertices, up to rounding.
     pub fn middle(&self) -> Vec3 {
         match self.form {
             Some(form) => self.moved(&form.middle(self.shape)),
@@ -195,7 +197,7 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
-    /// All vertices in the frame.
+    /// All vertices in the common frame.
     pub fn vertices(&self) -> &'a [Vec3] {
         match self.vertices {
             Vertices::Here(vertices) | Vertices::Shifted { vertices, .. } => vertices,
@@ -233,7 +235,7 @@ impl<'a> PlacedPrimitive<'a> {
         self.over(face, point, |side| side >= 0.0)
     }
 
-    /// The same where the edges do not count as inside.
+    /// The same, where the face's edges do not count as inside.
     pub fn strictly_over_face(&self, face: usize, point: &Vec3) -> (f64, bool) {
         self.over(face, point, |side| side > 0.0)
     }
@@ -275,7 +277,7 @@ impl<'a> PlacedPrimitive<'a> {
     }
 }
 
-/// Of the hull of the vertices, each named by its number.
+/// The support function of the hull of the vertices, each named by its index.
 impl Support for PlacedPrimitive<'_> {
     #[inline(always)]
     fn extreme(&self, direction: &Vec3) -> Extreme {

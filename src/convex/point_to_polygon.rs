@@ -5,7 +5,7 @@ use super::placed::PlacedPrimitive;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 
-/// The closest points of a lone point and a polygon, which is flat.
+/// The closest points of a single point and a flat polygon.
 pub fn point_to_polygon(point: &Vec3, polygon: &PlacedPrimitive) -> Closest {
     let vertex = Feature::vertex(0);
     let (height, is_over) = polygon.over_face(0, point);
@@ -40,7 +40,7 @@ pub fn point_to_polygon(point: &Vec3, polygon: &PlacedPrimitive) -> Closest {
             };
         }
     }
-    // Over an edge, or one that rounding left no length.
+    // The foot is on an edge, or beside one that is degenerate by rounding.
     if is_over && height.abs() < best.distance {
         best = on_face();
     }

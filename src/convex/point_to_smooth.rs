@@ -1,11 +1,11 @@
-//! The distance of a point from a cylinder or a cone, in closed form: both are what a flat profile sweeps around an axis.
+//! The distance of a point from a cylinder or a cone, in closed form: both are solids of revolution.
 
 use super::closest::Closest;
 use super::curved::Core;
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Feature, SmoothKind};
 
-/// The closest points of a point and such a core that are more than `least` apart; `None` for others.
+/// The closest points of a point and a cylinder or cone; `None` if they are at most `least` apart, or for other cores.
 pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest> {
     let (smooth, axes) = core.smooth()?;
     let center = core.vertex(0);
@@ -36,7 +36,7 @@ pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest>
     })
 }
 
-/// The point of a cone's profile that is nearest to one outside, by how far from the axis and how high; `None` for one inside.
+/// The point of a cone's profile nearest to a point outside, as distance from the axis and height; `None` for a point inside.
 fn on_cone(away: f64, along: f64, radius: f64, height: f64) -> Option<(f64, f64)> {
     let half = 0.5 * height;
     if along <= -half && away <= radius {

@@ -4,7 +4,7 @@ use super::outline::Outline;
 use crate::lanes::{F64x4, along64, each3, sub64};
 use crate::tolerance;
 
-/// Whether an edge of B passes through A: `None` where it may but rounding decides.
+/// Whether an edge of B passes through A; `None` where the answer is within rounding.
 #[inline(always)]
 fn pierces(a: &Outline, b: &Outline, doubt: f64, rounding: f64) -> Option<bool> {
     let normal: [f64; 3] = a.normal.into();
@@ -33,11 +33,11 @@ fn pierces(a: &Outline, b: &Outline, doubt: f64, rounding: f64) -> Option<bool> 
     }
 }
 
-/// Whether two polygons cross that neither plane separates, as far as `pierces` can tell.
+/// Whether two polygons cross that neither plane separates; `None` where the answer is within rounding.
 #[inline(always)]
 pub fn cross(a: &Outline, b: &Outline, size: f64) -> Option<bool> {
     let rounding = tolerance::INSIDE_DOUBT * size;
-    // An area, because the error of a short edge's direction grows with what it is compared to.
+    // The slack is an area, because the error of a short edge's direction is multiplied by the length it is compared with.
     let doubt = -rounding * size;
     match pierces(a, b, doubt, rounding) {
         Some(true) => Some(true),

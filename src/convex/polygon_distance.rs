@@ -8,25 +8,26 @@ use crate::pose::Vec3;
 use crate::primitive::Feature;
 use crate::tolerance;
 
-/// What is known of the distance of two polygons.
+/// The result for the distance of two polygons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PolygonDistance {
-    /// More than the cutoff, and where, unless a plane told.
+    /// The distance is above the cutoff. The nearest features, unless a plane separated the polygons before these were
+    /// computed.
     Beyond(Option<Nearest>),
-    /// The distance, and where.
+    /// The distance and the nearest features.
     Apart(f64, Nearest),
-    /// They surely cross.
+    /// They certainly cross.
     Cross,
-    /// They may cross.
+    /// They may cross: the answer is within rounding.
     Doubt,
 }
 
-/// Where two polygons that do not cross are nearest.
+/// The nearest features of two polygons that do not cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Nearest {
-    /// At a corner of the first, over the second.
+    /// A corner of the first, over the inside of the second.
     FirstCorner(usize),
-    /// At a corner of the second, over the first.
+    /// A corner of the second, over the inside of the first.
     SecondCorner(usize),
     Edges(NearestEdges),
 }
@@ -45,9 +46,9 @@ impl Nearest {
 
 /// The distance of two polygons whose coordinates are at most `size`, unless it is above `cutoff`.
 ///
-/// All points compared belong to the polygons, so the least distance found is too large only by the rounding of the
-/// places of the closest points, which moves them by a few EPSILON of `size`. A foot that rounding puts on the wrong side
-/// of an edge is as near to that edge.
+/// All points compared belong to the polygons, so the least distance is too large only by the rounding of the closest points, a
+/// few EPSILON of `size`. If rounding puts a foot on the wrong side of an edge, the distance to that edge is the same within
+/// rounding.
 #[inline(always)]
 pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> PolygonDistance {
     let rounding = tolerance::INSIDE_DOUBT * size;
@@ -71,8 +72,8 @@ pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> Pol
     }
 }
 
-/// The closest points of polygons that do not cross, with the corners, edges and faces that hold them; `None` for those
-/// that may. A point no farther than `error` from a corner is held by that.
+/// The closest points of polygons that do not cross, with the corners, edges and faces that hold them; `None` if they may
+/// cross. A point within `error` of a corner counts as that corner.
 #[inline(always)]
 pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Option<Closest> {
     let PolygonDistance::Apart(distance, nearest) = polygon_distance(a, b, f64::INFINITY, size)
@@ -108,10 +109,11 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
     })
 }
 
-/// The distance of polygons that do not cross, and where they are nearest.
+/// The distance of polygons that do not cross, and their nearest features.
 ///
-/// If that is a corner over the other's inside, the plane there separates the two, and no corner is nearer to it. Of
-/// several such corners some are inside, or an edge from one to another passes over the outline as near.
+/// If the nearest feature is a corner over the other's inside, that plane separates the two, and no other corner is nearer to
+/// it. If several corners are equally near, testing one suffices: either it is over the inside, or an edge from it to another
+/// such corner passes over the outline equally near.
 #[inline(always)]
 fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Nearest) {
     let rounding = tolerance::INSIDE_DOUBT * size;
@@ -138,7 +140,7 @@ fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Near
     }
 }
 
-/// The nearer of what edges gave and of the corners over insides, when neither plane separates the polygons.
+/// The nearer of the nearest edges and of the corners over the other's inside, for polygons that neither plane separates.
 #[inline(never)]
 fn nearest_corner(a: &Outline, b: &Outline, by_edges: (f64, Nearest)) -> (f64, Nearest) {
     let (mut distance, mut found) = by_edges;

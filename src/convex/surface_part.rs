@@ -1,11 +1,10 @@
-//! The parts of convex surfaces between which two sets are nearest: vertices, edges, rims, rulings, ellipsoids, faces.
+//! The parts of convex surfaces that can hold closest points: vertices, edges, rims, rulings, ellipsoids, faces.
 
 use super::curved::Core;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
 
-/// A part of a surface on which the set's point farthest along a direction stays while the direction turns a little; in the
-/// common frame.
+/// A part of a surface on which the support point stays while the direction turns a little; in the common frame.
 #[derive(Clone, Copy, Debug)]
 pub enum SurfacePart {
     Vertex(Vec3),
@@ -15,7 +14,7 @@ pub enum SurfacePart {
         half: f64,
     },
     Facet([Vec3; 3]),
-    /// The edge of a disc, which is a face of the set; the axis points out of it.
+    /// The boundary circle of a disc that is a face of the set; the axis is the disc's outward normal.
     Rim {
         center: Vec3,
         axis: Vec3,
@@ -43,7 +42,7 @@ pub enum SurfacePart {
 }
 
 impl SurfacePart {
-    /// The part of a core between extreme points of these names; `None` for what is known by a function alone.
+    /// The part of a core between the extreme points of these names; `None` for a support function of the caller's.
     pub fn between(core: &Core, names: &[u32]) -> Option<Self> {
         let Some((smooth, axes)) = core.smooth() else {
             return Some(match *names {
@@ -114,7 +113,7 @@ impl SurfacePart {
         })
     }
 
-    /// The point farthest along a direction; the middle of those that are.
+    /// The support point along a direction: of a line of such points, its middle.
     pub fn point(&self, direction: &Vec3) -> Vec3 {
         match self {
             Self::Vertex(point) => *point,
@@ -149,7 +148,7 @@ impl SurfacePart {
         }
     }
 
-    /// The straight line of points that are farthest along a direction: its unit direction, and half its length.
+    /// The line of support points along a direction: its unit direction and half its length.
     pub fn line(&self, direction: &Vec3) -> Option<(Vec3, f64)> {
         match *self {
             Self::Edge { along, half, .. } => Some((along, half)),
@@ -168,7 +167,7 @@ impl SurfacePart {
         }
     }
 
-    /// Directions along which such a line is farthest: those whose product with a unit vector is a number.
+    /// The directions along which such a line supports: all n with n . v = c, for the returned unit vector v and number c.
     pub fn constraint(&self) -> Option<(Vec3, f64)> {
         match *self {
             Self::Edge { along, .. } => Some((along, 0.0)),
@@ -183,7 +182,7 @@ impl SurfacePart {
         }
     }
 
-    /// How the farthest point moves as the direction, a unit vector, turns by `by`: of a line that at a place along it.
+    /// The derivative of the support point as the unit direction turns by `by`; for a line, of the point at `place` along it.
     pub fn bend(&self, direction: &Vec3, by: &Vec3, place: f64) -> Vec3 {
         let around = |axis: &Vec3, radius: f64| {
             let (outwards, length) = across(direction, axis);
@@ -218,7 +217,8 @@ impl SurfacePart {
         }
     }
 
-    /// The outward normal of the face that the part is, or is the edge of, if that looks about along a direction.
+    /// The normal towards `direction` of the face that the part is, or that it bounds. For a rim, only if the disc's normal is
+    /// close to `direction`.
     pub fn face_normal(&self, direction: &Vec3) -> Option<Vec3> {
         match self {
             Self::Facet([a, b, c]) => {
@@ -234,14 +234,14 @@ impl SurfacePart {
         }
     }
 
-    /// The foot of a point on that face, if it is in it.
+    /// The foot of a point on that face, if it lies inside.
     pub fn foot(&self, normal: &Vec3, point: &Vec3) -> Option<Vec3> {
         match self {
             Self::Facet([a, b, c]) => {
                 let up = (b - a).cross(&(c - a));
                 let part = |from: &Vec3, to: &Vec3| up.dot(&(to - from).cross(&(point - from)));
                 let [of_a, of_b, of_c] = [part(b, c), part(c, a), part(a, b)];
-                // Of the corners, so that it is a point of the set however narrow they are.
+                // A combination of the corners, so that it is a point of the set even for a needle.
                 let foot = (a * of_a + b * of_b + c * of_c) / (of_a + of_b + of_c);
                 (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0).then_some(foot)
             }
@@ -254,13 +254,13 @@ impl SurfacePart {
     }
 }
 
-/// The cosine of the angle at which a direction is looked upon as one of a disc's, and not of its rim only.
+/// A disc counts as the nearest feature, not only its rim, when the cosine between its normal and the direction exceeds this.
 const LOOKS_ALONG: f64 = 0.999;
 
-/// The unit direction away from an axis that is nearest to a direction, and how long that part of the direction is.
+/// The component of a direction perpendicular to an axis: normalized, and its length.
 fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {
     let away = direction - axis * axis.dot(direction);
-    // Near the axis what rounding left along it is more than a little of what is left.
+    // Projected twice: near the axis, rounding along it would not be small compared with the remainder.
     let away = away - axis * axis.dot(&away);
     let length = away.norm();
     (away / length, length)
