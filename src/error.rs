@@ -50,11 +50,14 @@ pub enum ErrorKind {
 /// A failure: its kind and the sentence that names the culprit.
 #[derive(Clone, Debug)]
 pub struct Error {
+    /// What kind of failure it is, for programs.
     pub kind: ErrorKind,
+    /// One sentence for people that names the culprit.
     pub message: String,
 }
 
 impl Error {
+    /// An error of this kind with this message.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Self {
             kind,
@@ -62,6 +65,7 @@ impl Error {
         }
     }
 
+    /// An [`ErrorKind::InvalidArgument`] with this message.
     pub fn invalid(message: impl Into<String>) -> Self {
         Self::new(ErrorKind::InvalidArgument, message)
     }
@@ -95,6 +99,7 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// A result whose failure is an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Refuses a NaN or infinite coordinate, naming its place as `what index`.

@@ -6,7 +6,9 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::lanes::{F64x4, Instructions, Work, along64, each3, with_widest};
 use crate::tolerance;
 
+/// A point, vector or direction; points and lengths in the caller's unit.
 pub type Vec3 = Vector3<f64>;
+/// A rotation, or axes as columns.
 pub type Mat3 = Matrix3<f64>;
 
 /// What matrices that are told to be rotations may be off orthonormal by rounding.
@@ -15,11 +17,14 @@ const ROTATION_ROUNDING: f64 = 8.0 * tolerance::EPSILON;
 /// A rigid motion `x -> rotation x + translation`, from a child frame to its parent frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
+    /// The child's axes as columns, in the parent frame.
     pub rotation: Mat3,
+    /// The child's origin in the parent frame, in the caller's unit of length.
     pub translation: Vec3,
 }
 
 impl Pose {
+    /// The pose whose child frame is its parent frame.
     pub fn identity() -> Self {
         Self {
             rotation: Mat3::identity(),
@@ -27,6 +32,7 @@ impl Pose {
         }
     }
 
+    /// A translation without rotation.
     pub fn from_translation(translation: Vec3) -> Self {
         Self {
             rotation: Mat3::identity(),
@@ -85,6 +91,7 @@ impl Pose {
         [q.i, q.j, q.k, q.w].map(|x| x * sign)
     }
 
+    /// The pose as 12 numbers, row-major `[R | t]`: the inverse of [`Pose::from_row_major`].
     pub fn to_row_major(&self) -> [f64; 12] {
         let (r, t) = (&self.rotation, &self.translation);
         [
@@ -103,10 +110,12 @@ impl Pose {
         ]
     }
 
+    /// A point of the child frame, in the parent frame.
     pub fn transform_point(&self, point: &Vec3) -> Vec3 {
         turned(&self.rotation, point) + self.translation
     }
 
+    /// The product self * child: the pose of the child's child in this pose's parent frame.
     pub fn compose(&self, child: &Pose) -> Pose {
         Pose {
             rotation: turned_axes(&self.rotation, &child.rotation),
@@ -144,6 +153,7 @@ impl Pose {
         }
     }
 
+    /// The pose of the parent in the child frame.
     pub fn inverse(&self) -> Pose {
         let rotation = self.rotation.transpose();
         Pose {

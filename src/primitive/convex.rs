@@ -7,7 +7,9 @@ use crate::pose::Vec3;
 /// A face: its vertices in counter-clockwise order around the unit normal. The normal of a solid's face points outwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
+    /// Indices of its corners into the primitive's vertices.
     pub vertices: Vec<u32>,
+    /// The unit normal, in the primitive's frame.
     pub normal: Vec3,
 }
 
@@ -16,8 +18,11 @@ pub struct Face {
 /// radius of that hull, its core, or of a smooth set that stands in the place of its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
+    /// The vertices of the core, in the primitive's frame.
     pub vertices: Vec<Vec3>,
+    /// The two vertices of each edge, by index.
     pub edges: Vec<[u32; 2]>,
+    /// The faces; none for points and segments.
     pub faces: Vec<Face>,
     /// How far a point that belongs to the set may lie from the vertices' hull, or a vertex from the plane of a face that
     /// stands for it, at most: 0 but for polygons that are planar, and hulls that are complete, within a tolerance. Of a

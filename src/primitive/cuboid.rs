@@ -8,9 +8,11 @@ use crate::tolerance;
 /// A polyhedron whose eight vertices are, but for rounding, the corners of a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cuboid {
+    /// The center, in the primitive's frame.
     pub center: Vec3,
     /// The directions of the edges, as columns: a rotation.
     pub axes: Mat3,
+    /// The half extents along the axes.
     pub half: Vec3,
     /// What the vertices and the axes may be off, as a length.
     doubt: f64,

@@ -8,7 +8,9 @@ use crate::pose::{Mat3, Vec3};
 /// vertices, or where there is a smooth set, that one around its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
+    /// The radius around the core, at least 0.
     pub radius: f64,
+    /// The smooth core; `None` where the core is the hull of the vertices.
     pub smooth: Option<Smooth>,
     /// In planar worlds the radius reaches within the plane z = 0 only.
     pub planar: bool,

@@ -11,6 +11,7 @@ use crate::pose::Vec3;
 /// How the vertices of a primitive's core are asked for the one farthest along a direction.
 #[derive(Clone, Debug)]
 pub enum Form {
+    /// A box: the support vertex follows from the signs of the direction along its axes.
     Cuboid(Box<Cuboid>),
     /// Made when first asked.
     Hull(OnceLock<Box<HullForm>>),
@@ -37,6 +38,7 @@ impl Form {
         (shape.vertices.len() > FEW).then(|| Self::Hull(OnceLock::new()))
     }
 
+    /// The box, if this is one.
     pub fn cuboid(&self) -> Option<&Cuboid> {
         match self {
             Self::Cuboid(cuboid) => Some(cuboid),

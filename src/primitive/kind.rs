@@ -5,21 +5,34 @@ use super::{Convex, SmoothKind};
 /// The kinds of primitives: cores of each dimension, those with a radius, and smooth ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PrimitiveKind {
+    /// A single vertex.
     Point,
+    /// Two vertices and the edge between them.
     Segment,
+    /// A flat convex polygon.
     Polygon,
+    /// A solid convex polyhedron.
     Polyhedron,
+    /// A point with a radius.
     Sphere,
+    /// A segment with a radius.
     Capsule,
+    /// A polygon with a radius.
     RoundedPolygon,
+    /// A polyhedron with a radius.
     RoundedPolyhedron,
+    /// A cylinder, possibly with a radius around it.
     Cylinder,
+    /// A cone, possibly with a radius around it.
     Cone,
+    /// An ellipsoid, possibly with a radius around it.
     Ellipsoid,
+    /// A set given by the caller's support function, possibly with a radius around it.
     SupportFunction,
 }
 
 impl Convex {
+    /// The kind of this primitive.
     pub fn kind(&self) -> PrimitiveKind {
         let is_round = self.radius() > 0.0;
         match self.smooth().map(|smooth| &smooth.kind) {

@@ -9,7 +9,9 @@ use crate::pose::Vec3;
 /// origin, and differ by their only vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Primitive<'a> {
+    /// The shape; its own vertices are ignored in favour of `vertices`.
     pub shape: &'a Convex,
+    /// The vertices, in the body's frame.
     pub vertices: &'a [Vec3],
 }
 
@@ -78,15 +80,19 @@ struct Run {
 /// Primitives as they were added: one shape, or points of one shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PrimitiveGroup<'a> {
+    /// One shape and its tag.
     Shape(&'a Convex, u64),
+    /// Points of one shape, which is at the origin; their tags are their indices in the slice.
     Points(&'a Convex, &'a [Vec3]),
 }
 
 impl Primitives {
+    /// The number of primitives.
     pub fn len(&self) -> usize {
         self.len
     }
 
+    /// Whether there is no primitive.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -112,6 +118,7 @@ impl Primitives {
         self.point_shapes.len() < 2
     }
 
+    /// Adds a shape with its tag.
     pub fn push(&mut self, shape: Convex, tag: u64) {
         if self.runs.last().is_none_or(|run| run.point_shape.is_some()) {
             self.begin(self.shapes.len(), None);
@@ -172,6 +179,7 @@ impl Primitives {
         }
     }
 
+    /// The primitive of this index; `None` where there is none.
     pub fn try_get(&self, index: usize) -> Option<Primitive<'_>> {
         (index < self.len).then(|| self.get(index))
     }
@@ -181,6 +189,7 @@ impl Primitives {
         (self.len == 1).then(|| self.get(0))
     }
 
+    /// The tag of a primitive. Panics where there is no such primitive.
     pub fn tag(&self, index: usize) -> u64 {
         let (run, offset) = self.locate(index);
         match run.point_shape {
@@ -189,6 +198,7 @@ impl Primitives {
         }
     }
 
+    /// All primitives in the order of their indices.
     pub fn iter(&self) -> impl Iterator<Item = Primitive<'_>> {
         (0..self.len).map(move |i| self.get(i))
     }

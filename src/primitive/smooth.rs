@@ -9,15 +9,21 @@ use crate::pose::{Mat3, Vec3};
 pub enum SmoothKind {
     /// Around the local z axis, from -half_length to half_length.
     Cylinder {
+        /// The radius of the cylinder.
         radius: f64,
+        /// Half the length along the axis.
         half_length: f64,
     },
     /// Around the local z axis: the base at -height / 2, the apex at height / 2.
     Cone {
+        /// The radius of the base.
         radius: f64,
+        /// The distance from the base to the apex.
         height: f64,
     },
+    /// Around the local origin, along the local axes.
     Ellipsoid {
+        /// The semi-axes along the local axes.
         semi_axes: Vec3,
     },
     /// A function of the caller's, whose frame is the body's.
@@ -27,12 +33,15 @@ pub enum SmoothKind {
 /// A smooth set with the directions of its local axes, as columns, in the frame of its primitive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smooth {
+    /// Which set it is, with its sizes.
     pub kind: SmoothKind,
+    /// The directions of the local axes, as columns.
     pub axes: Mat3,
 }
 
 /// The names of a cylinder's points at its ends, and of a cone's at its apex and at its base.
 pub const HIGH_END: u32 = 1;
+/// The extreme point is on a cylinder's lower end, or on a cone's base.
 pub const LOW_END: u32 = 2;
 
 /// The name of all other points.
