@@ -1,4 +1,4 @@
-//! Whether two sets meet: the same iteration with no more of each simplex than on which side of it the origin is.
+//! Whether two sets meet: GJK that computes only on which side of the simplex the origin lies, not the closest point.
 
 use super::Support;
 use super::simplex::Corner;
@@ -6,11 +6,11 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// Sets that need more steps than this are mostly near to touching.
+/// Sets that need more steps than this are mostly close to touching; the caller then computes their distance.
 const MAX_STEPS: usize = 16;
 
-/// Whether A and B meet, or are proved to be farther apart than `cutoff`; `None` where neither is soon told. No coordinate of A
-/// and B is larger than `size`. `start` is a guess of the direction from B to A, or zero.
+/// `Some(true)` if A and B meet, `Some(false)` if they are farther apart than `cutoff`; `None` if neither is proved within a
+/// few steps. No coordinate of A and B exceeds `size`. `start` is a guess of the direction from B to A, or zero.
 pub fn meeting<A: Support, B: Support>(
     a: &A,
     b: &B,
@@ -18,7 +18,7 @@ pub fn meeting<A: Support, B: Support>(
     size: f64,
     cutoff: f64,
 ) -> Option<bool> {
-    // Directions are products of three lengths, which the sets square: in units of their size they stay in range.
+    // Directions are products of three lengths, and support functions square them: in units of the size they stay in range.
     let unit = power_of_two(size);
     with_widest(Search {
         a,
@@ -41,7 +41,7 @@ struct Search<'a, A, B> {
     b: &'a B,
     start: Vec3,
     inverse_unit: f64,
-    /// In units: the origin is inside a tetrahedron if it is so deep in it.
+    /// The depth, in units, from which the origin counts as inside a tetrahedron.
     depth: f64,
     cutoff: f64,
 }
@@ -66,7 +66,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
             let newest = corner.difference * self.inverse_unit;
             let along = v.dot(&newest);
             if along > 0.0 {
-                // The origin is beyond the newest corner: a proof, or else doubt.
+                // The origin is beyond the newest corner: `v` separates the sets, but maybe by less than the cutoff.
                 let is_apart = along * along > self.cutoff * self.cutoff * square;
                 return is_apart.then_some(false);
             }
@@ -81,7 +81,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
     }
 }
 
-/// Corners of the difference A - B, the newest first, between which the origin is seen.
+/// The simplex: corners of the difference A - B, the newest first.
 #[derive(Clone, Copy)]
 enum Sides {
     Nothing,
@@ -92,9 +92,9 @@ enum Sides {
 }
 
 enum Next {
-    /// The part of the simplex that the origin is beyond, and the direction to it from there.
+    /// The origin is outside: the face of the simplex that it lies beyond, and the direction from that face to the origin.
     Beyond(Sides, Vec3),
-    /// The origin is inside of the three new faces.
+    /// The origin is on the inner side of the three new faces.
     Inside([Vec3; 4]),
 }
 
@@ -107,7 +107,8 @@ impl Sides {
             Self::Segment(b, c) => beyond_triangle(a, b, c),
             Self::Triangle(b, c, d) => {
                 let (ab, ac, ad) = (b - a, c - a, d - a);
-                // Their normals point out of the tetrahedron: the origin was seen from the side that the newest corner is on.
+                // These normals point out of the tetrahedron: the origin and the newest corner are on the same side of the old
+                // triangle.
                 let outside = |normal: Vec3| normal.dot(&a) < 0.0;
                 if outside(ab.cross(&ac)) {
                     beyond_triangle(a, b, c)
@@ -153,9 +154,9 @@ fn beyond_triangle(a: Vec3, b: Vec3, c: Vec3) -> Next {
     }
 }
 
-/// What rounding may make of the triple product of three edges of a tetrahedron whose corners are differences of points with
-/// coordinates up to 2: these are no longer than 7, edges 14, so that the product is within 14 * 14 * 7 * 5 EPSILON. The normal
-/// of a needle says nothing, however deep the origin seems below it.
+/// The rounding error of the triple product of three edges of a tetrahedron whose corners are differences of points with
+/// coordinates up to 2: corners are at most 7 long and edges 14, so the error is within 14 * 14 * 7 * 5 EPSILON. It rejects the
+/// normal of a needle, which is meaningless however deep the origin seems below it.
 const VOLUME_ERROR: f64 = 8192.0 * tolerance::EPSILON;
 
 /// Whether the origin is inside a tetrahedron, farther than `depth` from its faces.

@@ -1,8 +1,8 @@
 //! The distance of two convex sets given by support points, after Gilbert, Johnson and Keerthi (1988), §2.3.4.
 //!
-//! Whatever the iteration does, `lower` comes from a direction whose support was evaluated, so it is safe. Where the bounds have
-//! come together, the corners between which it ended tell the nearest points and their features; elsewhere distances are
-//! finished on features (see `convex`).
+//! `lower` comes from a direction whose support was evaluated, so it is a safe bound even if the iteration fails. Where the
+//! bounds have converged, the last simplex gives the closest points and their features; elsewhere the distance is computed from
+//! features (see `convex`).
 
 mod meeting;
 mod refined;
@@ -16,7 +16,7 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A convex set that can tell its point farthest along a direction.
+/// A convex set given by its support function.
 pub trait Support {
     fn extreme(&self, direction: &Vec3) -> Extreme;
 
@@ -25,15 +25,15 @@ pub trait Support {
     }
 }
 
-/// The point farthest along a direction, and the name by which the set knows it: the number of a vertex, or of a part of a
-/// smooth surface.
+/// The support point along a direction, and its name within the set: the index of a vertex, or the number of a part of a smooth
+/// surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Extreme {
     pub point: Vec3,
     pub name: u32,
 }
 
-/// The hull of points.
+/// The convex hull of points.
 pub struct PointCloud<'a>(pub &'a [Vec3]);
 
 impl Support for PointCloud<'_> {
@@ -42,7 +42,7 @@ impl Support for PointCloud<'_> {
         let (mut best, mut value) = (0, f64::NEG_INFINITY);
         for (i, point) in self.0.iter().enumerate() {
             let here = direction.dot(point);
-            // Two selections, which need not be foreseen as a branch would.
+            // Two conditional moves: no branch to mispredict.
             best = if here > value { i } else { best };
             value = if here > value { here } else { value };
         }
@@ -53,7 +53,7 @@ impl Support for PointCloud<'_> {
     }
 }
 
-/// What the iteration found out about two sets A and B.
+/// The bounds of the distance of two sets A and B.
 #[derive(Clone, Copy, Debug)]
 pub struct Gjk {
     /// The distance is at least this, up to the rounding of one support evaluation.
@@ -62,22 +62,22 @@ pub struct Gjk {
     pub direction: Vec3,
     /// The distance is at most this.
     pub upper: f64,
-    /// The sets overlap at least this deep: a tetrahedron of the difference holds the origin with this margin.
+    /// The sets overlap by at least this depth: a tetrahedron of the difference contains the origin with this margin.
     pub overlap: f64,
     /// A point of both sets, where `overlap` is positive.
     pub common: Vec3,
-    /// A point of A and one of B, where they are near enough.
+    /// A point of A and one of B, where their distance is at most `DistanceLimits::enough`, or where the sets overlap.
     pub near: Option<[Vec3; 2]>,
-    /// The nearest points that were found, and between which corners; none of sets that overlap.
+    /// The closest points found, and the corners they lie between; `None` for sets that overlap.
     pub nearest: Option<NearestCorners>,
 }
 
-/// How well a distance is to be known.
+/// The limits at which a distance computation may stop early.
 #[derive(Clone, Copy, Debug)]
 pub struct DistanceLimits {
-    /// A distance that is known to be no larger is known well enough.
+    /// Stop when the distance is known to be at most this.
     pub enough: f64,
-    /// One that is known to be larger is, too.
+    /// Stop when the distance is known to be larger than this.
     pub cutoff: f64,
 }
 
@@ -87,7 +87,7 @@ impl DistanceLimits {
         cutoff: f64::INFINITY,
     };
 
-    /// The same of sets that are rounded by a radius around those that are asked about.
+    /// The limits for the cores of two sets whose radii sum to `radius`.
     pub fn of_cores(self, radius: f64) -> Self {
         Self {
             enough: self.enough + radius,
@@ -96,8 +96,7 @@ impl DistanceLimits {
     }
 }
 
-/// Bounds the distance of A and B. Stops as soon as it is known as well as is wanted. `start` is a guess of the direction from B
-/// to A, or zero.
+/// Bounds the distance of A and B. Stops as soon as the limits allow. `start` is a guess of the direction from B to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
     with_widest(Search {
         a,
@@ -163,7 +162,8 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
             simplex.push(corner);
             match simplex.reduce() {
                 Nearest::Inside { margin, at } => {
-                    // Where the corners do not combine to the origin, rounding has decided the sides.
+                    // If the corners do not combine to the origin, the tetrahedron is flat and its sides were decided by
+                    // rounding.
                     let off = at.difference.norm();
                     if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
                         (found.overlap, found.upper) = (margin, 0.0);
@@ -181,7 +181,8 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
                     }
                     found.upper = upper;
                     if upper <= limits.enough {
-                        // The foot on a needle of a triangle may be nearer than any point of it.
+                        // On a needle-like triangle, rounding may put the foot nearer to the origin than any point of the
+                        // triangle.
                         let nearest = simplex.combined(&point);
                         if nearest.difference.norm() <= limits.enough {
                             found.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);

@@ -1,7 +1,7 @@
-//! The same iteration carried on until its bounds meet: the distance of sets whose surfaces are no polygons.
+//! GJK iterated until its bounds meet: the distance of sets with smooth surfaces.
 //!
-//! "Apart" needs a proof: a direction whose support points, evaluated on both sides, leave a gap above rounding. Without one
-//! the lower bound is 0, whatever the points that the iteration reached.
+//! The sets count as apart only if the support points along some direction leave a gap above rounding. Otherwise the lower
+//! bound is 0, however far apart the iteration's points are.
 
 use super::simplex::{Corner, CornerNames, Nearest, Simplex};
 use super::{DistanceLimits, Support};
@@ -9,54 +9,54 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// What was found out about the distance of two sets A and B, whatever their surfaces.
+/// The bounds of the distance of two sets A and B with any surfaces.
 #[derive(Clone, Copy, Debug)]
 pub struct RefinedBounds {
-    /// The distance is at least this, up to the rounding of one support evaluation. 0 unless it is above that rounding.
+    /// The distance is at least this, up to the rounding of one support evaluation; 0 if it does not exceed that rounding.
     pub lower: f64,
     /// The unit direction from B to A that proves `lower`; zero if there is none.
     pub direction: Vec3,
     /// The distance is at most this: that of `points`. 0 for sets that overlap.
     pub upper: f64,
-    /// The sets overlap at least this deep: a tetrahedron of the difference holds the origin with this margin.
+    /// The sets overlap by at least this depth: a tetrahedron of the difference contains the origin with this margin.
     pub depth: f64,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
-    /// Between what the points are, where that told their distance.
+    /// The names of the extreme points that the closest points lie between, if `finish` computed these.
     pub names: Option<CornerNames>,
     pub iterations: u32,
 }
 
-/// Points of two sets that are nearest, but for what a caller accepts.
+/// The closest points of two sets, to within the accepted gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearby {
-    /// What a direction proves the distance to be at least, and that unit direction, from B to A.
+    /// A lower bound of the distance, and the unit direction from B to A that proves it.
     pub lower: f64,
     pub direction: Vec3,
     /// A point of A and one of B.
     pub points: [Vec3; 2],
 }
 
-/// More steps than this bring nothing.
+/// At most 400 steps; more do not improve the bounds.
 const MAX_STEPS: u32 = 400;
 
-/// So many steps in a row may bring nothing.
+/// At most 50 steps in a row without progress.
 const MAX_IDLE: u32 = 50;
 
-/// `finish` is first tried when `upper - lower` is at most 0.3 `upper`, and again each time that the quotient has shrunk by the
-/// same factor.
+/// `finish` is first tried when `upper - lower` is at most 0.3 `upper`, and again each time the quotient has shrunk by this
+/// factor.
 const FIRST_FINISH: f64 = 0.3;
 
 /// At most 12 tries of `finish`.
 const MAX_FINISHES: u32 = 12;
 
-/// A search begins anew so often where it got stuck.
+/// A search that is stuck is restarted at most 8 times.
 const MAX_RESTARTS: u32 = 8;
 
-/// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step brings
-/// them nearer, or the distance is known as well as is wanted. No coordinate of A and B is larger than `size`. `start` is a
-/// guess of the direction from B to A. Once the bounds are near one another, `finish` is given that direction and between what
-/// the nearest points are, and may tell them to the same accuracy.
+/// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step improves
+/// them, or `limits` allow to stop. No coordinate of A and B exceeds `size`. `start` is a guess of the direction from B to A.
+/// Once the bounds are close, `finish` gets that direction and the names of the extreme points that the closest points lie
+/// between; it may return the closest points to the same accuracy.
 pub fn refined<A: Support, B: Support>(
     a: &A,
     b: &B,
@@ -84,7 +84,7 @@ pub fn refined<A: Support, B: Support>(
 }
 
 impl RefinedBounds {
-    /// Whether the distance is told by what the corners of a simplex are between.
+    /// Tries `finish` with the names of the simplex's corners, and takes its result. Returns whether there is one.
     fn finish(
         &mut self,
         simplex: &Simplex,
@@ -197,12 +197,12 @@ where
                             found.points = [at.on_a; 2];
                             break;
                         }
-                        // The four lie in a plane, and nothing is inside: on from a point that they do combine to.
+                        // The four corners are coplanar and have no inside: restart from the point that they combine to.
                         Nearest::Inside { at, .. } => {
                             simplex = Simplex::empty();
                             Some((at, at.difference))
                         }
-                        // A point of the difference, whatever rounding did to the foot on a needle of a triangle.
+                        // A point of the difference even where rounding spoilt the foot on a needle-like triangle.
                         Nearest::Outside(point) => Some((simplex.combined(&point), point)),
                     }
                 }
@@ -212,7 +212,7 @@ where
                 if found.lower > rounding && found.finish(&simplex, &direction, &finish) {
                     break;
                 }
-                // Where rounding has spoilt the corners, others are begun with from the best direction known.
+                // Rounding has spoilt the corners: restart from the best direction known.
                 restarts += 1;
                 let is_known = found.direction != Vec3::zeros();
                 if restarts > MAX_RESTARTS || !is_known && is_apart {
@@ -221,13 +221,15 @@ where
                 idle = 0;
                 simplex = Simplex::empty();
                 if !is_known {
-                    // So near that the direction between points is mostly rounding: that of a triangle's normal is not.
+                    // The sets are so near that the direction between the points is mostly rounding; a triangle's normal is
+                    // more accurate.
                     is_apart = true;
                     v = found.points[0] - found.points[1];
                     continue;
                 }
                 let between = (found.points[0] - found.points[1]) / found.upper;
-                // Each time another one, from the nearest points' to the one that proves most, and as far beyond.
+                // Each restart uses another direction: from that between the nearest points to that of the best lower bound,
+                // and as far beyond.
                 let part = f64::from(restarts) / 4.0;
                 v = between + (found.direction - between) * part;
                 continue;

@@ -4,12 +4,12 @@ use super::Extreme;
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A point of a Minkowski difference A - B, and the point of A it came from.
+/// A point of a Minkowski difference A - B, and its point of A.
 #[derive(Clone, Copy)]
 pub struct Corner {
     pub difference: Vec3,
     pub on_a: Vec3,
-    /// What A and B call the points that it is between.
+    /// The names of its points of A and of B.
     pub names: [u32; 2],
 }
 
@@ -30,17 +30,17 @@ impl Corner {
     }
 }
 
-/// The nearest points that were found of two sets, and between which of their points they are.
+/// The closest points found of two sets, and the names of the extreme points they lie between.
 #[derive(Clone, Copy, Debug)]
 pub struct NearestCorners {
     /// A point of A and one of B.
     pub points: [Vec3; 2],
-    /// From B's to A's.
+    /// The vector from B's point to A's.
     pub difference: Vec3,
     pub names: CornerNames,
 }
 
-/// Between which extreme points of two sets the nearest ones are.
+/// The names of the extreme points of two sets that the closest points lie between.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerNames {
     names: [[u32; 3]; 2],
@@ -48,7 +48,7 @@ pub struct CornerNames {
 }
 
 impl CornerNames {
-    /// The points of A, or B: one to three by name, none twice.
+    /// The distinct names on side 0 (A) or 1 (B), and their count, one to three.
     pub fn of(&self, side: usize) -> ([u32; 3], usize) {
         let mut names = self.names[side];
         let mut len = 1;
@@ -69,12 +69,12 @@ pub struct Simplex {
     len: usize,
 }
 
-/// Where the origin stands with respect to a simplex.
+/// Where the origin lies relative to a simplex.
 pub enum Nearest {
-    /// Outside; the closest point.
+    /// Outside, with the closest point of the simplex.
     Outside(Vec3),
-    /// Inside a tetrahedron, at least `margin` from its faces. The corners combine to `at`, which is the origin but for
-    /// rounding: far from it where the tetrahedron is flat, and rounding decided the sides.
+    /// Inside a tetrahedron, at least `margin` from its faces. The corners combine to `at`, which is the origin up to rounding.
+    /// If it is far from the origin, the tetrahedron is flat and rounding decided the sides.
     Inside { margin: f64, at: Corner },
 }
 
@@ -120,14 +120,15 @@ impl Simplex {
         Nearest::Outside(point)
     }
 
-    /// The closest corner that the corners of a set known to be apart from the origin combine to: of four the best three, by
-    /// what is reached and not by sides, which rounding decides where the four are nearly in a plane.
+    /// The closest point to the origin of a simplex known not to contain it, as a combination of its corners. Of four corners
+    /// the best three are chosen by the distance they reach, not by sidedness, which rounding decides where the four are nearly
+    /// coplanar.
     ///
-    /// With it the foot, whose direction is that of the three's normal, and so better known.
+    /// Also returns the foot, whose direction is the triangle's normal and therefore more accurate.
     #[inline(always)]
     pub fn nearest_apart(&mut self) -> (Corner, Vec3) {
         let faces: &[[usize; 3]] = match self.len {
-            // Those with the newest corner first: the nearest point moves to one of them.
+            // Faces with the newest corner first: the closest point moves to one of them.
             4 => &[[0, 3, 1], [0, 2, 3], [1, 3, 2], [0, 1, 2]],
             3 => &[[0, 1, 2]],
             _ => {
@@ -139,7 +140,7 @@ impl Simplex {
         let mut best = None;
         for &[i, j, k] in faces {
             let (foot, kept) = self.on_triangle(i, j, k);
-            // No combination comes nearer than the foot does.
+            // No combination is nearer to the origin than the foot.
             if foot.norm_squared() > (1.0 + 1e-9) * least {
                 continue;
             }
@@ -156,7 +157,7 @@ impl Simplex {
         }
     }
 
-    /// Keeps the corners of a face, and gives the closest corner and the foot on it.
+    /// Reduces the simplex to a face, and returns the combined corner and the foot on the face.
     #[inline(always)]
     fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, ClosestFace)) -> (Corner, Vec3) {
         self.keep(&kept);
@@ -172,7 +173,7 @@ impl Simplex {
         self.len = kept.len;
     }
 
-    /// The closest point of one or two corners.
+    /// The closest point of a simplex of one or two corners.
     #[inline(always)]
     fn on_few(&self) -> (Vec3, ClosestFace) {
         match self.len {
@@ -181,8 +182,8 @@ impl Simplex {
         }
     }
 
-    /// The foot on a segment with what rounding left of it along the segment taken off: little for the point, but not for its
-    /// direction, where the origin is near.
+    /// The foot on a segment without its component along the segment, which is rounding. That component hardly moves the point,
+    /// but turns its direction where the origin is near.
     fn upright(&self, foot: &Vec3) -> Vec3 {
         if self.len != 2 {
             return *foot;
@@ -191,8 +192,8 @@ impl Simplex {
         foot - along * (foot.dot(&along) / along.norm_squared())
     }
 
-    /// The corner that one to three corners combine to at the closest point, which `reduce` gave last: with weights that are
-    /// sure to be none below 0, whatever rounding did to that point.
+    /// The combination of one to three corners at the closest point that `reduce` returned last. The weights are clamped to be
+    /// at least 0, in spite of rounding in that point.
     pub fn combined(&self, point: &Vec3) -> Corner {
         let all = ClosestFace {
             corners: [0, 1, 2],
@@ -201,7 +202,7 @@ impl Simplex {
         self.combined_of(&all, point)
     }
 
-    /// The same with the names of the corners; none where there are no corners, or four.
+    /// The same with the names of the corners; `None` for a simplex of no corners or of four.
     pub fn nearest(&self, point: &Vec3) -> Option<NearestCorners> {
         let names = self.names()?;
         let corner = self.combined(point);
@@ -280,8 +281,8 @@ impl Simplex {
         let square = normal.norm_squared();
         let rounding = (64.0 * tolerance::EPSILON).powi(2);
         let is_needle = square <= rounding * ab.norm_squared() * ac.norm_squared();
-        // Twice the signed areas that the origin's foot spans with each edge, times |normal|.
-        // By the edge, whose error is small where the corners are near one another.
+        // Twice the signed areas that the origin's foot spans with each edge, times |normal|. Computed from the edge vector,
+        // whose error is small where the corners are close.
         let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
         let weights = [weight(b, c), weight(c, a), weight(a, b)];
         if square > 0.0 && weights.iter().all(|weight| *weight > 0.0) {
@@ -290,7 +291,7 @@ impl Simplex {
                 ClosestFace::new([i, j, k]),
             );
         }
-        // The nearest edge is one that the foot is beyond; of a needle, whose normal says nothing, any.
+        // The foot is beyond the nearest edge. For a needle, whose normal is unreliable, all edges are tried.
         let mut best: Option<(Vec3, ClosestFace)> = None;
         for (weight, (from, to)) in weights.iter().zip([(j, k), (k, i), (i, j)]) {
             if *weight > 0.0 && !is_needle {
@@ -307,7 +308,7 @@ impl Simplex {
         best.unwrap_or_else(|| self.on_segment(i, j))
     }
 
-    /// The nearest face, or `Err` with the standing inside.
+    /// The nearest face, or `Err` with [`Nearest::Inside`].
     #[inline(always)]
     fn on_tetrahedron(&self) -> Result<(Vec3, ClosestFace), Nearest> {
         let mut weights = [0.0; 4];
@@ -318,7 +319,7 @@ impl Simplex {
             let normal = (self.at(j) - a).cross(&(self.at(k) - a));
             let towards = normal.dot(&(self.at(opposite) - a));
             let origin = -normal.dot(&a);
-            // A flat tetrahedron has no inside; the origin is then outside of each face.
+            // A flat tetrahedron has no inside: the origin is then outside each face.
             if towards * origin > 0.0 {
                 heights[opposite] = (origin, normal.norm_squared());
                 weights[opposite] = origin / towards;
@@ -339,11 +340,11 @@ impl Simplex {
         })
     }
 
-    /// The standing of an origin that is on the inner side of all four faces, given about what weights the corners combine
-    /// to it with.
+    /// [`Nearest::Inside`] for an origin on the inner side of all four faces, given approximate weights with which the corners
+    /// combine to it.
     ///
-    /// A weight is a quotient of volumes: where the corners are far from one another for their height, its rounding moves the
-    /// point by more than a distance may be off. Newton's steps with the same volumes take that off.
+    /// A weight is a quotient of volumes. Where the corners are far apart compared with the heights, its rounding moves the
+    /// point by more than a distance's error; Newton steps with the same volumes correct it.
     #[inline(never)]
     fn inside(&self, margin: f64, weights: [f64; 4]) -> Nearest {
         let total: f64 = weights.iter().sum();
@@ -374,7 +375,7 @@ impl Simplex {
         Nearest::Inside { margin, at }
     }
 
-    /// The gradients of the four corners' weights.
+    /// The gradients of the four barycentric weights.
     fn inner_normals(&self) -> [Vec3; 4] {
         [(1, 2, 3, 0), (0, 3, 2, 1), (0, 1, 3, 2), (0, 2, 1, 3)].map(|(i, j, k, opposite)| {
             let a = self.at(i);
@@ -395,7 +396,7 @@ impl Simplex {
     }
 }
 
-/// Each step takes off all but the rounding of a quotient of volumes, so that one suffices but for needles.
+/// Each step reduces the error to the rounding of a quotient of volumes, so one suffices except for needles.
 const MAX_WEIGHT_STEPS: usize = 4;
 
 /// The one to three corners whose hull holds the closest point.

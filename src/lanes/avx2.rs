@@ -1,4 +1,4 @@
-//! Eight numbers with AVX2 and FMA. An [`Avx2`] is made only where the processor was found to have both: that makes its
+//! Eight lanes with AVX2 and FMA. An [`Avx2`] is created only after the processor was detected to have both; that makes its
 //! operations safe.
 
 use std::arch::x86_64::*;
@@ -6,13 +6,12 @@ use std::arch::x86_64::*;
 use super::F64x4;
 use super::eight::{Instructions, LANES_OF};
 
-/// AVX2 and FMA.
+/// The proof that the processor has AVX2 and FMA.
 #[derive(Clone, Copy)]
 pub struct Avx2(());
 
 impl Avx2 {
-    /// # Safety
-    /// The processor must have both.
+    /// # Safety The processor must have AVX2 and FMA.
     #[inline(always)]
     pub unsafe fn assumed() -> Self {
         Self(())

@@ -1,17 +1,17 @@
-//! Eight numbers in single precision, for bounds: they say only what is worth a look, so products and sums are fused where
-//! that is cheap, and different instruction sets may give different bits.
+//! Eight lanes in single precision, for bounds. Bounds only prune, so products and sums are fused where that is cheap, and
+//! different instruction sets may give different bits.
 
 use super::F64x4;
 
-/// Numbers of an instruction set.
+/// Eight lanes of an instruction set.
 pub type Lanes8<I> = <I as Instructions>::Numbers;
 
-/// Points or vectors, coordinates apart.
+/// Eight points or vectors, as one register per coordinate.
 pub type Triple<I> = [Lanes8<I>; 3];
 
 /// An instruction set that the processor has.
 pub trait Instructions: Copy {
-    /// Eight numbers.
+    /// Eight lanes of f32.
     type Numbers: Copy;
 
     fn splat(self, value: f32) -> Self::Numbers;
@@ -19,7 +19,7 @@ pub trait Instructions: Copy {
     fn unsigned(self, values: &[u16; 8]) -> Self::Numbers;
     fn whole(self, values: &[i32; 8]) -> Self::Numbers;
     fn load(self, values: &[f32; 8]) -> Self::Numbers;
-    /// Four numbers, then zeros.
+    /// Loads four numbers; the other four lanes are 0.
     fn four(self, values: &[f32; 4]) -> Self::Numbers;
     fn array(self, a: Self::Numbers) -> [f32; 8];
     fn add(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
@@ -30,28 +30,28 @@ pub trait Instructions: Copy {
     fn mul_add(self, a: Self::Numbers, b: Self::Numbers, c: Self::Numbers) -> Self::Numbers;
     fn sqrt(self, a: Self::Numbers) -> Self::Numbers;
     fn abs(self, a: Self::Numbers) -> Self::Numbers;
-    /// Lane by lane the lesser; the second where either is not a number.
+    /// The lane-wise minimum; the second operand where either is NaN.
     fn min(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
-    /// Lane by lane the greater; the second where either is not a number.
+    /// The lane-wise maximum; the second operand where either is NaN.
     fn max(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
-    /// One of each four in the place of all.
+    /// Broadcasts one lane of each four to all four.
     fn spread<const LANE: i32>(self, a: Self::Numbers) -> Self::Numbers;
-    /// Of each four the first three moved around: the second, the third, the first.
+    /// Rotates the first three lanes of each four: second, third, first.
     fn rolled(self, a: Self::Numbers) -> Self::Numbers;
-    /// The last four, then the first four.
+    /// Swaps the two halves: the last four lanes, then the first four.
     fn swapped(self, a: Self::Numbers) -> Self::Numbers;
-    /// Which lanes are at most a limit, as bits.
+    /// The bit mask of the lanes that are at most a limit.
     fn at_most(self, a: Self::Numbers, limit: f32) -> u32;
-    /// Numbers with infinity for the lanes that are not in a set of bits.
+    /// The lanes of a bit mask; infinity in all others.
     fn only(self, a: Self::Numbers, lanes: u32) -> Self::Numbers;
-    /// The values of the lanes in a set of bits, one after the other; what follows them means nothing.
+    /// Compacts the values of the lanes in a bit mask to the front; what follows them is meaningless.
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8];
 
-    /// What rounding took off a product, in double precision. It is exact, and so the same on every instruction set, but
-    /// for numbers near the ends of their range.
+    /// The rounding error of a product in double precision. It is exact, and so the same on every instruction set, except near
+    /// overflow and underflow.
     fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
 
-    /// The least of all lanes.
+    /// The minimum over all lanes.
     #[inline(always)]
     fn least(self, a: Self::Numbers) -> f32 {
         let mut rest = self.array(a);
@@ -72,7 +72,7 @@ pub trait Instructions: Copy {
         self.mul_add(a[2], b[2], self.mul_add(a[1], b[1], first))
     }
 
-    /// The products of many vectors with one.
+    /// The dot products of eight vectors with one.
     #[inline(always)]
     fn along(self, a: &[Self::Numbers; 3], b: &[f32; 3]) -> Self::Numbers {
         let b = [self.splat(b[0]), self.splat(b[1]), self.splat(b[2])];
@@ -81,7 +81,7 @@ pub trait Instructions: Copy {
 
     #[inline(always)]
     fn cross(self, a: &[Self::Numbers; 3], b: &[Self::Numbers; 3]) -> [Self::Numbers; 3] {
-        // Products and differences one by one, as for a single box.
+        // Not fused, so that the result is the same as for a single box.
         [
             self.sub(self.mul(a[1], b[2]), self.mul(a[2], b[1])),
             self.sub(self.mul(a[2], b[0]), self.mul(a[0], b[2])),
@@ -90,7 +90,7 @@ pub trait Instructions: Copy {
     }
 }
 
-/// For each set of lanes, as bits, the lanes in it, and then any others.
+/// For each bit mask, the indices of its lanes in order, then zeros.
 pub(super) const LANES_OF: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut set = 0;

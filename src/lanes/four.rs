@@ -1,6 +1,6 @@
-//! Four numbers in double precision: plain arrays, which the compiler turns into vector instructions.
+//! Four lanes in double precision: plain arrays, which the compiler turns into vector instructions.
 //!
-//! No operation fuses a product and a sum, so that every instruction set gives the same bits.
+//! No operation fuses a product and a sum, so every instruction set gives the same bits.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -44,13 +44,13 @@ impl F64x4 {
         self.map(f64::sqrt)
     }
 
-    /// Lane by lane the lesser; the second where either is not a number.
+    /// The lane-wise minimum; the second operand where either is NaN.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
     }
 
-    /// Lane by lane the greater; the second where either is not a number.
+    /// The lane-wise maximum; the second operand where either is NaN.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })
@@ -62,13 +62,13 @@ impl F64x4 {
         self.zip(divisor, |a, b| if b != 0.0 { a / b } else { 0.0 })
     }
 
-    /// One over it, and 0 where it is 0.
+    /// The reciprocal, and 0 where the number is 0.
     #[inline(always)]
     pub fn inverse(self) -> Self {
         Self::splat(1.0).quotient(self)
     }
 
-    /// The nearest numbers from 0 to 1.
+    /// The numbers clamped to [0, 1].
     #[inline(always)]
     pub fn unit(self) -> Self {
         self.min(Self::splat(1.0)).max(Self::splat(0.0))
@@ -134,7 +134,7 @@ impl Mul<f64> for F64x4 {
     }
 }
 
-/// Points or vectors, coordinates apart.
+/// Four points or vectors, as one [`F64x4`] per coordinate.
 pub type Points64 = [F64x4; 3];
 
 #[inline(always)]

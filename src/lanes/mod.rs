@@ -1,4 +1,4 @@
-//! Several numbers at once, and the choice between instruction sets at run time.
+//! SIMD lanes, and the choice of the instruction set at run time.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -13,15 +13,15 @@ pub use plain::Plain;
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;
 
-/// Work that is compiled for several instruction sets. `run` and all it calls in its loops are to be inlined: closures that
-/// are called from several places may not be.
+/// Code that is compiled once per instruction set. `run` and everything it calls in its loops must be inlined; the compiler may
+/// not inline a closure that is called from several places.
 pub trait Work {
     type Output;
 
     fn run<I: Instructions>(self, instructions: I) -> Self::Output;
 }
 
-/// What this processor has, of the instruction sets that work is compiled for.
+/// The widest instruction set that this processor has and that [`Work`] is compiled for.
 #[cfg(target_arch = "x86_64")]
 mod widest {
     use std::arch::is_x86_feature_detected as has;
@@ -31,7 +31,7 @@ mod widest {
     pub const AVX2: u8 = 2;
     pub const AVX512: u8 = 3;
 
-    /// Found out once: 0 until then.
+    /// Detected once and cached; 0 until then.
     #[inline(always)]
     pub fn get() -> u8 {
         static KNOWN: AtomicU8 = AtomicU8::new(0);
@@ -57,7 +57,7 @@ mod widest {
     }
 }
 
-/// Runs work with the widest instructions this processor has.
+/// Runs work with the widest instruction set of this processor.
 #[inline]
 pub fn with_widest<W: Work>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
@@ -66,14 +66,14 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
         fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }
-        // Twice the registers are what AVX-512 is for here: wider lanes gain nothing.
+        // AVX-512 is used for its twice as many registers; wider lanes gain nothing.
         #[target_feature(
             enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq,avx512bw"
         )]
         fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
             work.run(avx2)
         }
-        // SAFETY: the processor was found to have what either takes.
+        // SAFETY: the processor was detected to have the instructions of the branch taken.
         unsafe {
             match widest::get() {
                 widest::AVX512 => return with_avx512(work, Avx2::assumed()),
@@ -85,7 +85,7 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
     work.run(Plain)
 }
 
-/// Something for each of the three axes. As `array::map`, which is not always inlined.
+/// The values of a function for the three axes. Like `array::map`, which is not always inlined.
 #[inline(always)]
 pub fn each3<T>(f: impl Fn(usize) -> T) -> [T; 3] {
     [f(0), f(1), f(2)]

@@ -1,9 +1,9 @@
-//! Eight numbers as every processor can have them.
+//! Eight lanes without special instructions, for every processor.
 
 use super::F64x4;
 use super::eight::{Instructions, LANES_OF};
 
-/// What every processor has.
+/// The fallback, available on every processor.
 #[derive(Clone, Copy)]
 pub struct Plain;
 
@@ -76,7 +76,7 @@ impl Instructions for Plain {
 
     #[inline(always)]
     fn mul_add(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {
-        // Not fused: without an instruction for it that is a call.
+        // Not fused: without an FMA instruction, `mul_add` is a function call.
         self.add(self.mul(a, b), c)
     }
 
