@@ -1,48 +1,49 @@
 //! Lower bounds of the distance between one oriented box and eight others, in single precision.
 //!
-//! For a unit vector n, two sets are apart by at least |n . (c - c')| less what each reaches from its centre c, c' along n.
-//! The largest such gap along the three axes of one box and of the other is a bound. Refined, the gaps along the axes of a
-//! box are the sides of a box between the sets, whose diagonal bounds the distance; it bounds the gap along its own
-//! direction too, by the sum of what the reaches along the axes make of it, and that gap is measured. Along n = sum of
-//! d_i axis_i the box of these axes reaches sum |d_i| half_i, the other's sum |n . axis_j| half_j.
+//! For a unit vector n, two sets with centres c and c' are at least |n . (c - c')| minus their two extents along n apart. The
+//! largest such gap along the three axes of one box and of the other is the plain bound. Sharper: the positive gaps along the
+//! axes of a box are the sides of a box between the sets, whose diagonal bounds the distance; the gap along the diagonal's
+//! direction is another bound, and is computed too. Along n = sum of d_i axis_i the extent of the box of these axes is sum
+//! |d_i| half_i, that of the other box sum |n . axis_j| half_j.
 //!
-//! Axes: with those of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
-//! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the half sides say what a box reaches, along
-//! others the sum of what the sides do (see `PackedBox`), so each gap holds but for the length of its axis, and a diagonal
-//! but for that of n: either may be too long by the root of 1 + e, for which [`UPRIGHT`] shortens it.
+//! Axes: with the axes of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
+//! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the extent of a box is its half side, along
+//! others the sum above (see `PackedBox`), so each gap is exact except for the length of its axis, and a diagonal except for
+//! the length of n. Either length may be too large by a factor of the root of 1 + e, for which [`UPRIGHT`] corrects.
 //!
-//! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most
-//! the radius of its body, so that the three of a box add up to at most 3 S. Axes and half sides are what the boxes hold
-//! their points by, and centres to within u S; the motion's rotation and translation are within u of what they stand for
-//! in each component. Brought into the other frame, a centre takes three products and three sums at most: with the rounding
-//! of the motion, it is within 8 u S, its difference from another centre within 9 u S in each component, and the projection
-//! of that on an axis within 24 u S. An axis brought over is within 5 u in each component, the third, the cross product of
-//! two such, within 14 u, its product with another within 13 u, that of the third within 28 u, so that the reach of a box is
-//! within 60 u S for those and 7 u S for the sum. A gap is thus within 91 u S, a diagonal within sqrt(3) times that; refined,
-//! within 42 u S for the centre and 95 u S for the reach, less than 150 u S. In all less than 160 u S, for which
-//! [`ROUNDING`] is taken off. A direction given in double precision and turned into a frame is within 6 u of unit length,
-//! its gap within 100 u S by the same count.
+//! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most the
+//! radius of its body, so the three of a box add up to at most 3 S. The boxes contain their points for the stored axes and half
+//! sides, with centres to within u S; each component of the motion's rotation and translation is within u of its exact value. A
+//! centre moved into the other frame takes at most three products and three sums: with the rounding of the motion, it is within
+//! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within 24 u
+//! S. A rotated axis is within 5 u in each component; the third, the cross product of two such, within 14 u; its product with
+//! another axis within 13 u, that of the third within 28 u. So the extent of a box is within 60 u S for these and 7 u S for the
+//! sum. A gap is thus within 91 u S, and a diagonal within sqrt(3) times that. The gap along the diagonal is within 42 u S for
+//! the centre and 95 u S for the extent, less than 150 u S. In all this is less than 160 u S; bounds are lowered by
+//! [`ROUNDING`]. A direction given in double precision and rotated into a frame is within 6 u of unit length, its gap within
+//! 100 u S by the same count.
 //!
-//! The tree over objects compares boxes that were turned in double precision, with the third axis as the cross product there
-//! (`ObjectTree`) or anew in single precision: within 3 u of the one their sides were fitted to, and so 9 u S in all.
+//! The tree over objects compares boxes that were rotated in double precision. Their third axis is the cross product in double
+//! precision (`ObjectTree`) or again in single precision: within 3 u of the axis that their sides were fitted to, so 9 u S in
+//! all.
 
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, each3};
 use crate::pose::{Pose, Vec3};
 
-/// The rounding of a bound, times the pair's size: 256 * 2^-24.
+/// The rounding error of a bound, times the pair's size: 256 * 2^-24.
 pub const ROUNDING: f64 = 1.0 / 65536.0;
 
-/// What is left for certain of a gap along an axis or a diagonal.
+/// The factor by which a gap along an axis or a diagonal is reduced because the axis may be longer than 1.
 pub(super) const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
 
-/// The squares of sides down to this are numbers of full precision.
+/// Squares of lengths down to this are normal numbers.
 const SHORTEST: f32 = 1e-18;
 
 /// A rigid motion from one body's frame to the other's, in units of the pair.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion32 {
-    /// By columns, each twice and with a 0 behind, as lanes take it.
+    /// The columns in lane order: each twice, padded with a 0.
     rotation: [[f32; 8]; 3],
     translation: [f32; 8],
     /// The unit of the body that moves, in units of the pair.
@@ -50,7 +51,7 @@ pub struct Motion32 {
 }
 
 impl Motion32 {
-    /// Of a body whose unit is `unit`, in units of `scale`.
+    /// The motion of a body with unit `unit`, in units of `scale`.
     #[inline(always)]
     pub fn new(pose: &Pose, unit: f64, scale: f64) -> Self {
         let inverse = 1.0 / scale;
@@ -71,7 +72,7 @@ impl Motion32 {
         each3(|k| x[k] * v[0] + y[k] * v[1] + z[k] * v[2])
     }
 
-    /// A box in the other frame, in units of the pair: given in lanes (see `WideNode::in_lanes`).
+    /// A box, given in lanes (see `WideNode::in_lanes`), in the other frame and in units of the pair.
     #[inline(always)]
     pub fn apply<I: Instructions>(&self, lanes: I, [axes, places]: [Lanes8<I>; 2]) -> PackedBox {
         let axes = self.turn_lanes(lanes, axes, lanes.splat(0.0));
@@ -115,17 +116,17 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
     lanes.mul(largest, lanes.splat(UPRIGHT))
 }
 
-/// How bounds are made sharper, and for which boxes that is worth it.
+/// Options of [`sharper_bounds`]: how bounds are sharpened, and for which boxes.
 pub struct BoundRefinement<'a> {
-    /// A unit vector from the eight to the one, along which they may be apart.
+    /// A unit vector from the eight boxes to the one, tried as a separating direction.
     pub direction: Option<&'a [f32; 3]>,
-    /// Boxes that are farther apart than this need not be known better.
+    /// Bounds above this are not sharpened further.
     pub cutoff: f32,
-    /// Which of the eight there are, as bits.
+    /// The bit mask of the lanes that hold boxes.
     pub among: u32,
 }
 
-/// The same, sharper where boxes are apart, if by the first bounds some of them are near enough to matter.
+/// The same lower bounds as `bounds`, sharpened unless the plain ones are all above the cutoff.
 #[inline(always)]
 pub fn sharper_bounds<I: Instructions>(
     lanes: I,
@@ -143,14 +144,14 @@ pub fn sharper_bounds<I: Instructions>(
     if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
         return known;
     }
-    // Where no gap is above 0 the diagonal is 0, and how deep the boxes overlap counts.
+    // Where no gap is above 0, the diagonal is 0 and the bound is the negative gap.
     let zero = lanes.splat(0.0);
     let first = lanes.add(first.along_diagonal(lanes), lanes.min(largest[0], zero));
     let second = lanes.add(second.along_diagonal(lanes), lanes.min(largest[1], zero));
     lanes.max(known, lanes.mul(lanes.max(first, second), upright))
 }
 
-/// What the gaps along the axes of the eight follow from, and those along the axes of the one.
+/// The terms of the gaps along the axes of the eight boxes, and along the axes of the one.
 #[inline(always)]
 fn sides<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> [Gaps<I>; 2] {
     let apart = apart(lanes, eight, one);
@@ -185,15 +186,15 @@ fn sides<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> [
     ]
 }
 
-/// What the gaps along the axes of a box follow from.
+/// The terms of the gaps along the axes of a box.
 struct Gaps<I: Instructions> {
-    /// Where the other box is along the axes.
+    /// The other box's centre, projected on the axes.
     places: Triple<I>,
     half: Triple<I>,
     other_half: Triple<I>,
     /// The products of the axes with those of the other box.
     along: [Triple<I>; 3],
-    /// What both boxes reach along the axes.
+    /// The sum of both boxes' extents along the axes.
     extents: Triple<I>,
 }
 
@@ -230,7 +231,7 @@ impl<I: Instructions> Gaps<I> {
         lanes.max(lanes.max(x, y), z)
     }
 
-    /// The gap along the diagonal of those that are above 0, or less; 0 or less if there is none.
+    /// The larger of the diagonal of the positive gaps and the gap along its direction; at most 0 if no gap is positive.
     #[inline(always)]
     fn along_diagonal(&self, lanes: I) -> Lanes8<I> {
         let mut beyond = self.places;
@@ -253,13 +254,13 @@ impl<I: Instructions> Gaps<I> {
             lanes.dot(&beyond, &[a[2], b[2], c[2]]),
         ];
         let extent = extent_along(lanes, &across, &self.other_half, lanes.splat(0.0));
-        // So short a diagonal may have lost its squares; divided by more, the gap is only less.
+        // The squares of a shorter diagonal may have underflowed; dividing by more only lowers the bound.
         let length = lanes.max(diagonal, lanes.splat(SHORTEST));
         lanes.max(lanes.div(lanes.sub(own, extent), length), diagonal)
     }
 }
 
-/// Lower bounds of the same distances along a unit vector from the eight to the one; negative where they may overlap.
+/// The gaps along a unit vector from the eight to the one: lower bounds of the same distances, negative where they may overlap.
 #[inline(always)]
 fn gaps_along<I: Instructions>(
     lanes: I,
@@ -278,7 +279,7 @@ fn gaps_along<I: Instructions>(
     lanes.sub(place, extent_along(lanes, &along, &eight.half, across))
 }
 
-/// From the centres of the eight to that of the one.
+/// The vectors from the centres of the eight to that of the one.
 #[inline(always)]
 fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Triple<I> {
     let [x, y, z] = splat(lanes, &one.center);
@@ -286,7 +287,7 @@ fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> T
     [lanes.sub(x, a), lanes.sub(y, b), lanes.sub(z, c)]
 }
 
-/// What boxes reach along a direction, given its products with their axes, beyond what is given.
+/// `beyond` plus the extents of boxes along a direction, given its products with their axes.
 #[inline(always)]
 pub(super) fn extent_along<I: Instructions>(
     lanes: I,
@@ -304,7 +305,8 @@ pub(super) fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
     [lanes.splat(v[0]), lanes.splat(v[1]), lanes.splat(v[2])]
 }
 
-/// How far apart two boxes are along a unit vector from the first to the second, at least; negative where they may meet.
+/// The gap of two boxes along a unit vector from the first to the second: a lower bound of their distance, negative where they
+/// may meet.
 #[inline(always)]
 pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
     let direction = &each3(|k| direction[k] as f32);

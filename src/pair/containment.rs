@@ -1,6 +1,6 @@
-//! Which pieces of one body lie wholly inside the other, where that is a solid.
+//! Which pieces of one body lie wholly inside the other, a solid.
 //!
-//! A piece hangs together, so that where it does not meet the boundary it lies inside or outside as any point of it does.
+//! A piece is connected: if it does not meet the boundary, it is inside or outside as any one of its points is.
 
 use std::ops::ControlFlow;
 
@@ -17,17 +17,17 @@ use crate::lanes::{cross3, each3};
 use crate::pose::{Pose, Vec3};
 use crate::work_meter::WorkMeter;
 
-/// A piece that may lie inside a solid.
+/// A piece with a point inside a solid.
 #[derive(Clone, Copy)]
 struct Candidate {
     inner: Inner,
     piece: u32,
-    /// The lowest of the piece, and the lowest of what is around it, in the order of the bodies.
+    /// The lowest primitive of the piece and the lowest of the piece around it, A's first.
     primitives: [u32; 2],
 }
 
 impl<'a> Pairing<'a> {
-    /// Whether one of the bodies is a solid, in which the other could be.
+    /// Whether one of the bodies is a solid, so that the other could be inside.
     #[inline(always)]
     pub fn has_solid(&self) -> bool {
         self.a.solid().is_some() || self.b.solid().is_some()
@@ -43,8 +43,8 @@ impl<'a> Pairing<'a> {
         found
     }
 
-    /// The pieces of either body that lie wholly inside the other, in the order of the primitives that stand for them; as
-    /// hits of the given pair of bodies.
+    /// The pieces of either body that lie wholly inside the other, as hits of the given body pair, in the order of their
+    /// representative primitives.
     pub fn contained(&self, pair: u32, scratch: &mut Scratch) -> Vec<Hit> {
         let mut candidates = Vec::new();
         self.visit_candidates(scratch, |candidate| {
@@ -54,7 +54,7 @@ impl<'a> Pairing<'a> {
         if candidates.is_empty() {
             return Vec::new();
         }
-        // Of those that meet the boundary nothing is known.
+        // Discards the candidates that meet the boundary.
         let mut apart = PairClearance {
             pairing: self,
             candidates,
@@ -65,7 +65,7 @@ impl<'a> Pairing<'a> {
         found
     }
 
-    /// A point of the piece that a hit found inside, in the world, for both bodies.
+    /// A point of the contained piece of a hit, in the world; the same for both bodies.
     pub fn points_inside(&self, inner: Inner, hit: &Hit) -> [Vec3; 2] {
         let primitive = hit.key.primitives[inner as usize];
         let start = self
@@ -87,7 +87,7 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// Shows the pieces a point of which is inside the other body, until the visitor breaks, or the call has done enough.
+    /// Visits the pieces that have a point inside the other body, until the visitor breaks or the meter's limit is exceeded.
     fn visit_candidates(
         &self,
         scratch: &mut Scratch,
@@ -138,7 +138,7 @@ impl<'a> Pairing<'a> {
 }
 
 impl Pairing<'_> {
-    /// The pieces of a body the lowest primitive of which may meet the box of a solid, in their order: others are outside.
+    /// The pieces whose lowest primitive may meet the box of a solid, in order; all others are outside.
     fn pieces_near(
         &self,
         inner: Inner,
@@ -146,7 +146,7 @@ impl Pairing<'_> {
         into_outer: &Pose,
         near: &mut NearPrimitives,
     ) -> Vec<u32> {
-        // So few are looked at one by one.
+        // At most this many pieces are tested without the tree.
         const FEW: usize = 8;
         let body = self.body(inner);
         let all = 0..body.piece_count() as u32;
@@ -157,7 +157,7 @@ impl Pairing<'_> {
         let center = into_inner.transform_point(&extent.center()) / unit;
         let half = 0.5 * extent.size() / unit;
         let size = 1.0 + center.norm() + half.norm();
-        // Beyond this boxes are nothing in single precision.
+        // Beyond this size, boxes lose all meaning in single precision.
         const LARGE: f64 = 1e30;
         if all.len() <= FEW || size > LARGE {
             return all.collect();
@@ -178,7 +178,7 @@ impl Pairing<'_> {
     }
 }
 
-/// The lowest primitive of what of the solid is around the first end of a piece.
+/// The lowest primitive of the solid's piece that winds around the first end of a piece.
 fn around(outer: &Body, piece: &Piece, pose: &Pose, rays: &mut RayScratch) -> Option<u32> {
     let [start, end] = piece.ends.map(|end| pose.transform_point(&end));
     if outer.solid()?.extent().outside(&end) > 0.0 {
@@ -204,7 +204,7 @@ impl Candidate {
     }
 }
 
-/// The candidates that keep apart from the boundary they may lie in.
+/// Visitor that keeps the candidates that do not meet the boundary around them.
 struct PairClearance<'a> {
     pairing: &'a Pairing<'a>,
     candidates: Vec<Candidate>,

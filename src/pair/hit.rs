@@ -1,10 +1,10 @@
-//! What a query remembers of a primitive pair.
+//! A primitive pair found by a query.
 
 use std::cmp::Ordering;
 
 use super::shortlist::Ranked;
 
-/// Names a primitive pair among all the pairs of a query: `pair` is the body pair's rank, in order of ids.
+/// Identifies a primitive pair among all pairs of a query; `pair` is the rank of the body pair, in order of ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct HitKey {
     pub pair: u32,
@@ -27,17 +27,18 @@ impl Inner {
     }
 }
 
-/// A primitive pair with its distance; or a piece of one body wholly inside the other, at distance 0.
+/// A primitive pair with its distance, or a piece of one body wholly inside the other, at distance 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// The distance less the pair's margin, at least 0.
+    /// The distance minus the pair's margin, at least 0.
     pub distance: f64,
     /// The distance itself.
     pub apart: f64,
     pub key: HitKey,
-    /// Where the bodies hold the two primitives; it means nothing for a piece inside.
+    /// The indices of the two primitives in the bodies' packed trees; meaningless for a contained piece.
     pub places: [u32; 2],
-    /// The primitives do not meet: they stand for a piece, and for what of the other body's boundary is around it.
+    /// Set for a contained piece: the primitives then do not meet, but represent the piece and the piece of the other body
+    /// around it.
     pub contained: Option<Inner>,
 }
 
@@ -52,7 +53,8 @@ impl Ranked for Hit {
 }
 
 impl Hit {
-    /// The primitives from which on no pair of a body pair comes before this one, where sets meet; none if it is farther.
+    /// If this hit is at distance 0: the primitives of the body pair `pair` from which on no pair ranks before it. `None` if no
+    /// pair can be ruled out.
     pub fn settles(&self, pair: u32) -> Option<[u32; 2]> {
         if self.distance > 0.0 {
             return None;
@@ -61,7 +63,7 @@ impl Hit {
             Ordering::Less => Some([0, 0]),
             Ordering::Greater => None,
             Ordering::Equal => {
-                // The same primitives come before a piece that they stand for.
+                // A primitive pair ranks before the contained piece that it represents.
                 let [a, b] = self.key.primitives;
                 let next = u32::from(self.contained.is_some());
                 Some([a, b.saturating_add(next)])

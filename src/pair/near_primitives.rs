@@ -5,16 +5,16 @@ use crate::boxes::PackedBox;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::{Instructions, Work, with_widest};
 
-/// Memory of descents, reused from one to the next.
+/// Scratch memory of descents, reused from one to the next.
 #[derive(Default)]
 pub struct NearPrimitives {
     open: Vec<NodeRef>,
     found: Vec<u32>,
-    /// Boxes and primitives that descents came upon since they were last counted.
+    /// Boxes and primitives visited since this was last counted.
     pub seen: Seen,
 }
 
-/// What descents came upon.
+/// The boxes and primitives that descents visited.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
     pub boxes: u64,
@@ -22,7 +22,7 @@ pub struct Seen {
 }
 
 impl NearPrimitives {
-    /// Those whose boxes are within `error` of a box, in their order, each once; all in units of the tree.
+    /// The primitives whose boxes are within `error` of a box, in ascending order, each once; everything in units of the tree.
     pub fn find(&mut self, tree: &PackedTree, one: PackedBox, error: f64) -> &[u32] {
         self.found.clear();
         with_widest(Descent {
@@ -32,7 +32,7 @@ impl NearPrimitives {
             near: &mut *self,
         });
         self.seen.primitives += self.found.len() as u64;
-        // What has several leaves is met more than once.
+        // A primitive with several leaves is found more than once.
         self.found.sort_unstable();
         self.found.dedup();
         &self.found

@@ -1,10 +1,10 @@
-//! The pairs that wait to be visited: a stack, of those found together the nearest on top, and where asked the nearest of
-//! all.
+//! The node pairs that wait to be visited: a stack. Of the pairs pushed together the nearest is on top; on request the nearest
+//! of all is moved there.
 
 use crate::hierarchy::packed::{Children, NodeRef};
 use crate::lanes::{Instructions, Lanes8};
 
-/// A pair of units, with the bound of its distance in units of the pair.
+/// A pair of nodes or leaves, with the lower bound of its distance in units of the pair.
 #[derive(Clone, Copy)]
 pub struct Entry {
     pub bound: f32,
@@ -19,7 +19,7 @@ impl Entry {
     }
 }
 
-/// A stack of pairs.
+/// The stack of node pairs.
 #[derive(Default)]
 pub struct PendingPairs {
     bounds: Vec<f32>,
@@ -59,7 +59,7 @@ impl PendingPairs {
         Some(top)
     }
 
-    /// Puts the nearest of all on top.
+    /// Moves the nearest of all pairs to the top.
     #[inline(always)]
     pub fn raise_nearest<I: Instructions>(&mut self, lanes: I) {
         let Some(top) = self.count.checked_sub(1) else {
@@ -68,7 +68,7 @@ impl PendingPairs {
         if self.count + 8 >= self.bounds.len() {
             self.grow();
         }
-        // Eight at a time, the last ones with what fills them up.
+        // Eight at a time; the last block is padded with infinity.
         self.bounds[self.count..self.count + 8].fill(f32::INFINITY);
         let (eights, _) = self.bounds[..self.count + 7].as_chunks::<8>();
         let mut least = lanes.splat(f32::INFINITY);
@@ -99,8 +99,8 @@ impl PendingPairs {
         }
     }
 
-    /// Takes those of up to eight pairs whose bound is at most the cutoff: the children of a node of body `opened`, each
-    /// with a unit of the other. Several are moved at once, as a loop would end where no processor expects it.
+    /// Pushes those of up to eight pairs whose bound is at most the cutoff: the children of a node of body `opened`, each
+    /// paired with `other`. They are moved together, without a loop whose exit would be mispredicted.
     #[inline(always)]
     pub fn push_nearest_last<I: Instructions>(
         &mut self,

@@ -17,7 +17,7 @@ use crate::primitive::Form;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
-/// Bodies A (the r-side) and B (the s-side), seen from the centre of A.
+/// Bodies A (the r-side) and B (the s-side) in A's centred frame.
 pub struct Pairing<'a> {
     pub a: &'a Body,
     pub b: &'a Body,
@@ -28,37 +28,37 @@ pub struct Pairing<'a> {
     pub precision: Precision,
 }
 
-/// Room for the corners of a polygon.
+/// Buffer for the corners of a polygon.
 pub type MovedOutline = [Points64; MAX_CORNERS / 4];
 
 pub const EMPTY: MovedOutline = [[F64x4([0.0; 4]); 3]; MAX_CORNERS / 4];
 
-/// Memory of the distances of primitives, reused from pair to pair.
+/// Scratch memory of primitive distances, reused from pair to pair.
 #[derive(Default)]
 pub struct PrimitiveScratch {
     pub(super) buffer: PlacedBuffer,
     pub(super) distance: DistanceScratch,
 }
 
-/// How far two primitives are apart, and where.
+/// The distance of two primitives, with what was computed on the way.
 pub struct PairClearance {
     pub distance: f64,
-    /// Known of polygons that do not cross.
+    /// The nearest features, for polygons that do not cross.
     pub nearest: Option<Nearest>,
-    /// Known of others.
+    /// The full result, for other primitives.
     pub measured: Option<PrimitiveDistance>,
-    /// How much more than the pair's error the distance may be above the true one.
+    /// How far the distance may exceed the true one, beyond the pair's error.
     pub doubt: f64,
 }
 
-/// Of two primitives that are farther apart than is asked about.
+/// The result for two primitives that are farther apart than the cutoff.
 pub struct BeyondCutoff {
-    /// Where they are nearest, if that was found.
+    /// Their nearest features, if these were computed.
     pub nearest: Option<Nearest>,
 }
 
 impl PairClearance {
-    /// Of primitives that meet.
+    /// For primitives that meet.
     const NONE: Self = Self {
         distance: 0.0,
         nearest: None,
@@ -95,18 +95,18 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// What a wrapper's bound must be lowered by so that nothing it excludes could have mattered: the rounding of the bound,
-    /// and the error of the distances on both sides of the comparison.
+    /// The slack of a wrapper's bound, so that pruning is safe: the rounding of the bound, and the error of the distances on
+    /// both sides of the comparison.
     pub fn slack(&self) -> f64 {
         tolerance::BOUND_ERROR * self.precision.size + 2.0 * self.precision.error
     }
 
-    /// The places of the only primitives, if both bodies have but one.
+    /// The places of the two primitives, if each body has exactly one.
     pub fn only_places(&self) -> Option<[u32; 2]> {
         Some([self.a.only_place()?, self.b.only_place()?])
     }
 
-    /// Whether both primitives are known by their outlines.
+    /// Whether both primitives are polygons with outlines.
     pub fn are_outlines(&self, places: [u32; 2]) -> bool {
         let sides = [(self.a, places[0]), (self.b, places[1])];
         let corners = sides.map(|(body, place)| {
@@ -116,13 +116,13 @@ impl<'a> Pairing<'a> {
         !self.precision.planar && corners.iter().all(|count| *count > 0)
     }
 
-    /// A safe lower bound of the distance, by the spheres around the bodies.
+    /// A safe lower bound of the distance, from the bodies' bounding spheres.
     pub fn sphere_bound(&self) -> f64 {
         let [a, b] = [self.a, self.b].map(|body| body.packed().whole().ball());
         a.apart(&b, &self.relative) - self.slack()
     }
 
-    /// How far A is beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
+    /// The gap of A beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
     pub fn gap_along(&self, direction: &Vec3) -> f64 {
         let in_a = self.frame.rotation.tr_mul(direction);
         let nearest_a = self.a.farthest(&-in_a).point;
@@ -162,7 +162,7 @@ impl<'a> Pairing<'a> {
         (!self.precision.planar).then(|| moved(&outline, &self.relative, buffer))
     }
 
-    /// The same as `distance` with the outline of B's primitive.
+    /// The same as `distance`, given the outline of B's primitive and a separating direction to try first.
     #[inline(always)]
     pub fn distance_to(
         &self,
@@ -199,8 +199,8 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// The same of primitives of which one at least is no polygon. `direction` may part them, a unit vector from B to A, or is
-    /// zero.
+    /// The same for primitives of which at least one has no outline. `direction`, a unit vector from B to A or zero, is first
+    /// tried as a separating direction.
     pub fn measured_apart(
         &self,
         places: [u32; 2],
@@ -264,7 +264,7 @@ impl<'a> Pairing<'a> {
         measure(&a, &b, &self.precision, limits, &mut scratch.distance)
     }
 
-    /// The closest points of a primitive pair that was hit, in the centred frame of A, and what tells its contacts.
+    /// The closest points of a hit, in A's centred frame, and what its contacts are computed from.
     pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> PrimitiveDistance {
         let found = self
             .closest_outlines(hit.places)
@@ -276,7 +276,7 @@ impl<'a> Pairing<'a> {
         found
     }
 
-    /// The same of polygons that do not cross.
+    /// The same for polygons that do not cross.
     fn closest_outlines(&self, places: [u32; 2]) -> Option<Closest> {
         let mut buffer = EMPTY;
         let (a, b) = (
@@ -308,7 +308,7 @@ impl<'a> Pairing<'a> {
         found.into_iter().map(|c| self.in_world(c)).collect()
     }
 
-    /// The first of these contacts: that at the closest points, if the primitives are apart.
+    /// The first of these contacts: the one at the closest points, if the primitives are apart.
     pub fn first_world_contact(
         &self,
         primitives: [u32; 2],
@@ -327,8 +327,8 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// How deep a primitive pair that meets is in one another, in the world.
-    /// Fails for smooth primitives. It means nothing where the meter says that the call has done enough.
+    /// The penetration of a primitive pair that meets, in the world. Fails for smooth primitives. The result is meaningless if
+    /// the meter's limit is exceeded.
     pub fn world_penetration(
         &self,
         primitives: [u32; 2],
@@ -356,7 +356,7 @@ impl<'a> Pairing<'a> {
         self.place(entries.map(|entry| entry.primitive), forms, buffer)
     }
 
-    /// Both primitives in A's centred frame, with their forms where these are at hand.
+    /// Both primitives in A's centred frame, with their forms if given.
     fn place<'b>(
         &'b self,
         primitives: [u32; 2],

@@ -1,27 +1,27 @@
-//! The first few of many items, by an order.
+//! The first few of many items in an order.
 
 use std::cmp::Ordering;
 
-/// What a shortlist holds. Items that compare equal are the same item, met twice.
+/// An item of a shortlist. Items that compare equal are the same item, found twice.
 pub trait Ranked {
     fn order(&self, other: &Self) -> Ordering;
 }
 
-/// The first `max_count` of the items offered, each once. Its memory grows with the items it keeps, not with those offered.
+/// The first `max_count` of the offered items, each once. Memory grows with the items kept, not with those offered.
 pub struct Shortlist<T> {
-    /// Up to the last cut in order, then as offered.
+    /// Sorted up to the last cut, then in the order of offers.
     items: Vec<T>,
     max_count: usize,
-    /// The number of items that makes the next cut.
+    /// The number of items at which the next cut is due.
     full: usize,
     is_truncated: bool,
 }
 
-/// Items that are kept beyond the first `max_count` until the next cut, at least: a few, so that a search for one or for 16
-/// learns soon how near the last of them is.
+/// At least this many items beyond `max_count` are kept until the next cut. Few, so that a search for 1 or 16 items soon gets
+/// the bound of the last one.
 const MIN_SPARE: usize = 8;
 
-/// Lists shorter than this are cut only if `max_count` is: most lists end before.
+/// With a larger `max_count`, lists shorter than this are not cut: most searches end before.
 const MIN_CUT: usize = 1024;
 
 impl<T: Ranked> Shortlist<T> {
@@ -36,7 +36,7 @@ impl<T: Ranked> Shortlist<T> {
         list
     }
 
-    /// Takes an item. True if that cut the list, so that [`Shortlist::last`] may have changed.
+    /// Adds an item. Returns true if the list was cut, so that [`Shortlist::last`] may have changed.
     pub fn offer(&mut self, item: T) -> bool {
         self.items.push(item);
         let is_full = self.items.len() >= self.full;
@@ -46,12 +46,12 @@ impl<T: Ranked> Shortlist<T> {
         is_full
     }
 
-    /// More than `max_count` items were found.
+    /// Whether more than `max_count` items were found.
     pub fn is_truncated(&self) -> bool {
         self.is_truncated
     }
 
-    /// The item that others must come before to matter; `None` until more than `max_count` were found, or if none is kept.
+    /// The last item kept: only items before it matter. `None` until more than `max_count` were found, or if none is kept.
     pub fn last(&self) -> Option<&T> {
         let last = self.max_count.checked_sub(1)?;
         self.is_truncated.then(|| &self.items[last])
@@ -64,7 +64,7 @@ impl<T: Ranked> Shortlist<T> {
     }
 
     fn cut(&mut self) {
-        // Stable sorts merge what is in order already.
+        // A stable sort merges the part that is already sorted.
         self.items.sort_by(T::order);
         self.items.dedup_by(|a, b| a.order(b).is_eq());
         if self.items.len() > self.max_count {
@@ -74,7 +74,7 @@ impl<T: Ranked> Shortlist<T> {
         self.plan_cut();
     }
 
-    /// The next cut comes when the list has grown by a part of its length, so that an item costs a few comparisons.
+    /// Plans the next cut for when the list has grown by a fraction of its length, so that an item costs a few comparisons.
     fn plan_cut(&mut self) {
         let spare = MIN_SPARE.max(self.max_count / 4);
         let with_spare = self.max_count.saturating_add(spare);

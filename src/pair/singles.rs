@@ -1,4 +1,4 @@
-//! Two bodies of one primitive each: measured without a walk.
+//! Two bodies of one primitive each: measured without a traversal.
 
 use super::hit::{Hit, HitKey};
 use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
@@ -17,7 +17,7 @@ pub struct Singles<'a> {
 }
 
 impl<'a> Singles<'a> {
-    /// Of bodies that have but one each.
+    /// For bodies of exactly one primitive each.
     pub fn new(pairing: &'a Pairing<'a>, scratch: &'a mut PrimitiveScratch) -> Self {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = pairing.placed([0, 0], buffer);
@@ -29,7 +29,7 @@ impl<'a> Singles<'a> {
         }
     }
 
-    /// Whether their distance may be at most `threshold`: doubt counts.
+    /// Whether their distance may be at most `threshold`; doubt counts as within.
     pub fn are_within(&mut self, threshold: f64) -> bool {
         let limits = DistanceLimits {
             enough: threshold,
@@ -47,7 +47,7 @@ impl<'a> Singles<'a> {
             .is_some_and(|(hit, measured)| self.lower(&hit, &measured) <= threshold)
     }
 
-    /// Their distance and what tells it, unless they are known to be farther apart than the limits say.
+    /// Their distance and the full result; `None` if they are proved to be beyond the limits' cutoff.
     pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
         let precision = &self.pairing.precision;
         let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
@@ -69,7 +69,7 @@ impl<'a> Singles<'a> {
         Some((hit, measured))
     }
 
-    /// A safe lower bound of a distance that was measured.
+    /// A safe lower bound of a measured distance.
     pub fn lower(&self, hit: &Hit, measured: &PrimitiveDistance) -> f64 {
         if hit.distance == 0.0 {
             return 0.0;

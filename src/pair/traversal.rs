@@ -1,5 +1,5 @@
-//! The report's multi-use algorithm (Figure 2): one walk down two trees that serves every query; the visitor says what
-//! is worth visiting and when to stop.
+//! The report's multi-use algorithm (Figure 2): one traversal of two trees for every query. The visitor gives the pruning bound
+//! and decides when to stop.
 
 use std::ops::ControlFlow;
 
@@ -17,38 +17,38 @@ use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
 
-/// What a query wants from the walk.
+/// A query, as the traversal sees it: its pruning bound and its action per primitive pair.
 pub trait Visitor {
-    /// Whether sharper bounds are worth their price: where distances are compared with a bound that is about as large.
+    /// Whether to sharpen bounds: it pays where distances are compared with a bound of about their size.
     const REFINES: bool;
 
-    /// Pairs that are farther apart than this are skipped; those at exactly this distance are not.
+    /// Pairs farther apart than this are skipped; pairs at exactly this distance are not.
     fn bound(&self) -> f64;
 
-    /// Distances that are no larger need not be known better.
+    /// Distances up to this need not be computed more accurately.
     fn enough(&self) -> f64 {
         f64::NEG_INFINITY
     }
 
-    /// Pairs of primitives no lower than these cannot matter any more, however near.
+    /// Primitive pairs from this one on cannot change the result, however near they are.
     fn settled_from(&self) -> Option<[u32; 2]> {
         None
     }
 
-    /// Meets a primitive pair. What it takes to look closer is counted by the meter.
+    /// Visits a primitive pair. Further work on it is counted by the meter.
     fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()>;
 }
 
-/// A primitive pair that the walk came upon.
+/// A primitive pair that the traversal visits.
 #[derive(Clone, Copy, Debug)]
 pub struct PrimitivePair<'m> {
     pub primitives: [u32; 2],
-    /// Where the bodies hold the two.
+    /// The indices of the two in the bodies' packed trees.
     pub places: [u32; 2],
     /// Their distance, known to `error`.
     pub apart: f64,
     pub error: f64,
-    /// What else was found out on the way, if it was more.
+    /// The full result of the distance, where it was computed.
     pub measured: Option<&'m PrimitiveDistance>,
 }
 
@@ -67,7 +67,7 @@ impl PrimitivePair<'_> {
     }
 }
 
-/// Memory of the walk, reused from query to query.
+/// Scratch memory of the traversal, reused from query to query.
 pub struct Scratch {
     stack: PendingPairs,
     buffer: MovedOutline,
@@ -87,7 +87,7 @@ impl Default for Scratch {
 }
 
 impl Scratch {
-    /// The work done with this memory, and the limit of a call.
+    /// Counts the work done with this memory, against the limit of a call.
     pub fn meter(&self) -> &WorkMeter {
         &self.state.meter
     }
@@ -96,7 +96,7 @@ impl Scratch {
         &mut self.state.meter
     }
 
-    /// The memory for distances of primitives.
+    /// The scratch memory for primitive distances.
     pub fn for_primitives(&mut self) -> &mut PrimitiveScratch {
         &mut self.state.primitives
     }
@@ -108,7 +108,7 @@ impl Scratch {
         meter.done.primitive_distances += 1;
     }
 
-    /// Counts a pair of primitives whose distance is to be computed, and lends the memory for it.
+    /// Counts a primitive pair whose distance is to be computed, and lends the memory for it.
     pub fn for_one_pair(&mut self) -> Result<&mut PrimitiveScratch> {
         let meter = &mut self.state.meter;
         meter.count_primitives(1);
@@ -117,7 +117,7 @@ impl Scratch {
         Ok(&mut self.state.primitives)
     }
 
-    /// Counts a ray, and what it came upon.
+    /// Counts a ray with the boxes and primitives that it visited.
     pub(super) fn count_rays(&mut self) {
         let seen = std::mem::take(&mut self.rays.near.seen);
         self.state.meter.count_nodes(1 + seen.boxes);
@@ -128,17 +128,17 @@ impl Scratch {
 #[derive(Default)]
 struct State {
     primitives: PrimitiveScratch,
-    /// From B to A where they were last seen nearest, in A's frame: a unit vector, or zero. And how far apart that was.
+    /// The unit direction from B to A, in A's frame, at the nearest pair so far, or zero; and that pair's distance.
     direction: Vec3,
     direction_at: f64,
-    /// The same where the last pair that was measured is nearest, be it near or not.
+    /// The same direction for the pair that was measured last, near or not.
     last_direction: Vec3,
     /// The primitive of B whose outline is in the buffer.
     moved: Option<MovedPlane>,
     meter: WorkMeter,
 }
 
-/// Where a primitive's outline has been moved to, but for its corners.
+/// A transformed outline without its corners, which are in the buffer.
 #[derive(Clone, Copy)]
 struct MovedPlane {
     place: u32,
@@ -147,7 +147,7 @@ struct MovedPlane {
     offset: f64,
 }
 
-/// Shows the visitor the primitives at two places.
+/// Visits the primitives at two places.
 pub fn visit_pair(
     pairing: &Pairing,
     places: [u32; 2],
@@ -158,10 +158,9 @@ pub fn visit_pair(
     with_widest(OneMeeting { meetings, places })
 }
 
-/// Walks both trees from their roots, after the primitives at two places if any are given: nearer children first, and
-/// after each nearer pair from the nearest of all that waits.
-/// Breaks as soon as the visitor does, and where the meter of the scratch memory says that the call has done enough: what the
-/// visitor has seen is then not all, and the meter refuses it.
+/// Traverses both trees from their roots, after visiting the primitives at `first` if given. Descends nearest child first;
+/// whenever a nearer pair was found, it continues with the nearest of all waiting pairs. Breaks as soon as the visitor does, or
+/// when the meter's limit is exceeded: the visitor has then not seen all pairs, and the meter refuses the result.
 pub fn traverse(
     pairing: &Pairing,
     first: Option<[u32; 2]>,
@@ -188,7 +187,7 @@ pub fn traverse(
     })
 }
 
-/// Primitive pairs of two bodies as the visitor meets them.
+/// Shows the visitor primitive pairs of two bodies.
 struct Meetings<'a, V> {
     pairing: &'a Pairing<'a>,
     buffer: &'a mut MovedOutline,
@@ -215,8 +214,8 @@ impl<'a, V: Visitor> Meetings<'a, V> {
         }
     }
 
-    /// Shows the visitor the primitives at two places, if they may matter to it. If the walk is to aim, the direction
-    /// between the nearest so far becomes that to separate others by.
+    /// Visits the primitives at two places, unless they are beyond the bound. With `aims`, the direction between the nearest
+    /// pair so far becomes the separating direction tried on later pairs.
     #[inline(always)]
     fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
@@ -278,7 +277,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
 }
 
 impl<V: Visitor> Meetings<'_, V> {
-    /// The same as `visit` for primitives of which one at least has no outline.
+    /// The same as `visit` for primitives of which at least one has no outline.
     fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
         let limits = DistanceLimits {
             enough: self.visitor.enough(),
@@ -301,7 +300,7 @@ impl<V: Visitor> Meetings<'_, V> {
     }
 }
 
-/// The outline of a primitive of B in A's frame, if it has one; moved already if it was asked for last.
+/// The outline of a primitive of B in A's frame, if it has one. Reuses the buffer if the last call was for the same primitive.
 #[inline(always)]
 fn moved_outline<'b>(
     pairing: &Pairing,
@@ -336,7 +335,7 @@ fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
     across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 
-/// Shows the visitor a pair whose distance is known.
+/// Visits a pair whose distance is known.
 #[inline(always)]
 fn show(
     pairing: &Pairing,
@@ -387,22 +386,23 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     }
 }
 
-/// Bounds are made sharper where what matters is farther apart than this, in units of the pair.
+/// Bounds are sharpened only while the cutoff is above this, in units of the pair.
 const SHARP_FROM: f32 = 1e-4;
 
-/// The two bodies as the walk sees them. Lengths in single precision are in units of `scale`, a power of two next above
-/// the pair's size.
+/// The traversal of two trees. Lengths in single precision are in units of `scale`, the next power of two above the pair's
+/// size.
 struct Walk<'a, V> {
     meetings: Meetings<'a, V>,
     trees: [&'a PackedTree; 2],
-    /// Into A's frame, and into B's.
+    /// From B's frame into A's, and from A's into B's.
     motions: [Motion32; 2],
-    /// What the codes of sizes in B are above those in A.
+    /// Added to the size codes of B to compare them with those of A.
     size_offset: i32,
     inverse_scale: f64,
-    /// In which the bodies were last seen nearest, from A in its frame and from B in its: unit vectors, or zero.
+    /// The direction at the nearest pair so far, as unit vectors or zero: from A to B in A's frame, and from B to A in B's
+    /// frame.
     directions: [[f32; 3]; 2],
-    /// Bounds are lowered by this: those of cores by what is around them, too.
+    /// Bounds are lowered by this. It includes the radii around the cores, which the boxes leave out.
     slack: f64,
     stack: &'a mut PendingPairs,
 }
@@ -450,7 +450,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             if entry.is_of_leaves() {
                 let before = self.meetings.visitor.bound();
                 self.visit_leaves(entry.a, entry.b)?;
-                // What is near a nearer pair need not be nearest: the next way down starts from the best that waits.
+                // The neighbours of a nearer pair need not be the nearest: continue from the best waiting pair.
                 if self.meetings.visitor.bound() < before {
                     self.stack.raise_nearest(lanes);
                 }
@@ -461,7 +461,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         ControlFlow::Continue(())
     }
 
-    /// Bounds above this, in units of the pair, tell that a pair does not matter.
+    /// The pruning cutoff in units of the pair: pairs with larger bounds are skipped.
     #[inline(always)]
     fn cutoff(&self) -> f32 {
         (((self.meetings.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
@@ -475,13 +475,14 @@ impl<'a, V: Visitor> Walk<'a, V> {
             .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
     }
 
-    /// The unit of one of the bodies, in units of the pair.
+    /// The unit of one body's tree, in units of the pair.
     #[inline(always)]
     fn unit(&self, body: usize) -> f32 {
         self.motions[1 - body].factor
     }
 
-    /// Starts with the direction between the centres, unless that of the pair visited first does better.
+    /// Starts with the direction between the centres, unless the direction of the pair visited first separates the root boxes
+    /// better.
     #[inline(always)]
     fn aim_at_centers<I: Instructions>(&mut self, lanes: I) {
         let centers = -self.meetings.pairing.relative.translation;
@@ -505,14 +506,14 @@ impl<'a, V: Visitor> Walk<'a, V> {
         self.meetings.state.direction = centers;
     }
 
-    /// Takes up a new direction.
+    /// Rotates a new direction into both frames.
     #[inline(always)]
     fn turn_direction(&mut self) {
         let direction = each3(|k| self.meetings.state.direction[k] as f32);
         self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
     }
 
-    /// Opens the larger of two units, or the one that is no leaf.
+    /// Opens the larger node of a pair, or the only one that is not a leaf.
     #[inline(always)]
     fn open<I: Instructions>(&mut self, lanes: I, entry: &Entry, cutoff: f32) {
         let Entry { a, b, .. } = *entry;
@@ -535,7 +536,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let children = tree.children(index);
-        // Where boxes that hardly overlap are all that matters, sharper bounds tell no more.
+        // With a cutoff near 0, sharper bounds prune no more.
         let bounds = if V::REFINES && cutoff > SHARP_FROM {
             let is_aimed = self.meetings.state.direction != Vec3::zeros();
             let wanted = BoundRefinement {

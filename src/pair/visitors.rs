@@ -1,4 +1,5 @@
-//! The queries as visitors of the one walk. Each may see several body pairs in turn; `pair` and `margin` say which.
+//! The queries as visitors of the traversal. A visitor may see several body pairs in turn; `pair` and `margin` belong to the
+//! current one.
 
 use std::ops::ControlFlow;
 
@@ -13,7 +14,7 @@ pub fn meets(met: &PrimitivePair) -> bool {
     measured(met, 0.0).0 == 0.0
 }
 
-/// A primitive pair's distance less its margin, and a safe lower bound of it: both 0 when it is not above the error.
+/// A primitive pair's distance minus the margin, and a safe lower bound of it: both 0 when it is not above the error.
 fn measured(met: &PrimitivePair, margin: f64) -> (f64, f64) {
     let clear = met.apart - margin;
     if met.apart > 0.0 && clear > met.error {
@@ -28,15 +29,15 @@ pub struct Nearest {
     pub pair: u32,
     pub margin: f64,
     pub best: Option<Hit>,
-    /// What else was found out about the best.
+    /// The full result of the best pair, where it was computed.
     pub measured: Option<PrimitiveDistance>,
-    /// No primitive pair seen is nearer than this; safe against rounding.
+    /// A lower bound of the distances of all pairs seen; safe against rounding.
     pub lower: f64,
     limit: f64,
 }
 
 impl Nearest {
-    /// Looks for pairs no farther than `limit`.
+    /// A search for pairs no farther than `limit`.
     pub fn up_to(limit: f64) -> Self {
         Self {
             pair: 0,
@@ -53,9 +54,9 @@ impl Nearest {
         self.limit
     }
 
-    /// Takes a hit, of which the distance is no less than `lower`, if none better is known.
+    /// Keeps a hit if it is the best so far. `lower` is a lower bound of its distance.
     pub fn take(&mut self, hit: Hit, lower: f64, measured: Option<&PrimitiveDistance>) {
-        // Every pair counts here, whatever the limit has come to: so the bound does not depend on the order of visits.
+        // Every pair counts here, even beyond the current limit, so that the bound does not depend on the order of visits.
         self.lower = self.lower.min(lower);
         if hit.distance <= self.limit
             && self
@@ -89,11 +90,11 @@ impl Visitor for Nearest {
 }
 
 /// Whether some primitive pair is within a threshold; stops at the first. Sharper bounds (`REFINES`) pay where the threshold is
-/// more than 0.
+/// above 0.
 pub struct Within<const REFINES: bool> {
     pub margin: f64,
     pub threshold: f64,
-    /// The places of the first pair found.
+    /// The places of the pair found.
     pub found: Option<[u32; 2]>,
 }
 
@@ -128,7 +129,7 @@ pub struct Collect {
 }
 
 impl Collect {
-    /// With `counts_doubt` pairs count as within the threshold if their lower bound is, as they do for [`Within`].
+    /// With `counts_doubt`, a pair is within the threshold if its lower bound is, as for [`Within`].
     pub fn new(threshold: f64, max_count: usize, counts_doubt: bool) -> Self {
         Self {
             pair: 0,
@@ -144,10 +145,10 @@ impl Collect {
         self.threshold
     }
 
-    /// Takes a hit that is within the threshold.
+    /// Adds a hit that is within the threshold.
     pub fn take(&mut self, hit: Hit) {
         if self.list.offer(hit) && self.list.is_truncated() {
-            // What is farther than the last kept pair is of no interest any more; if none is kept, nothing is.
+            // Pairs farther than the last one kept do not matter any more; if none is kept, no pair does.
             let last = self.list.last();
             self.threshold = last.map_or(f64::NEG_INFINITY, |last| last.distance);
         }

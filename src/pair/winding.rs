@@ -1,15 +1,14 @@
-//! How often a solid's boundary winds around a point: the faces that a ray from the point goes through, each counted by the
-//! side it comes from.
+//! The winding number of a solid's boundary around a point: the signed count of the faces that a ray from the point crosses.
 //!
-//! Coordinates are rounded to a lattice of 2^-60 of the boundary's largest, and products of their differences are whole
-//! numbers of less than 128 bits: seen along the ray, on which side of an edge the point lies is decided exactly, and
-//! where it lies on one as if it were moved by (e, e^2), e smaller than any number. So each ray goes through the insides of
-//! faces only, and as moving vertices leaves a closed surface closed, the count is that of the lattice's surface, which is
-//! within 2^-59 of the boundary's largest coordinate of the given one.
+//! Coordinates are rounded to a lattice of 2^-60 of the boundary's largest coordinate, so products of their differences are
+//! integers of less than 128 bits. The side of an edge on which the point lies, seen along the ray, is therefore exact; a point
+//! on an edge is treated as moved by (e, e^2) for an infinitesimal e. So each ray crosses only the insides of faces. Moving
+//! vertices leaves a closed surface closed, so the count is that of the lattice's surface, which is within 2^-59 of the
+//! boundary's largest coordinate of the given surface.
 //!
-//! A face over the point is above it by no less than their distance. The height is a mean of the corners' with weights that
-//! are products known to their last bit, so that it is right to 4 EPSILON of the largest coordinate: for points farther
-//! from the boundary than a pair's error the sign is certain.
+//! A face over the point is above it by at least their distance. Its height is a mean of the corners' heights with exact
+//! products as weights, so it is accurate to 4 EPSILON of the largest coordinate: the sign is certain for points farther from
+//! the boundary than a pair's error.
 
 use super::box_bounds::ROUNDING;
 use super::near_primitives::NearPrimitives;
@@ -19,28 +18,28 @@ use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pose::Vec3;
 
-/// The lattice has so many steps to the largest coordinate.
+/// Lattice steps from 0 to the largest coordinate.
 const STEPS: f64 = (1u64 << 60) as f64;
 
-/// How a solid's boundary lies around a point.
+/// The winding of a solid's boundary around a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Winding {
-    /// How often it winds around the point, counter-clockwise seen from outside: 0 for a point outside of the solid.
+    /// The winding number, counter-clockwise seen from outside: 0 for a point outside the solid.
     pub number: i32,
     /// The first of the body's pieces that winds around it.
     pub piece: Option<u32>,
 }
 
-/// Memory of rays, reused from one to the next.
+/// Scratch memory of rays, reused from one to the next.
 #[derive(Default)]
 pub struct RayScratch {
     pub(super) near: NearPrimitives,
-    /// How often each piece that a ray goes through winds around the point.
+    /// The winding number of each piece that the ray crosses.
     counts: Vec<(u32, i32)>,
 }
 
-/// How the boundary of a body winds around a point of the body's own frame; not at all if the body is no solid. Right for
-/// points farther from the boundary than the error of a pair (see `Precision`).
+/// The winding of a body's boundary around a point in the body's frame; 0 if the body is not a solid. Correct for points
+/// farther from the boundary than a pair's error (see `Precision`).
 pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     let Some((solid, ray)) = body
         .solid()
@@ -48,8 +47,8 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     else {
         return Winding::default();
     };
-    // All is within the tree's unit, and the boxes hold the primitives as they are; the lattice moves them by far less than
-    // what is left.
+    // All coordinates are within the tree's unit, and the boxes hold the unrounded primitives; the lattice moves these by far
+    // less than the slack.
     let ray_box = ray.in_units(body.packed().scale());
     let RayScratch { near, counts } = scratch;
     let primitives = near.find(body.packed(), ray_box, 2.0 * ROUNDING);
@@ -79,13 +78,13 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     }
 }
 
-/// A ray along an axis of coordinates.
+/// A ray along a coordinate axis.
 struct Ray {
     from: Vec3,
     axis: usize,
     /// Whether it goes up the axis.
     up: bool,
-    /// To where it leaves the boundary's box.
+    /// The length up to where it leaves the boundary's box.
     length: f64,
     /// Steps of the lattice per unit.
     steps: f64,
@@ -94,7 +93,7 @@ struct Ray {
 }
 
 impl Ray {
-    /// The shortest way out of a solid's box; none for points outside of it.
+    /// The shortest axis-parallel ray out of a solid's box; `None` for points outside the box.
     fn out_of(solid: &Solid, point: &Vec3) -> Option<Self> {
         let extent = solid.extent();
         if extent.outside(point) > 0.0 {
@@ -127,8 +126,8 @@ impl Ray {
         }
     }
 
-    /// How often the ray goes out through what a ring of vertices bounds, less how often in: the ring runs counter-clockwise
-    /// seen from outside.
+    /// How often the ray leaves through the face of a ring of vertices, minus how often it enters; the ring runs
+    /// counter-clockwise seen from outside.
     fn passes(&self, ring: &[Vec3]) -> i32 {
         let first = self.seen(&ring[0]);
         let mut before = self.seen(&ring[1]);
@@ -141,7 +140,7 @@ impl Ray {
         if self.up { count } else { -count }
     }
 
-    /// A vertex from the point: across the ray, then along it.
+    /// A vertex relative to the point, on the lattice: two coordinates across the ray, then the one along it.
     fn seen(&self, vertex: &Vec3) -> [i64; 3] {
         let along = |k: usize| (vertex[k] * self.steps) as i64 - self.start[k];
         let height = along(self.axis);
@@ -153,8 +152,8 @@ impl Ray {
     }
 }
 
-/// Whether the triangle lies over the point and around it: 1 counter-clockwise as the coordinates across the ray have it, -1
-/// clockwise, else 0.
+/// The signed crossing of the ray with a triangle: 1 if it runs counter-clockwise in the coordinates across the ray, -1 if
+/// clockwise, 0 if the ray does not cross it.
 fn pass(corners: [&[i64; 3]; 3]) -> i32 {
     let [a, b, c] = corners;
     let sides = [side(b, c), side(c, a), side(a, b)];
@@ -167,8 +166,8 @@ fn pass(corners: [&[i64; 3]; 3]) -> i32 {
     if above > 0.0 { x } else { 0 }
 }
 
-/// On which side of the line from a to b the point lies, which is moved by (e, e^2): 1 if on the left; and twice the area
-/// between, unmoved.
+/// The side of the line from a to b on which the point, moved by (e, e^2), lies: 1 for left, -1 for right. Also twice the
+/// signed area of the triangle, with the point unmoved.
 fn side(a: &[i64; 3], b: &[i64; 3]) -> (i32, f64) {
     let product = |i: i64, j: i64| i128::from(i) * i128::from(j);
     let area = product(a[0], b[1]) - product(a[1], b[0]);
