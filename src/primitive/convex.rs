@@ -13,9 +13,9 @@ pub struct Face {
     pub normal: Vec3,
 }
 
-/// The convex hull of its vertices as a closed set: a point (one edge from a vertex to itself, no face), a segment (no
-/// face), a flat polygon (one face, seen from both sides) or a solid (four faces or more). What is curved is all within a
-/// radius of that hull, its core, or of a smooth set that stands in the place of its only vertex.
+/// The convex hull of its vertices as a closed set: a point (one edge from a vertex to itself, no face), a segment (no face), a
+/// flat polygon (one two-sided face) or a solid (four faces or more). A curved primitive is the set of all points within a
+/// radius of that hull, its core; or within a radius of a smooth core placed at its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
     /// The vertices of the core, in the primitive's frame.
@@ -24,11 +24,11 @@ pub struct Convex {
     pub edges: Vec<[u32; 2]>,
     /// The faces; none for points and segments.
     pub faces: Vec<Face>,
-    /// How far a point that belongs to the set may lie from the vertices' hull, or a vertex from the plane of a face that
-    /// stands for it, at most: 0 but for polygons that are planar, and hulls that are complete, within a tolerance. Of a
-    /// smooth set, how well its distances are known.
+    /// The representation error, as a length: how far a point of the set may lie outside the vertices' hull, or a vertex off
+    /// the plane of its face. Above 0 only for polygons that are planar, and hulls that are complete, within a tolerance. For a
+    /// smooth set, the error of its distances.
     pub deviation: f64,
-    /// `None` for the hull of the vertices and no more.
+    /// The curved part; `None` if the set is the hull of its vertices.
     pub curve: Option<Box<Curve>>,
 }
 
@@ -38,7 +38,7 @@ impl Convex {
         self.faces.len() > 1
     }
 
-    /// Whether this is a flat polygon and no more.
+    /// Whether this is a flat polygon without a curved part.
     pub fn is_flat(&self) -> bool {
         self.faces.len() == 1 && self.curve.is_none()
     }
@@ -48,12 +48,12 @@ impl Convex {
         self.curve.as_ref().map_or(0.0, |curve| curve.radius)
     }
 
-    /// The smooth core, around the only vertex.
+    /// The smooth core, which is placed at the only vertex.
     pub fn smooth(&self) -> Option<&Smooth> {
         self.curve.as_ref().and_then(|curve| curve.smooth.as_ref())
     }
 
-    /// Points whose hull holds the set: the vertices, unless it is curved.
+    /// Points whose hull contains the set: the vertices, unless it is curved.
     pub fn bounding_points(&self) -> &[Vec3] {
         self.curve.as_ref().map_or(&self.vertices, |c| c.bounds())
     }
@@ -63,7 +63,7 @@ impl Convex {
         self.farthest_of(&self.vertices, direction)
     }
 
-    /// The same where the vertices are elsewhere.
+    /// The same for other positions of the vertices.
     pub(super) fn farthest_of(&self, vertices: &[Vec3], direction: &Vec3) -> Vec3 {
         let Some(curve) = &self.curve else {
             return PointCloud(vertices).support(direction);
@@ -87,7 +87,7 @@ impl Convex {
         self.extent_of(&self.vertices)
     }
 
-    /// The same where the vertices are elsewhere.
+    /// The same for other positions of the vertices.
     pub(super) fn extent_of(&self, vertices: &[Vec3]) -> (Vec3, Vec3) {
         let along = |axis: usize, sign: f64| {
             let mut direction = Vec3::zeros();

@@ -1,11 +1,11 @@
-//! Boxes among polyhedra: found by their vertices, and asked by their axes.
+//! Boxes among polyhedra: detected from their vertices, so that support points follow from their axes.
 
 use super::{Convex, Feature};
 use crate::gjk::{PointCloud, Support};
 use crate::pose::{Mat3, Vec3, turned_back};
 use crate::tolerance;
 
-/// A polyhedron whose eight vertices are, but for rounding, the corners of a box.
+/// A polyhedron whose eight vertices are the corners of a box, up to rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cuboid {
     /// The center, in the primitive's frame.
@@ -14,17 +14,18 @@ pub struct Cuboid {
     pub axes: Mat3,
     /// The half extents along the axes.
     pub half: Vec3,
-    /// What the vertices and the axes may be off, as a length.
+    /// The error of the corners and axes against the vertices, as a length.
     doubt: f64,
-    /// The vertex at each corner: bit k of a corner's number is set where it is high along axis k.
+    /// The vertex at each corner: bit k of a corner's number is set if it is at the high end of axis k.
     corners: [u8; 8],
-    /// The edge along each axis from each corner that is low there.
+    /// The edge along each axis from each corner at its low end.
     edges: [[u8; 8]; 3],
-    /// The face across each axis, low and high.
+    /// The face at the low and at the high end of each axis.
     faces: [[u8; 2]; 3],
 }
 
-/// What a vertex may be off its corner, in the largest coordinate: what turning and moving a box's corners leaves.
+/// The largest offset of a vertex from its corner, relative to the largest coordinate: the rounding of rotating and translating
+/// a box's corners.
 const CORNER_ERROR: f64 = 4.0 * tolerance::EPSILON;
 
 impl Cuboid {
@@ -41,11 +42,11 @@ impl Cuboid {
         if sides.len() != 3 {
             return None;
         }
-        // The longest are known best, and tell the third.
+        // The longest sides are most accurate; the third axis follows from the other two.
         sides.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
         let x = sides[0].try_normalize(0.0)?;
         let y = (sides[1] - x * x.dot(&sides[1])).try_normalize(0.0)?;
-        // Made upright once more: what is left of a small remainder leans.
+        // Orthogonalized once more, because the remainder may be small.
         let y = (y - x * x.dot(&y)).normalize();
         let axes = Mat3::from_columns(&[x, y, x.cross(&y)]);
         let center = shape.vertices.iter().sum::<Vec3>() / 8.0;
@@ -66,7 +67,7 @@ impl Cuboid {
             .fold(0.0, |most, v| v.amax().max(most));
         let is_at_corner = |v: &Vec3| (v.abs() - half).amax() <= CORNER_ERROR * largest;
         let doubt = CORNER_ERROR * largest;
-        // A box that is hardly thicker than what rounding moved its corners by could be any polyhedron.
+        // A box hardly thicker than the rounding of its corners could be any polyhedron.
         let is_thick = half.min() > 16.0 * doubt;
         if !is_thick || corners.contains(&u8::MAX) || !seen.iter().all(is_at_corner) {
             return None;
@@ -104,18 +105,18 @@ impl Cuboid {
         Some(())
     }
 
-    /// A point of the frame as seen from the box.
+    /// A point of the primitive's frame, in the box's frame.
     #[inline(always)]
     pub fn seen(&self, point: &Vec3) -> Vec3 {
         turned_back(&self.axes, &(point - self.center))
     }
 
-    /// The vertex that is farthest along a direction, of those that the box was found by.
+    /// The support vertex along a direction; `vertices` are those that the box was detected from.
     #[inline(always)]
     pub fn farthest(&self, vertices: &[Vec3], direction: &Vec3) -> u32 {
         let along = turned_back(&self.axes, direction);
         let bit = |k: usize| usize::from(along[k] > 0.0) << k;
-        // Where the two ends of an edge are about level, its vertices decide, and not what they are off their corners.
+        // Where the two ends of an edge are about level, the exact vertices decide, not the corners.
         let level = 4.0 * self.doubt * (along.x.abs() + along.y.abs() + along.z.abs());
         let is_clear = |k: usize| along[k].abs() * self.half[k] > level;
         if is_clear(0) & is_clear(1) & is_clear(2) {
@@ -125,7 +126,7 @@ impl Cuboid {
         }
     }
 
-    /// The feature of which the box's nearest point is, to a point outside as seen from the box.
+    /// The feature that holds the box's nearest point to an outside point, given in the box's frame.
     pub fn feature_towards(&self, seen: &Vec3) -> Feature {
         let beyond = |k: usize| seen[k].abs() > self.half[k];
         let high = |k: usize| usize::from(seen[k] > 0.0);
@@ -145,7 +146,7 @@ impl Cuboid {
         }
     }
 
-    /// The least feature that holds vertices, of which there is one at least; `None` where only the inside does.
+    /// The lowest-dimensional feature that holds all given vertices, at least one; `None` if only the interior does.
     pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
         let mut all = [0, 7];
         for vertex in vertices {
@@ -206,7 +207,7 @@ mod tests {
                 assert_eq!(cuboid.feature_towards(&beyond), Feature::vertex(i));
             }
             assert_eq!(cuboid.feature_of(&[0, 1, 2, 3, 4, 5, 6]), None);
-            // Upright to an edge or a face, where rounding decides.
+            // Directions perpendicular to an edge or a face, where rounding decides.
             for along in [shape.vertices[1] - shape.vertices[0], shape.faces[0].normal] {
                 let found = shape.vertices[cuboid.farthest(&shape.vertices, &along) as usize];
                 let heights = shape.vertices.iter().map(|v| along.dot(v));

@@ -1,25 +1,25 @@
-//! What makes a primitive more than the hull of its vertices: a radius, a smooth core, or both.
+//! The curved part of a primitive: a radius, a smooth core, or both.
 
 use super::planar_hull::plane_axes;
 use super::{Convex, Smooth};
 use crate::pose::{Mat3, Vec3};
 
-/// The curved part of a primitive: the set of points within `radius` of its core. The core is the hull of the primitive's
-/// vertices, or where there is a smooth set, that one around its only vertex.
+/// The curved part of a primitive, which is the set of points within `radius` of its core. The core is the hull of the
+/// primitive's vertices, or the smooth set placed at its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// The radius around the core, at least 0.
     pub radius: f64,
     /// The smooth core; `None` where the core is the hull of the vertices.
     pub smooth: Option<Smooth>,
-    /// In planar worlds the radius reaches within the plane z = 0 only.
+    /// In planar worlds the radius extends only within the plane z = 0.
     pub planar: bool,
-    /// Points whose hull holds the set.
+    /// Points whose hull contains the set.
     bounds: Vec<Vec3>,
 }
 
 impl Curve {
-    /// The curve of a core with these vertices.
+    /// The curved part for a core, with its bounding points.
     pub fn new(core: &Convex, radius: f64, smooth: Option<Smooth>, planar: bool) -> Self {
         let mut curve = Self {
             radius,
@@ -31,12 +31,12 @@ impl Curve {
         curve
     }
 
-    /// Points whose hull holds the set: corners of a box around each vertex of the core, or around the smooth set.
+    /// Points whose hull contains the set: corners of a box around each vertex of the core, or around the smooth set.
     pub fn bounds(&self) -> &[Vec3] {
         &self.bounds
     }
 
-    /// Finds the bounding points again when the core has moved.
+    /// Recomputes the bounding points after the core has moved.
     pub(super) fn bound(&mut self, core: &Convex) {
         let origin = core.vertices[0];
         let grown: Vec<Vec3> = match &self.smooth {
@@ -56,7 +56,7 @@ impl Curve {
             None => box_axes(core),
         };
         let axes = axes * self.radius;
-        // Along an edge that is the whole core, the inner corners lie within the hull of the outer ones.
+        // If the core is a segment, the inner corners lie within the hull of the outer ones.
         let is_segment = self.smooth.is_none() && grown.len() == 2;
         let signs = [-1.0, 1.0];
         self.bounds.clear();
@@ -79,7 +79,7 @@ impl Curve {
     }
 }
 
-/// Axes along the core's first edge and upright to its first face.
+/// Axes along the core's first edge and normal to its first face.
 fn box_axes(core: &Convex) -> Mat3 {
     let Some(along) = along_first_edge(core) else {
         return Mat3::identity();
@@ -88,7 +88,7 @@ fn box_axes(core: &Convex) -> Mat3 {
         Some(face) => (face.normal.cross(&along), face.normal),
         None => plane_axes(&along),
     };
-    // An edge may leave its face's plane by rounding.
+    // By rounding, an edge may be off its face's plane.
     let y = (y - along * along.dot(&y)).normalize();
     let z = if along.cross(&y).dot(&z) < 0.0 {
         -1.0

@@ -1,11 +1,11 @@
-//! For each cell of directions the vertices that may be the farthest along one of them: a support in constant time, whatever
-//! the number of vertices, as the report wishes (§2.3.4).
+//! A lookup table from cells of directions to their possible support vertices: a support point in constant time for any number
+//! of vertices, as the report asks (§2.3.4).
 
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// The sphere of directions, cut by the sides of a cube into squares, and these into cells; each with its vertices. There are
-/// from half as many cells as vertices to twice as many, and no more than a few vertices in most.
+/// The sphere of directions, projected on the sides of a cube, and these divided into square cells; each cell lists its
+/// vertices. There are half to twice as many cells as vertices, and most cells list a few vertices.
 #[derive(Clone, Debug)]
 pub struct DirectionCells {
     /// Cells along a side of the cube.
@@ -15,7 +15,7 @@ pub struct DirectionCells {
     vertices: Vec<u32>,
 }
 
-/// The directions of a square on a side of the cube, in cells.
+/// A square of directions on a side of the cube, measured in cells.
 #[derive(Clone, Copy)]
 struct Square {
     face: usize,
@@ -30,8 +30,8 @@ impl DirectionCells {
         Self::with_side(points, side)
     }
 
-    /// The cells of so many along a side of the cube, or of fewer where they would have very many vertices in all: of discs and
-    /// thin prisms, and of points that are one but for rounding.
+    /// The table with `side` cells along a side of the cube, or with fewer if its lists would be very long in total: for discs,
+    /// thin prisms, and points that coincide up to rounding.
     fn with_side(points: &[Vec3], side: usize) -> Self {
         let middle = points.iter().sum::<Vec3>() / points.len() as f64;
         let sorter = Sorter {
@@ -70,7 +70,7 @@ impl DirectionCells {
         made
     }
 
-    /// The point that is farthest along a direction, of those that the cells were made for.
+    /// The support point along a direction; `points` are those that the cells were built from.
     #[inline(always)]
     pub fn farthest(&self, points: &[Vec3], direction: &Vec3) -> u32 {
         let cell = self.cell(direction);
@@ -84,7 +84,7 @@ impl DirectionCells {
         best
     }
 
-    /// The cell of a direction, or one beside it where rounding decides.
+    /// The cell of a direction, or a neighbour where rounding decides.
     #[inline(always)]
     fn cell(&self, direction: &Vec3) -> usize {
         let [x, y, z] = [direction.x, direction.y, direction.z];
@@ -95,7 +95,7 @@ impl DirectionCells {
         } else {
             (4 + usize::from(z < 0.0), z.abs(), x, y)
         };
-        // Of no direction at all the quotient is no number, which is 0 as an integer.
+        // For the zero direction the quotient is NaN, which becomes 0 as an integer.
         let scale = 0.5 * self.side as f64;
         let place = |part: f64| ((part / most + 1.0) * scale) as usize;
         let [u, v] = [u, v].map(|part| place(part).min(self.side - 1));
@@ -107,7 +107,7 @@ impl DirectionCells {
     }
 }
 
-/// The direction to a place on a side of the cube, which goes from -1 to 1 both ways.
+/// The direction to the point (u, v) on a side of the cube; u and v are from -1 to 1.
 fn direction(face: usize, u: f64, v: f64) -> Vec3 {
     let sign = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
     match face / 2 {
@@ -117,25 +117,25 @@ fn direction(face: usize, u: f64, v: f64) -> Vec3 {
     }
 }
 
-/// Cells overlap by this part of a cell, so that rounding may name the one beside.
+/// Cells overlap by this fraction of a cell, so that a neighbour chosen by rounding is right too.
 const OVERLAP: f64 = 1e-6;
 
-/// At most 16 entries per vertex in all cells together, unless there are only six cells, each of which may list all vertices.
+/// At most 16 entries per vertex over all cells, unless there are only six cells, each of which may list all vertices.
 const MAX_PLACES: usize = 16;
 
-/// Points on their way into cells.
+/// The points to be sorted into cells.
 struct Sorter<'a> {
     points: &'a [Vec3],
     middle: Vec3,
-    /// No point is farther from the middle.
+    /// The largest distance of a point from the middle.
     size: f64,
     /// Cells along a side of the cube.
     side: usize,
 }
 
 impl Sorter<'_> {
-    /// Gives each cell of a square those of some points that may be farthest along one of its directions; as long as no more than
-    /// `left` are given in all, else it says no.
+    /// Fills each cell of a square with those candidates that may be the support point along one of its directions. Returns
+    /// false if the entries exceed `left`.
     fn sort_into(
         &self,
         cells: &mut [Vec<u32>],
@@ -172,8 +172,8 @@ impl Sorter<'_> {
         })
     }
 
-    /// Leaves out what another point is farther than along all four corners of a square of directions: it is so along all between
-    /// them, too.
+    /// Drops the candidates that another point exceeds along all four corners of a square of directions: it then does so along
+    /// all directions between them.
     fn undominated(&self, corners: &[Vec3; 4], candidates: &[u32]) -> Vec<u32> {
         let heights = |i: &u32| {
             let offset = self.points[*i as usize] - self.middle;
@@ -181,7 +181,7 @@ impl Sorter<'_> {
         };
         let all: Vec<[f64; 4]> = candidates.iter().map(heights).collect();
         let mean = |h: &[f64; 4]| h[0] + h[1] + h[2] + h[3];
-        // Those farthest along a corner, and along the middle, leave out most of the others.
+        // The support points along the corners and along the middle dominate most others.
         let farthest = |value: &dyn Fn(&[f64; 4]) -> f64| {
             all.iter()
                 .max_by(|a, b| value(a).total_cmp(&value(b)))
@@ -195,7 +195,7 @@ impl Sorter<'_> {
             farthest(&mean),
             farthest(&|h| h.iter().copied().fold(f64::INFINITY, f64::min)),
         ];
-        // Directions to the corners are up to the root of 3 long.
+        // The corner directions are at most sqrt(3) long.
         let rounding = 8.0 * tolerance::EPSILON * self.size;
         let is_beaten = |h: &[f64; 4]| {
             let mut by = best.iter().flatten();
@@ -211,7 +211,7 @@ mod tests {
     use super::*;
     use crate::gjk::{PointCloud, Support};
 
-    /// Points that are one but for rounding, and discs, of which each vertex may be farthest along directions of many cells.
+    /// Points that coincide up to rounding, and discs, of which each vertex may be the support point in many cells.
     #[test]
     fn cells_have_few_vertices() {
         for (count, flat, far) in [(20_000, 0.0, 0.0), (5000, 1e-3, 0.0), (4000, 1.0, 1e20)] {
@@ -250,7 +250,7 @@ mod tests {
             let mut directions: Vec<Vec3> = (0..5000)
                 .map(|_| Vec3::new(random(), random(), random()))
                 .collect();
-            // On the borders of cells, and along the axes.
+            // Directions on the borders of cells, and along the axes.
             for i in 0..64 {
                 let at = |n: i32| f64::from(n) / 4.0 - 1.0;
                 directions.push(Vec3::new(at(i % 9), 1.0, at(i / 9 + 1)));

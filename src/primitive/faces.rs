@@ -8,10 +8,10 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::parry_adapter::triangulate_simple_polygon;
 use crate::pose::Vec3;
 
-/// What became of a face.
+/// How a face is represented.
 #[derive(Debug, PartialEq)]
 pub enum FaceSplit {
-    /// It is a convex polygon as it stands.
+    /// It is a convex polygon already.
     Convex,
     /// It is not convex or not planar; these triangles (indices into the face) cover it.
     Triangles(Vec<[u32; 3]>),
@@ -85,7 +85,7 @@ fn without_repeats(vertices: &[Vec3]) -> Result<FaceSplit> {
         return Ok(FaceSplit::Degenerate);
     }
     let reduced: Vec<Vec3> = kept.iter().map(|&i| vertices[i as usize]).collect();
-    // Nothing repeats any more, so this decides for good.
+    // No vertex repeats any more, so this recurses only once.
     Ok(match split_face(&reduced)? {
         FaceSplit::Degenerate => FaceSplit::Degenerate,
         FaceSplit::Convex => FaceSplit::Triangles(
@@ -140,7 +140,7 @@ mod tests {
         assert_eq!(split_face(&needle).unwrap(), FaceSplit::Degenerate);
     }
 
-    /// Vertices that jump to and fro by less than the tolerance: linear work, and no recursion.
+    /// Vertices that alternate by less than the tolerance: linear work, and no recursion.
     #[test]
     fn a_long_run_of_repeats_is_removed_at_once() {
         let mut face = vec![Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0)];

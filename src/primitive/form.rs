@@ -1,4 +1,4 @@
-//! What a polytope's vertices are asked by: as the corners of a box, in cells of directions, or one after another.
+//! Fast support functions of polytopes: by the corners of a box, or by cells of directions.
 
 use std::sync::OnceLock;
 
@@ -8,16 +8,16 @@ use super::incidence::Incidence;
 use super::{Convex, Feature};
 use crate::pose::Vec3;
 
-/// How the vertices of a primitive's core are asked for the one farthest along a direction.
+/// A data structure for the support vertex of a primitive's core.
 #[derive(Clone, Debug)]
 pub enum Form {
     /// A box: the support vertex follows from the signs of the direction along its axes.
     Cuboid(Box<Cuboid>),
-    /// Made when first asked.
+    /// A table of directions, built on first use.
     Hull(OnceLock<Box<HullForm>>),
 }
 
-/// What a polytope of many vertices is asked by.
+/// The tables of a polytope of many vertices.
 #[derive(Clone, Debug)]
 pub struct HullForm {
     cells: DirectionCells,
@@ -26,11 +26,11 @@ pub struct HullForm {
     middle: Vec3,
 }
 
-/// At most 8 vertices are compared one by one; more get cells.
+/// Up to 8 vertices are compared one by one; with more, cells are built.
 const FEW: usize = 8;
 
 impl Form {
-    /// The form of a primitive's core; `None` for what has no more than a few vertices, and is no box.
+    /// The form of a primitive's core; `None` if it has few vertices and is no box.
     pub fn of(shape: &Convex) -> Option<Self> {
         if let Some(cuboid) = Cuboid::of(shape) {
             return Some(Self::Cuboid(Box::new(cuboid)));
@@ -46,7 +46,7 @@ impl Form {
         }
     }
 
-    /// The vertex that is farthest along a direction; of the shape that the form was made of.
+    /// The support vertex along a direction, in the primitive's frame; `shape` is the one that the form was built from.
     #[inline(always)]
     pub fn farthest(&self, shape: &Convex, direction: &Vec3) -> u32 {
         match self {
@@ -67,7 +67,7 @@ impl Form {
         }
     }
 
-    /// The least feature that holds some vertices.
+    /// The lowest-dimensional feature that holds the given vertices; `None` if only the interior does.
     pub fn feature_of(&self, shape: &Convex, vertices: &[u32]) -> Option<Feature> {
         match self {
             Self::Cuboid(cuboid) => cuboid.feature_of(vertices),
@@ -75,7 +75,7 @@ impl Form {
         }
     }
 
-    /// Bytes of memory, as far as they are taken by now.
+    /// Bytes of memory allocated so far.
     pub fn bytes(&self) -> usize {
         let held = match self {
             Self::Cuboid(_) => size_of::<Cuboid>(),
@@ -102,7 +102,7 @@ impl HullForm {
     }
 }
 
-/// A form follows from the shape.
+/// Forms compare equal: a form follows from its shape, which is compared instead.
 impl PartialEq for Form {
     fn eq(&self, _: &Self) -> bool {
         true

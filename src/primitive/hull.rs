@@ -1,4 +1,4 @@
-//! The convex hull of points: parry's proposal, checked against every point, mended where it lost some.
+//! The convex hull of points: parry's proposal, checked against every point and repaired if it lost some.
 
 use std::collections::HashMap;
 
@@ -8,19 +8,19 @@ use crate::gjk::{DistanceLimits, PointCloud, Support, gjk};
 use crate::parry_adapter::propose_hull;
 use crate::pose::{Mat3, Vec3, rotation_about};
 
-/// A proposed hull and how far it may be trusted.
+/// A proposed hull and its error.
 pub struct CheckedHull {
     /// Indices of the corners into the given points.
     pub vertices: Vec<u32>,
     /// Outward triangles, indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
-    /// How far the farthest given point lies outside the corners' hull, at most.
+    /// An upper bound of the distance by which given points lie outside the corners' hull.
     pub excess: f64,
 }
 
-/// The best of a few proposals: the first whose excess is at most `accepted`, else the one of least excess. A proposal
-/// that lost points is mended by proposing again from its corners and the lost points, then in a turned frame. `None`
-/// when a hull has more than `vertex_limit` corners, or when nothing was proposed.
+/// The best of a few proposals: the first whose excess is at most `accepted`, else the one of least excess. If a proposal lost
+/// points, the next one is made from its corners and the lost points, then in a rotated frame. `None` when a hull has more than
+/// `vertex_limit` corners, or when nothing was proposed.
 pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Option<CheckedHull> {
     let mut best: Option<CheckedHull> = None;
     let (center, stretch) = frame_of(points);
@@ -53,15 +53,15 @@ pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Opti
     best
 }
 
-/// The largest distance of a point from the hull of the corners, and the points farther out than `accepted`. Each point takes
-/// the logarithm of the number of corners.
+/// The largest distance of a point from the hull of the corners, and the points farther out than `accepted`. The time per point
+/// grows with the logarithm of the number of corners.
 pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec<u32>) {
     let hull: Vec<Vec3> = corners.iter().map(|&i| points[i as usize]).collect();
     let mut is_corner = vec![false; points.len()];
     for &i in corners {
         is_corner[i as usize] = true;
     }
-    // So few corners are faster asked one by one.
+    // Up to this many corners, a linear scan is faster than the tree.
     const FEW: usize = 32;
     if hull.len() <= FEW {
         excess_beside(points, &is_corner, &PointCloud(&hull), accepted)
@@ -70,7 +70,7 @@ pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec
     }
 }
 
-/// The same for the points that are no corners, of a hull given by its supports.
+/// The same for the points that are not corners; the hull is given by its support function.
 fn excess_beside(
     points: &[Vec3],
     is_corner: &[bool],
@@ -97,8 +97,8 @@ fn excess_beside(
     (excess, lost)
 }
 
-/// The middle of the points' box, and a linear map that brings their three extents to unit size. Hulls go along with
-/// linear maps; flat and needle-like sets, on which proposals fail, become round ones.
+/// The mean of the points, and a linear map that scales their three extents to unit size. Linear maps preserve hulls; flat and
+/// needle-like sets, on which proposals fail, become round.
 pub fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
     let low = points.iter().fold(points[0], |low, p| low.inf(p));
     let high = points.iter().fold(points[0], |high, p| high.sup(p));
@@ -116,10 +116,10 @@ pub fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
     let first = farthest(&|p| p);
     if let Some(e1) = first.try_normalize(0.0) {
         let second = farthest(&|p| p - e1 * e1.dot(&p));
-        // Below this an extent is rounding; stretching it would only show noise.
+        // An extent below this is rounding; scaling it up would only amplify noise.
         let least = 1e-13 * first.norm();
         let e2 = if second.norm() > least {
-            // Made upright once more: what is left of a thin set's width has an EPSILON of its length in it.
+            // Orthogonalized once more: the width of a thin set carries a rounding error of EPSILON times its length.
             let e2 = second.normalize();
             (e2 - e1 * e1.dot(&e2)).normalize()
         } else {
@@ -142,7 +142,7 @@ pub fn frame_of(points: &[Vec3]) -> (Vec3, Mat3) {
 
 type Proposal = (Vec<u32>, Vec<[u32; 3]>);
 
-/// One proposal of parry's, from the candidates brought to unit size and turned, as indices into `points`.
+/// One proposal of parry's, from the candidates mapped by `map`, as indices into `points`.
 fn propose(points: &[Vec3], candidates: &[u32], center: &Vec3, map: &Mat3) -> Option<Proposal> {
     let moved: Vec<Vec3> = candidates
         .iter()

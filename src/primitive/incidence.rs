@@ -46,7 +46,7 @@ impl Lists {
         let fewest = vertices
             .iter()
             .min_by_key(|vertex| self.of(**vertex).len())?;
-        // Lists rise.
+        // The lists are in ascending order.
         let has = |vertex: &u32, item: &u32| self.of(*vertex).binary_search(item).is_ok();
         let is_common = |item: &&u32| vertices.iter().all(|vertex| has(vertex, item));
         self.of(*fewest).iter().find(is_common).copied()
@@ -67,7 +67,8 @@ impl Incidence {
         }
     }
 
-    /// The least feature that holds some vertices: of two that no edge joins a face. `None` if only the inside does.
+    /// The lowest-dimensional feature that holds the given vertices: for two vertices without a common edge, a face. `None` if
+    /// only the interior does.
     pub fn feature_of(&self, vertices: &[u32]) -> Option<Feature> {
         match vertices {
             [vertex] => return Some(Feature::vertex(*vertex)),

@@ -53,11 +53,11 @@ impl Convex {
         }
     }
 
-    /// How many vertices, edges and faces it has: of what has a radius those of its core, of a smooth set none.
+    /// The numbers of vertices, edges and faces: those of the core for a primitive with a radius, none for a smooth set.
     pub fn feature_counts(&self) -> [usize; 3] {
         match self.smooth() {
             Some(_) => [0; 3],
-            // Of a point, the edge from the vertex to itself does not count.
+            // A point's edge from its vertex to itself does not count.
             None if self.vertices.len() == 1 => [1, 0, 0],
             None => [self.vertices.len(), self.edges.len(), self.faces.len()],
         }

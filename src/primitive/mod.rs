@@ -1,4 +1,4 @@
-//! Primitives: convex polygons, convex hulls of points, round and smooth sets. The leaves of every hierarchy.
+//! Primitives: convex polygons, convex hulls of points, rounded and smooth sets. The leaves of every hierarchy.
 
 mod convex;
 mod cuboid;

@@ -23,7 +23,7 @@ pub fn convex_hull_2d(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     monotone_chain(points, without_near_points(points, tolerance), tolerance)
 }
 
-/// The same among the points of some indices, which need not be distinct if the tolerance is 0.
+/// The same for the points of the given indices, which need not be distinct if the tolerance is 0.
 pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance: f64) -> Vec<u32> {
     let at = |i: u32| points[i as usize];
     distinct.sort_unstable_by(|&i, &j| {
@@ -56,8 +56,7 @@ pub fn monotone_chain(points: &[Vector2<f64>], mut distinct: Vec<u32>, tolerance
     hull
 }
 
-/// The corners of the hull of points, of which there is at least one, in their order; points on its edges are left out. Leaves
-/// the points sorted.
+/// The corners of the hull of at least one point, in order; points on its edges are left out. Sorts the points.
 pub fn outline(points: &mut [Vector2<f64>], corners: &mut Vec<Vector2<f64>>) {
     points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     corners.clear();
@@ -82,9 +81,9 @@ pub fn outline(points: &mut [Vector2<f64>], corners: &mut Vec<Vector2<f64>>) {
     }
 }
 
-/// Indices of points farther than the tolerance from all kept before them.
+/// Indices of the points that are farther than the tolerance from all points kept before them.
 fn without_near_points(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
-    // So few are compared with one another faster than they are hashed.
+    // Up to this many points, comparing all pairs is faster than hashing.
     const FEW: usize = 16;
     if points.len() > FEW {
         return without_near_points_of_many(points, tolerance);
@@ -99,13 +98,13 @@ fn without_near_points(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     kept
 }
 
-/// The same by a grid of cells of the tolerance's size.
+/// The same by a hash grid with cells of the tolerance's size.
 fn without_near_points_of_many(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     let cell = tolerance.max(f64::MIN_POSITIVE);
     let mut grid: HashMap<(i64, i64), Vec<u32>> = HashMap::new();
     let mut kept = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
-        // Saturating: points so far apart that cells run out are distinct anyway.
+        // Saturating is safe: points so far apart that cell numbers overflow are distinct anyway.
         let (x, y) = (
             (point.x / cell).floor() as i64,
             (point.y / cell).floor() as i64,

@@ -1,20 +1,20 @@
-//! A tree over points, for supports of hulls of thousands of vertices: what is asked of all points costs a logarithm each.
+//! A tree over points, for support functions of hulls of thousands of vertices: a query takes logarithmic time.
 
 use crate::gjk::{Extreme, Support};
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
 
-/// So few points are looked at one by one.
+/// Points per leaf, at most; a leaf is scanned linearly.
 const MAX_LEAF: usize = 32;
 
-/// The rounding of a bound, times the largest length in it: three products and as many sums, a few times over.
+/// The rounding error of a bound, times its largest length: a few times three products and three sums.
 const ROUNDING: f64 = 16.0 * EPSILON;
 
-/// Points in a binary tree of slices of balls. A piece of a hull's surface is flat, and so is its slice: seen along its normal
-/// it bounds the piece to second order, where a box or a ball would to first.
+/// Points in a binary tree of slices of balls. A small piece of a hull's surface is flat, and so is its slice: along its normal
+/// the slice bounds the piece to second order, where a box or a ball would only to first.
 pub struct PointTree<'a> {
     points: &'a [Vec3],
-    /// The numbers of the points, those of each node side by side.
+    /// The indices of the points; those of each node are contiguous.
     order: Vec<u32>,
     nodes: Vec<Node>,
 }
@@ -32,7 +32,7 @@ struct Node {
     second: Option<usize>,
 }
 
-/// A point, and how far it is along the direction asked about.
+/// The best point so far, and its projection on the direction of the query.
 #[derive(Clone, Copy)]
 struct Best {
     value: f64,
@@ -42,7 +42,7 @@ struct Best {
 }
 
 impl<'a> PointTree<'a> {
-    /// Takes n log n time. There must be a point.
+    /// Takes n log n time. `points` must not be empty.
     pub fn new(points: &'a [Vec3]) -> Self {
         let mut tree = Self {
             points,
@@ -53,7 +53,7 @@ impl<'a> PointTree<'a> {
         tree
     }
 
-    /// The most that `direction . (p - origin)` is of all points p, and the first point of which it is that.
+    /// The maximum of `direction . (p - origin)` over all points p, and the first point that attains it.
     pub fn farthest(&self, direction: &Vec3, origin: &Vec3) -> (f64, u32) {
         let best = self.best(direction, origin);
         (best.value, best.point)
@@ -95,7 +95,7 @@ impl<'a> PointTree<'a> {
         }
     }
 
-    /// No point of the node is farther along the direction.
+    /// An upper bound of the projection of the node's points on the direction.
     fn bound(&self, index: usize, direction: &Vec3, origin: &Vec3) -> f64 {
         let node = &self.nodes[index];
         let offset = node.center - origin;
@@ -107,7 +107,7 @@ impl<'a> PointTree<'a> {
         direction.dot(&offset) + beyond + ROUNDING * direction.norm() * largest
     }
 
-    /// Makes the node of a run of points, and those below it. Returns its number.
+    /// Builds the subtree of a range of points. Returns the index of its root.
     fn add_node(&mut self, first: usize, end: usize) -> usize {
         let points = self.points;
         let at = |i: &u32| &points[*i as usize];
@@ -158,7 +158,7 @@ impl Support for PointTree<'_> {
     }
 }
 
-/// The normal of a large triangle of the points; an axis where they have none.
+/// The normal of a large triangle of the points; the z axis if they are collinear.
 fn normal_of<'a>(points: impl Iterator<Item = &'a Vec3> + Clone) -> Vec3 {
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {
         let measured = points.clone().map(|p| (measure(p), p));
@@ -185,7 +185,7 @@ mod tests {
         (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     }
 
-    /// On a sphere, all of whose points are corners of their hull, a few leaves are looked at however many there are.
+    /// On a sphere all points are corners of their hull; a query still visits only a few leaves for any number of points.
     #[test]
     fn few_points_are_looked_at() {
         for count in [1000, 10_000, 100_000] {
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// Against all points one by one: the same point bit for bit, and of equal ones the first.
+    /// Against a linear scan: the same point bit for bit, and of equal ones the first.
     #[test]
     fn the_farthest_point_is_that_of_all_points() {
         let mut state = 7;

@@ -6,10 +6,10 @@ use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A polygon from its vertices in cyclic order, either way round. Vertices on a straight edge are kept.
+/// A polygon from its vertices in cyclic order, clockwise or counter-clockwise. Vertices on a straight edge are kept.
 pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
     let normal = check_convex_polygon(vertices)?;
-    // The face is bounded by the strictly convex outline: the direction of a tiny or straight edge says nothing.
+    // The face is bounded by the strictly convex outline, because the direction of a tiny or straight edge is unreliable.
     let mut corners = planar_ring(vertices, &normal, extent_of(vertices)?.tolerance);
     if corners.len() < 3 {
         corners = (0..vertices.len() as u32).collect();
@@ -18,8 +18,7 @@ pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
     Ok(Convex::from_cycle(vertices.to_vec(), corners, normal))
 }
 
-/// The lengths that decide whether a vertex is out of place: the diameter and longest side of the points' box, and the
-/// tolerance that follows.
+/// The size of a set of points: the diameter and longest side of their box, and the tolerance for vertices that follows.
 pub(super) struct Extent {
     pub diameter: f64,
     pub spread: f64,
@@ -64,7 +63,7 @@ fn newell_sum(vertices: &[Vec3]) -> Vec3 {
         .sum()
 }
 
-/// The unit normal of a simple polygon; `None` for an outline whose parts cancel: it crosses itself, or has no area.
+/// The unit normal of a simple polygon; `None` if the area vector cancels: the outline crosses itself or has no area.
 pub(super) fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
     let sum = newell_sum(vertices);
     let (length, width) = length_and_width(vertices);
@@ -73,8 +72,8 @@ pub(super) fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
         .flatten()
 }
 
-/// A normal without its part along the polygon's longest edge. The cross products of a needle leave a tilt of some
-/// EPSILON length / width along the needle, which would lift its far end off its own plane.
+/// A normal without its component along the polygon's longest edge. The cross products of a needle leave a tilt of about
+/// EPSILON length / width along the needle, which would lift its far end off the plane.
 pub(super) fn upright(normal: &Vec3, vertices: &[Vec3]) -> Vec3 {
     let along = (0..vertices.len())
         .map(|i| vertices[(i + 1) % vertices.len()] - vertices[i])
@@ -102,7 +101,7 @@ fn length_and_width(vertices: &[Vec3]) -> (f64, f64) {
     (farthest.norm(), width)
 }
 
-/// The unit normal of a convex planar polygon, or what keeps it from being one.
+/// The unit normal of a convex planar polygon, or the error that says why it is not one.
 pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
     let n = vertices.len();
     if n < 3 {
@@ -141,7 +140,8 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
             format!("the polygon has no area: its width is {width:e}"),
         ));
     }
-    // A convex outline spans at least the triangle of this length and width; one that crosses itself may cancel.
+    // A convex outline has at least the area of the triangle of this length and width; the area of one that crosses itself may
+    // cancel.
     let sum = newell_sum(vertices);
     if sum.norm() < 0.5 * length * width {
         return Err(Error::new(
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(kind(&star), ErrorKind::NotConvex);
     }
 
-    /// A vertex a hair outside a straight edge must not turn the face's boundary.
+    /// A vertex just outside a straight edge must not become a corner of the face.
     #[test]
     fn tiny_edges_do_not_bound_the_face() {
         let points = [

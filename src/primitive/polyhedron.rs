@@ -1,4 +1,4 @@
-//! A convex polyhedron from points: hull, faces, edges; of any dimension from a point to a solid.
+//! A convex polyhedron from points: hull, faces and edges, of any dimension from a point to a solid.
 
 use std::collections::{HashMap, HashSet};
 
@@ -109,7 +109,7 @@ fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
     })
 }
 
-/// Joins the triangles that lie in one plane into one face, starting from the largest, whose planes are best known.
+/// Merges the triangles that lie in one plane into one face, starting from the largest, whose planes are most accurate.
 fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> Vec<Face> {
     let corner = |t: usize, k: usize| vertices[triangles[t][k] as usize];
     let area_vector =
@@ -171,8 +171,8 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
     faces
 }
 
-/// How far a vertex lies from a face it bounds, at most; a vertex that merging left without a face counts with the
-/// tolerance of merging.
+/// The largest distance of a vertex from a face it bounds; if merging left a vertex without a face, the merging tolerance is
+/// added.
 fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
     let mut bounds_a_face = vec![false; vertices.len()];
     let mut deviation = 0.0f64;
@@ -189,7 +189,8 @@ fn deviation_of(vertices: &[Vec3], faces: &[Face], merging: f64) -> f64 {
     deviation
 }
 
-/// A surface is the boundary of its hull when all vertices lie below all faces and the faces' area vectors cancel.
+/// Refuses faces that are not the boundary of the vertices' hull: all vertices must lie below all faces, and the area vectors
+/// must cancel.
 fn check_closed_and_convex(vertices: &[Vec3], faces: &[Face], diameter: f64) -> Result<()> {
     let tree = PointTree::new(vertices);
     let mut sum = Vec3::zeros();

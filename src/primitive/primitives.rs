@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use super::{Convex, PrimitiveKind};
 use crate::pose::Vec3;
 
-/// A primitive: its shape, and where its vertices are. Points of a cloud have the same shape, a point with a radius at the
-/// origin, and differ by their only vertex.
+/// A primitive: its shape and the positions of its vertices. The points of a cloud share one shape, a point at the origin,
+/// possibly with a radius; they differ in their only vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Primitive<'a> {
     /// The shape; its own vertices are ignored in favour of `vertices`.
@@ -25,9 +25,9 @@ impl<'a> From<&'a Convex> for Primitive<'a> {
 }
 
 impl<'a> Primitive<'a> {
-    /// Points whose hull holds the set: the vertices, unless it is curved.
+    /// Points whose hull contains the set: the vertices, unless it is curved.
     pub fn bounding_points(self) -> impl Iterator<Item = Vec3> + use<'a> {
-        // Not 0 only for a point of a cloud, whose shape is at the origin.
+        // Nonzero only for a point of a cloud, whose shape is at the origin.
         let offset = self.vertices[0] - self.shape.vertices[0];
         self.shape.bounding_points().iter().map(move |p| p + offset)
     }
@@ -52,28 +52,28 @@ impl Primitive<'_> {
     }
 }
 
-/// Primitives by index, with their tags. A point takes no more than its coordinates: its tag is its place among the points
-/// that were added with it.
+/// Primitives by index, with their tags. A point is stored as its coordinates only: its tag is its index among the points added
+/// with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Primitives {
     /// In the order of their first primitives; the first run begins at 0.
     runs: Vec<Run>,
     shapes: Vec<Convex>,
-    /// Of the shapes.
+    /// The tags of the shapes.
     tags: Vec<u64>,
     points: Vec<Vec3>,
-    /// What points are, at the origin: a point, maybe with a radius.
+    /// The shapes of points, at the origin: a point, possibly with a radius.
     point_shapes: Vec<Convex>,
     len: usize,
 }
 
-/// Primitives of one sort, one after another.
+/// Consecutive primitives of one sort: shapes, or points of one shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Run {
     first: u32,
-    /// Where its first shape or point is held.
+    /// The index of its first shape or point in `shapes` or `points`.
     place: u32,
-    /// What its points are; `None` for shapes.
+    /// The index in `point_shapes` of its points' shape; `None` for a run of shapes.
     point_shape: Option<u32>,
 }
 
@@ -97,12 +97,12 @@ impl Primitives {
         self.len == 0
     }
 
-    /// Whether all are points, maybe with radii.
+    /// Whether all primitives are points, possibly with radii.
     pub fn are_points(&self) -> bool {
         self.shapes.is_empty() && !self.is_empty()
     }
 
-    /// The centres of all points, in their order; where all primitives are points, by their indices.
+    /// The centres of all points, in order. If all primitives are points, the indices are those of the primitives.
     pub fn points(&self) -> &[Vec3] {
         &self.points
     }
@@ -113,7 +113,7 @@ impl Primitives {
         radii.fold(0.0, f64::max)
     }
 
-    /// Whether no two points differ in their radii.
+    /// Whether all points have the same radius.
     pub fn have_one_radius(&self) -> bool {
         self.point_shapes.len() < 2
     }
@@ -133,7 +133,7 @@ impl Primitives {
         if points.is_empty() {
             return;
         }
-        // Points often come in parcels of one radius.
+        // Points are often added in batches of one radius.
         if self.point_shapes.last() != Some(shape) {
             self.point_shapes.push(shape.clone());
         }
@@ -150,7 +150,7 @@ impl Primitives {
         });
     }
 
-    /// The run of a primitive, and its place in it. Panics where there is no such primitive, as slices do.
+    /// The run of a primitive, and its index within the run. Panics where there is no such primitive, as slices do.
     #[inline]
     fn locate(&self, index: usize) -> (&Run, usize) {
         assert!(
@@ -165,7 +165,7 @@ impl Primitives {
         (run, index - run.first as usize)
     }
 
-    /// A primitive, of which there must be as many; [`Primitives::try_get`] tells.
+    /// The primitive of this index. Panics where there is none; see [`Primitives::try_get`].
     #[inline]
     pub fn get(&self, index: usize) -> Primitive<'_> {
         let (run, offset) = self.locate(index);
@@ -184,7 +184,7 @@ impl Primitives {
         (index < self.len).then(|| self.get(index))
     }
 
-    /// The only one, if there are no others.
+    /// The only primitive, if there is exactly one.
     pub fn only(&self) -> Option<Primitive<'_>> {
         (self.len == 1).then(|| self.get(0))
     }
@@ -203,7 +203,7 @@ impl Primitives {
         (0..self.len).map(move |i| self.get(i))
     }
 
-    /// The shapes that are no points of clouds, with their indices and tags.
+    /// The shapes that are not points of clouds, with their primitive indices and tags.
     pub fn shapes(&self) -> impl Iterator<Item = (u32, &Convex, u64)> {
         let runs = self
             .runs
@@ -227,7 +227,7 @@ impl Primitives {
         end - self.runs[run].first as usize
     }
 
-    /// All primitives in their order, points that were added together as one.
+    /// All primitives in order; points that were added together form one group.
     pub fn groups(&self) -> impl Iterator<Item = PrimitiveGroup<'_>> {
         (0..self.runs.len()).flat_map(move |k| {
             let run = self.runs[k];
@@ -247,7 +247,7 @@ impl Primitives {
         })
     }
 
-    /// Each as a shape of its own, for what needs them side by side.
+    /// All primitives as shapes in one slice; points are copied out of their clouds.
     pub fn as_shapes(&self) -> Cow<'_, [Convex]> {
         if self.points.is_empty() {
             return Cow::Borrowed(&self.shapes);
@@ -256,7 +256,7 @@ impl Primitives {
         Cow::Owned(self.iter().map(own).collect())
     }
 
-    /// The same primitives moved by `-center`, in no more memory than they need.
+    /// The same primitives moved by `-center`, without spare capacity.
     pub fn recentered(&self, center: &Vec3) -> Self {
         let moved = |shape: &Convex| shape.clone().recentered(center);
         Self {
@@ -301,7 +301,7 @@ impl Primitives {
         deviations.fold(0.0, f64::max)
     }
 
-    /// Whether a set is known by a function of the caller's.
+    /// Whether a primitive is given by a support function of the caller's.
     pub fn have_functions(&self) -> bool {
         let is_one = |shape: &Convex| shape.kind() == PrimitiveKind::SupportFunction;
         self.shapes.iter().any(is_one)
@@ -313,7 +313,7 @@ impl Primitives {
     }
 }
 
-/// How far from the origin, by coordinates, the corners of a box around a point are; those around the origin are given.
+/// The largest absolute coordinates of a box around a point, given its corners relative to the point.
 fn farthest_corner(point: &Vec3, corners: &[Vec3]) -> Vec3 {
     let along = |axis: usize| {
         let places = corners

@@ -1,5 +1,5 @@
-//! Ready-made primitives: balls, capsules, boxes, cylinders, cones, ellipsoids, sets by support functions; and a radius
-//! around any other.
+//! Constructors of primitives: balls, capsules, boxes, cylinders, cones, ellipsoids and sets by support functions, and the
+//! rounding of any primitive by a radius.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Mat3, Pose, Vec3};
 use crate::tolerance;
 
-/// All points within `radius` of a primitive; of the plane z = 0 if it is `planar`. A radius of 0 adds nothing.
+/// All points within `radius` of a primitive; with `planar`, those in the plane z = 0. A radius of 0 adds nothing.
 pub fn rounded(mut core: Convex, radius: f64, planar: bool) -> Result<Convex> {
     require_number(radius, "the radius")?;
     if radius < 0.0 {
@@ -42,7 +42,7 @@ pub fn capsule(ends: &[Vec3; 2], radius: f64, planar: bool) -> Result<Convex> {
     rounded(convex_polyhedron(ends)?, radius, planar)
 }
 
-/// The box of these half extents around the origin of a frame, along its axes.
+/// The box of these half extents around the origin of the pose, along its axes.
 pub fn block(pose: &Pose, half_extents: &Vec3) -> Result<Convex> {
     for (axis, &half) in ["x", "y", "z"].iter().zip(half_extents.iter()) {
         require_size(half, &format!("half extent {axis}"))?;
@@ -56,7 +56,7 @@ pub fn block(pose: &Pose, half_extents: &Vec3) -> Result<Convex> {
     convex_polyhedron(&corners)
 }
 
-/// The cylinder around the z axis of a frame, from -half_length to half_length.
+/// The cylinder around the z axis of the pose, from -half_length to half_length.
 pub fn cylinder(pose: &Pose, radius: f64, half_length: f64) -> Result<Convex> {
     require_size(radius, "the radius")?;
     require_size(half_length, "the half length")?;
@@ -67,7 +67,7 @@ pub fn cylinder(pose: &Pose, radius: f64, half_length: f64) -> Result<Convex> {
     smooth(kind, pose.rotation, pose.translation)
 }
 
-/// The cone around the z axis of a frame: its base at -height / 2, its apex at height / 2.
+/// The cone around the z axis of the pose: its base at -height / 2, its apex at height / 2.
 pub fn cone(pose: &Pose, radius: f64, height: f64) -> Result<Convex> {
     require_size(radius, "the radius")?;
     require_size(height, "the height")?;
@@ -75,7 +75,7 @@ pub fn cone(pose: &Pose, radius: f64, height: f64) -> Result<Convex> {
     smooth(kind, pose.rotation, pose.translation)
 }
 
-/// The ellipsoid of these semi-axes around the origin of a frame, along its axes.
+/// The ellipsoid of these semi-axes around the origin of the pose, along its axes.
 pub fn ellipsoid(pose: &Pose, semi_axes: &Vec3) -> Result<Convex> {
     for (axis, &half) in ["x", "y", "z"].iter().zip(semi_axes.iter()) {
         require_size(half, &format!("semi-axis {axis}"))?;
@@ -86,7 +86,7 @@ pub fn ellipsoid(pose: &Pose, semi_axes: &Vec3) -> Result<Convex> {
     smooth(kind, pose.rotation, pose.translation)
 }
 
-/// The bounded convex set that a support function of the caller's describes.
+/// The bounded convex set of a support function of the caller's.
 pub fn support_set(function: Arc<dyn SupportFunction>) -> Result<Convex> {
     let watched = WatchedSupport::new(function)?;
     let middle = watched.middle();

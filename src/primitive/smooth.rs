@@ -4,7 +4,7 @@ use super::support_function::WatchedSupport;
 use crate::gjk::Extreme;
 use crate::pose::{Mat3, Vec3};
 
-/// A smooth set in its local frame, whose origin is a point of it.
+/// A smooth set in its local frame; the local origin is a point of the set.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SmoothKind {
     /// Around the local z axis, from -half_length to half_length.
@@ -26,11 +26,11 @@ pub enum SmoothKind {
         /// The semi-axes along the local axes.
         semi_axes: Vec3,
     },
-    /// A function of the caller's, whose frame is the body's.
+    /// A support function of the caller's, in the body's frame.
     Function(WatchedSupport),
 }
 
-/// A smooth set with the directions of its local axes, as columns, in the frame of its primitive.
+/// A smooth set with its orientation in the primitive's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smooth {
     /// Which set it is, with its sizes.
@@ -39,9 +39,9 @@ pub struct Smooth {
     pub axes: Mat3,
 }
 
-/// The names of a cylinder's points at its ends, and of a cone's at its apex and at its base.
+/// The name of an extreme point on a cylinder's upper end, or at a cone's apex.
 pub const HIGH_END: u32 = 1;
-/// The extreme point is on a cylinder's lower end, or on a cone's base.
+/// The name of an extreme point on a cylinder's lower end, or on a cone's base.
 pub const LOW_END: u32 = 2;
 
 /// The name of all other points.
@@ -53,7 +53,7 @@ impl SmoothKind {
         self.extreme(direction).point
     }
 
-    /// The same with the name of the end that it is on.
+    /// The same with the name of the end that the point is on.
     #[inline(always)]
     pub fn extreme(&self, direction: &Vec3) -> Extreme {
         let along = direction.z;
@@ -107,7 +107,7 @@ impl SmoothKind {
         }
     }
 
-    /// Points whose hull holds the set, in the local frame.
+    /// Points whose hull contains the set, in the local frame.
     pub fn bounding_points(&self) -> Vec<Vec3> {
         match self {
             Self::Cylinder {

@@ -1,4 +1,4 @@
-//! Convex sets by support functions of the caller: checked when they are given, watched when they are asked.
+//! Convex sets by support functions of the caller: checked at construction, and guarded at every evaluation.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,32 +7,32 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Vec3;
 use crate::tolerance;
 
-/// A bounded convex set that names its point farthest along a direction. It must be pure; threads may ask it at once.
+/// A bounded convex set given by its support function. It must be pure, and may be called by several threads at once.
 pub trait SupportFunction: Send + Sync {
     /// A point of the set that is farthest along the unit vector `direction`, both in the caller's frame.
     fn support(&self, direction: &Vec3) -> Result<Vec3>;
 }
 
-/// A support function whose answers are kept in the box that they spanned when it was given.
+/// A support function whose results are clamped to the box that they spanned at construction.
 ///
-/// A query cannot end with an error of the set's: where the function fails then, or answers with what is not finite, the
-/// box's corner stands for the answer. So the set counts as larger than it is, and what is called free is free.
+/// A query cannot return an error of the set's: if the function fails during a query, or returns a point that is not finite,
+/// the box's corner is used instead. The set then counts as larger than it is, so that free stays a safe answer.
 #[derive(Clone)]
 pub struct WatchedSupport {
     function: Arc<dyn SupportFunction>,
     low: Vec3,
     high: Vec3,
-    /// A point of the set, from which answers are measured.
+    /// A point of the set, to which `support` is relative.
     middle: Vec3,
 }
 
-/// So many directions over the sphere are tried.
+/// Directions over the sphere that are tried at construction, besides the axes.
 const DIRECTIONS: usize = 300;
 
 impl WatchedSupport {
-    /// Asks the function along the axes and many other directions. Fails where it fails, where an answer is not finite, and
-    /// where two answers show that it is the support function of no set: one reaches less far along its own direction than
-    /// the other does.
+    /// Evaluates the function along the axes and many other directions. Fails if the function fails, if a result is not finite,
+    /// or if two results prove that it is no support function: the point for one direction is less far along it than the point
+    /// for another.
     pub fn new(function: Arc<dyn SupportFunction>) -> Result<Self> {
         let directions = sample_directions();
         let mut points = Vec::with_capacity(directions.len());
@@ -70,17 +70,17 @@ impl WatchedSupport {
         })
     }
 
-    /// The point from which `support` measures.
+    /// The origin of [`WatchedSupport::support`], in the caller's frame.
     pub fn middle(&self) -> Vec3 {
         self.middle
     }
 
-    /// The box around the set, from the middle.
+    /// The lowest and highest coordinates of the set, relative to the middle.
     pub fn extent(&self) -> (Vec3, Vec3) {
         (self.low - self.middle, self.high - self.middle)
     }
 
-    /// The point farthest along a direction of any length, from the middle.
+    /// The support point along a direction of any length, relative to the middle.
     pub fn support(&self, direction: &Vec3) -> Vec3 {
         let corner = || {
             direction.zip_zip_map(
@@ -100,7 +100,7 @@ impl WatchedSupport {
     }
 }
 
-/// Both ways along the axes, then evenly over the sphere.
+/// Both directions of the axes, then directions spread evenly over the sphere.
 fn sample_directions() -> Vec<Vec3> {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let mut directions: Vec<Vec3> = axes.iter().flat_map(|&axis| [axis, -axis]).collect();
