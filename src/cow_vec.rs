@@ -1,22 +1,22 @@
-//! Vectors whose clones share what none of them has changed since, and that follow each other's changes.
+//! Copy-on-write vectors: clones share unchanged chunks, and one vector can catch up with the changes of another.
 
 use std::iter::Peekable;
 use std::ops::Index;
 use std::sync::Arc;
 
-/// Chunks to a block.
+/// Chunks per block.
 const WIDTH: usize = 32;
 
 type Chunk<T, const N: usize> = [T; N];
 type Block<T, const N: usize> = [Arc<Chunk<T, N>>; WIDTH];
 
-/// A vector in chunks of `N` items, a power of two. A clone takes no time; a change after it copies the item's chunk, and
-/// the words that lead there, one for each 32 `N` items and few more.
+/// A vector in chunks of `N` items, a power of two. A clone takes constant time. A later change copies the item's chunk and the
+/// pointers that lead to it: one per 32 `N` items of the vector, and the 32 of a block.
 #[derive(Debug)]
 pub struct CowVec<T, const N: usize> {
     blocks: Arc<[Arc<Block<T, N>>]>,
     len: usize,
-    /// The items changed since this was cloned from another vector or followed it, in any order; `None` if it was made
+    /// The indices changed since this was cloned from another vector or followed it, in any order; `None` for a vector built
     /// otherwise.
     changed: Option<Vec<u32>>,
 }
@@ -62,7 +62,8 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         &mut self.chunk(index)[index % N]
     }
 
-    /// Changes some items. Fastest where neighbours follow one another: they share the way to their chunk.
+    /// Changes the items of some indices. Fastest where indices of one chunk follow one another: the chunk is then looked up
+    /// once.
     #[inline(always)]
     pub fn update(
         &mut self,
@@ -77,8 +78,8 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         }
     }
 
-    /// The next items to change that lie in one chunk. Two loops over these do what [`CowVec::update`] does, where a closure
-    /// would not be compiled for the instructions of what is around it.
+    /// The next items to change that lie in one chunk. Two nested loops over these do the same as [`CowVec::update`], for
+    /// callers whose closure would not be compiled for their instruction set.
     #[inline(always)]
     pub fn next_run<'a, I: Iterator<Item = usize>>(
         &'a mut self,
@@ -97,13 +98,13 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         })
     }
 
-    /// Becomes equal to a vector that was cloned from this one, or followed it, and was then changed: only what changed is
-    /// copied, in place where nobody else has a share in it.
+    /// Becomes equal to `other`, which was cloned from this vector, or followed it, and was then changed. Only the changed
+    /// items are copied, in place where a chunk is not shared.
     pub fn follow(&mut self, other: &Self) {
         self.follow_by(other, |_, own, now| own.clone_from(now));
     }
 
-    /// The same, where `follow` makes an item equal to another or leaves it, if it will be changed next.
+    /// The same, with a caller's copy function: `follow` copies an item, or may skip one that the caller changes next.
     pub fn follow_by(&mut self, other: &Self, mut follow: impl FnMut(usize, &mut T, &T)) {
         let Some(changed) = other.changed.as_ref() else {
             *self = other.clone();
@@ -133,7 +134,7 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         self.chunk(index)[index % N] = item;
     }
 
-    /// Changes the length. What is at new places is to be written before it is read.
+    /// Changes the length. New items must be written before they are read.
     pub fn resize(&mut self, len: usize) {
         self.make_room(len);
         self.len = len;
@@ -169,7 +170,7 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         }
     }
 
-    /// The chunk of an item, with nobody else's share in it.
+    /// The chunk of an item, copied first if it is shared.
     #[inline]
     fn chunk(&mut self, index: usize) -> &mut Chunk<T, N> {
         let block = &mut Arc::make_mut(&mut self.blocks)[index / N / WIDTH];
@@ -177,7 +178,7 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
     }
 }
 
-/// Items of one chunk that are to change.
+/// Items of one chunk that the caller changes.
 pub struct Run<'a, T, const N: usize, I: Iterator<Item = usize>> {
     indices: &'a mut Peekable<I>,
     of_chunk: usize,
@@ -202,7 +203,7 @@ impl<T, const N: usize, I: Iterator<Item = usize>> Run<'_, T, N, I> {
 impl<T, const N: usize> Index<usize> for CowVec<T, N> {
     type Output = T;
 
-    /// Items beyond the length may or may not be refused.
+    /// An index beyond the length may or may not panic.
     #[inline(always)]
     fn index(&self, index: usize) -> &T {
         &self.blocks[index / N / WIDTH][index / N % WIDTH][index % N]
@@ -239,7 +240,7 @@ impl<T: Clone + Default, const N: usize> FromIterator<T> for CowVec<T, N> {
 mod tests {
     use super::*;
 
-    /// Against plain vectors: what a clone holds stays, whatever becomes of the other.
+    /// Against plain vectors: a clone keeps its items when the other is changed.
     #[test]
     fn clones_keep_what_they_held() {
         let mut state = 1u64;
@@ -274,7 +275,7 @@ mod tests {
         }
     }
 
-    /// Two vectors that take turns, as the states of an environment do, with clones of some states kept.
+    /// Two vectors that take turns, like the states of an environment, with clones of some states kept.
     #[test]
     fn a_vector_that_follows_another_is_equal_to_it() {
         let mut state = 7u64;

@@ -1,4 +1,4 @@
-//! Every failure of the library: a kind for programs, a message for people that names the culprit.
+//! The errors of the library: a kind for programs, and a message for people that names the culprit.
 
 use std::fmt;
 

@@ -1,13 +1,13 @@
 //! The report's Euler angles (§4.1) and their rates (§4.3): yaw about Y, pitch about the new Z, roll about the new X.
 //!
-//! Where the report's print errs, the right formula stands here and a test proves it: eq. (7) needs arctangents of two
-//! arguments; the inertial-frame columns of (33) and the body-frame rates of (31) do not combine as they stand, so that each
-//! function here says in which frame its angular velocities are.
+//! Where a printed formula of the report is wrong, the corrected one is used here, proved by a test: eq. (7) needs two-argument
+//! arctangents; the inertial-frame columns of (33) and the body-frame rates of (31) do not combine as printed, so each function
+//! here states the frame of its angular velocities.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::{Mat3, Pose, Vec3};
 
-/// Below this cos(pitch) yaw and roll turn about one axis, to rounding.
+/// Below this cos(pitch), the yaw and roll axes coincide up to rounding.
 const SINGULAR: f64 = 1e-12;
 
 /// The frame in which an angular velocity is written.
@@ -44,7 +44,7 @@ pub fn rotation_to_euler(r: &Mat3) -> [f64; 3] {
     let pitch = r[(1, 0)].atan2(cos_pitch);
     if cos_pitch > SINGULAR {
         let yaw = (-r[(2, 0)]).atan2(r[(0, 0)]);
-        // (7) has -T23 / T22, which loses digits as cos(pitch) falls; with the yaw taken off the same angle keeps them.
+        // (7) has -T23 / T22, which loses digits as cos(pitch) falls. With the yaw removed first, the same angle is accurate.
         let (s, c) = yaw.sin_cos();
         let roll = (s * r[(0, 1)] + c * r[(2, 1)]).atan2(s * r[(0, 2)] + c * r[(2, 2)]);
         [yaw, pitch, roll]
@@ -61,7 +61,7 @@ pub fn euler_rates([yaw, pitch, roll]: [f64; 3], frame: AngularFrame) -> Mat3 {
             let (sr, cr) = roll.sin_cos();
             Mat3::new(sp, 0.0, 1.0, cr * cp, sr, 0.0, -sr * cp, cr, 0.0)
         }
-        // The same, turned by (6).
+        // The matrix of (31), rotated by (6).
         AngularFrame::World => {
             let (sy, cy) = yaw.sin_cos();
             Mat3::new(0.0, sy, cp * cy, 1.0, 0.0, sp, 0.0, cy, -cp * sy)
@@ -94,8 +94,9 @@ pub fn euler_rates_inverse(angles: [f64; 3], frame: AngularFrame) -> Result<Mat3
     })
 }
 
-/// Turns the basic Jacobian J_omega of a frame, 6 x n row-major with its angular rows in the inertial frame as in (33), into
-/// the Jacobian J of x, y, z, yaw, pitch, roll, eq. (22)–(23); `angles` are the frame's. Refused where cos(pitch) = 0.
+/// Converts the basic Jacobian J_omega of a frame, 6 x n row-major with its angular rows in the inertial frame as in (33), into
+/// the Jacobian J of x, y, z, yaw, pitch, roll, eq. (22)–(23). `angles` are the frame's yaw, pitch and roll. Refused where
+/// cos(pitch) = 0.
 pub fn basic_to_euler_jacobian(jacobian: &mut [f64], angles: [f64; 3]) -> Result<()> {
     let matrix = euler_rates_inverse(angles, AngularFrame::World)?;
     turn_angular_rows(jacobian, &matrix);

@@ -1,6 +1,6 @@
-//! Sets of small numbers: a bit each.
+//! Sets of small integers, as bit sets.
 
-/// Numbers below a capacity.
+/// A set of integers below a capacity.
 #[derive(Clone, Debug, Default)]
 pub struct IndexSet {
     words: Vec<u64>,
@@ -13,7 +13,7 @@ impl IndexSet {
         }
     }
 
-    /// Returns whether the number is new.
+    /// Adds a number. Returns whether it is new.
     #[inline]
     pub fn insert(&mut self, index: usize) -> bool {
         let word = &mut self.words[index / 64];
@@ -35,7 +35,7 @@ impl IndexSet {
         word.is_some_and(|word| word >> (index % 64) & 1 == 1)
     }
 
-    /// In ascending order.
+    /// The numbers in ascending order.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         let words = self.words.iter().enumerate();

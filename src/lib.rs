@@ -1,7 +1,7 @@
-//! The C-Space Toolkit: at a robot configuration q, is q free, in contact or inside; how far from contact and between
-//! which features; which way is out, in joint space; which step slides along the contact.
+//! The C-Space Toolkit. At a robot configuration q: is q free, in contact or inside; how far is contact, and between which
+//! features; which way is out, in joint space; which step slides along the contact.
 //!
-//! Data flow one way, in the order of the modules below; each imports only from those above it.
+//! Data flow in one direction, in the order of the modules below; each imports only from those above it.
 //!
 //! The modules that these docs show are the Rust API: what the C API offers, without its handles. All others are internal, visible
 //! to tests and benchmarks alone, and may change with any version. docs/architecture.md explains how they work together.

@@ -15,7 +15,7 @@ pub fn propose_hull(points: &[Vec3]) -> Option<(Vec<Vec3>, Vec<[u32; 3]>)> {
         .iter()
         .map(|p| parry3d_f64::math::Vector::new(p.x, p.y, p.z))
         .collect();
-    // A panic on strange input is one more way of giving up.
+    // A panic on unusual input counts as giving up.
     let (vertices, triangles) = catch_unwind(|| try_convex_hull(&given)).ok()?.ok()?;
     let vertices = vertices.iter().map(|p| Vec3::new(p.x, p.y, p.z)).collect();
     Some((vertices, triangles))

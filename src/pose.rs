@@ -11,7 +11,7 @@ pub type Vec3 = Vector3<f64>;
 /// A rotation, or axes as columns.
 pub type Mat3 = Matrix3<f64>;
 
-/// What matrices that are told to be rotations may be off orthonormal by rounding.
+/// A matrix this close to orthonormal is taken as a rotation without correction.
 const ROTATION_ROUNDING: f64 = 8.0 * tolerance::EPSILON;
 
 /// A rigid motion `x -> rotation x + translation`, from a child frame to its parent frame.
@@ -49,7 +49,7 @@ impl Pose {
             rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
             translation: Vec3::new(v[3], v[7], v[11]),
         };
-        // Almost all poses are fine as they are.
+        // Fast path: almost all poses need no correction.
         if with_widest(IsPose(values)) {
             return Ok(given);
         }
@@ -82,7 +82,7 @@ impl Pose {
         })
     }
 
-    /// The unit quaternion x, y, z, w of the rotation; of the two, that with w >= 0.
+    /// The unit quaternion x, y, z, w of the rotation; of the two, the one with w >= 0.
     pub fn to_quaternion(&self) -> [f64; 4] {
         let rotation = nalgebra::Rotation3::from_matrix_unchecked(self.rotation);
         let unit = UnitQuaternion::from_rotation_matrix(&rotation);
@@ -133,7 +133,7 @@ impl Pose {
                 ..*self
             };
         };
-        // About an axis of the frame, as that of most joints is, two columns turn in their plane.
+        // About a coordinate axis, the case of most joints, only two columns change.
         let (sine, cosine) = (angle * axis[k]).sin_cos();
         let [i, j] = [(k + 1) % 3, (k + 2) % 3];
         let mut rotation = self.rotation;
@@ -171,7 +171,7 @@ impl Pose {
     }
 }
 
-/// Worlds are planar (2) or spatial (3).
+/// Refuses a dimension other than 2 (planar) or 3 (spatial).
 pub fn check_dimension(dimension: u32) -> Result<()> {
     if dimension != 2 && dimension != 3 {
         return Err(Error::invalid(format!(
@@ -199,8 +199,8 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     )
 }
 
-/// Whether 12 numbers are a pose, up to rounding: the columns of unit length and upright to one another, and no coordinate too
-/// large. Told without a branch for each number, and of few poses wrongly that they are none.
+/// Whether 12 numbers are a pose, up to rounding: orthonormal columns, right-handed, and no coordinate too large. A branch-free
+/// test that may reject a few valid poses; these take the slow path.
 struct IsPose<'a>(&'a [f64; 12]);
 
 impl Work for IsPose<'_> {
@@ -241,7 +241,7 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
             ),
         ));
     }
-    // Newton's iteration for the orthogonal polar factor; quadratic, so two steps from 1e-6 reach round-off.
+    // Newton's iteration for the orthogonal polar factor. It converges quadratically, so two steps from 1e-6 reach round-off.
     let (mut r, mut off) = (given, off);
     for _ in 0..3 {
         if off <= ROTATION_ROUNDING {
@@ -253,10 +253,10 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
     Ok(r)
 }
 
-/// The pose of a frame centred at `center_b` in body B, seen from one centred at `center_a` in body A.
+/// The pose of B's frame centred at `center_b`, in A's frame centred at `center_a`.
 ///
-/// The centres' difference in the world is summed in double-double arithmetic: bodies far from the world's origin, or
-/// modelled far from their own, would otherwise lose the digits that matter.
+/// The difference of the centres in the world is summed in double-double arithmetic: bodies far from the world's origin, or
+/// modelled far from their own, would otherwise lose the significant digits.
 pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -> Pose {
     with_widest(Relative {
         poses: [a, b],
@@ -282,7 +282,7 @@ impl Work for Relative<'_> {
         let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
         let mut sum = TwoFold::new(row(&b.translation));
         sum.add(-row(&a.translation));
-        // Centres at the bodies' origins, as those of most single shapes are, add nothing.
+        // Fast path for centres at the bodies' origins, as of most single shapes.
         if *self.centers[1] != Vec3::zeros() {
             for j in 0..3 {
                 sum.add_product(lanes, column(b, j), self.centers[1][j]);
@@ -294,7 +294,7 @@ impl Work for Relative<'_> {
             }
         }
         let apart = sum.value().0;
-        // The axes of B and the vector between the centres side by side, turned back by A.
+        // The axes of B and the vector between the centres, both rotated into A's frame.
         let in_world = each3(|k| {
             let r = &b.rotation;
             F64x4([r[(k, 0)], r[(k, 1)], r[(k, 2)], apart[k]])
@@ -310,7 +310,7 @@ impl Work for Relative<'_> {
     }
 }
 
-/// matrix * v, written out: the general product of small matrices takes several times as long.
+/// matrix * v, written out: nalgebra's general product takes several times as long.
 #[inline(always)]
 pub fn turned(matrix: &Mat3, v: &Vec3) -> Vec3 {
     let row = |i: usize| matrix[(i, 0)] * v.x + matrix[(i, 1)] * v.y + matrix[(i, 2)] * v.z;
@@ -334,7 +334,7 @@ pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
     Mat3::from_columns(&[column(0), column(1), column(2)])
 }
 
-/// Sums kept as unevaluated pairs, after Dekker (1971) and Knuth's TwoSum.
+/// Double-double sums, after Dekker (1971) and Knuth's TwoSum.
 struct TwoFold {
     high: F64x4,
     low: F64x4,

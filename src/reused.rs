@@ -1,6 +1,7 @@
-//! Memory that is used again.
+//! Reuse of allocated memory.
 
-/// An empty vector in the memory of another, whose items have the same layout: for items that borrow anew each time.
+/// An empty vector in the memory of another whose items have the same layout: for items that borrow, with a new lifetime in
+/// each call.
 pub fn emptied<A, B>(mut items: Vec<A>) -> Vec<B> {
     items.clear();
     // The standard library collects in place.

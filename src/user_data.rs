@@ -1,11 +1,11 @@
-//! What a caller attaches to an object, to be handed back with answers (§2.2.3).
+//! Data that a caller attaches to an object and gets back with answers (§2.2.3).
 
 use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
-/// A number of the caller's (an address, say) that answers hand back, and what keeps it valid: dropped when nothing refers
-/// to the object any more.
+/// A number of the caller's (an address, say) that answers hand back, and an owner that keeps it valid; the owner is dropped
+/// when nothing refers to the object any more.
 #[derive(Clone)]
 pub struct UserData {
     /// Handed back with answers; 0 stands for no data.

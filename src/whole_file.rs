@@ -1,4 +1,4 @@
-//! Files that are read whole, and written whole or not at all; the lines of texts.
+//! Files that are read whole, and written whole or not at all; line numbers in texts.
 
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, Read, Write};
@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// Symbolic links that are followed to a destination, as many as Linux follows in a path.
+/// Symbolic links followed to a destination, at most: the limit of Linux for a path.
 const MAX_SYMLINKS: usize = 40;
 
-/// Reads a regular file of at most `max_bytes`. FIFOs and devices are refused without waiting for them: reading one could
-/// block for ever or have no end.
+/// Reads a regular file of at most `max_bytes`. FIFOs and devices are refused at once: reading one could block for ever or
+/// never end.
 pub fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     let file = open_at_once(path).map_err(Error::io)?;
-    // Of the file that is open, whatever its name stands for by now.
+    // The metadata of the open file, even if its name refers to another one by now.
     let metadata = file.metadata().map_err(Error::io)?;
     if metadata.is_dir() {
         return Err(Error::new(ErrorKind::Io, "it is a folder"));
@@ -33,7 +33,7 @@ pub fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let reserved = bytes.try_reserve_exact(metadata.len() as usize);
     reserved.map_err(Error::memory)?;
-    // A file that grows meanwhile ends one byte beyond the limit.
+    // If the file grows meanwhile, reading stops one byte beyond the limit.
     file.take(max_bytes.saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(Error::io)?;
@@ -43,7 +43,7 @@ pub fn read_whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     }
 }
 
-/// Opens for reading; of a FIFO, it does not wait for a writer.
+/// Opens for reading, without waiting for a FIFO's writer.
 fn open_at_once(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
@@ -56,9 +56,9 @@ fn open_at_once(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Writes a file of its own in the destination's folder and renames it, so that no reader ever sees half of it. A regular
-/// file of that name is replaced, and its mode kept; a symbolic link stays and its target is written, as editors do it.
-/// What is no regular file is refused. File and folder are on the disk when this returns.
+/// Writes a temporary file in the destination's folder and renames it, so that no reader ever sees half of it. A regular file
+/// of that name is replaced and its mode kept; a symbolic link stays and its target is replaced, as editors do. A destination
+/// that is not a regular file is refused. File and folder are synced to disk when this returns.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     write_unnamed(path, bytes).map_err(|error| error.within(path.display()))
 }
@@ -78,7 +78,7 @@ fn write_unnamed(path: &Path, bytes: &[u8]) -> Result<()> {
     };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".cstk-").suffix(".part");
-    // A new file has the mode that the process gives to files, and never more than the one it replaces.
+    // A new file gets the process's default mode; a replacement never has more permissions than the file it replaces.
     if let Some(mode) = mode.clone().or_else(new_mode) {
         builder.permissions(mode);
     }
@@ -91,21 +91,21 @@ fn write_unnamed(path: &Path, bytes: &[u8]) -> Result<()> {
         part.persist(&target).map_err(|failed| failed.error)
     });
     written.map_err(Error::io)?;
-    // The file stands by now, whole. A folder that may be written but not read cannot be opened to be synchronized.
+    // The file is complete by now. A folder that is writable but not readable cannot be opened for syncing.
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
     }
     Ok(())
 }
 
-/// The name at the end of the symbolic links that begin at `path`. It need not exist.
+/// The target of the chain of symbolic links that begins at `path`. It need not exist.
 fn followed(path: &Path) -> Result<PathBuf> {
     let mut target = path.to_path_buf();
     for _ in 0..=MAX_SYMLINKS {
         let Ok(next) = fs::read_link(&target) else {
             return Ok(target);
         };
-        // A relative link begins in its own folder.
+        // A relative link is relative to its own folder.
         target = target.parent().unwrap_or(Path::new("")).join(next);
     }
     Err(Error::new(ErrorKind::Io, "too many symbolic links"))
@@ -121,7 +121,7 @@ fn not_regular() -> Error {
 #[cfg(unix)]
 fn kept_mode(permissions: &Permissions) -> Permissions {
     use std::os::unix::fs::PermissionsExt;
-    // Without set-user-ID and set-group-ID: the owner may be another.
+    // Without set-user-ID and set-group-ID: the new file may have another owner.
     Permissions::from_mode(permissions.mode() & 0o777)
 }
 
@@ -130,7 +130,7 @@ fn kept_mode(permissions: &Permissions) -> Permissions {
     permissions.clone()
 }
 
-/// What the process's umask is applied to.
+/// The mode of new files before the process's umask.
 #[cfg(unix)]
 fn new_mode() -> Option<Permissions> {
     use std::os::unix::fs::PermissionsExt;
@@ -142,7 +142,7 @@ fn new_mode() -> Option<Permissions> {
     None
 }
 
-/// The text of a file's bytes.
+/// The bytes of a file as UTF-8 text.
 pub fn text_of(bytes: &[u8]) -> Result<&str> {
     std::str::from_utf8(bytes).map_err(|e| {
         let line = line_of(bytes, e.valid_up_to());
@@ -150,7 +150,7 @@ pub fn text_of(bytes: &[u8]) -> Result<&str> {
     })
 }
 
-/// The line of a byte, counted from 1.
+/// The line number of a byte, from 1.
 pub fn line_of(bytes: &[u8], place: usize) -> usize {
     1 + bytes[..place].iter().filter(|&&b| b == b'\n').count()
 }

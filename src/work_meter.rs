@@ -2,27 +2,27 @@
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// Work done, for the user's eyes.
+/// Counts of work done, for the user.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Statistics {
-    /// Pairs of boxes, or of the spheres around bodies, whose bound was computed; of rays, the boxes tested.
+    /// Pairs of boxes, or of the bodies' bounding spheres, whose bound was computed; for rays, the boxes tested.
     pub node_pairs: u64,
-    /// Primitive pairs that were looked at; of rays, the faces tested.
+    /// Primitive pairs visited; for rays, the faces tested.
     pub primitive_pairs: u64,
-    /// Of those, pairs whose distance was asked for: polygons that a direction known before parts are left out.
+    /// Those of the pairs whose distance was computed: polygon pairs separated by a remembered direction do not count.
     pub primitive_distances: u64,
-    /// Remembered witnesses that were evaluated first.
+    /// Cached witnesses that were evaluated first.
     pub cache_hits: u64,
 }
 
-/// Counts node pairs and primitive pairs. Past the limit of a call, searches stop; [`WorkMeter::check`] then refuses what they
-/// have found.
+/// Counts node pairs and primitive pairs. Beyond the limit of a call, searches stop and [`WorkMeter::check`] refuses their
+/// result.
 #[derive(Debug)]
 pub struct WorkMeter {
     pub done: Statistics,
     /// The limit of each call; `None` for no limit.
     pub limit: Option<u64>,
-    /// What the call may still count; below 0 it has needed more than its limit.
+    /// The work left to the call; below 0 once its limit is exceeded.
     left: i64,
 }
 
@@ -55,7 +55,7 @@ impl WorkMeter {
         self.charge(count);
     }
 
-    /// Counts work against the limit alone.
+    /// Counts work against the limit only, not in the statistics.
     #[inline(always)]
     pub fn charge(&mut self, count: u64) {
         self.left = self.left.saturating_sub_unsigned(count);
@@ -67,7 +67,7 @@ impl WorkMeter {
         self.left < 0
     }
 
-    /// Refuses an answer for which the limit was not enough.
+    /// Refuses the result of a call that exceeded its limit.
     pub fn check(&self) -> Result<()> {
         if !self.is_exceeded() {
             return Ok(());

@@ -5,22 +5,22 @@ use roxmltree::{Document, Node};
 use crate::error::{Error, ErrorKind, Result};
 use crate::whole_file::line_of;
 
-/// roxmltree reserves some 100 bytes for each `<` before it reads, and some 80 for each `=`.
+/// At most 2^23 tags: roxmltree reserves about 100 bytes per `<` before it parses, and about 80 per `=`.
 const MAX_TAGS: usize = 1 << 23;
 
-/// It compares each attribute of an element with all before it.
+/// At most 4096 attributes per element: roxmltree compares each with all before it.
 const MAX_ATTRIBUTES: usize = 1 << 12;
 
-/// It copies the namespaces of an element to each child that declares another.
+/// At most 256 namespaces: roxmltree copies those of an element to each child that declares another.
 const MAX_NAMESPACES: usize = 1 << 8;
 
-/// Entities are refused: a document type is no part of the formats read here.
+/// Parses a document. A document type, and so entities, are refused: the formats read here have none.
 pub fn parse(text: &str) -> Result<Document<'_>> {
     require_parseable(text)?;
     Document::parse(text).map_err(|e| Error::new(ErrorKind::Parse, e.to_string()))
 }
 
-/// Refuses what the parser would need far more time or memory for than the text is long.
+/// Refuses texts for which the parser's time or memory would be out of proportion to their length.
 fn require_parseable(text: &str) -> Result<()> {
     let refused = |message: String| Err(Error::new(ErrorKind::Unsupported, message));
     let count = |byte: u8, text: &str| text.bytes().filter(|&b| b == byte).count();
@@ -45,7 +45,7 @@ fn require_parseable(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// Where an element stands: `line 12, <origin>`.
+/// The place of an element: `line 12, <origin>`.
 pub fn place(node: Node) -> String {
     let line = node.document().text_pos_at(node.range().start).row;
     format!("line {line}, <{}>", node.tag_name().name())
@@ -77,7 +77,7 @@ pub fn required<'a>(node: Node<'a, '_>, attribute: &str) -> Result<&'a str> {
     })
 }
 
-/// Exactly N finite numbers, apart by blanks.
+/// Exactly N finite numbers, separated by white space.
 pub fn numbers<const N: usize>(node: Node, what: &str, text: &str) -> Result<[f64; N]> {
     let found = list::<f64>(node, what, text)?;
     let count = found.len();
@@ -98,7 +98,7 @@ pub fn numbers<const N: usize>(node: Node, what: &str, text: &str) -> Result<[f6
     }
 }
 
-/// All numbers of a text.
+/// All numbers of a text, separated by white space.
 pub fn list<T: std::str::FromStr>(node: Node, what: &str, text: &str) -> Result<Vec<T>> {
     let mut found = Vec::new();
     let count = text.split_ascii_whitespace().count();

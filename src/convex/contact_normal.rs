@@ -13,16 +13,16 @@ use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
 /// Beyond this distance, in L, the direction between two closest points is known to at least 1e-4.
-const DIRECTION_KNOWN: f64 = 1e-12;
+const MIN_DISTANCE: f64 = 1e-12;
 
 /// A normal with a smaller error than this is accurate enough to detect parallel features (see [`tolerance::PARALLEL`]).
-const PARALLEL_SEEN: f64 = 1e-12;
+const MAX_NORMAL_ERROR: f64 = 1e-12;
 
 /// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices.
 const MAX_EDGE_PAIRS: usize = 4096;
 
 /// A list of usually few directions.
-type Few = SmallVec<[Vec3; 16]>;
+type Directions = SmallVec<[Vec3; 16]>;
 
 /// A primitive pair with its closest points, in a common frame.
 #[derive(Clone, Copy)]
@@ -40,7 +40,7 @@ impl ContactPair<'_> {
     }
 
     fn is_apart(&self) -> bool {
-        self.closest.distance > DIRECTION_KNOWN * self.precision.size
+        self.closest.distance > MIN_DISTANCE * self.precision.size
     }
 
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
@@ -84,7 +84,7 @@ impl ContactPair<'_> {
         }
         let direct = direct.try_normalize(0.0)?;
         let doubt = 64.0 * tolerance::EPSILON * self.precision.size / self.closest.distance;
-        if doubt < PARALLEL_SEEN {
+        if doubt < MAX_NORMAL_ERROR {
             return Some(direct);
         }
         let mut best = (doubt, direct);
@@ -141,11 +141,11 @@ impl ContactPair<'_> {
 
     /// The candidate normals of the features around the closest points: face normals, cross products of edge pairs, and the
     /// normals of a flat polygon's edges within its plane. Unit vectors.
-    fn local_normals(&self) -> Few {
+    fn local_normals(&self) -> Directions {
         let near = 1e-8 * self.precision.size;
-        let local_r = Local::around(self.r, &self.closest.points[0], near);
-        let local_s = Local::around(self.s, &self.closest.points[1], near);
-        let mut found = Few::new();
+        let local_r = LocalFeatures::around(self.r, &self.closest.points[0], near);
+        let local_s = LocalFeatures::around(self.s, &self.closest.points[1], near);
+        let mut found = Directions::new();
         let mut offer = |candidate: Vec3| {
             let in_plane = if self.precision.planar {
                 Vec3::new(candidate.x, candidate.y, 0.0)
@@ -207,15 +207,15 @@ fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
 }
 
 /// The face normals and edge directions of the features that hold a point.
-struct Local {
-    normals: Few,
-    directions: Few,
+struct LocalFeatures {
+    normals: Directions,
+    directions: Directions,
     is_flat: bool,
 }
 
-impl Local {
+impl LocalFeatures {
     fn around(placed: &PlacedPrimitive, point: &Vec3, near: f64) -> Self {
-        let mut directions = Few::new();
+        let mut directions = Directions::new();
         for &ends in &placed.shape.edges {
             let (p, q) = placed.edge_ends(ends);
             let segment = Segment::new((p, q));

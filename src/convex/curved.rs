@@ -116,7 +116,7 @@ fn smooth_closest(
         let interior = [Feature::interior(); 2];
         return Some((Closest::between(found.points, interior), found.direction));
     }
-    let slack = HOLDS * pair.size;
+    let slack = ON_FEATURE * pair.size;
     let closest = Closest {
         distance: found.upper,
         points: found.points,
@@ -186,7 +186,7 @@ fn refined_pair(
 
 /// A point nearer than this to a vertex or edge, in L, counts as lying on it. Along a surface, closest points are known only to
 /// about the square root of the distance's error.
-const HOLDS: f64 = 1e-7;
+const ON_FEATURE: f64 = 1e-7;
 
 /// The feature of a polytope that holds its closest point.
 fn holding_feature(

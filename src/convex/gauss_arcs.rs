@@ -44,7 +44,7 @@ enum NodeKind {
 }
 
 /// Edges per leaf, at most.
-const LEAF: usize = 8;
+const MAX_LEAF: usize = 8;
 
 /// The slack added to the boxes for the rounding of their arcs.
 const ROUNDING: f64 = 1e-9;
@@ -329,7 +329,7 @@ fn build(boxes: &[Bounds], order: &mut [u32], first: usize, nodes: &mut Vec<Node
     };
     let bounds = around(order);
     let count = order.len();
-    let kind = if count <= LEAF {
+    let kind = if count <= MAX_LEAF {
         NodeKind::Leaf { first, count }
     } else {
         let middle = |i: u32| boxes[i as usize].low + boxes[i as usize].high;

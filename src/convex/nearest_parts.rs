@@ -53,7 +53,7 @@ impl<'a> NearestParts<'a> {
             .map(|(along, value)| (along, -value));
         let on_b = self.parts[1].constraint();
         match (on_a, on_b) {
-            (Some(one), Some(other)) => self.between_lines(&on_both(one, other, guess)?),
+            (Some(one), Some(other)) => self.between_lines(&direction_on_both(one, other, guess)?),
             (Some(one), None) | (None, Some(one)) => self.turn_around(one, guess),
             (None, None) => self.turn_freely(guess),
         }
@@ -104,7 +104,7 @@ impl<'a> NearestParts<'a> {
         for _ in 0..MAX_STEPS {
             let (points, places) = self.points_on_line(&direction);
             let (off, apart) = split(&points, &direction);
-            if self.is_near_enough(&off, apart)
+            if self.is_within_accepted(&off, apart)
                 && let Some(found) = self.accept(&direction, points)
             {
                 return Some(found);
@@ -123,12 +123,12 @@ impl<'a> NearestParts<'a> {
         for _ in 0..MAX_STEPS {
             let points = self.points(&direction);
             let (off, apart) = split(&points, &direction);
-            if self.is_near_enough(&off, apart)
+            if self.is_within_accepted(&off, apart)
                 && let Some(found) = self.accept(&direction, points)
             {
                 return Some(found);
             }
-            let (x, y) = upright_to(&direction);
+            let (x, y) = perpendicular_to(&direction);
             let (by_x, by_y) = (
                 self.bend(&direction, &x, [0.0; 2]),
                 self.bend(&direction, &y, [0.0; 2]),
@@ -171,7 +171,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// Whether the remaining offset across the direction lengthens the distance by no more than the accepted gap.
-    fn is_near_enough(&self, off: &Vec3, apart: f64) -> bool {
+    fn is_within_accepted(&self, off: &Vec3, apart: f64) -> bool {
         off.norm_squared() <= self.accepted * apart.abs()
     }
 
@@ -210,7 +210,7 @@ fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
 }
 
 /// Two unit vectors perpendicular to a third and to each other.
-fn upright_to(direction: &Vec3) -> (Vec3, Vec3) {
+fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
     let other = if direction.x.abs() < 0.6 {
         Vec3::x()
     } else {
@@ -222,7 +222,7 @@ fn upright_to(direction: &Vec3) -> (Vec3, Vec3) {
 
 /// The unit direction that satisfies two constraints; of two solutions the one nearer to a guess. `None` where the constraints
 /// are parallel or have no solution.
-fn on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
+fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);
     let square = across.norm_squared();

@@ -53,7 +53,7 @@ pub(super) fn polytope_penetration(
     precision: &Precision,
     meter: &mut WorkMeter,
 ) -> Penetration {
-    let mut shortest = Shortest::new(r, s);
+    let mut shortest = ShortestWay::new(r, s);
     if precision.planar {
         for placed in [r, s] {
             for &edge in &placed.shape.edges {
@@ -70,7 +70,7 @@ pub(super) fn polytope_penetration(
         }
         offer_edges(r, s, SUPPORT_SLACK * precision.size, meter, &mut shortest);
     }
-    shortest.settle();
+    shortest.measure_waiting();
     // Sets without faces and without candidate normals: a direction perpendicular to their longest edge.
     if shortest.depth == f64::INFINITY {
         let along = [r, s]
@@ -96,14 +96,14 @@ pub(super) fn polytope_penetration(
             along.cross(&across)
         };
         shortest.offer_next(&upright);
-        shortest.settle();
+        shortest.measure_waiting();
     }
     let depth = shortest.depth.max(0.0);
     let direction = shortest.direction;
     Penetration {
         depth,
         direction,
-        points: brought_together(r, s, depth, &direction, precision),
+        points: coinciding_points(r, s, depth, &direction, precision),
     }
 }
 
@@ -113,7 +113,7 @@ fn offer_edges(
     s: &PlacedPrimitive,
     slack: f64,
     meter: &mut WorkMeter,
-    shortest: &mut Shortest,
+    shortest: &mut ShortestWay,
 ) {
     let (arcs_r, arcs_s) = (
         GaussArcs::new(r, true, slack),
@@ -139,7 +139,7 @@ fn offer_edges(
 /// Points of both sets that coincide after r has moved by `depth` along `direction`, the normal of the planes in which they
 /// then touch: the closest points, with r moved a little farther, of the features in these planes. Where features are nearly
 /// parallel these may be too few; then the slack is increased, and finally all features are compared.
-fn brought_together(
+fn coinciding_points(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
     depth: f64,
@@ -170,7 +170,7 @@ fn brought_together(
 }
 
 /// The shortest way out among the candidate lines tried so far.
-struct Shortest<'a> {
+struct ShortestWay<'a> {
     sets: [&'a PlacedPrimitive<'a>; 2],
     extremes: [ExtremeVertex<'a>; 2],
     depth: f64,
@@ -188,14 +188,14 @@ struct Line {
     number: u64,
     normal: Vec3,
     /// A lower bound of the depth along the line, either way.
-    at_least: f64,
+    lower: f64,
 }
 
 /// Lines are measured in batches of this many, in the order of their lower bounds: mostly the first then proves the others
 /// longer.
-const TOGETHER: usize = 64;
+const BATCH: usize = 64;
 
-impl<'a> Shortest<'a> {
+impl<'a> ShortestWay<'a> {
     fn new(r: &'a PlacedPrimitive<'a>, s: &'a PlacedPrimitive<'a>) -> Self {
         Self {
             sets: [r, s],
@@ -223,29 +223,29 @@ impl<'a> Shortest<'a> {
         // The projections of any vertices bound the extent from within, also in rounded arithmetic.
         let [(low_r, high_r), (low_s, high_s)] =
             [0, 1].map(|i| self.extremes[i].extent_within(&normal));
-        let at_least = (high_s - low_r).min(high_r - low_s);
-        if at_least > self.depth {
+        let lower = (high_s - low_r).min(high_r - low_s);
+        if lower > self.depth {
             return;
         }
         self.waiting.push(Line {
             number,
             normal,
-            at_least,
+            lower,
         });
-        if self.waiting.len() >= TOGETHER {
-            self.settle();
+        if self.waiting.len() >= BATCH {
+            self.measure_waiting();
         }
     }
 
     /// Measures the waiting lines.
-    fn settle(&mut self) {
+    fn measure_waiting(&mut self) {
         let mut waiting = std::mem::take(&mut self.waiting);
         waiting.sort_unstable_by(|a, b| {
-            let by_bound = a.at_least.total_cmp(&b.at_least);
+            let by_bound = a.lower.total_cmp(&b.lower);
             by_bound.then(a.number.cmp(&b.number))
         });
         for line in waiting.drain(..) {
-            if line.at_least > self.depth {
+            if line.lower > self.depth {
                 break;
             }
             let normal = line.normal;

@@ -229,7 +229,7 @@ impl SurfacePart {
                     normal
                 })
             }
-            Self::Rim { axis, .. } => (axis.dot(direction) > LOOKS_ALONG).then_some(*axis),
+            Self::Rim { axis, .. } => (axis.dot(direction) > MIN_FACE_COSINE).then_some(*axis),
             _ => None,
         }
     }
@@ -255,7 +255,7 @@ impl SurfacePart {
 }
 
 /// A disc counts as the nearest feature, not only its rim, when the cosine between its normal and the direction exceeds this.
-const LOOKS_ALONG: f64 = 0.999;
+const MIN_FACE_COSINE: f64 = 0.999;
 
 /// The component of a direction perpendicular to an axis: normalized, and its length.
 fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {

@@ -133,7 +133,7 @@ impl Simplex {
             3 => &[[0, 1, 2]],
             _ => {
                 let (foot, kept) = self.on_few();
-                return self.settled((self.combined_of(&kept, &foot), foot, kept));
+                return self.reduced_to((self.combined_of(&kept, &foot), foot, kept));
             }
         };
         let mut least = f64::INFINITY;
@@ -152,14 +152,14 @@ impl Simplex {
             }
         }
         match best {
-            Some(best) => self.settled(best),
+            Some(best) => self.reduced_to(best),
             None => (self.corners[0], self.corners[0].difference),
         }
     }
 
     /// Reduces the simplex to a face, and returns the combined corner and the foot on the face.
     #[inline(always)]
-    fn settled(&mut self, (corner, foot, kept): (Corner, Vec3, ClosestFace)) -> (Corner, Vec3) {
+    fn reduced_to(&mut self, (corner, foot, kept): (Corner, Vec3, ClosestFace)) -> (Corner, Vec3) {
         self.keep(&kept);
         (corner, self.upright(&foot))
     }

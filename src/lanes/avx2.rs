@@ -11,7 +11,8 @@ use super::eight::{Instructions, LANES_OF};
 pub struct Avx2(());
 
 impl Avx2 {
-    /// # Safety The processor must have AVX2 and FMA.
+    /// # Safety
+    /// The processor must have AVX2 and FMA.
     #[inline(always)]
     pub unsafe fn assumed() -> Self {
         Self(())

@@ -9,7 +9,7 @@
 //! Axes: with the axes of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
 //! component is within 2^-16, or 2^-15 for one that is 1). Along its own axes the extent of a box is its half side, along
 //! others the sum above (see `PackedBox`), so each gap is exact except for the length of its axis, and a diagonal except for
-//! the length of n. Either length may be too large by a factor of the root of 1 + e, for which [`UPRIGHT`] corrects.
+//! the length of n. Either length may be too large by a factor of the root of 1 + e, for which [`AXIS_FACTOR`] corrects.
 //!
 //! Rounding: let u = 2^-24, and S the pair's size, which no vertex, centre or translation exceeds; a half side is at most the
 //! radius of its body, so the three of a box add up to at most 3 S. The boxes contain their points for the stored axes and half
@@ -35,7 +35,7 @@ use crate::pose::{Pose, Vec3};
 pub const ROUNDING: f64 = 1.0 / 65536.0;
 
 /// The factor by which a gap along an axis or a diagonal is reduced because the axis may be longer than 1.
-pub(super) const UPRIGHT: f32 = 1.0 - 1.0 / 8192.0;
+pub(super) const AXIS_FACTOR: f32 = 1.0 - 1.0 / 8192.0;
 
 /// Squares of lengths down to this are normal numbers.
 const SHORTEST: f32 = 1e-18;
@@ -113,7 +113,7 @@ impl Motion32 {
 pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Lanes8<I> {
     let [first, second] = &sides(lanes, eight, one);
     let largest = lanes.max(first.largest(lanes), second.largest(lanes));
-    lanes.mul(largest, lanes.splat(UPRIGHT))
+    lanes.mul(largest, lanes.splat(AXIS_FACTOR))
 }
 
 /// Options of [`sharper_bounds`]: how bounds are sharpened, and for which boxes.
@@ -136,7 +136,7 @@ pub fn sharper_bounds<I: Instructions>(
 ) -> Lanes8<I> {
     let [first, second] = &sides(lanes, eight, one);
     let largest = [first.largest(lanes), second.largest(lanes)];
-    let upright = lanes.splat(UPRIGHT);
+    let upright = lanes.splat(AXIS_FACTOR);
     let mut known = lanes.mul(lanes.max(largest[0], largest[1]), upright);
     if let Some(direction) = wanted.direction {
         known = lanes.max(known, gaps_along(lanes, eight, one, direction));

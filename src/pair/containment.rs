@@ -147,7 +147,7 @@ impl Pairing<'_> {
         near: &mut NearPrimitives,
     ) -> Vec<u32> {
         // At most this many pieces are tested without the tree.
-        const FEW: usize = 8;
+        const MAX_LINEAR: usize = 8;
         let body = self.body(inner);
         let all = 0..body.piece_count() as u32;
         let tree = body.packed();
@@ -159,7 +159,7 @@ impl Pairing<'_> {
         let size = 1.0 + center.norm() + half.norm();
         // Beyond this size, boxes lose all meaning in single precision.
         const LARGE: f64 = 1e30;
-        if all.len() <= FEW || size > LARGE {
+        if all.len() <= MAX_LINEAR || size > LARGE {
             return all.collect();
         }
         let (x, y) = (into_inner.rotation.column(0), into_inner.rotation.column(1));

@@ -13,7 +13,7 @@
 //! of two such vectors within 60 u M, the sum of four such terms (sides add up to 3 S, which M has) within 240 u M. Together
 //! with the gap's 160 u S less than [`super::ROUNDING`] (S + M) is lost.
 
-use super::box_bounds::{UPRIGHT, dot, extent_along, splat};
+use super::box_bounds::{AXIS_FACTOR, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 
@@ -91,7 +91,7 @@ pub fn swept_gaps<I: Instructions>(
         let moved = extent_along(lanes, &turned, &eight.half, moved);
         gaps.offer(lanes, lanes.sub(place, extent), moved);
     }
-    let upright = lanes.splat(UPRIGHT);
+    let upright = lanes.splat(AXIS_FACTOR);
     SweptGaps {
         still: lanes.mul(gaps.still, upright),
         swept: lanes.mul(gaps.swept, upright),

@@ -154,8 +154,8 @@ pub fn visit_pair(
     scratch: &mut Scratch,
     visitor: &mut impl Visitor,
 ) -> ControlFlow<()> {
-    let meetings = Meetings::new(pairing, &mut scratch.buffer, &mut scratch.state, visitor);
-    with_widest(OneMeeting { meetings, places })
+    let visits = PairVisits::new(pairing, &mut scratch.buffer, &mut scratch.state, visitor);
+    with_widest(SinglePair { visits, places })
 }
 
 /// Traverses both trees from their roots, after visiting the primitives at `first` if given. Descends nearest child first;
@@ -173,29 +173,29 @@ pub fn traverse(
         state,
         ..
     } = scratch;
-    let mut meetings = Meetings::new(pairing, buffer, state, visitor);
+    let mut visits = PairVisits::new(pairing, buffer, state, visitor);
     if let Some(places) = pairing.only_places() {
         if !pairing.are_outlines(places) {
-            return meetings.visit_without_outlines(places);
+            return visits.visit_without_outlines(places);
         }
-        return with_widest(OneMeeting { meetings, places });
+        return with_widest(SinglePair { visits, places });
     }
     with_widest(Traversal {
-        meetings,
+        visits,
         first,
         stack,
     })
 }
 
 /// Shows the visitor primitive pairs of two bodies.
-struct Meetings<'a, V> {
+struct PairVisits<'a, V> {
     pairing: &'a Pairing<'a>,
     buffer: &'a mut MovedOutline,
     state: &'a mut State,
     visitor: &'a mut V,
 }
 
-impl<'a, V: Visitor> Meetings<'a, V> {
+impl<'a, V: Visitor> PairVisits<'a, V> {
     fn new(
         pairing: &'a Pairing<'a>,
         buffer: &'a mut MovedOutline,
@@ -276,7 +276,7 @@ impl<'a, V: Visitor> Meetings<'a, V> {
     }
 }
 
-impl<V: Visitor> Meetings<'_, V> {
+impl<V: Visitor> PairVisits<'_, V> {
     /// The same as `visit` for primitives of which at least one has no outline.
     fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
         let limits = DistanceLimits {
@@ -353,22 +353,22 @@ fn show(
     visitor.visit(&met, meter)
 }
 
-struct OneMeeting<'a, V> {
-    meetings: Meetings<'a, V>,
+struct SinglePair<'a, V> {
+    visits: PairVisits<'a, V>,
     places: [u32; 2],
 }
 
-impl<V: Visitor> Work for OneMeeting<'_, V> {
+impl<V: Visitor> Work for SinglePair<'_, V> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
-        self.meetings.visit(self.places, false)
+        self.visits.visit(self.places, false)
     }
 }
 
 struct Traversal<'a, V> {
-    meetings: Meetings<'a, V>,
+    visits: PairVisits<'a, V>,
     first: Option<[u32; 2]>,
     stack: &'a mut PendingPairs,
 }
@@ -379,10 +379,10 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
         if let Some(places) = self.first {
-            self.meetings.state.meter.done.cache_hits += 1;
-            self.meetings.visit(places, true)?;
+            self.visits.state.meter.done.cache_hits += 1;
+            self.visits.visit(places, true)?;
         }
-        Walk::new(self.meetings, self.stack).run(lanes)
+        Walk::new(self.visits, self.stack).run(lanes)
     }
 }
 
@@ -392,7 +392,7 @@ const SHARP_FROM: f32 = 1e-4;
 /// The traversal of two trees. Lengths in single precision are in units of `scale`, the next power of two above the pair's
 /// size.
 struct Walk<'a, V> {
-    meetings: Meetings<'a, V>,
+    visits: PairVisits<'a, V>,
     trees: [&'a PackedTree; 2],
     /// From B's frame into A's, and from A's into B's.
     motions: [Motion32; 2],
@@ -409,8 +409,8 @@ struct Walk<'a, V> {
 
 impl<'a, V: Visitor> Walk<'a, V> {
     #[inline(always)]
-    fn new(meetings: Meetings<'a, V>, stack: &'a mut PendingPairs) -> Self {
-        let pairing = meetings.pairing;
+    fn new(visits: PairVisits<'a, V>, stack: &'a mut PendingPairs) -> Self {
+        let pairing = visits.pairing;
         let [a, b] = [pairing.a.packed(), pairing.b.packed()];
         let size = pairing.precision.size;
         let scale = power_of_two(size);
@@ -425,7 +425,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             inverse_scale,
             directions: [[0.0; 3]; 2],
             slack: pairing.slack() + ROUNDING * size + a.core_radius() + b.core_radius(),
-            meetings,
+            visits,
             trees: [a, b],
             stack,
         }
@@ -440,7 +440,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let bound = f32::NEG_INFINITY;
         self.stack.push(&Entry { bound, a, b });
         while let Some(entry) = self.stack.pop() {
-            if self.meetings.state.meter.is_exceeded() {
+            if self.visits.state.meter.is_exceeded() {
                 return ControlFlow::Break(());
             }
             let cutoff = self.cutoff();
@@ -448,10 +448,10 @@ impl<'a, V: Visitor> Walk<'a, V> {
                 continue;
             }
             if entry.is_of_leaves() {
-                let before = self.meetings.visitor.bound();
+                let before = self.visits.visitor.bound();
                 self.visit_leaves(entry.a, entry.b)?;
                 // The neighbours of a nearer pair need not be the nearest: continue from the best waiting pair.
-                if self.meetings.visitor.bound() < before {
+                if self.visits.visitor.bound() < before {
                     self.stack.raise_nearest(lanes);
                 }
                 continue;
@@ -464,12 +464,12 @@ impl<'a, V: Visitor> Walk<'a, V> {
     /// The pruning cutoff in units of the pair: pairs with larger bounds are skipped.
     #[inline(always)]
     fn cutoff(&self) -> f32 {
-        (((self.meetings.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
+        (((self.visits.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
     }
 
     #[inline(always)]
     fn is_settled(&self, a: NodeRef, b: NodeRef) -> bool {
-        self.meetings
+        self.visits
             .visitor
             .settled_from()
             .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
@@ -485,11 +485,11 @@ impl<'a, V: Visitor> Walk<'a, V> {
     /// better.
     #[inline(always)]
     fn aim_at_centers<I: Instructions>(&mut self, lanes: I) {
-        let centers = -self.meetings.pairing.relative.translation;
+        let centers = -self.visits.pairing.relative.translation;
         let Some(centers) = centers.try_normalize(0.0) else {
             return;
         };
-        let first = self.meetings.state.direction;
+        let first = self.visits.state.direction;
         if first != Vec3::zeros() {
             let a = self.trees[0].bounding_box(self.trees[0].root());
             let a = PackedBox {
@@ -503,13 +503,13 @@ impl<'a, V: Visitor> Walk<'a, V> {
                 return;
             }
         }
-        self.meetings.state.direction = centers;
+        self.visits.state.direction = centers;
     }
 
     /// Rotates a new direction into both frames.
     #[inline(always)]
     fn turn_direction(&mut self) {
-        let direction = each3(|k| self.meetings.state.direction[k] as f32);
+        let direction = each3(|k| self.visits.state.direction[k] as f32);
         self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
     }
 
@@ -538,7 +538,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let children = tree.children(index);
         // With a cutoff near 0, sharper bounds prune no more.
         let bounds = if V::REFINES && cutoff > SHARP_FROM {
-            let is_aimed = self.meetings.state.direction != Vec3::zeros();
+            let is_aimed = self.visits.state.direction != Vec3::zeros();
             let wanted = BoundRefinement {
                 direction: is_aimed.then_some(&self.directions[opened]),
                 cutoff,
@@ -548,7 +548,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         } else {
             bounds(lanes, &eight, &one)
         };
-        self.meetings.state.meter.count_nodes(children.count as u64);
+        self.visits.state.meter.count_nodes(children.count as u64);
         self.stack
             .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);
     }
@@ -560,11 +560,11 @@ impl<'a, V: Visitor> Walk<'a, V> {
 
     #[inline(always)]
     fn visit_leaves(&mut self, a: NodeRef, b: NodeRef) -> ControlFlow<()> {
-        let nearest = self.meetings.state.direction_at;
+        let nearest = self.visits.state.direction_at;
         let visited = self
-            .meetings
+            .visits
             .visit([self.trees[0].place(a), self.trees[1].place(b)], true);
-        if self.meetings.state.direction_at < nearest {
+        if self.visits.state.direction_at < nearest {
             self.turn_direction();
         }
         visited

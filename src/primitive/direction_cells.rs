@@ -43,7 +43,7 @@ impl DirectionCells {
             side,
         };
         let mut cells = vec![Vec::new(); 6 * side * side];
-        let mut left = MAX_PLACES * points.len();
+        let mut left = MAX_ENTRIES * points.len();
         let all: Vec<u32> = (0..points.len() as u32).collect();
         for face in 0..6 {
             let whole = Square {
@@ -121,7 +121,7 @@ fn direction(face: usize, u: f64, v: f64) -> Vec3 {
 const OVERLAP: f64 = 1e-6;
 
 /// At most 16 entries per vertex over all cells, unless there are only six cells, each of which may list all vertices.
-const MAX_PLACES: usize = 16;
+const MAX_ENTRIES: usize = 16;
 
 /// The points to be sorted into cells.
 struct Sorter<'a> {
@@ -197,11 +197,14 @@ impl Sorter<'_> {
         ];
         // The corner directions are at most sqrt(3) long.
         let rounding = 8.0 * tolerance::EPSILON * self.size;
-        let is_beaten = |h: &[f64; 4]| {
+        let is_dominated = |h: &[f64; 4]| {
             let mut by = best.iter().flatten();
             by.any(|other| (0..4).all(|k| other[k] - h[k] > rounding))
         };
-        let kept = candidates.iter().zip(&all).filter(|(_, h)| !is_beaten(h));
+        let kept = candidates
+            .iter()
+            .zip(&all)
+            .filter(|(_, h)| !is_dominated(h));
         kept.map(|(i, _)| *i).collect()
     }
 }

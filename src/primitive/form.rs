@@ -27,7 +27,7 @@ pub struct HullForm {
 }
 
 /// Up to 8 vertices are compared one by one; with more, cells are built.
-const FEW: usize = 8;
+const MAX_LINEAR: usize = 8;
 
 impl Form {
     /// The form of a primitive's core; `None` if it has few vertices and is no box.
@@ -35,7 +35,7 @@ impl Form {
         if let Some(cuboid) = Cuboid::of(shape) {
             return Some(Self::Cuboid(Box::new(cuboid)));
         }
-        (shape.vertices.len() > FEW).then(|| Self::Hull(OnceLock::new()))
+        (shape.vertices.len() > MAX_LINEAR).then(|| Self::Hull(OnceLock::new()))
     }
 
     /// The box, if this is one.
@@ -51,8 +51,8 @@ impl Form {
     pub fn farthest(&self, shape: &Convex, direction: &Vec3) -> u32 {
         match self {
             Self::Cuboid(cuboid) => cuboid.farthest(&shape.vertices, direction),
-            Self::Hull(made) => {
-                let cells = &HullForm::made(made, shape).cells;
+            Self::Hull(table) => {
+                let cells = &HullForm::table(table, shape).cells;
                 cells.farthest(&shape.vertices, direction)
             }
         }
@@ -63,7 +63,7 @@ impl Form {
     pub fn middle(&self, shape: &Convex) -> Vec3 {
         match self {
             Self::Cuboid(cuboid) => cuboid.center,
-            Self::Hull(made) => HullForm::made(made, shape).middle,
+            Self::Hull(table) => HullForm::table(table, shape).middle,
         }
     }
 
@@ -71,7 +71,7 @@ impl Form {
     pub fn feature_of(&self, shape: &Convex, vertices: &[u32]) -> Option<Feature> {
         match self {
             Self::Cuboid(cuboid) => cuboid.feature_of(vertices),
-            Self::Hull(made) => HullForm::made(made, shape).incidence.feature_of(vertices),
+            Self::Hull(table) => HullForm::table(table, shape).incidence.feature_of(vertices),
         }
     }
 
@@ -79,7 +79,7 @@ impl Form {
     pub fn bytes(&self) -> usize {
         let held = match self {
             Self::Cuboid(_) => size_of::<Cuboid>(),
-            Self::Hull(made) => made.get().map_or(0, |form| {
+            Self::Hull(table) => table.get().map_or(0, |form| {
                 size_of::<HullForm>() + form.cells.bytes() + form.incidence.bytes()
             }),
         };
@@ -89,7 +89,7 @@ impl Form {
 
 impl HullForm {
     #[inline(always)]
-    fn made<'a>(cell: &'a OnceLock<Box<Self>>, shape: &Convex) -> &'a Self {
+    fn table<'a>(cell: &'a OnceLock<Box<Self>>, shape: &Convex) -> &'a Self {
         cell.get_or_init(|| Box::new(Self::new(shape)))
     }
 

@@ -36,7 +36,7 @@ pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Opti
                 return None;
             }
             let (excess, lost) = excess_over(points, &vertices, accepted);
-            let mended: Vec<u32> = vertices.iter().chain(&lost).copied().collect();
+            let repaired: Vec<u32> = vertices.iter().chain(&lost).copied().collect();
             if best.as_ref().is_none_or(|hull| excess < hull.excess) {
                 best = Some(CheckedHull {
                     vertices,
@@ -47,7 +47,7 @@ pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Opti
             if excess <= accepted {
                 return best;
             }
-            candidates = mended;
+            candidates = repaired;
         }
     }
     best
@@ -62,8 +62,8 @@ pub fn excess_over(points: &[Vec3], corners: &[u32], accepted: f64) -> (f64, Vec
         is_corner[i as usize] = true;
     }
     // Up to this many corners, a linear scan is faster than the tree.
-    const FEW: usize = 32;
-    if hull.len() <= FEW {
+    const MAX_LINEAR: usize = 32;
+    if hull.len() <= MAX_LINEAR {
         excess_beside(points, &is_corner, &PointCloud(&hull), accepted)
     } else {
         excess_beside(points, &is_corner, &PointTree::new(&hull), accepted)

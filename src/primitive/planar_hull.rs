@@ -84,8 +84,8 @@ pub fn outline(points: &mut [Vector2<f64>], corners: &mut Vec<Vector2<f64>>) {
 /// Indices of the points that are farther than the tolerance from all points kept before them.
 fn without_near_points(points: &[Vector2<f64>], tolerance: f64) -> Vec<u32> {
     // Up to this many points, comparing all pairs is faster than hashing.
-    const FEW: usize = 16;
-    if points.len() > FEW {
+    const MAX_PAIRWISE: usize = 16;
+    if points.len() > MAX_PAIRWISE {
         return without_near_points_of_many(points, tolerance);
     }
     let mut kept: Vec<u32> = Vec::with_capacity(points.len());
