@@ -139,7 +139,8 @@ pub fn closed_distance(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precisio
     Some(beyond_radii(cores.distance, radii))
 }
 
-/// The closest points of the hulls of two primitives' vertices; `None` where they are proved to be farther apart than the cutoff.
+/// The closest points of the hulls of two primitives' vertices; `None` where these are proved to be farther apart than the
+/// cutoff.
 pub fn closest_polytopes(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -275,7 +276,7 @@ fn bounded_closest(
     let bounds = gjk(
         a,
         b,
-        // A guess that the primitives alone decide, so that the answer depends on nothing else.
+        // A start that depends on the two primitives alone, so that the answer does too.
         a.middle() - b.middle(),
         limits,
     );

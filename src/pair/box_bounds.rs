@@ -97,7 +97,7 @@ impl Motion32 {
         }
     }
 
-    /// Two vectors turned, plus two others.
+    /// Rotates the two vectors in the lanes and adds two others.
     #[inline(always)]
     fn turn_lanes<I: Instructions>(&self, lanes: I, v: Lanes8<I>, plus: Lanes8<I>) -> Lanes8<I> {
         let [x, y, z] = &self.rotation;
@@ -107,8 +107,8 @@ impl Motion32 {
     }
 }
 
-/// Lower bounds of the distances of eight boxes from one, in units of the pair; where the boxes overlap, how deep they do
-/// as a number below 0.
+/// Lower bounds of the distances of eight boxes from one, in units of the pair; where boxes overlap, minus their smallest
+/// overlap along an axis.
 #[inline(always)]
 pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Lanes8<I> {
     let [first, second] = &sides(lanes, eight, one);

@@ -37,7 +37,7 @@ struct Node {
 struct Best {
     value: f64,
     point: u32,
-    /// How many points were looked at.
+    /// The number of points visited.
     looked_at: usize,
 }
 

@@ -101,7 +101,7 @@ fn length_and_width(vertices: &[Vec3]) -> (f64, f64) {
     (farthest.norm(), width)
 }
 
-/// The unit normal of a convex planar polygon, or the error that says why it is not one.
+/// The unit normal of a convex planar polygon, or an error with the reason why it is not one.
 pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
     let n = vertices.len();
     if n < 3 {
