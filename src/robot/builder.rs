@@ -1,4 +1,4 @@
-//! Collects links, checks each as it comes, and builds the robot.
+//! Builds robots: collects links and checks each as it is added.
 
 use std::sync::Arc;
 
@@ -9,28 +9,32 @@ use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
 use crate::pose::{Pose, Vec3, check_dimension};
 
-/// A link to be added.
+/// The definition of a link and of the joint that moves it.
 #[derive(Clone, Debug)]
 pub struct LinkDefinition {
     /// Empty for `link<number>`.
     pub name: String,
-    /// A name of its own, or empty.
+    /// Unique among the joints, or empty.
     pub joint_name: String,
+    /// The link's geometry, in the link's frame; `None` for a link that only carries others.
     pub body: Option<Arc<Body>>,
     /// An earlier link; `None` for the world.
     pub parent: Option<usize>,
+    /// The joint's frame, from the parent's frame, at coordinate 0.
     pub at: Pose,
+    /// How the joint moves the link.
     pub kind: JointKind,
-    /// Used by revolute and prismatic joints; of any length.
+    /// The axis of a revolute or prismatic joint, in the joint's frame; of any length above 0.
     pub axis: Vec3,
-    /// The first of the coordinates that move the joint; `None` takes the next unused ones. Joints of one coordinate may
-    /// share it.
+    /// The joint's first coordinate; `None` takes the next unused ones. Revolute and prismatic joints may share a
+    /// coordinate.
     pub coordinate: Option<usize>,
-    /// A revolute or prismatic joint follows `multiplier * coordinate + offset`: so joints mimic others.
+    /// A revolute or prismatic joint moves by `multiplier * coordinate + offset`, so that one joint can mimic another.
     pub multiplier: f64,
+    /// See `multiplier`; radians or a length.
     pub offset: f64,
-    /// The range of a revolute or prismatic joint's coordinate, unless a space says otherwise; ignored where the joint shares
-    /// the coordinate of an earlier one. Infinite for none: a revolute joint then turns on the circle.
+    /// The range of a revolute or prismatic joint's coordinate, which a space may override; radians or lengths. Ignored
+    /// where the joint shares the coordinate of an earlier one. A revolute joint with infinite limits turns on a circle.
     pub limits: [f64; 2],
 }
 
@@ -52,7 +56,7 @@ impl Default for LinkDefinition {
     }
 }
 
-/// Links on their way to a robot. A failed call adds nothing.
+/// Collects the links of a robot. A failed call adds nothing.
 #[derive(Clone, Debug)]
 pub struct RobotBuilder {
     dimension: u32,
@@ -71,6 +75,7 @@ impl RobotBuilder {
         })
     }
 
+    /// 2 for a planar robot, 3 for a spatial one.
     pub fn dimension(&self) -> u32 {
         self.dimension
     }
@@ -142,7 +147,7 @@ impl RobotBuilder {
         Ok(())
     }
 
-    /// The joint of a definition, on the coordinates that it names.
+    /// The joint of a definition, with its coordinates assigned.
     fn joint(&self, definition: &LinkDefinition) -> Result<Joint> {
         let kind = match &definition.kind {
             JointKind::Custom(joint) => JointKind::Custom(Arc::new(Checked(joint.clone()))),
@@ -202,7 +207,7 @@ impl RobotBuilder {
         Ok(())
     }
 
-    /// The first coordinate and the first velocity of a joint.
+    /// Assigns a joint its first coordinate and its first velocity.
     fn place(&self, joint: &Joint, coordinate: Option<usize>) -> Result<(usize, usize)> {
         let end = self.coordinates.ranges.len();
         let first = coordinate.unwrap_or(end);
@@ -214,7 +219,7 @@ impl RobotBuilder {
         if first == end {
             return Ok((end, self.coordinates.nv()));
         }
-        // In order of coordinates.
+        // Blocks are sorted by their first coordinate.
         let blocks = &self.coordinates.blocks;
         let found = blocks.binary_search_by_key(&first, |block| block.coordinate);
         let shared = found.ok().map(|i| &blocks[i]);
@@ -226,19 +231,19 @@ impl RobotBuilder {
         }
     }
 
-    /// Takes in the coordinates that a joint brings.
+    /// Appends the coordinates that a joint adds, or narrows the one that it shares.
     fn extend_coordinates(&mut self, joint: &Joint, limits: [f64; 2]) {
         let [lower, upper] = limits;
         let is_free = lower == f64::NEG_INFINITY && upper == f64::INFINITY;
         let whole_turns = joint.multiplier.fract() == 0.0;
-        let known = &mut self.coordinates;
-        if joint.coordinate < known.ranges.len() {
-            // Shared, or none at all.
+        let coordinates = &mut self.coordinates;
+        if joint.coordinate < coordinates.ranges.len() {
+            // The joint shares a coordinate, or has none.
             let turns = matches!(joint.kind, JointKind::Revolute) && whole_turns;
             if joint.kind.nq() > 0 && !turns {
-                known.periodic[joint.coordinate] = false;
-                if known.ranges[joint.coordinate] == Coordinate::Circle {
-                    known.ranges[joint.coordinate] = Coordinate::LINE;
+                coordinates.periodic[joint.coordinate] = false;
+                if coordinates.ranges[joint.coordinate] == Coordinate::Circle {
+                    coordinates.ranges[joint.coordinate] = Coordinate::LINE;
                 }
             }
             return;
@@ -266,26 +271,26 @@ impl RobotBuilder {
             }
         };
         for kind in blocks {
-            known.blocks.push(Block {
+            coordinates.blocks.push(Block {
                 kind,
-                coordinate: known
+                coordinate: coordinates
                     .blocks
                     .last()
                     .map_or(0, |b| b.coordinate + b.kind.nq()),
-                velocity: known.nv(),
+                velocity: coordinates.nv(),
             });
         }
-        known
+        coordinates
             .periodic
             .extend(ranges.iter().map(|range| match &joint.kind {
                 JointKind::Custom(_) => true,
                 JointKind::Revolute => whole_turns,
                 _ => *range == Coordinate::Circle,
             }));
-        known.ranges.extend(ranges);
+        coordinates.ranges.extend(ranges);
     }
 
-    /// Builds the robot from what was added so far; the builder stays as it is.
+    /// Builds the robot from the links added so far; the builder stays as it is.
     pub fn build(&self) -> Result<Robot> {
         if self.links.list.is_empty() {
             return Err(Error::new(ErrorKind::Empty, "the robot has no link"));
@@ -300,7 +305,7 @@ impl RobotBuilder {
 
 fn unit_axis(axis: &Vec3) -> Result<Vec3> {
     require_finite(axis.as_slice(), "axis entry")?;
-    // Scaled first, so that the length of a long axis does not overflow.
+    // Scaled first: the length of a long axis would overflow.
     let largest = axis.amax();
     if largest == 0.0 {
         return Err(Error::new(

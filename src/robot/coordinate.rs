@@ -1,4 +1,4 @@
-//! One coordinate of a configuration, and the runs of coordinates that move together.
+//! The coordinates of a configuration: their topology, and the blocks of coordinates that move together.
 
 /// The topology of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,7 @@ impl Coordinate {
         upper: f64::INFINITY,
     };
 
+    /// Whether a value is in the range; true for circles and quaternions.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Coordinate::Circle | Coordinate::Quaternion => true,
@@ -26,18 +27,19 @@ impl Coordinate {
     }
 }
 
-/// What a run of coordinates stands for, and so how velocities move it.
+/// The kind of a block of coordinates, which decides how velocities move it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlockKind {
-    /// One coordinate, whose velocity is its rate.
+    /// One coordinate; its velocity is its rate of change.
     Line,
-    /// A unit quaternion x, y, z, w; its three velocities are angular, in the turned frame.
+    /// A unit quaternion x, y, z, w; its three velocities are angular, in the moved frame.
     Rotation,
     /// x, y, z and a unit quaternion; its six velocities are linear, then angular, in the moved frame.
     Placement,
 }
 
 impl BlockKind {
+    /// The number of coordinates.
     pub fn nq(self) -> usize {
         match self {
             BlockKind::Line => 1,
@@ -46,6 +48,7 @@ impl BlockKind {
         }
     }
 
+    /// The number of velocities.
     pub fn nv(self) -> usize {
         match self {
             BlockKind::Line => 1,
@@ -55,11 +58,13 @@ impl BlockKind {
     }
 }
 
-/// A run of coordinates with its velocities.
+/// A block of coordinates that move together, with its velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
+    /// What the coordinates stand for.
     pub kind: BlockKind,
-    /// The first coordinate and the first velocity.
+    /// The first coordinate.
     pub coordinate: usize,
+    /// The first velocity.
     pub velocity: usize,
 }

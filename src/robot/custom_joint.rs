@@ -1,46 +1,48 @@
-//! Joints by maps of the caller: the report's "arbitrary kinematics" (§4), given by a local forward map and its Jacobian.
+//! Joints defined by callbacks: the report's "arbitrary kinematics" (§4), given by a local forward map and its Jacobian.
 
 use std::sync::Arc;
 
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 
-/// How a link moves: the velocity of its origin, and its angular velocity.
+/// The velocity of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
+    /// Velocity of the link's origin.
     pub linear: Vec3,
+    /// Angular velocity.
     pub angular: Vec3,
 }
 
-/// How fast a joint moves its link at most, whatever the configuration, when one coordinate changes at rate 1.
+/// Upper bounds of a link's speed when one coordinate of its joint changes at rate 1, at any configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speeds {
-    /// Of the link's origin.
+    /// Bounds the speed of the link's origin.
     pub linear: f64,
-    /// Of the link's turning, in radians.
+    /// Bounds the angular speed, in radians.
     pub angular: f64,
 }
 
-/// A joint with kinematics of its own. Both maps must be pure; threads may call them at once.
+/// A joint with its own kinematics. Both maps must be pure; threads call them concurrently.
 pub trait CustomJoint: Send + Sync {
-    /// How many coordinates it has; at most [`MAX_COORDINATES`].
+    /// The number of coordinates, at most [`MAX_COORDINATES`].
     fn coordinates(&self) -> usize;
 
     /// The link's pose in the joint's frame.
     fn pose(&self, q: &[f64]) -> Result<Pose>;
 
-    /// Appends one twist a coordinate, in the joint's frame: the derivative of the pose.
+    /// Appends one twist per coordinate, in the joint's frame: the derivative of the pose.
     fn jacobian(&self, q: &[f64], columns: &mut Vec<Twist>) -> Result<()>;
 
-    /// Bounds of what a unit of any coordinate moves the link by; `None` if they are not known. Without them no motion can
-    /// be proved free.
+    /// Bounds of the link's speed per unit rate of a coordinate; `None` if unknown. Without them no motion can be proved
+    /// free.
     fn speeds(&self) -> Option<Speeds>;
 }
 
-/// More coordinates than this are taken for a mistake.
+/// The most coordinates of a custom joint; more are taken for a mistake.
 pub const MAX_COORDINATES: usize = 64;
 
-/// A custom joint whose answers are checked.
+/// Checks what a custom joint returns.
 pub(super) struct Checked(pub Arc<dyn CustomJoint>);
 
 impl CustomJoint for Checked {

@@ -1,13 +1,13 @@
-//! Forward kinematics by compounding, eq. (12)–(19): a link's pose is its parent's, then the joint's frame, then the joint's
-//! motion. (In print (14) ends with p of frame i - 1; the point it carries is given in the last frame.)
+//! Forward kinematics by compounding, eq. (12)–(19): a link's pose is its parent's, times the joint's frame, times the
+//! joint's motion. (Eq. (14) is printed with p in frame i - 1; the point is given in the last frame.)
 
 use super::{JointKind, Robot};
 use crate::error::{Error, Result};
 use crate::pose::Pose;
 
 impl Robot {
-    /// Appends the pose of every link at configuration q, in the world. `q` has `nq()` entries. Only maps of the caller can
-    /// fail.
+    /// Appends the pose of every link at configuration q, in the world. `q` has `nq()` entries. Fails only in a custom
+    /// joint.
     pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
         let first = poses.len();
         for (index, link) in self.links().iter().enumerate() {

@@ -1,19 +1,22 @@
-//! The basic Jacobian, eq. (32)–(33), column by column. (In print (32) lists its columns out of order: they run from 0.)
+//! The basic Jacobian, eq. (32)–(33), column by column. (Eq. (32) is printed with its columns out of order: they run from
+//! 0.)
 
 use super::{JointKind, Robot, Twist};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3, turned_axes};
 
-/// A configuration, and the link poses at it.
+/// A configuration and the link poses at it.
 #[derive(Clone, Copy, Debug)]
 pub struct RobotState<'a> {
+    /// The coordinates, `nq` of them.
     pub q: &'a [f64],
+    /// The pose of every link, in the world.
     pub poses: &'a [Pose],
 }
 
-/// What one velocity does to a point of a link, in the world.
+/// A column of the Jacobian of a point of a link: what one velocity does, in the world frame.
 pub struct Column {
-    /// Which of the robot's velocities.
+    /// The index of the robot's velocity.
     pub velocity: usize,
     /// Velocity of the point.
     pub linear: Vec3,
@@ -22,7 +25,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// Adds it to a matrix of 6 rows of `nv`, linear velocity above angular.
+    /// Adds the column to a row-major 6 x `nv` matrix, linear velocity above angular.
     pub fn add_to(&self, matrix: &mut [f64], nv: usize) {
         for row in 0..3 {
             matrix[row * nv + self.velocity] += self.linear[row];
@@ -32,8 +35,8 @@ impl Column {
 }
 
 impl Robot {
-    /// Visits the columns of the Jacobian of a point fixed to a link, from the link downwards; `point` is given in the world.
-    /// Joints that share a coordinate give one column each, to be summed.
+    /// Visits the columns of the Jacobian of a point fixed to a link, from the link to the root; `point` is given in the
+    /// world. Joints that share a coordinate give one column each, to be summed.
     pub fn visit_columns(
         &self,
         RobotState { q, poses }: RobotState,
@@ -50,7 +53,7 @@ impl Robot {
             let arm = point - pose.translation;
             let frame = match &link.joint.kind {
                 JointKind::Fixed => continue,
-                // The link's frame turns with the axis, so it serves for the joint's.
+                // A rotation about the axis leaves the axis in place, so the link's frame serves as well as the joint's.
                 kind if kind.has_axis() => pose.rotation,
                 _ => match link.parent {
                     None => link.at.rotation,

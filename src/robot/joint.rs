@@ -1,4 +1,4 @@
-//! Joints: what connects a link to its parent, and how its coordinates move it.
+//! Joints: what connects a link to its parent, and how the coordinates move it.
 
 use std::fmt;
 use std::sync::Arc;
@@ -8,26 +8,26 @@ use crate::error::Result;
 use crate::euler::{AngularFrame, euler_rates};
 use crate::pose::{Mat3, Pose, Vec3, rotation_about};
 
-/// How a joint moves its link. Velocities are the coordinates' rates, but for quaternions: there they are linear and angular
-/// velocity in the link's own frame.
+/// How a joint moves its link. Velocities are rates of the coordinates, except for quaternions: there they are linear and
+/// angular velocity in the link's own frame.
 #[derive(Clone)]
 pub enum JointKind {
-    /// Not at all.
+    /// Does not move.
     Fixed,
-    /// Turns it about the axis; the coordinate is an angle in radians.
+    /// Rotates about the axis; the coordinate is an angle in radians.
     Revolute,
-    /// Shifts it along the axis; the coordinate is a length.
+    /// Translates along the axis; the coordinate is a length.
     Prismatic,
-    /// Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+    /// Moves in the xy-plane of the joint's frame: x, y, and an angle about z.
     Planar,
-    /// Turns it about its origin: a unit quaternion x, y, z, w; the velocity is angular.
+    /// Rotates about the origin: a unit quaternion x, y, z, w; the velocity is angular.
     Spherical,
-    /// Moves it freely: x, y, z and a unit quaternion x, y, z, w; the velocity is linear, then angular.
+    /// Moves freely: x, y, z and a unit quaternion x, y, z, w; the velocity is linear, then angular.
     Free,
-    /// Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1). Its velocity cannot turn the link about every axis
-    /// where cos(pitch) = 0.
+    /// Moves freely, by the report's x, y, z, yaw, pitch, roll (§4.1). Singular at cos(pitch) = 0: there no velocity turns
+    /// the link about some axis.
     FreeEuler,
-    /// By a map of the caller.
+    /// Moves by a map of the caller.
     Custom(Arc<dyn CustomJoint>),
 }
 
@@ -47,7 +47,7 @@ impl fmt::Debug for JointKind {
 }
 
 impl JointKind {
-    /// How many coordinates the joint has.
+    /// The number of coordinates.
     pub fn nq(&self) -> usize {
         match self {
             JointKind::Fixed => 0,
@@ -60,7 +60,7 @@ impl JointKind {
         }
     }
 
-    /// How many velocities.
+    /// The number of velocities.
     pub fn nv(&self) -> usize {
         match self {
             JointKind::Spherical => 3,
@@ -75,22 +75,25 @@ impl JointKind {
     }
 }
 
-/// A joint in its own frame: it sits at the link's origin.
+/// A joint of a robot, in the joint's frame.
 #[derive(Clone, Debug)]
 pub struct Joint {
+    /// How it moves its link.
     pub kind: JointKind,
     /// A unit vector; used by revolute and prismatic joints.
     pub axis: Vec3,
-    /// The first of the robot's coordinates that move it, and the first of its velocities.
+    /// The first of its coordinates in the robot.
     pub coordinate: usize,
+    /// The first of its velocities in the robot.
     pub velocity: usize,
-    /// A revolute or prismatic joint follows `multiplier * coordinate + offset`.
+    /// A revolute or prismatic joint moves by `multiplier * coordinate + offset`.
     pub multiplier: f64,
+    /// See `multiplier`; radians or a length.
     pub offset: f64,
 }
 
 impl Joint {
-    /// The motion of the link at configuration q of the robot: its pose in the joint's frame.
+    /// The link's pose in the joint's frame at configuration q of the robot.
     pub fn motion(&self, q: &[f64]) -> Result<Pose> {
         let own = &q[self.coordinate..self.coordinate + self.kind.nq()];
         Ok(match &self.kind {
@@ -113,7 +116,7 @@ impl Joint {
         })
     }
 
-    /// Appends one column a velocity: how the link moves, in the world. `frame` is the rotation of the joint's frame and
+    /// Appends one column per velocity: the link's twist, in the world. `frame` is the rotation of the joint's frame and
     /// `link` the pose of the link.
     pub(super) fn columns(
         &self,
@@ -133,7 +136,7 @@ impl Joint {
         };
         match &self.kind {
             JointKind::Fixed => {}
-            // The axis is its own image under the joint's motion.
+            // The joint's motion leaves the axis in place.
             JointKind::Revolute => columns.push(Twist {
                 linear: Vec3::zeros(),
                 angular: frame * self.axis * self.multiplier,

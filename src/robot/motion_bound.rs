@@ -1,21 +1,21 @@
-//! How far a link can move between two configurations: the constants of Quinlan's bubbles (1994), and the same along one
-//! direction.
+//! Motion bounds: how far a link can move between two configurations. They are the constants of Quinlan's bubbles (1994),
+//! and the same along one direction.
 
 use super::{JointKind, Link, Robot, RobotState};
 use crate::pose::Vec3;
 
-/// What one joint contributes to the motion of something that it carries.
+/// What one joint contributes to the motion of a point set that it carries.
 struct JointMotion {
     link: usize,
-    /// How far the joint shifts its link's origin, and how far it turns the link.
+    /// How far the joint translates its link's origin (a length), and how far it turns the link (radians).
     shift: f64,
     turn: f64,
-    /// No point of what is carried is farther from the link's origin on the way.
+    /// The largest distance of the carried points from the link's origin during the motion.
     extent: f64,
 }
 
 impl Robot {
-    /// No point of the link's body moves farther than this, in the world, while the robot goes from q with constant velocity
+    /// Bounds how far any point of the link's body moves, in the world, while the robot goes from q with constant velocity
     /// v for a unit of time. Infinite where a custom joint does not state its speeds.
     pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
         match &self.links()[link].body {
@@ -24,12 +24,12 @@ impl Robot {
         }
     }
 
-    /// The same for whatever is fixed to the link, no farther than `radius` from its origin.
+    /// The same for points fixed to the link within `radius` of its origin.
     pub fn motion_bound_of_radius(&self, link: usize, radius: f64, q: &[f64], v: &[f64]) -> f64 {
         self.motion_bound_in(None, link, radius, q, v)
     }
 
-    /// The same in the frame of one of the links that carry it, or of the world: only the joints in between count.
+    /// The same relative to a link that carries it, or to the world: only the joints in between count.
     pub fn motion_bound_in(
         &self,
         frame: Option<usize>,
@@ -45,8 +45,8 @@ impl Robot {
         bound
     }
 
-    /// The same along a unit direction of the world, of a robot whose links are at the state's poses at the start. It is 0
-    /// along the normal of a floor for a base that shifts and turns over it.
+    /// The same along a unit direction of the world; `state` holds the link poses at the start. The bound is 0 along the
+    /// normal of a floor for a base that translates and turns over it.
     pub fn directed_motion_bound(
         &self,
         link: usize,
@@ -58,7 +58,7 @@ impl Robot {
         let mut joints: Vec<JointMotion> = Vec::new();
         self.visit_motions(None, link, radius, state.q, v, |joint| joints.push(joint));
         let mut bound = 0.0;
-        // How far the direction, as a joint's frame sees it, goes from what it is at the start.
+        // How far the direction, in the frame of the current joint, drifts from its value at the start.
         let mut drift = 0.0;
         for joint in joints.iter().rev() {
             let [shift, turn] = self.directed_velocity(joint, direction, state, v);
@@ -70,8 +70,8 @@ impl Robot {
         bound
     }
 
-    /// How fast a joint shifts its link along a direction at the start, and the sine of the angle between the direction and
-    /// the axis that it turns the link about; at most the joint's shift, and 1, where that is not known.
+    /// How fast a joint translates its link along a direction at the start, and the sine of the angle between the direction
+    /// and the axis of rotation. Where these are unknown, the upper bounds: the joint's shift, and 1.
     fn directed_velocity(
         &self,
         joint: &JointMotion,
@@ -92,8 +92,8 @@ impl Robot {
         ]
     }
 
-    /// The velocity of a link's origin, and its angular velocity, that its own joint causes at the start of a way, in the
-    /// world; unknown of custom joints.
+    /// The linear and the angular velocity that a link's own joint gives it at the start of the motion, in the world;
+    /// `None` for custom joints.
     fn start_velocity(
         &self,
         link: &Link,
@@ -109,24 +109,24 @@ impl Robot {
             Some(parent) => state.poses[parent].rotation * link.at.rotation,
         };
         let vector = |at: usize| Vec3::new(own[at], own[at + 1], own[at + 2]);
-        let still = Vec3::zeros();
+        let zero = Vec3::zeros();
         Some(match joint.kind {
-            JointKind::Fixed => [still, still],
-            // The axis is its own image under the joint's motion.
-            JointKind::Revolute => [still, turned * joint.axis * (joint.multiplier * own[0])],
-            JointKind::Prismatic => [turned * joint.axis * (joint.multiplier * own[0]), still],
+            JointKind::Fixed => [zero, zero],
+            // The joint's motion leaves the axis in place.
+            JointKind::Revolute => [zero, turned * joint.axis * (joint.multiplier * own[0])],
+            JointKind::Prismatic => [turned * joint.axis * (joint.multiplier * own[0]), zero],
             JointKind::Planar => {
                 let shift = Vec3::new(own[0], own[1], 0.0);
                 [frame() * shift, frame().column(2) * own[2]]
             }
-            JointKind::Spherical => [still, turned * vector(0)],
+            JointKind::Spherical => [zero, turned * vector(0)],
             JointKind::Free => [turned * vector(0), turned * vector(3)],
-            JointKind::FreeEuler => [frame() * vector(0), still],
+            JointKind::FreeEuler => [frame() * vector(0), zero],
             JointKind::Custom(_) => return None,
         })
     }
 
-    /// Visits the joints that carry something, no farther than `radius` from a link's origin, from the link down to a frame.
+    /// Visits the joints that carry points within `radius` of a link's origin, from the link to a frame.
     fn visit_motions(
         &self,
         frame: Option<usize>,
@@ -137,7 +137,7 @@ impl Robot {
         mut visit: impl FnMut(JointMotion),
     ) {
         let links = self.links();
-        // The largest distance from the current joint's origin to a point of what is carried.
+        // The largest distance of a carried point from the current link's origin.
         let mut extent = radius;
         let mut next = Some(link);
         while let Some(index) = next.filter(|_| next != frame) {
@@ -146,7 +146,8 @@ impl Robot {
             let own_q = &q[joint.coordinate..joint.coordinate + joint.kind.nq()];
             let own_v = &v[joint.velocity..joint.velocity + joint.kind.nv()];
             let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // How far the link's origin goes, how far it turns, and how far from the joint's frame it begins.
+            // How far the link's origin moves, how far the link turns, and how far the origin starts from the joint's
+            // frame.
             let (shift, turn, away) = match &joint.kind {
                 JointKind::Fixed => (0.0, 0.0, 0.0),
                 JointKind::Revolute => (0.0, (joint.multiplier * own_v[0]).abs(), 0.0),
@@ -169,7 +170,7 @@ impl Robot {
                 ),
                 JointKind::Custom(custom) => {
                     let sum: f64 = own_v.iter().map(|x| x.abs()).sum();
-                    // A joint that rests needs no speeds.
+                    // A joint at rest needs no speeds.
                     let speeds = custom
                         .speeds()
                         .map_or([f64::INFINITY; 2], |s| [s.linear, s.angular]);
@@ -192,7 +193,7 @@ impl Robot {
         }
     }
 
-    /// The link nearest to two links that carries both (it may be one of them); `None` for the world.
+    /// The lowest common ancestor of two links (it may be one of them); `None` for the world.
     pub fn common_carrier(&self, links: [usize; 2]) -> Option<usize> {
         let [mut a, mut b] = links.map(Some);
         // Parents have smaller numbers.
@@ -209,7 +210,7 @@ impl Robot {
     }
 }
 
-/// A product in which 0 wins over infinity.
+/// A product in which 0 times infinity is 0.
 fn times(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }

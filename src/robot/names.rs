@@ -1,10 +1,10 @@
-//! The names of a robot's links or joints, for looking numbers up.
+//! Finds a robot's links by name.
 
 use std::collections::HashMap;
 
 use foldhash::fast::RandomState;
 
-/// The number of the link behind each name. The empty name stands for none.
+/// Maps the names of links, or of joints, to link numbers. Empty names are not stored.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names(HashMap<String, usize, RandomState>);
 
@@ -14,7 +14,7 @@ impl Names {
         self.0.get(name).copied()
     }
 
-    /// Adds the name of a link, which no other has.
+    /// Adds a name that is not in use.
     pub fn add(&mut self, name: &str, link: usize) {
         if !name.is_empty() {
             self.0.insert(name.to_string(), link);

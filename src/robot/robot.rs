@@ -13,23 +13,26 @@ use crate::tolerance;
 /// A link: where it is attached, how it moves, and its geometry if it has any.
 #[derive(Clone, Debug)]
 pub struct Link {
+    /// Unique within the robot.
     pub name: String,
-    /// Empty for none.
+    /// Unique within the robot, or empty.
     pub joint_name: String,
+    /// The geometry, in the link's frame; `None` for a link that only carries others.
     pub body: Option<Arc<Body>>,
     /// The parent's index, always smaller; `None` for the world.
     pub parent: Option<usize>,
     /// The joint's frame, from the parent's frame, at coordinate 0.
     pub at: Pose,
+    /// The joint that moves the link relative to `at`.
     pub joint: Joint,
 }
 
-/// What the links' joints make of the coordinates.
+/// The coordinates of a robot, as its joints define them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Coordinates {
-    /// The range of each, unless a space says otherwise.
+    /// The range of each; a space may override it.
     pub ranges: Vec<Coordinate>,
-    /// Whether a whole turn of a coordinate leaves every link where it was: whether it may be a circle.
+    /// Whether a coordinate may be a circle: a whole turn leaves every link where it was.
     pub periodic: Vec<bool>,
     pub blocks: Vec<Block>,
 }
@@ -42,12 +45,12 @@ impl Coordinates {
     }
 }
 
-/// The links, and what finds them by name.
+/// The links, with indices by name.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Links {
     pub list: Vec<Link>,
     pub names: Names,
-    /// Each leads to the link that the joint moves.
+    /// Maps a joint's name to the link that it moves.
     pub joint_names: Names,
 }
 
@@ -60,7 +63,7 @@ impl Links {
     }
 }
 
-/// A robot. Links are numbered as they were added.
+/// A robot: links and their joints. Links are numbered in the order in which they were added. Threads may share it.
 #[derive(Debug)]
 pub struct Robot {
     serial: u64,
@@ -80,11 +83,12 @@ impl Robot {
         }
     }
 
-    /// A number no other robot of this process has.
+    /// A number that no other robot of this process has.
     pub fn serial(&self) -> u64 {
         self.serial
     }
 
+    /// 2 for a planar robot, 3 for a spatial one.
     pub fn dimension(&self) -> u32 {
         self.dimension
     }
@@ -94,41 +98,43 @@ impl Robot {
         self.coordinates.ranges.len()
     }
 
-    /// The number of velocities: that of coordinates, less one for each quaternion.
+    /// The number of velocities: one fewer than coordinates for each quaternion.
     pub fn nv(&self) -> usize {
         self.coordinates.nv()
     }
 
-    /// The coordinates' ranges, by the joints' kinds and limits.
+    /// The coordinates' ranges, from the joints' kinds and limits.
     pub fn ranges(&self) -> &[Coordinate] {
         &self.coordinates.ranges
     }
 
-    /// Whether a coordinate may be a circle: a whole turn of it leaves every link where it was, or only the caller's map can
-    /// know.
+    /// Whether a coordinate may be a circle: a whole turn of it leaves every link where it was. True for custom joints,
+    /// where only the caller can know.
     pub fn is_periodic(&self, coordinate: usize) -> bool {
         self.coordinates.periodic[coordinate]
     }
 
-    /// The coordinates in runs that move together.
+    /// The blocks of coordinates that move together.
     pub fn blocks(&self) -> &[Block] {
         &self.coordinates.blocks
     }
 
+    /// All links, parents before children.
     pub fn links(&self) -> &[Link] {
         &self.links.list
     }
 
+    /// The number of the link with this name.
     pub fn find_link(&self, name: &str) -> Option<usize> {
         self.links.names.find(name)
     }
 
-    /// The link that a joint of this name moves; joints without a name are not found.
+    /// The number of the link that the joint with this name moves; joints without a name are not found.
     pub fn find_joint(&self, name: &str) -> Option<usize> {
         self.links.joint_names.find(name)
     }
 
-    /// Refuses what would take a link of a planar robot out of its plane; only maps of the caller can.
+    /// Refuses a joint motion that takes a link of a planar robot out of its plane; only custom joints can.
     pub(super) fn check_motion(&self, motion: &Pose) -> Result<()> {
         if self.dimension == 2 && !motion.is_planar() {
             return Err(Error::invalid("the joint leaves the plane z = 0"));
@@ -137,8 +143,8 @@ impl Robot {
     }
 }
 
-/// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion that
-/// is none.
+/// Refuses a configuration that has the wrong number of entries, an entry that is not a usable number, or a quaternion that
+/// is not of unit length.
 pub fn check_configuration(q: &[f64], nq: usize, blocks: &[Block]) -> Result<()> {
     if q.len() != nq {
         return Err(Error::new(

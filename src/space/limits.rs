@@ -1,4 +1,4 @@
-//! What a configuration must keep: the coordinates' ranges and the world box.
+//! The limits of a configuration: the coordinates' ranges and the world box.
 
 use std::f64::consts::TAU;
 
@@ -8,13 +8,13 @@ use crate::error::Result;
 use crate::robot::{BlockKind, Coordinate};
 
 impl Space {
-    /// The first coordinate that is out of its range, if one is.
+    /// The first coordinate outside its range, if any.
     pub fn beyond_limits(&self, q: &[f64]) -> Option<usize> {
         let mut pairs = self.coordinates().iter().zip(q);
         pairs.position(|(coordinate, x)| !coordinate.contains(*x))
     }
 
-    /// The first link whose frame's origin is outside the world box, if one is.
+    /// The first link whose origin is outside the world box, if any.
     pub fn beyond_world(&self, q: &[f64]) -> Result<Option<usize>> {
         let poses = self.link_poses(q)?;
         let outside = |pose: &crate::pose::Pose| !self.world().contains(&pose.translation);
@@ -26,7 +26,7 @@ impl Space {
         Ok(self.beyond_limits(q).is_none() && self.beyond_world(q)?.is_none())
     }
 
-    /// The nearest configuration whose coordinates are all in range; quaternions are made unit.
+    /// The nearest configuration with all coordinates in range; quaternions are normalized.
     pub fn clamp(&self, q: &[f64]) -> Vec<f64> {
         let mut clamped = q.to_vec();
         for (x, coordinate) in clamped.iter_mut().zip(self.coordinates()) {
@@ -38,7 +38,7 @@ impl Space {
         clamped
     }
 
-    /// The same configuration with circles in [0, 2 pi), as §4.4 has them, and quaternions unit with w >= 0.
+    /// The same configuration with circles in [0, 2 pi), as in §4.4, and unit quaternions with w >= 0.
     pub fn wrap(&self, q: &[f64]) -> Vec<f64> {
         let mut wrapped = q.to_vec();
         for (x, coordinate) in wrapped.iter_mut().zip(self.coordinates()) {
@@ -64,7 +64,7 @@ impl Space {
         }
     }
 
-    /// Where the quaternions begin.
+    /// The first coordinate of each quaternion.
     pub(super) fn quaternions(&self) -> impl Iterator<Item = usize> {
         self.blocks().iter().filter_map(|block| match block.kind {
             BlockKind::Line => None,

@@ -1,4 +1,5 @@
-//! Steps on rotations and rigid placements: exponential and logarithm of SO(3) and SE(3) (Murray, Li, Sastry 1994, ch. 2).
+//! Steps on rotations and rigid placements: the exponential and the logarithm of SO(3) and SE(3) (Murray, Li, Sastry 1994,
+//! ch. 2).
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -9,21 +10,21 @@ pub fn rotation(xyzw: &[f64]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(xyzw[3], xyzw[0], xyzw[1], xyzw[2]))
 }
 
-/// The entries x, y, z, w.
+/// The entries x, y, z, w of a rotation.
 pub fn entries(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     let q = rotation.quaternion();
     [q.i, q.j, q.k, q.w]
 }
 
-/// The rotation vector that takes one rotation to another, of least length; in the frame of the first.
+/// The shortest rotation vector that takes one rotation to another, in the frame of the first.
 pub fn turn_between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec3 {
     let between = from.inverse() * to;
-    // Of the two quaternions of a rotation, the one that turns by at most half a turn.
+    // Both q and -q stand for the rotation; this is the one with an angle of at most pi.
     let q = between.quaternion();
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
     let (v, w) = (Vec3::new(q.i, q.j, q.k) * sign, q.w * sign);
     let s = v.norm();
-    // 2 atan2(s, w) / s, which is 2 / w where s vanishes.
+    // 2 atan2(s, w) / s, which tends to 2 / w as s vanishes.
     if s < 1e-8 {
         v * (2.0 / w)
     } else {
@@ -31,7 +32,7 @@ pub fn turn_between(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vec
     }
 }
 
-/// A placement: where, and how turned.
+/// A position and an orientation.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     pub translation: Vec3,
@@ -51,7 +52,7 @@ impl Placement {
         q[3..7].copy_from_slice(&entries(&self.rotation));
     }
 
-    /// Where a constant velocity, linear and angular in the moved frame, leads in a unit of time.
+    /// The placement reached with a constant twist, in the moved frame, after a unit of time: the exponential of SE(3).
     pub fn step(&self, linear: &Vec3, angular: &Vec3) -> Self {
         let angle = angular.norm();
         let (a, b) = screw_coefficients(angle);
@@ -63,12 +64,12 @@ impl Placement {
         }
     }
 
-    /// The velocity, linear and angular, that leads to another placement in a unit of time; the shortest turn.
+    /// The twist that leads to another placement in a unit of time, with the shortest rotation: the logarithm of SE(3).
     pub fn difference(&self, to: &Self) -> [Vec3; 2] {
         let angular = turn_between(&self.rotation, &to.rotation);
         let shift = self.rotation.inverse() * (to.translation - self.translation);
         let angle = angular.norm();
-        // 1 / angle^2 - cot(angle / 2) / (2 angle), by its series where it cancels.
+        // 1 / angle^2 - cot(angle / 2) / (2 angle); for small angles, where this cancels, by its series.
         let c = if angle < 1e-2 {
             let square = angle * angle;
             1.0 / 12.0 + square / 720.0 + square * square / 30240.0
@@ -82,7 +83,7 @@ impl Placement {
     }
 }
 
-/// (1 - cos x) / x^2 and (x - sin x) / x^3, by their series where they cancel.
+/// (1 - cos x) / x^2 and (x - sin x) / x^3; for small x, where they cancel, by their series.
 fn screw_coefficients(x: f64) -> (f64, f64) {
     let square = x * x;
     if x < 1e-2 {

@@ -1,4 +1,4 @@
-//! Configurations drawn uniformly from a space.
+//! Uniform sampling of configurations.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use super::Space;
 use crate::error::{Error, ErrorKind, Result};
 use crate::robot::Coordinate;
 
-/// A stream of random numbers: SplitMix64 (Steele, Lea, Flood 2014). Equal states give equal streams, on every machine and
+/// A random number generator: SplitMix64 (Steele, Lea, Flood 2014). Equal states give equal streams, on every machine and
 /// with every version of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler(pub u64);
@@ -28,7 +28,7 @@ impl Sampler {
 
 impl Space {
     /// A configuration drawn uniformly from the coordinates' ranges: intervals by length, circles by angle, quaternions by
-    /// the rotations' volume (Shoemake 1992). The world box is not looked at. Refused where an interval is unbounded.
+    /// the volume of SO(3) (Shoemake 1992). The world box is ignored. Refused where an interval is unbounded.
     pub fn sample(&self, sampler: &mut Sampler) -> Result<Vec<f64>> {
         let unbounded = |coordinate: &Coordinate| matches!(coordinate, Coordinate::Interval { lower, upper } if !(upper - lower).is_finite());
         if let Some(i) = self.coordinates().iter().position(unbounded) {
@@ -42,7 +42,7 @@ impl Space {
         Ok(self.sample_beside(sampler, &self.neutral()))
     }
 
-    /// The same, but that coordinates without bounds are those of `beside`.
+    /// The same, but unbounded coordinates are copied from `beside`.
     pub fn sample_beside(&self, sampler: &mut Sampler, beside: &[f64]) -> Vec<f64> {
         let mut q = Vec::with_capacity(self.nq());
         for (coordinate, &x) in self.coordinates().iter().zip(beside) {

@@ -10,15 +10,19 @@ use crate::robot::{
     Block, Column, Coordinate, Link, MotionChain, Robot, RobotState, check_configuration,
 };
 
-/// Where a robot's links, coordinates and velocities begin in the space.
+/// The first link, coordinate and velocity of a robot in the space.
 #[derive(Clone, Copy, Debug)]
 pub struct Offset {
+    /// Number of the robot's first link.
     pub link: usize,
+    /// Index of the robot's first coordinate.
     pub coordinate: usize,
+    /// Index of the robot's first velocity.
     pub velocity: usize,
 }
 
-/// A C-space. Links and coordinates are numbered through all robots, in the order given.
+/// The C-space of one or more robots. Links and coordinates are numbered through all robots, in the order given. Immutable;
+/// threads may share it.
 #[derive(Debug)]
 pub struct Space {
     serial: u64,
@@ -32,8 +36,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// `ranges` has one entry per coordinate, or none at all; a `None` leaves what the joint says: a circle for revolute
-    /// joints without limits, else the limits, and the whole line for lengths.
+    /// Makes a space. `ranges` has one entry per coordinate, or is empty; `None` keeps the joint's default: its limits, a
+    /// circle for revolute joints without limits, the whole line for lengths.
     pub fn new(
         robots: Vec<Arc<Robot>>,
         ranges: &[Option<Coordinate>],
@@ -84,11 +88,11 @@ impl Space {
                 ),
             ));
         }
-        for (i, (range, known)) in ranges.iter().zip(&mut coordinates).enumerate() {
+        for (i, (range, default)) in ranges.iter().zip(&mut coordinates).enumerate() {
             if let Some(range) = range {
-                check_range(*range, *known, periodic[i])
+                check_range(*range, *default, periodic[i])
                     .map_err(|e| e.within(format_args!("range {i}")))?;
-                *known = *range;
+                *default = *range;
             }
         }
         world.check()?;
@@ -104,11 +108,12 @@ impl Space {
         })
     }
 
-    /// A number no other space of this process has.
+    /// A number that no other space of this process has.
     pub fn serial(&self) -> u64 {
         self.serial
     }
 
+    /// 2 for planar robots, 3 for spatial ones.
     pub fn dimension(&self) -> u32 {
         self.robots[0].dimension()
     }
@@ -123,29 +128,32 @@ impl Space {
         self.nv
     }
 
+    /// The range of each coordinate.
     pub fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
     }
 
-    /// The coordinates in runs that move together.
+    /// The blocks of coordinates that move together.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// One a robot, in the order given.
+    /// One entry per robot, in the order given.
     pub fn offsets(&self) -> &[Offset] {
         &self.offsets
     }
 
+    /// The box that the links' origins must stay in.
     pub fn world(&self) -> &WorldBox {
         &self.world
     }
 
+    /// The number of links of all robots.
     pub fn link_count(&self) -> usize {
         self.links
     }
 
-    /// A link of the space; `None` if there is no such number.
+    /// A link of the space; `None` if the number is out of range.
     pub fn link(&self, link: usize) -> Option<&Link> {
         (link < self.links).then(|| {
             let robot = self.robot_of(link);
@@ -153,14 +161,14 @@ impl Space {
         })
     }
 
-    /// The poses of all links at q. Only joints by maps of the caller can fail.
+    /// The poses of all links at q, in the world. Fails only in a custom joint.
     pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
         let mut poses = Vec::with_capacity(self.links);
         self.append_link_poses(q, &mut poses)?;
         Ok(poses)
     }
 
-    /// Appends the same to others.
+    /// Appends the poses of all links at q to `poses`.
     pub fn append_link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
         for robot in 0..self.robots.len() {
             self.robots[robot].link_poses(&q[self.coordinates_of(robot)], poses)?;
@@ -168,7 +176,7 @@ impl Space {
         Ok(())
     }
 
-    /// Refuses poses of more or fewer links than there are.
+    /// Refuses a number of link poses other than the number of links.
     pub fn check_link_poses(&self, count: usize) -> Result<()> {
         if count == self.links {
             return Ok(());
@@ -180,13 +188,13 @@ impl Space {
         ))
     }
 
-    /// Refuses a configuration with the wrong number of entries, with one that is not a usable number, or with a quaternion
-    /// that is none.
+    /// Refuses a configuration that has the wrong number of entries, an entry that is not a usable number, or a quaternion
+    /// that is not of unit length.
     pub fn check_configuration(&self, q: &[f64]) -> Result<()> {
         check_configuration(q, self.nq(), &self.blocks)
     }
 
-    /// Where all is at 0: no turn, no shift. It may be out of range.
+    /// The configuration with all coordinates 0 and identity quaternions. It may be out of range.
     pub fn neutral(&self) -> Vec<f64> {
         let mut q = vec![0.0; self.nq()];
         for at in self.quaternions() {
@@ -216,7 +224,7 @@ impl Space {
         Ok(matrix)
     }
 
-    /// The columns of the Jacobian of a point fixed to a link, those that are not 0; see [`Robot::visit_columns`].
+    /// Visits the non-zero columns of the Jacobian of a point fixed to a link; see [`Robot::visit_columns`].
     fn visit_columns(
         &self,
         state: RobotState,
@@ -238,8 +246,8 @@ impl Space {
         })
     }
 
-    /// No point of the link's body moves farther than this while the space goes from q with constant velocity v for a unit
-    /// of time. Infinite where a custom joint that moves does not state its speeds.
+    /// Bounds how far any point of the link's body moves, in the world, while the space goes from q with constant velocity
+    /// v for a unit of time. Infinite where a moving custom joint does not state its speeds.
     pub fn motion_bound(&self, link: usize, q: &[f64], v: &[f64]) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
@@ -247,7 +255,7 @@ impl Space {
         self.robots[robot].motion_bound(link - offset.link, &q[self.coordinates_of(robot)], v)
     }
 
-    /// The same for whatever is fixed to the link, no farther than `radius` from its origin.
+    /// The same for points fixed to the link within `radius` of its origin.
     pub fn motion_bound_of_radius(&self, link: usize, radius: f64, q: &[f64], v: &[f64]) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
@@ -275,8 +283,8 @@ impl Space {
         self.robots[robot].directed_motion_bound(link - offset.link, radius, direction, own, v)
     }
 
-    /// No distance between things fixed to two links, each no farther than its extent from its link's origin, changes by
-    /// more than this. Links that no joint moves relative to each other have a bound of 0.
+    /// Bounds the change of the distance between point sets fixed to two links, each within its extent of its link's
+    /// origin. 0 for links that no joint moves relative to each other.
     pub fn relative_motion_bound(&self, sides: [(usize, f64); 2], q: &[f64], v: &[f64]) -> f64 {
         let [a, b] = sides.map(|(link, _)| self.robot_of(link));
         if a != b {
@@ -322,13 +330,13 @@ impl Space {
         Some(from_shared.followed_by(&chain(shared, link)?))
     }
 
-    /// The link that a link is joined to; `None` for the world.
+    /// The parent of a link; `None` for the world.
     pub fn parent(&self, link: usize) -> Option<usize> {
         let first = self.offsets[self.robot_of(link)].link;
         Some(first + self.link(link)?.parent?)
     }
 
-    /// Which of the robots a link belongs to.
+    /// The index of the robot that a link belongs to.
     pub fn robot_of(&self, link: usize) -> usize {
         self.offsets.partition_point(|offset| offset.link <= link) - 1
     }
@@ -339,8 +347,8 @@ impl Space {
     }
 }
 
-/// Whether a coordinate may have this range.
-fn check_range(range: Coordinate, known: Coordinate, is_periodic: bool) -> Result<()> {
+/// Refuses a range that the coordinate cannot have.
+fn check_range(range: Coordinate, default: Coordinate, is_periodic: bool) -> Result<()> {
     if let Coordinate::Interval { lower, upper } = range {
         if lower.is_nan() || upper.is_nan() {
             return Err(Error::new(ErrorKind::NotFinite, "it holds a NaN"));
@@ -358,8 +366,8 @@ fn check_range(range: Coordinate, known: Coordinate, is_periodic: bool) -> Resul
              one that follows it by a part",
         ));
     }
-    if (range == Coordinate::Quaternion) != (known == Coordinate::Quaternion) {
-        return Err(Error::invalid(if known == Coordinate::Quaternion {
+    if (range == Coordinate::Quaternion) != (default == Coordinate::Quaternion) {
+        return Err(Error::invalid(if default == Coordinate::Quaternion {
             "this coordinate belongs to a quaternion, which has no limits"
         } else {
             "this coordinate does not belong to a quaternion"

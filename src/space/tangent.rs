@@ -1,7 +1,7 @@
-//! Steps, differences, interpolation and distance on the space's topology.
+//! Steps, differences, interpolation and distance: the tangent space of a C-space.
 //!
-//! A step follows a constant velocity: straight for intervals, round the circle for circles, at constant angular velocity for
-//! quaternions, and along a screw for free joints.
+//! A step follows a constant velocity: straight for intervals, round circles, at constant angular velocity for quaternions,
+//! and along a screw for free joints.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ use crate::pose::Vec3;
 use crate::robot::{BlockKind, Coordinate};
 
 impl Space {
-    /// Refuses a velocity with the wrong number of entries, or with one that is not a usable number.
+    /// Refuses a velocity that has the wrong number of entries, or an entry that is not a usable number.
     pub fn check_velocity(&self, v: &[f64], name: &str) -> Result<()> {
         if v.len() != self.nv() {
             return Err(Error::new(
@@ -27,7 +27,7 @@ impl Space {
         require_coordinates(v, &format!("{name} entry"))
     }
 
-    /// The configuration that velocity `v` leads to from `q` in a unit of time. Circles are not wrapped.
+    /// The configuration reached from `q` with velocity `v` after a unit of time. Circles are not wrapped.
     pub fn step(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut reached = q.to_vec();
         for block in self.blocks() {
@@ -48,8 +48,8 @@ impl Space {
         reached
     }
 
-    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round (by -pi, of two
-    /// that are equal), quaternions turn by at most half a turn.
+    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round (opposite
+    /// angles by -pi), quaternions turn by at most half a turn.
     pub fn difference(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut v = self.displacement(q0, q1);
         for block in self.blocks() {
@@ -60,8 +60,8 @@ impl Space {
         v
     }
 
-    /// The velocity that leads from `q0` to `q1` with circles unrolled: more than half a turn apart in their numbers, they go
-    /// the longer way.
+    /// The velocity that leads from `q0` to `q1` with circles unrolled: angles that differ by more than half a turn go the
+    /// longer way.
     pub fn displacement(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut v = vec![0.0; self.nv()];
         for block in self.blocks() {
@@ -83,8 +83,8 @@ impl Space {
         v
     }
 
-    /// The configuration at parameter `t` of the shortest way from `q0` (at 0) to `q1` (at 1). Between the two, single
-    /// coordinates that are intervals lie between their ends, to the last bit.
+    /// The configuration at parameter `t` of the shortest way from `q0` (at 0) to `q1` (at 1). For `t` in [0, 1] interval
+    /// coordinates stay between their ends, to the last bit.
     pub fn interpolate(&self, q0: &[f64], q1: &[f64], t: f64) -> Vec<f64> {
         let way: Vec<f64> = self.difference(q0, q1).iter().map(|x| x * t).collect();
         let mut reached = self.step(q0, &way);
@@ -103,8 +103,8 @@ impl Space {
         reached
     }
 
-    /// The derivative with respect to the velocities of what has derivative `by_coordinate` with respect to the coordinates.
-    /// Entries of quaternions are passed over.
+    /// Converts a derivative with respect to the coordinates into one with respect to the velocities. Entries of
+    /// quaternions are ignored.
     pub fn by_velocity(&self, q: &[f64], by_coordinate: &[f64]) -> Vec<f64> {
         let mut row = vec![0.0; self.nv()];
         for block in self.blocks() {
@@ -123,9 +123,9 @@ impl Space {
         row
     }
 
-    /// How q1 is off q0, run by run: angles the shorter way round, shifts in the robot's frame, and turns in the turned
-    /// frame. As [`Space::difference`], but that shifts and turns of free joints are told apart: the length is a metric,
-    /// that of the product of lines, circles and rotations.
+    /// The offset of q1 from q0, block by block: angles the shorter way round, translations in the robot's frame, rotations
+    /// in the moved frame. Unlike in [`Space::difference`], translation and rotation of free joints are separate, so that
+    /// the length is a metric: that of the product of lines, circles and rotations.
     pub fn offset(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut offset = self.difference(q0, q1);
         for block in self.blocks() {
@@ -141,7 +141,8 @@ impl Space {
         offset
     }
 
-    /// The same with shifts in the moved frame of q1: the direction in which the offset's length grows.
+    /// An offset as a velocity at q1, translations turned into the moved frame: the direction in which the offset's length
+    /// grows.
     pub fn offset_as_velocity(&self, q1: &[f64], offset: &[f64]) -> Vec<f64> {
         let mut v = offset.to_vec();
         for block in self.blocks() {
@@ -155,14 +156,14 @@ impl Space {
         v
     }
 
-    /// The length of the difference, each velocity times its weight; no weights mean 1.
+    /// The length of the difference, each velocity multiplied by its weight; without weights each counts as 1.
     pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
         let difference = self.difference(q0, q1);
         let weighted = difference.iter().enumerate().map(|(i, x)| {
             let weight = weights.map_or(1.0, |weights| weights[i]);
             x * weight
         });
-        // Scaled, so that no square overflows.
+        // Scaled: squares of large entries would overflow.
         let largest = weighted.clone().fold(0.0f64, |most, x| most.max(x.abs()));
         if largest == 0.0 {
             return 0.0;

@@ -1,16 +1,19 @@
-//! The world box: where the origins of the links may be.
+//! The world box: bounds for the links' origins.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
 
-/// The box within which the links' origins may move.
+/// The axis-aligned box that the links' origins must stay in; ends may be infinite.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldBox {
+    /// The smallest x, y, z.
     pub low: [f64; 3],
+    /// The largest x, y, z.
     pub high: [f64; 3],
 }
 
 impl WorldBox {
+    /// The box that bounds nothing.
     pub fn unbounded() -> Self {
         Self {
             low: [f64::NEG_INFINITY; 3],
@@ -18,6 +21,7 @@ impl WorldBox {
         }
     }
 
+    /// Whether a point is in the closed box.
     pub fn contains(&self, point: &Vec3) -> bool {
         (0..3).all(|i| self.low[i] <= point[i] && point[i] <= self.high[i])
     }

@@ -1,4 +1,4 @@
-//! From a URDF file's elements to the links of a robot builder.
+//! Turns the elements of a URDF file into links of a robot builder.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -20,39 +20,48 @@ use crate::xml::{fault, parse};
 /// Which of a link's shapes become its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UrdfGeometry {
+    /// The `collision` shapes.
     Collision,
+    /// The `visual` shapes.
     Visual,
     /// None: the links have frames only.
     None,
 }
 
-/// How the root link is joined to what carries the robot.
+/// The joint between the root link and what carries the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BaseJoint {
+    /// No motion.
     Fixed,
+    /// As [`JointKind::Planar`].
     Planar,
+    /// As [`JointKind::Free`].
     Free,
+    /// As [`JointKind::FreeEuler`].
     FreeEuler,
 }
 
 /// How to read a URDF file.
 #[derive(Clone, Debug)]
 pub struct UrdfOptions {
+    /// Which shapes become bodies.
     pub geometry: UrdfGeometry,
+    /// The joint of the root link.
     pub base: BaseJoint,
-    /// The link of the builder that carries the robot, and where; `None` for the world.
+    /// The link of the builder that carries the robot; `None` for the world.
     pub parent: Option<usize>,
+    /// Where the root's joint is, in the frame of `parent`.
     pub at: Pose,
-    /// Put before the names of links and joints, so that a file can be read twice.
+    /// Prepended to the names of links and joints, so that a file can be loaded twice.
     pub prefix: String,
-    /// Folders in which packages are looked for.
+    /// Folders to search for packages.
     pub search: Vec<PathBuf>,
-    /// Into how many sides the circles of spheres, cylinders and capsules are divided, at least 3: polyhedra that hold them.
-    /// 0 for the shapes themselves.
+    /// With 3 or more, spheres, cylinders and capsules become polyhedra that enclose them, their circles divided into this
+    /// many sides. With 0 they stay exact.
     pub sides: usize,
     /// How the links' hierarchies are built.
     pub hierarchy: HierarchyOptions,
-    /// A folder that keeps built bodies for the next load; it is made if there is none.
+    /// A folder that caches built bodies between loads; created if it does not exist.
     pub cache_folder: Option<PathBuf>,
 }
 
@@ -72,15 +81,15 @@ impl Default for UrdfOptions {
     }
 }
 
-/// Circles are not divided finer.
+/// The most sides a circle is divided into.
 const MAX_SIDES: usize = 1024;
 
-/// The largest URDF file that is read, 64 MiB; those of humanoids have some 100 KiB.
+/// The largest URDF file accepted, 64 MiB; those of humanoids have some 100 KiB.
 const MAX_URDF_FILE_BYTES: u64 = 1 << 26;
 
-/// Adds the robot of a URDF file to a builder of dimension 3, parents before children, and returns what became of
-/// it. Branches follow each other as the joints of a link do in the file. `progress` is told the part of the links that
-/// is done. The file is added whole or not at all; failures name file, line and element.
+/// Adds the robot of a URDF file to a builder of dimension 3, and reports what was read and built. Links are added depth
+/// first, parents before children, siblings in file order. `progress` receives the fraction of the links done. The file is
+/// added whole or not at all; errors name file, line and element.
 pub fn add_urdf_file(
     builder: &mut RobotBuilder,
     path: &Path,
@@ -157,11 +166,11 @@ fn add_text(
     })
 }
 
-/// The links of a model and the joints between them, known to be a tree.
+/// The links of a model and the joints between them, checked to form a tree.
 struct Tree<'m, 'a, 'i> {
     root: &'m LinkElement<'a, 'i>,
     links: HashMap<&'a str, &'m LinkElement<'a, 'i>>,
-    /// By the parent's name, in the order of the file.
+    /// By the parent's name, in file order.
     joints: HashMap<&'a str, Vec<&'m JointElement<'a, 'i>>>,
 }
 
@@ -251,28 +260,28 @@ impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
         Ok(tree)
     }
 
-    /// Each link after its parent, branch by branch.
+    /// All links depth first.
     fn links_by_depth(&self) -> Vec<Jointed<'m, 'a, 'i>> {
         let mut order = Vec::new();
-        let mut waiting: Vec<Jointed<'m, 'a, 'i>> = vec![(self.root, None)];
-        while let Some((link, joint)) = waiting.pop() {
+        let mut stack: Vec<Jointed<'m, 'a, 'i>> = vec![(self.root, None)];
+        while let Some((link, joint)) = stack.pop() {
             order.push((link, joint));
             for joint in self.joints.get(link.name).into_iter().flatten().rev() {
-                waiting.push((self.links[joint.child], Some(joint)));
+                stack.push((self.links[joint.child], Some(joint)));
             }
         }
         order
     }
 }
 
-/// What a joint follows: another's coordinate, by a multiple and an offset.
+/// What a mimic joint follows: a multiple of another joint's coordinate plus an offset.
 struct MimicTarget<'m, 'a, 'i> {
     joint: &'m JointElement<'a, 'i>,
     multiplier: f64,
     offset: f64,
 }
 
-/// For each joint that mimics, the joint at the end of its chain.
+/// For each mimic joint, the joint at the end of its chain, with the combined multiplier and offset.
 fn followed<'m, 'a, 'i>(
     model: &'m Model<'a, 'i>,
 ) -> Result<HashMap<&'a str, MimicTarget<'m, 'a, 'i>>> {
@@ -281,16 +290,16 @@ fn followed<'m, 'a, 'i>(
         .iter()
         .map(|joint| (joint.name, joint))
         .collect();
-    let mut found: HashMap<&str, MimicTarget> = HashMap::new();
+    let mut resolved: HashMap<&str, MimicTarget> = HashMap::new();
     for joint in &model.joints {
         let wrong = |kind, message: String| {
             fault(joint.node, kind, message).within(format_args!("joint \"{}\"", joint.name))
         };
-        // The chain up to its end, or to a joint whose own is known.
+        // The chain up to its end, or to a joint already resolved.
         let mut chain = Vec::new();
         let mut last = joint;
         while let Some(mimic) = &last.mimic {
-            if found.contains_key(last.name) {
+            if resolved.contains_key(last.name) {
                 break;
             }
             chain.push((last.name, mimic));
@@ -308,7 +317,7 @@ fn followed<'m, 'a, 'i>(
         if chain.is_empty() {
             continue;
         }
-        let (last, mut multiplier, mut offset) = match found.get(last.name) {
+        let (last, mut multiplier, mut offset) = match resolved.get(last.name) {
             Some(known) => (known.joint, known.multiplier, known.offset),
             None => (last, 1.0, 0.0),
         };
@@ -322,7 +331,7 @@ fn followed<'m, 'a, 'i>(
         for (name, mimic) in chain.into_iter().rev() {
             offset = mimic.multiplier * offset + mimic.offset;
             multiplier *= mimic.multiplier;
-            found.insert(
+            resolved.insert(
                 name,
                 MimicTarget {
                     joint: last,
@@ -332,16 +341,17 @@ fn followed<'m, 'a, 'i>(
             );
         }
     }
-    Ok(found)
+    Ok(resolved)
 }
 
 struct Assembly<'m, 'a, 'i, 'o> {
     builder: &'o mut RobotBuilder,
     options: &'o UrdfOptions,
     followed: HashMap<&'a str, MimicTarget<'m, 'a, 'i>>,
-    /// Which coordinate each joint took, by the name of the joint at the end of a chain of mimics.
+    /// The coordinate of each joint, by the name of the joint at the end of its mimic chain.
     coordinates: HashMap<&'a str, usize>,
     bodies: LinkBodies<'o>,
+    /// Link numbers in the builder, by name.
     numbers: HashMap<&'a str, usize>,
 }
 
@@ -401,7 +411,7 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
             ..definition
         };
         if definition.kind.has_axis() {
-            // Whichever of the joints that share a coordinate comes first brings it, with the limits of its owner.
+            // The first of the joints that share a coordinate adds it, with the limits of the joint that owns it.
             let owner = match self.followed.get(joint.name) {
                 Some(followed) => {
                     definition.multiplier = followed.multiplier;
@@ -423,8 +433,8 @@ impl<'a> Assembly<'_, 'a, '_, '_> {
         self.builder.add_link(definition)
     }
 
-    /// A planar joint moves in the xy-plane of its frame; where the file's axis is another, a frame of its own carries
-    /// it, and the link hangs on that.
+    /// Adds a planar joint whose axis is not z. [`JointKind::Planar`] moves in the xy-plane of its frame, so an extra link
+    /// is tilted to the axis, and the link is fixed to it.
     fn add_tilted_plane(&mut self, definition: LinkDefinition, axis: &Vec3) -> Result<usize> {
         let half_turn = || Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI);
         let turn = Rotation3::rotation_between(&Vec3::z(), &(axis / axis.amax()))

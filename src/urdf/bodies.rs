@@ -1,4 +1,4 @@
-//! The links' bodies: links of equal shapes share one, and a folder may keep them between loads.
+//! The bodies of the links: links with equal shapes share one, and a folder may cache them between loads.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -17,13 +17,13 @@ pub struct LinkBodies<'a> {
     cache: Option<BodyCache>,
     /// By the link's name.
     keys: HashMap<&'a str, BodyKey>,
-    known: HashMap<BodyKey, Arc<Body>>,
+    bodies: HashMap<BodyKey, Arc<Body>>,
     report: UrdfReport,
 }
 
 impl<'a> LinkBodies<'a> {
-    /// Looks for the links' bodies in the cache, and reads the meshes of those that have to be built. All of it is counted
-    /// before the first is built, so that a file that asks for too much is soon refused.
+    /// Looks up the links' bodies in the cache, and reads the meshes of those that must be built. Everything is counted
+    /// before the first is built, so that a file that exceeds the budget is refused early.
     pub fn new(
         links: &[LinkElement<'a, '_>],
         shapes: ShapeReader<'a>,
@@ -35,10 +35,10 @@ impl<'a> LinkBodies<'a> {
             hierarchy,
             cache,
             keys: HashMap::new(),
-            known: HashMap::new(),
+            bodies: HashMap::new(),
             report: UrdfReport::default(),
         };
-        // How bodies are built does not depend on the number of threads.
+        // The number of threads does not change the body built, so it is not part of the key.
         let options = HierarchyOptions {
             threads: 0,
             ..*hierarchy
@@ -50,7 +50,7 @@ impl<'a> LinkBodies<'a> {
             bodies.keys.insert(link.name, key);
             bodies.report.links_with_body += 1;
             bodies.report.shapes += link.geometry.len();
-            if bodies.known.contains_key(&key) || !to_build.insert(key) {
+            if bodies.bodies.contains_key(&key) || !to_build.insert(key) {
                 continue;
             }
             match bodies.cache.as_ref().and_then(|cache| cache.load(&key)) {
@@ -65,13 +65,13 @@ impl<'a> LinkBodies<'a> {
         Ok(bodies)
     }
 
-    /// The body of a link, built when it is first asked for.
+    /// The body of a link, built on first use.
     pub fn body(&mut self, link: &LinkElement) -> Result<Option<Arc<Body>>> {
         let Some(key) = self.keys.get(link.name).copied() else {
             return Ok(None);
         };
-        if let Some(known) = self.known.get(&key) {
-            return Ok(Some(known.clone()));
+        if let Some(body) = self.bodies.get(&key) {
+            return Ok(Some(body.clone()));
         }
         let body = self
             .shapes
@@ -79,7 +79,7 @@ impl<'a> LinkBodies<'a> {
             .build(self.hierarchy, &mut |_| Ok(()))
             .map_err(|e| e.within(format_args!("link \"{}\"", link.name)))?;
         let body = Arc::new(body);
-        // The robot is whole without it: a folder that cannot be written to is told in the report.
+        // A cache that cannot be written to is reported, not an error: the robot does not need it.
         if let Some(cache) = &self.cache
             && cache.store(&key, &body).is_err()
         {
@@ -95,7 +95,7 @@ impl<'a> LinkBodies<'a> {
         self.report.primitives += statistics.primitives;
         self.report.faces_split += statistics.faces_split;
         self.report.faces_dropped += statistics.faces_dropped;
-        self.known.insert(key, body);
+        self.bodies.insert(key, body);
     }
 
     /// What was read and built so far.

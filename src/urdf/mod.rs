@@ -1,7 +1,7 @@
-//! Robots from URDF files: read, checked as a tree, and added to a robot builder link by link.
+//! Robots from URDF files: parsed, checked to be trees, and added to a robot builder link by link.
 //!
-//! The file is read here, over the crate roxmltree: the crate urdf-rs does not say at which element it failed, passes over
-//! numbers it cannot read, and brings fifteen crates along.
+//! The parser is our own, on top of the crate roxmltree: the crate urdf-rs does not say which element failed, skips numbers
+//! that it cannot read, and adds fifteen dependencies.
 
 mod assemble;
 mod bodies;

@@ -1,4 +1,4 @@
-//! What a URDF file says, element by element, with every number checked.
+//! The elements of a URDF file, with every number checked.
 
 use roxmltree::Node;
 
@@ -6,7 +6,8 @@ use crate::error::{ErrorKind, Result};
 use crate::pose::{Pose, Vec3, rotation_about};
 use crate::xml::{child, children, fault, numbers, required, required_child};
 
-/// The largest humanoids have some hundred links; generated chains have thousands.
+/// Limits the links and the joints of a file. The largest humanoids have some hundred links; generated chains have
+/// thousands.
 const MAX_LINKS: usize = 1 << 17;
 
 /// A shape in its own frame.
@@ -31,7 +32,7 @@ pub struct LinkElement<'a, 'i> {
     pub node: Node<'a, 'i>,
     pub name: &'a str,
     pub geometry: Vec<Geometry<'a, 'i>>,
-    /// It has shapes of the kind that was not asked for.
+    /// The link has shapes of a kind that is not read.
     pub has_other_shapes: bool,
 }
 
@@ -72,12 +73,12 @@ pub struct Model<'a, 'i> {
     pub node: Node<'a, 'i>,
     pub links: Vec<LinkElement<'a, 'i>>,
     pub joints: Vec<JointElement<'a, 'i>>,
-    /// Elements that say nothing that is read.
+    /// The number of elements that are not read.
     pub skipped_elements: usize,
 }
 
 impl<'a, 'i> Model<'a, 'i> {
-    /// Reads the document's robot; the links' geometry from the elements of this name, if one is given.
+    /// Reads the robot. `geometry` names the elements that hold the links' shapes; without it no shapes are read.
     pub fn read(root: Node<'a, 'i>, geometry: Option<&str>) -> Result<Self> {
         if root.tag_name().name() != "robot" {
             return Err(fault(
@@ -96,7 +97,7 @@ impl<'a, 'i> Model<'a, 'i> {
         let links: Vec<_> = children(root, "link")
             .map(|node| read_link(node, geometry))
             .collect::<Result<_>>()?;
-        // Joints of <transmission> and the like stand elsewhere.
+        // Only the joints directly in the robot: those in <transmission> and the like are references.
         let joints: Vec<_> = children(root, "joint")
             .map(read_joint)
             .collect::<Result<_>>()?;
@@ -132,7 +133,7 @@ impl LinkElement<'_, '_> {
     }
 }
 
-/// The number of elements in a node that have none of these names.
+/// Counts the child elements whose name is not in `read`.
 fn skipped(node: Node, read: &[&str]) -> usize {
     let elements = node.children().filter(Node::is_element);
     elements
@@ -264,7 +265,7 @@ fn read_named_joint<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> Result<JointEl
     let mimic = child(node, "mimic")
         .map(|mimic| read_mimic(mimic))
         .transpose()?;
-    // What does not move follows anything.
+    // A fixed joint does not move, so its mimic is ignored.
     let mimic = mimic.filter(|_| kind != JointType::Fixed);
     if let (Some(_), false) = (&mimic, is_limited || kind == JointType::Continuous) {
         let message = "only revolute, continuous and prismatic joints can mimic others";
@@ -296,7 +297,7 @@ fn read_mimic<'a>(node: Node<'a, '_>) -> Result<Mimic<'a>> {
     })
 }
 
-/// The <origin> of an element: a shift, and turns about the fixed x, then y, then z.
+/// The <origin> of an element: a translation, and rotations about the fixed x, then y, then z.
 fn origin(node: Node) -> Result<Pose> {
     let Some(origin) = child(node, "origin") else {
         return Ok(Pose::identity());

@@ -1,12 +1,12 @@
-//! Where the mesh files of a URDF file are.
+//! Locates the mesh files of a URDF file.
 
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// The file that a mesh's name in a URDF file stands for. `package://name/rest` (and `model://`) is looked for as `name/rest`
-/// in the folders given, as `rest` in those of them that are called `name`, and likewise in the folders that hold the URDF
-/// file; `file://` names a path, and other names are relative to the URDF file.
+/// Finds the file that a mesh name stands for. `package://name/rest` (or `model://`) is searched for as `name/rest` in each
+/// search folder, as `rest` in a search folder called `name`, and likewise in the ancestors of the URDF file's folder.
+/// `file://` gives a path; other names are relative to the URDF file.
 pub fn resolve(name: &str, folder: &Path, search: &[PathBuf]) -> Result<PathBuf> {
     let in_package = name
         .strip_prefix("package://")

@@ -1,4 +1,5 @@
-//! The shapes of URDF as primitives. Round ones may become polyhedra that hold them, so that what is called free is free.
+//! Converts URDF shapes to primitives. Round shapes may become polyhedra that enclose them, so that an answer of "free"
+//! stays conservative.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -17,10 +18,11 @@ use crate::xml::place;
 pub struct ShapeReader<'a> {
     folder: &'a Path,
     search: &'a [PathBuf],
-    /// Into how many sides a circle is divided; 0 for none.
+    /// The number of sides that a circle is divided into; 0 keeps round shapes exact.
     sides: usize,
-    /// The places among the files of the names in the URDF file, and of the paths that they stand for.
+    /// Indices into `files`, by the name in the URDF file.
     names: HashMap<String, usize>,
+    /// Indices into `files`, by canonical path: one file may have several names.
     paths: HashMap<PathBuf, usize>,
     files: Vec<MeshFile>,
     budget: MeshBudget,
@@ -32,7 +34,7 @@ struct MeshFile {
     content: Content,
 }
 
-/// The bytes are parsed only for a body that is to be built.
+/// The content of a mesh file. It is parsed only when a body needs to be built from it.
 enum Content {
     Bytes(MeshFormat, Vec<u8>),
     Mesh(Arc<Mesh>),
@@ -56,7 +58,7 @@ impl<'a> ShapeReader<'a> {
         self.files.len()
     }
 
-    /// Everything that the link's shapes consist of. Links of the same description have equal shapes.
+    /// Describes everything that the link's shapes depend on. Links with equal descriptions have equal shapes.
     pub fn describe(&mut self, link: &LinkElement) -> Result<String> {
         let mut text = format!("sides {}\n", self.sides);
         for geometry in &link.geometry {
@@ -75,7 +77,7 @@ impl<'a> ShapeReader<'a> {
         Ok(text)
     }
 
-    /// Reads the meshes of a link whose body is to be built, and counts what it will have.
+    /// Reads the meshes of a link whose body must be built, and takes its size from the budget.
     pub fn prepare(&mut self, link: &LinkElement) -> Result<()> {
         for geometry in &link.geometry {
             self.count(geometry).map_err(|e| at(link, geometry, e))?;
@@ -100,7 +102,7 @@ impl<'a> ShapeReader<'a> {
             Shape::Sphere { .. } => on_sphere,
             Shape::Capsule { .. } => 2 * on_sphere,
         };
-        // A polyhedron has at most two faces for each of its points.
+        // A polyhedron has fewer than two faces per vertex.
         let size = MeshSize {
             faces: 2 * points,
             indices: 6 * points,
@@ -108,8 +110,8 @@ impl<'a> ShapeReader<'a> {
         self.budget.take(size, false)
     }
 
-    /// The link's shapes in its frame; primitives are tagged with the number of the shape, those of meshes with the face's
-    /// number in its file.
+    /// The link's shapes in its frame. Primitives are tagged with the number of the shape, those of a mesh with the number
+    /// of the face in its file.
     pub fn read(&mut self, link: &LinkElement) -> Result<BodyBuilder> {
         let mut builder = BodyBuilder::new(3)?;
         for (i, geometry) in link.geometry.iter().enumerate() {
@@ -172,16 +174,16 @@ impl<'a> ShapeReader<'a> {
         }
     }
 
-    /// The place of a mesh file, which is read when it is first named. One file may have several names.
+    /// The index of a mesh file, which is read when it is first named. One file may have several names.
     fn file(&mut self, name: &str) -> Result<usize> {
-        if let Some(&known) = self.names.get(name) {
-            return Ok(known);
+        if let Some(&index) = self.names.get(name) {
+            return Ok(index);
         }
         let path = resolve(name, self.folder, self.search)?;
         let named = |e: Error| e.within(path.display());
         let real = path.canonicalize().map_err(Error::io).map_err(named)?;
         let place = match self.paths.get(&real) {
-            Some(&known) => known,
+            Some(&index) => index,
             None => {
                 let format = MeshFormat::of(&path).map_err(named)?;
                 let bytes = read_mesh_bytes(&path).map_err(named)?;
@@ -201,12 +203,12 @@ impl<'a> ShapeReader<'a> {
     fn mesh(&mut self, index: usize) -> Result<Arc<Mesh>> {
         let file = &mut self.files[index];
         let (format, bytes) = match &file.content {
-            Content::Mesh(known) => return Ok(known.clone()),
+            Content::Mesh(mesh) => return Ok(mesh.clone()),
             Content::Bytes(format, bytes) => (format, bytes),
         };
         let path = &file.path;
         let read = format.parse(bytes).map_err(|e| e.within(path.display()))?;
-        // Before they are moved, so that the message tells the number that the file holds.
+        // Checked before they are transformed, so that the message shows the number in the file.
         for (i, vertex) in read.vertices.iter().enumerate() {
             require_finite(vertex.as_slice(), "coordinate")
                 .map_err(|e| e.within(format_args!("{}: vertex {i}", path.display())))?;
@@ -217,7 +219,7 @@ impl<'a> ShapeReader<'a> {
     }
 }
 
-/// Names a link's shape in a message.
+/// Adds the link and the shape to an error message.
 fn at(link: &LinkElement, geometry: &Geometry, error: Error) -> Error {
     error.within(format_args!(
         "link \"{}\": {}",
@@ -236,7 +238,7 @@ fn add_polyhedron(
     builder.add_polyhedron(&points, tag)
 }
 
-/// A regular polygon around a circle.
+/// The corners of a regular polygon circumscribed about a circle.
 fn rim(radius: f64, sides: usize) -> Vec<[f64; 2]> {
     let step = std::f64::consts::TAU / sides as f64;
     let outer = radius / (0.5 * step).cos();
@@ -248,12 +250,13 @@ fn rim(radius: f64, sides: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// A polyhedron around a sphere: bands of latitude whose corners lie on a larger sphere that no face comes through.
+/// The corners of a polyhedron that encloses a sphere: rings of latitude on a larger sphere, so large that no face cuts
+/// into the smaller one.
 fn around_sphere(radius: f64, sides: usize) -> Vec<Vec3> {
     let bands = (sides / 2).max(2);
     let tilt = std::f64::consts::PI / bands as f64;
     let turn = std::f64::consts::TAU / sides as f64;
-    // A face's middle lies within half a band and half a side of its corners.
+    // A face's centre is within half a band and half a side of its corners.
     let outer = radius / ((0.5 * tilt).cos() * (0.5 * turn).cos());
     let mut points = vec![Vec3::z() * outer, Vec3::z() * -outer];
     for band in 1..bands {
