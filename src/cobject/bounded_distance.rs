@@ -1,16 +1,17 @@
-//! What a measure says of a distance: with bounds, and of the complement.
+//! Signed distances from pure sets, and the bounded distances that follow from them.
 
 use super::Class;
 
-/// A signed distance, known to `error`; in lengths where the set has a scale.
+/// A signed distance from a set, in lengths where the set has a scale, else in C-space units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
-    /// Positive outside, negative inside; infinite where the set is empty, or all there is.
+    /// Positive outside, negative inside; plus infinity for an empty set, minus infinity for the whole space.
     pub signed: f64,
+    /// The largest error of `signed`.
     pub error: f64,
-    /// The truth is no less, but may be more.
+    /// `signed` is only a lower bound: the true distance may be larger.
     pub is_bound: bool,
-    /// Inside, `signed` is minus the distance from the complement.
+    /// Inside, `signed` is minus the distance from the complement; else the depth is unknown.
     pub knows_depth: bool,
 }
 
@@ -30,7 +31,7 @@ impl Measure {
         }
     }
 
-    /// What it says of the distance from the set, or from its complement.
+    /// The distance from the set, or from its complement, with bounds.
     pub fn bounded_distance(&self, from_complement: bool) -> BoundedDistance {
         let Self { signed, error, .. } = *self;
         let certain = if from_complement {
@@ -77,9 +78,12 @@ impl Measure {
 /// A distance with safe bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedDistance {
+    /// The distance, or the lower bound if it is not known.
     pub distance: f64,
+    /// The true distance is not smaller.
     pub lower: f64,
+    /// The true distance is not larger.
     pub upper: f64,
-    /// The distance is known; else `distance` is the lower bound.
+    /// Whether the distance is known; else `distance` is the lower bound.
     pub is_exact: bool,
 }

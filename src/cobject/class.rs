@@ -1,11 +1,12 @@
-//! Where a configuration stands with respect to a C-object.
+//! The class of a configuration with respect to a C-object.
 
-/// The order is that of the set algebra: a union takes the maximum, an intersection the minimum.
+/// Outside, in contact or inside. The order is that of the set algebra: a union takes the maximum, an intersection the
+/// minimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Farther from contact than the contact epsilon.
+    /// Farther away than the contact epsilon.
     Outside,
-    /// Apart, but within the contact epsilon.
+    /// Apart, but no farther than the contact epsilon.
     Contact,
     /// The closed sets meet.
     Inside,
@@ -21,7 +22,7 @@ impl Class {
         }
     }
 
-    /// The same, or reversed.
+    /// The class itself, or reversed.
     pub fn reversed_if(self, reverse: bool) -> Self {
         if reverse { self.reversed() } else { self }
     }

@@ -15,35 +15,40 @@ use crate::space::Space;
 use crate::tolerance;
 use crate::user_data::{UserData, value_of};
 
-/// Sets nested deeper than this are refused; unions in unions, and intersections in intersections, count as one.
+/// The deepest nesting of sets; a union in a union, or an intersection in an intersection, adds no level.
 pub const MAX_DEPTH: u32 = 256;
 
 /// What a C-object is made of.
 #[derive(Clone, Debug)]
 pub enum Set {
-    /// A union. What is induced is searched as one, whatever it was joined from; a lone induced set is a union of one.
+    /// A union. Its induced sets are searched together, wherever they came from; a single induced set is a union of one.
     Union {
+        /// The induced sets, without duplicates.
         induced: Vec<Arc<Induced>>,
+        /// All other parts.
         others: Vec<Arc<CObject>>,
     },
+    /// The configurations in all parts.
     Intersection(Vec<Arc<CObject>>),
+    /// The configurations not in the part.
     Complement(Arc<CObject>),
+    /// A set given in C-space itself.
     Pure(PureSet),
 }
 
 /// The unit in which a set measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Metric {
-    /// It does not.
+    /// The set does not measure.
     None,
     Length,
-    /// That of C-space, in the pure set of this number.
+    /// Units of C-space, in the pure set of this number.
     CSpace(u64),
-    /// Both: the pure set of this number has no scale.
+    /// Lengths and units of C-space: the pure set of this number has no scale.
     Mixed(u64),
 }
 
-/// A set in C-space, over one space. Immutable, but for the environments it refers to.
+/// A set in the C-space of one space. Immutable, except for the environments that it refers to; threads may share it.
 #[derive(Debug)]
 pub struct CObject {
     serial: u64,
@@ -53,21 +58,21 @@ pub struct CObject {
     depth: u32,
 }
 
-/// What a C-object is: as it was made, or joined and flattened when first asked about.
+/// The content of a C-object. Unions and intersections are flattened on first use.
 #[derive(Clone, Debug)]
 pub(super) enum Content {
     Flat(Flat),
     Compound(Arc<Compound>),
 }
 
-/// A set, and what follows from its parts.
+/// A set, with properties derived from its parts.
 #[derive(Clone, Debug)]
 pub(super) struct Flat {
     pub set: Set,
     metric: Metric,
-    /// A pure set that asks for coordinates: its number, and what it is.
+    /// A part that cannot be answered from link poses alone: its number and its name.
     needs_coordinates: Option<(u64, &'static str)>,
-    /// Each once, in order of serials.
+    /// Without duplicates, in order of serials.
     environments: Vec<Arc<Environment>>,
 }
 
@@ -86,7 +91,7 @@ impl Flat {
 }
 
 impl CObject {
-    /// The set where a link meets an s-object. No links given means all links that have a body.
+    /// The configurations where a link meets an s-object. An empty `links` means all links that have a body.
     pub fn induced(
         space: Arc<Space>,
         links: &[usize],
@@ -99,7 +104,7 @@ impl CObject {
         Ok(Self::of_pairs(space, pairs, options))
     }
 
-    /// The set where the links of some pair meet.
+    /// The configurations where the links of some pair meet.
     pub fn induced_links(
         space: Arc<Space>,
         pairs: &[[usize; 2]],
@@ -123,7 +128,7 @@ impl CObject {
         })
     }
 
-    /// A set given by coordinates.
+    /// A set given in C-space itself.
     pub fn pure(space: Arc<Space>, shape: PureShape, options: PureOptions) -> Result<Self> {
         options.check()?;
         shape.check(&space)?;
@@ -156,7 +161,7 @@ impl CObject {
         Self::of_compound(space, Compound::new(CompoundKind::Intersection, parts))
     }
 
-    /// All configurations that are not in a C-object.
+    /// The configurations that are not in a C-object. The complement of a complement is the original set, with its number.
     pub fn complement(part: &Arc<CObject>) -> Result<Self> {
         if let Content::Flat(flat) = &part.content
             && let Set::Complement(inner) = &flat.set
@@ -170,7 +175,7 @@ impl CObject {
             });
         }
         let set = Set::Complement(part.clone());
-        Self::with_set(next_serial(), part.space.clone(), set, None).limited()
+        Self::with_set(next_serial(), part.space.clone(), set, None).with_depth_checked()
     }
 
     /// The configurations of one C-object that are not in another.
@@ -179,18 +184,18 @@ impl CObject {
     }
 
     fn of_compound(space: Arc<Space>, compound: Compound) -> Result<Self> {
-        let made = Self {
+        let cobject = Self {
             serial: next_serial(),
             space,
             depth: 1 + compound.depth(),
             content: Content::Compound(Arc::new(compound)),
             data: None,
         };
-        made.limited()
+        cobject.with_depth_checked()
     }
 
-    /// Refuses a set that is nested too deep.
-    fn limited(self) -> Result<Self> {
+    /// Refuses a set that is nested too deeply.
+    fn with_depth_checked(self) -> Result<Self> {
         if self.depth > MAX_DEPTH {
             return Err(Error::new(
                 ErrorKind::Unsupported,
@@ -210,12 +215,13 @@ impl CObject {
         }
     }
 
-    /// The same set, carrying data of the caller's: answers hand those of leaves back.
+    /// The same set with user data, under a new number. Answers return the data of leaves.
     pub fn with_data(&self, data: UserData) -> Self {
-        self.renamed(Some(data), self.shell())
+        self.with_new_serial(Some(data), self.shell())
     }
 
-    /// The same leaf with a shell of its own: slides look that far for its contacts, whatever their options say of others.
+    /// The same leaf with its own shell, under a new number: slides consider its contacts up to this distance, whatever the
+    /// shell of their options.
     pub fn with_shell(&self, shell: f64) -> Result<Self> {
         require_coordinates(&[shell], "shell")?;
         if shell < tolerance::SMALLEST_DIAMETER {
@@ -230,11 +236,11 @@ impl CObject {
                 "only an induced or a pure set takes a shell: give one to each part before they are combined",
             ));
         }
-        Ok(self.renamed(self.data.clone(), Some(shell)))
+        Ok(self.with_new_serial(self.data.clone(), Some(shell)))
     }
 
-    /// The same set under another number; a leaf takes the data and the shell.
-    fn renamed(&self, data: Option<UserData>, shell: Option<f64>) -> Self {
+    /// The same set under a new number; the data and the shell go to its leaf, if it is one.
+    fn with_new_serial(&self, data: Option<UserData>, shell: Option<f64>) -> Self {
         let serial = next_serial();
         let leaf = Leaf {
             serial,
@@ -274,7 +280,7 @@ impl CObject {
         Self::with_set(serial, self.space.clone(), set, data)
     }
 
-    /// The shell of a leaf that has one.
+    /// The shell of a leaf that has its own.
     fn shell(&self) -> Option<f64> {
         match self.leaf_set()? {
             Set::Pure(pure) => pure.shell,
@@ -298,7 +304,7 @@ impl CObject {
         is_leaf.then_some(set)
     }
 
-    /// The union of what is induced, without anything else.
+    /// The union of the induced sets alone. It keeps the number of the C-object.
     pub fn induced_part(&self) -> Self {
         let set = Set::Union {
             induced: self.induced_leaves(),
@@ -307,15 +313,18 @@ impl CObject {
         Self::with_set(self.serial, self.space.clone(), set, None)
     }
 
-    /// A number no other C-object of this process has.
+    /// A number that identifies the set within this process. Two C-objects share it where one is made from the other
+    /// without change (the complement of a complement), or as a part of it ([`Self::induced_part`]).
     pub fn serial(&self) -> u64 {
         self.serial
     }
 
+    /// The space whose configurations the set holds.
     pub fn space(&self) -> &Arc<Space> {
         &self.space
     }
 
+    /// What the C-object is made of. Flattens unions and intersections on first use.
     pub fn set(&self) -> &Set {
         &self.flat().set
     }
@@ -331,21 +340,22 @@ impl CObject {
         &self.content
     }
 
-    /// How deep the sets are nested, this one counted.
+    /// The number of nested sets, this one included.
     pub(super) fn depth(&self) -> u32 {
         self.depth
     }
 
+    /// The user data, if any.
     pub fn data(&self) -> Option<&UserData> {
         self.data.as_ref()
     }
 
-    /// The environments it refers to, each once, in order of serials.
+    /// The environments that the set refers to, without duplicates, in order of serials.
     pub fn environments(&self) -> &[Arc<Environment>] {
         &self.flat().environments
     }
 
-    /// Refuses to answer at link poses where a pure set asks for coordinates.
+    /// Refuses a set that cannot be answered from link poses alone: one with a part that needs coordinates.
     pub fn require_no_coordinates(&self) -> Result<()> {
         match self.flat().needs_coordinates {
             Some((pure, name)) => Err(Error::new(
@@ -358,7 +368,7 @@ impl CObject {
         }
     }
 
-    /// Refuses to measure lengths together with units of C-space.
+    /// Refuses a set that mixes lengths with units of C-space.
     pub fn require_one_metric(&self) -> Result<()> {
         match self.flat().metric {
             Metric::Mixed(pure) => Err(Error::new(
@@ -371,30 +381,30 @@ impl CObject {
         }
     }
 
-    /// All induced leaves, each once.
+    /// All induced leaves, without duplicates.
     pub fn induced_leaves(&self) -> Vec<Arc<Induced>> {
         let mut seen = HashSet::new();
-        let mut found = Vec::new();
-        let mut open = vec![self];
+        let mut leaves = Vec::new();
+        let mut stack = vec![self];
         let mut visited = HashSet::new();
-        while let Some(next) = open.pop() {
+        while let Some(next) = stack.pop() {
             if let Set::Union { induced, .. } = next.set() {
                 let is_new = |i: &&Arc<Induced>| seen.insert(i.leaf.serial);
-                found.extend(induced.iter().filter(is_new).cloned());
+                leaves.extend(induced.iter().filter(is_new).cloned());
             }
             let parts = next.set().parts().iter().rev();
-            open.extend(
+            stack.extend(
                 parts
                     .filter(|part| visited.insert(part.serial))
                     .map(|part| &**part),
             );
         }
-        found
+        leaves
     }
 }
 
 impl Set {
-    /// The C-objects it is made of, but for what is induced.
+    /// The parts, except for the induced sets.
     pub fn parts(&self) -> &[Arc<CObject>] {
         match self {
             Self::Union { others, .. } => others,

@@ -1,5 +1,5 @@
-//! Unions and intersections, kept as they were joined and flattened when first asked about: a set that is grown one part at a
-//! time costs the same for each.
+//! Unions and intersections, stored as given and flattened on first use: growing a set one part at a time costs the same
+//! for each part.
 
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};
@@ -8,7 +8,7 @@ use foldhash::fast::RandomState;
 
 use super::cobject::{CObject, Content, Flat, Set};
 
-/// What a compound is.
+/// The operation of a compound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CompoundKind {
     Union,
@@ -18,36 +18,34 @@ pub(super) enum CompoundKind {
 /// A union or an intersection of parts.
 #[derive(Debug)]
 pub(super) struct Compound {
-    compound: CompoundKind,
+    kind: CompoundKind,
     parts: Vec<Part>,
-    /// The depth of the deepest part that is no compound of the same kind.
+    /// The depth of the deepest part that is not a compound of the same kind.
     depth: u32,
     flat: OnceLock<Flat>,
 }
 
 #[derive(Debug)]
 enum Part {
-    /// A compound of the same kind, which counts as one with this. Its C-object need not live on.
+    /// A compound of the same kind, which adds no level. Its C-object need not live on.
     Compound(Arc<Compound>),
     Other(Arc<CObject>),
 }
 
 impl Compound {
-    pub fn new(compound: CompoundKind, parts: &[Arc<CObject>]) -> Self {
+    pub fn new(kind: CompoundKind, parts: &[Arc<CObject>]) -> Self {
         let part = |part: &Arc<CObject>| match part.content() {
-            Content::Compound(joined) if joined.compound == compound => {
-                Part::Compound(joined.clone())
-            }
+            Content::Compound(joined) if joined.kind == kind => Part::Compound(joined.clone()),
             _ => Part::Other(part.clone()),
         };
         let parts: Vec<Part> = parts.iter().map(part).collect();
         let depths = parts.iter().map(|part| match part {
             Part::Compound(joined) => joined.depth,
             // An induced set is a union of one.
-            Part::Other(part) => part.depth() - u32::from(compound.is(part)),
+            Part::Other(part) => part.depth() - u32::from(kind.is(part)),
         });
         Self {
-            compound,
+            kind,
             depth: depths.max().unwrap_or(0),
             parts,
             flat: OnceLock::new(),
@@ -62,20 +60,20 @@ impl Compound {
         self.flat.get_or_init(|| Flat::of(self.flatten()))
     }
 
-    /// All parts in their order, each once.
+    /// All parts in their order, without duplicates.
     fn flatten(&self) -> Set {
         let (mut induced, mut others) = (Vec::new(), Vec::new());
         let mut seen: HashSet<u64, RandomState> = HashSet::default();
         let mut visited: HashSet<*const Compound, RandomState> = HashSet::default();
-        let mut open: Vec<&Part> = self.parts.iter().rev().collect();
-        while let Some(part) = open.pop() {
+        let mut stack: Vec<&Part> = self.parts.iter().rev().collect();
+        while let Some(part) = stack.pop() {
             match part {
                 Part::Compound(joined) => {
                     if visited.insert(Arc::as_ptr(joined)) {
-                        open.extend(joined.parts.iter().rev());
+                        stack.extend(joined.parts.iter().rev());
                     }
                 }
-                Part::Other(part) if self.compound.is(part) => {
+                Part::Other(part) if self.kind.is(part) => {
                     if let Set::Union { induced: more, .. } = part.set() {
                         let is_new = more.iter().filter(|i| seen.insert(i.leaf.serial));
                         induced.extend(is_new.cloned());
@@ -88,7 +86,7 @@ impl Compound {
                 }
             }
         }
-        match self.compound {
+        match self.kind {
             CompoundKind::Union => Set::Union { induced, others },
             CompoundKind::Intersection => Set::Intersection(others),
         }
@@ -96,7 +94,7 @@ impl Compound {
 }
 
 impl CompoundKind {
-    /// Whether a C-object is a compound of this kind that is flat already.
+    /// Whether a C-object is of this kind, and stored flat.
     fn is(self, part: &CObject) -> bool {
         match part.content() {
             Content::Flat(flat) => match flat.set {
@@ -110,7 +108,7 @@ impl CompoundKind {
 }
 
 impl Drop for Compound {
-    /// A chain of thousands is freed one by one: each within the one before would exhaust the stack.
+    /// Frees a chain of compounds in a loop: recursion over thousands of them would exhaust the stack.
     fn drop(&mut self) {
         let mut open = std::mem::take(&mut self.parts);
         while let Some(part) = open.pop() {
@@ -146,7 +144,7 @@ mod tests {
         Arc::new(Space::new(robots, &[], WorldBox::unbounded()).unwrap())
     }
 
-    /// Each call takes what it is given, whatever that holds; and a long chain is freed without exhausting the stack.
+    /// Joining does not flatten, whatever the parts hold; and a long chain is freed without exhausting the stack.
     #[test]
     fn sets_grown_one_by_one_are_flattened_once() {
         let space = space();
@@ -167,7 +165,7 @@ mod tests {
         }
     }
 
-    /// Doubled again and again, a set still holds each part once.
+    /// A set that is joined with itself again and again still holds each part once.
     #[test]
     fn parts_that_are_shared_count_once() {
         let space = space();

@@ -9,28 +9,28 @@ use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::space::Space;
 use crate::user_data::UserData;
 
-/// How an induced C-object measures.
+/// Options of an induced C-object; lengths.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct InducedOptions {
-    /// Distances up to this (and above 0) classify as contact.
+    /// Distances above 0 and up to this classify as contact.
     pub contact_epsilon: f64,
-    /// Grows the s-objects: it is taken off every distance.
+    /// Grows the s-objects: it is subtracted from every distance.
     pub margin: f64,
 }
 
 /// The s-side of an induced C-object.
 #[derive(Clone, Debug)]
 pub enum SObjects {
-    /// All objects of an environment, those added later too.
+    /// All objects of an environment, including those added later.
     All(Arc<Environment>),
-    /// Some objects, by id; ascending within a set. One that is deleted contributes the empty set.
+    /// Some objects, by id. A set stores the ids in ascending order. A deleted object contributes the empty set.
     Some(Arc<Environment>, Vec<u64>),
 }
 
-/// A pair of bodies that is left out: what stands on the r-side, and an s-object.
+/// A body pair that may meet, so that the set leaves it out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct AllowedPair {
-    /// A link; with an attached object, the one that holds it.
+    /// The link on the r-side; with an attached object, the link that holds it.
     pub link: usize,
     /// An object attached to the link, or 0 for the link's own body.
     pub attached: u64,
@@ -41,35 +41,46 @@ pub struct AllowedPair {
 /// The body pairs of an induced set.
 #[derive(Clone, Debug)]
 pub enum BodyPairs {
-    /// Links of the space, and what they hold, against s-objects, but for the pairs allowed to meet, in their order. A link
-    /// without a body stands for what it holds.
+    /// Links of the space and the objects attached to them, against s-objects. A link without a body contributes only its
+    /// attached objects.
     Objects {
+        /// The links on the r-side, by number in the space.
         links: Vec<usize>,
+        /// The s-side.
         objects: SObjects,
+        /// Pairs that are left out, sorted.
         allowed: Vec<AllowedPair>,
     },
     /// Links against links; the second of a pair is the nominal s-object.
-    Links { pairs: Vec<[usize; 2]> },
+    Links {
+        /// By number in the space; no pair twice.
+        pairs: Vec<[usize; 2]>,
+    },
 }
 
 /// The set of configurations at which some pair of bodies meets.
 #[derive(Clone, Debug)]
 pub struct Induced {
+    /// How answers name the set.
     pub leaf: Leaf,
-    /// What the leaf's data are kept by: it must outlive every set that holds the leaf.
+    /// Keeps the leaf's user data alive: it must outlive every set that holds the leaf.
     pub data: Option<UserData>,
+    /// The body pairs that the set tests.
     pub pairs: BodyPairs,
+    /// Contact epsilon and margin.
     pub options: InducedOptions,
-    /// How far slides look for its contacts, if not as far as for those of others.
+    /// The shell that slides use for this set; `None` for that of their options.
     pub shell: Option<f64>,
 }
 
 impl SObjects {
+    /// The environment that holds the objects.
     pub fn environment(&self) -> &Arc<Environment> {
         let (Self::All(environment) | Self::Some(environment, _)) = self;
         environment
     }
 
+    /// Whether the s-side includes an object.
     pub fn contains(&self, id: u64) -> bool {
         match self {
             Self::All(_) => true,
@@ -79,7 +90,7 @@ impl SObjects {
 }
 
 impl BodyPairs {
-    /// Links against s-objects. No links given means all, of which some must have a body.
+    /// Links against s-objects. An empty `links` means all links, some of which must have a body.
     pub(super) fn with_objects(
         space: &Space,
         links: &[usize],
@@ -119,7 +130,7 @@ impl BodyPairs {
         })
     }
 
-    /// Links against links, each pair once.
+    /// Links against links; a pair given twice counts once.
     pub(super) fn of_links(space: &Space, pairs: &[[usize; 2]]) -> Result<Self> {
         for (i, pair) in pairs.iter().enumerate() {
             let named = |error: Error| error.within(format_args!("pair {i}"));
@@ -139,6 +150,7 @@ impl BodyPairs {
         Ok(Self::Links { pairs })
     }
 
+    /// The environment of the s-objects; `None` for links against links.
     pub fn environment(&self) -> Option<&Arc<Environment>> {
         match self {
             Self::Objects { objects, .. } => Some(objects.environment()),

@@ -1,8 +1,8 @@
-//! How far a configuration is from a pure set: closed forms on lines, circles and rotations.
+//! Signed distances from pure sets: closed forms on lines, circles and rotations.
 //!
-//! The metric is that of the product: the root of the sum of the squares of differences, angles the shorter way round, of
-//! free joints the shift and the turn apart. Outside a set the measure is the distance, inside minus the depth, which is the
-//! distance from the complement.
+//! The metric is that of the product space: the root of the sum of squared differences, with angles the shorter way round,
+//! and translation and rotation of free joints taken separately. Outside a set the measure is the distance; inside it is
+//! minus the depth, the distance from the complement.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use crate::space::Space;
 use crate::tolerance::{DISTANCE_ERROR, EPSILON, LARGEST_COORDINATE};
 
 impl PureSet {
-    /// Where the configuration stands.
+    /// The class of a configuration.
     pub fn classify(&self, at: &SpaceState) -> Result<Class> {
         if let PureShape::Predicate(predicate) = &self.shape {
             let class = predicate.classify(self.coordinates(at)?);
@@ -27,7 +27,8 @@ impl PureSet {
         Ok(measure.class(self.shape.is_open(), self.options.contact_epsilon))
     }
 
-    /// How near what made a contact is, at most, in the unit of measures. Predicates say by themselves what is in contact.
+    /// The largest measure that classifies as contact, in the unit of measures. Infinite for predicates, which decide about
+    /// contact themselves.
     pub fn epsilon(&self) -> f64 {
         match self.shape {
             PureShape::Predicate(_) => f64::INFINITY,
@@ -35,7 +36,8 @@ impl PureSet {
         }
     }
 
-    /// What measures are multiplied by. The world box is measured in lengths already.
+    /// The factor from the set's own unit to that of its measures. 1 for the world box and floors, which measure in lengths
+    /// already.
     pub fn scale(&self) -> f64 {
         match self.shape {
             _ if self.shape.is_in_world() => 1.0,
@@ -47,11 +49,11 @@ impl PureSet {
         error.within(format_args!("C-object {}", self.leaf.serial))
     }
 
-    /// The signed distance; `None` of a predicate that does not measure.
+    /// The signed distance; `None` for a predicate that does not measure.
     pub fn measure(&self, at: &SpaceState) -> Result<Option<Measure>> {
         let scale = self.scale();
         let scaled = |x: f64| match x * scale {
-            // What is not 0 stays so.
+            // Scaling must not turn a nonzero distance into 0.
             0.0 if x != 0.0 => f64::MIN_POSITIVE.copysign(x),
             scaled => scaled,
         };
@@ -101,7 +103,7 @@ impl PureSet {
                     signed,
                     error: DISTANCE_ERROR * size.fold(0.0, f64::max),
                     is_bound: false,
-                    // How far a link must be moved says less than how far the robot must.
+                    // The depth of a link is not the depth of the configuration.
                     knows_depth: false,
                 }
             }
@@ -118,7 +120,7 @@ impl PureSet {
         Ok(Some(found))
     }
 
-    /// Where in the world, for sets that are there.
+    /// The link and the point that decide the measure; `None` for sets that are not in the world.
     pub fn place(&self, at: &SpaceState) -> Option<WorldPlace> {
         match &self.shape {
             PureShape::BeyondWorld { links } => beyond_world(at, links).1,
@@ -131,16 +133,16 @@ impl PureSet {
         }
     }
 
-    /// The coordinate that decides the measure of limits or a box: the one farthest beyond its interval, or nearest to an end
-    /// of it.
+    /// The coordinate that decides the measure of limits or a box: the one farthest outside its interval, or, inside all,
+    /// the nearest to an end. `None` for other sets.
     pub fn coordinate(&self, at: &SpaceState) -> Option<usize> {
         let mut spans = self.spans(at.space, at.q?);
-        let most = largest(spans.clone());
-        let (i, _) = spans.find(|(_, span)| span.beyond == most)?;
+        let largest_beyond = largest(spans.clone());
+        let (i, _) = spans.find(|(_, span)| span.beyond == largest_beyond)?;
         Some(i)
     }
 
-    /// The derivative of the measure, one entry a velocity.
+    /// The derivative of the measure, one entry per velocity.
     pub fn gradient(&self, at: &SpaceState) -> Result<Vec<f64>> {
         let space = at.space;
         let q = self.coordinates(at)?;
@@ -174,7 +176,7 @@ impl PureSet {
                 let offset = space.offset(center, q);
                 let length = norm(&offset);
                 let mut row = space.offset_as_velocity(q, &offset);
-                // At the centre no way out is shorter than another.
+                // At the centre all directions out are equal: the gradient is 0.
                 let factor = if length > 0.0 { 1.0 / length } else { 0.0 };
                 row.iter_mut().for_each(|x| *x *= factor);
                 row
@@ -186,7 +188,7 @@ impl PureSet {
         Ok(row)
     }
 
-    /// The measure before the scale, and its error.
+    /// The measure before scaling, and its error.
     fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64) {
         match &self.shape {
             PureShape::BeyondLimits => {
@@ -215,7 +217,7 @@ impl PureSet {
         }
     }
 
-    /// The derivative of limits, boxes and half-spaces before the scale, by the coordinates.
+    /// The derivative of limits, boxes and half-spaces before scaling, with respect to the coordinates.
     fn slopes(&self, space: &Space, q: &[f64]) -> Vec<f64> {
         match &self.shape {
             PureShape::BeyondLimits => {
@@ -231,7 +233,7 @@ impl PureSet {
         }
     }
 
-    /// How far each coordinate that has an interval is from its ends: for limits and boxes, and for others none.
+    /// The signed distance of each coordinate from its interval, for limits and boxes; empty for other sets.
     fn spans<'a>(
         &'a self,
         space: &'a Space,

@@ -1,4 +1,4 @@
-//! C-objects: sets in C-space, induced by contact or interference, given by coordinates, or combined of others (§2.2.4).
+//! C-objects: sets in C-space, induced by contact or interference, given by coordinates, or combined from others (§2.2.4).
 
 mod bounded_distance;
 mod class;

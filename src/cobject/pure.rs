@@ -1,4 +1,4 @@
-//! Pure sets: given in C-space itself, by coordinates (§2.2.4; an extension in the report).
+//! Pure sets: given in C-space itself, by coordinates (§2.2.4, where they are an extension).
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,48 +11,71 @@ use crate::space::Space;
 use crate::tolerance;
 use crate::user_data::UserData;
 
-/// How a pure set measures.
+/// Options of a pure set.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PureOptions {
     /// Distances above 0 and up to this classify as contact; in units of C-space, before any scale.
     pub contact_epsilon: f64,
-    /// The length that a unit of C-space stands for, so that distances can be compared with those of induced sets.
+    /// The length that a C-space unit stands for, so that distances can be compared with those of induced sets.
     pub scale: Option<f64>,
 }
 
-/// What the set is. All but the two open ones are closed.
+/// The shape of a pure set. All are closed except the two marked open.
 #[derive(Clone)]
 pub enum PureShape {
-    /// Where some coordinate is beyond its range. Open: at a limit the robot is not out yet.
+    /// Where some coordinate is outside its range. Open: a configuration at a limit is not in the set.
     BeyondLimits,
-    /// Where the origin of some of the links is outside the world box; measures in lengths. Open.
-    BeyondWorld { links: Vec<usize> },
-    /// Where the body of some of the links reaches the half-space normal . x <= offset of the world; the normal has length 1.
-    /// Measures in lengths.
-    Floor {
+    /// Where the origin of any of the links is outside the world box; measures in lengths. Open.
+    BeyondWorld {
+        /// By number in the space.
         links: Vec<usize>,
+    },
+    /// Where the body of any of the links meets the half-space normal . x <= offset of the world. Measures in lengths.
+    Floor {
+        /// By number in the space.
+        links: Vec<usize>,
+        /// Of length 1, out of the floor, in the world.
         normal: Vec3,
+        /// The height of the floor along the normal.
         offset: f64,
     },
-    /// Where every coordinate is in its interval; on a circle the arc from `low` upwards to `high`.
-    Box { low: Vec<f64>, high: Vec<f64> },
+    /// Where every coordinate is in its interval; on a circle that is the arc from `low` upwards to `high`.
+    Box {
+        /// One entry per coordinate; may be minus infinity.
+        low: Vec<f64>,
+        /// One entry per coordinate; may be infinite.
+        high: Vec<f64>,
+    },
     /// Where normal . q <= offset.
-    HalfSpace { normal: Vec<f64>, offset: f64 },
-    /// The configurations at most `radius` from a centre (see [`super::measure`] for the metric).
-    Ball { center: Vec<f64>, radius: f64 },
-    /// By functions of the caller.
+    HalfSpace {
+        /// One entry per coordinate; of any length above 0.
+        normal: Vec<f64>,
+        /// In units of the normal's length.
+        offset: f64,
+    },
+    /// The configurations within `radius` of a centre (see [`super::measure`] for the metric).
+    Ball {
+        /// A configuration.
+        center: Vec<f64>,
+        /// In C-space units.
+        radius: f64,
+    },
+    /// Defined by the caller.
     Predicate(Arc<dyn Predicate>),
 }
 
-/// A set in C-space with how it measures.
+/// A pure set: its shape and its options.
 #[derive(Clone, Debug)]
 pub struct PureSet {
+    /// How answers name the set.
     pub leaf: Leaf,
-    /// What the leaf's data are kept by: it must outlive every set that holds the leaf.
+    /// Keeps the leaf's user data alive: it must outlive every set that holds the leaf.
     pub data: Option<UserData>,
+    /// Which configurations the set holds.
     pub shape: PureShape,
+    /// Contact epsilon and scale.
     pub options: PureOptions,
-    /// How far slides look for its contacts, if not as far as for those of others; in the unit of its distances.
+    /// The shell that slides use for this set, in the unit of its distances; `None` for that of their options.
     pub shell: Option<f64>,
 }
 
@@ -63,7 +86,7 @@ impl fmt::Debug for PureShape {
 }
 
 impl PureShape {
-    /// What messages call it.
+    /// The name of the shape in error messages.
     pub fn name(&self) -> &'static str {
         match self {
             Self::BeyondLimits => "a set beyond limits",
@@ -76,15 +99,15 @@ impl PureShape {
         }
     }
 
-    /// The world box for all links.
+    /// The outside of the world box, for all links.
     pub fn beyond_world(space: &Space) -> Self {
         Self::BeyondWorld {
             links: (0..space.link_count()).collect(),
         }
     }
 
-    /// A floor for links, or for all that have a body if none is named. The normal may have any length, which the offset is
-    /// in units of.
+    /// A floor for links, or for all with a body if `links` is empty. The normal may have any length above 0; the offset is
+    /// in units of that length.
     pub fn floor(space: &Space, links: &[usize], normal: &Vec3, offset: f64) -> Result<Self> {
         require_coordinates(normal.as_slice(), "normal entry")?;
         require_coordinates(&[offset], "offset")?;
@@ -104,26 +127,26 @@ impl PureShape {
         let scaled = normal / largest;
         let length = scaled.norm();
         let has_body = |&link: &usize| space.link(link).is_some_and(|link| link.body.is_some());
-        let mut chosen: Vec<usize> = match links {
+        let mut numbers: Vec<usize> = match links {
             [] => (0..space.link_count()).filter(has_body).collect(),
             _ => links.to_vec(),
         };
-        check_links(space, &chosen)?;
-        chosen.sort_unstable();
-        chosen.dedup();
+        check_links(space, &numbers)?;
+        numbers.sort_unstable();
+        numbers.dedup();
         Ok(Self::Floor {
-            links: chosen,
+            links: numbers,
             normal: scaled / length,
             offset: offset / largest / length,
         })
     }
 
-    /// Whether it measures in lengths by itself, and link poses are enough to tell.
+    /// Whether the set measures in lengths without a scale, and is determined by link poses alone.
     pub fn is_in_world(&self) -> bool {
         matches!(self, Self::BeyondWorld { .. } | Self::Floor { .. })
     }
 
-    /// Whether its boundary is not part of it.
+    /// Whether the boundary does not belong to the set.
     pub fn is_open(&self) -> bool {
         matches!(self, Self::BeyondLimits | Self::BeyondWorld { .. })
     }

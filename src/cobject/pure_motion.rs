@@ -1,12 +1,12 @@
-//! How fast a straight way through C-space changes the distance of a pure set.
+//! Motion bounds of pure sets: how much a distance can fall along a segment of C-space.
 
 use super::{PureSet, PureShape};
 use crate::robot::{Block, BlockKind, Coordinate};
 use crate::space::Space;
 
 impl PureSet {
-    /// A floor or the world box as one set for each link, so that each has a distance and a contact of its own; any other set
-    /// as it is.
+    /// Splits a floor or the world box into one set per link, so that each link has its own distance and contact. Other
+    /// sets are returned as they are.
     pub fn by_link(&self) -> Vec<Self> {
         match &self.shape {
             PureShape::Floor {
@@ -29,9 +29,8 @@ impl PureSet {
         }
     }
 
-    /// The sets whose distances a proof looks at one by one, for a way whose ends are in the coordinates' ranges. Of limits
-    /// those of the positions of free joints, as half-spaces: coordinates that move alone stay between their values at the
-    /// ends.
+    /// The sets that a proof checks one by one along a segment whose ends are in the coordinates' ranges. Of limits these
+    /// are half-spaces that bound the positions of free joints: single coordinates stay between their values at the ends.
     pub fn parts_on_way(&self, space: &Space) -> Vec<Self> {
         match &self.shape {
             PureShape::BeyondLimits => self.with_shapes(position_limits(space).into_iter()),
@@ -47,8 +46,8 @@ impl PureSet {
         shapes.map(with).collect()
     }
 
-    /// The distance falls by no more than this on the way from q with velocity v for a unit of time. Infinite for predicates,
-    /// and where a custom joint does not state its speeds. The ends of the way are in the coordinates' ranges.
+    /// Bounds how much the distance falls on the way from q with velocity v for a unit of time, both ends within the
+    /// coordinates' ranges. Infinite for predicates, and where a custom joint does not state its speeds.
     pub fn motion_bound(&self, space: &Space, q: &[f64], v: &[f64]) -> f64 {
         match &self.shape {
             PureShape::Predicate(_) => f64::INFINITY,
@@ -77,9 +76,9 @@ impl PureSet {
     }
 }
 
-/// The half-spaces beyond the ends of the ranges of free joints' positions.
+/// The half-spaces outside the ranges of free joints' positions.
 fn position_limits(space: &Space) -> Vec<PureShape> {
-    let mut found = Vec::new();
+    let mut half_spaces = Vec::new();
     for block in placements(space) {
         for c in block.coordinate..block.coordinate + 3 {
             let Coordinate::Interval { lower, upper } = space.coordinates()[c] else {
@@ -89,7 +88,7 @@ fn position_limits(space: &Space) -> Vec<PureShape> {
                 if end.is_finite() {
                     let mut normal = vec![0.0; space.nq()];
                     normal[c] = sign;
-                    found.push(PureShape::HalfSpace {
+                    half_spaces.push(PureShape::HalfSpace {
                         normal,
                         offset: sign * end,
                     });
@@ -97,7 +96,7 @@ fn position_limits(space: &Space) -> Vec<PureShape> {
             }
         }
     }
-    found
+    half_spaces
 }
 
 fn placements(space: &Space) -> impl Iterator<Item = &Block> {
@@ -105,7 +104,7 @@ fn placements(space: &Space) -> impl Iterator<Item = &Block> {
     blocks.filter(|block| block.kind == BlockKind::Placement)
 }
 
-/// The length of the way in the coordinates that the box bounds.
+/// The length of the motion in the coordinates that the box bounds.
 fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f64 {
     let mut square = 0.0;
     for block in space.blocks() {
@@ -122,7 +121,8 @@ fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f6
     square.sqrt()
 }
 
-/// Along coordinates that move alone the distance changes at one rate, which does not count where it grows.
+/// Bounds how much the distance falls. Single coordinates change it at a constant rate, counted with its sign; positions of
+/// free joints by at most the product of the lengths.
 fn half_space_bound(space: &Space, normal: &[f64], v: &[f64]) -> f64 {
     let (mut bound, mut size) = (0.0, 0.0);
     for block in space.blocks() {
@@ -135,7 +135,7 @@ fn half_space_bound(space: &Space, normal: &[f64], v: &[f64]) -> f64 {
         bound += falls;
         size += falls.abs();
     }
-    // What cancels leaves rounding behind.
+    // Slack for the rounding of terms that cancel.
     let rounding = space.nv() as f64 * f64::EPSILON * size;
     (bound + rounding).max(0.0) / norm(normal)
 }

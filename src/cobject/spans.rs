@@ -1,4 +1,4 @@
-//! Intervals of coordinates: how far a coordinate is from the ends of its own, and all of them together.
+//! Signed distances of coordinates from intervals, and of all together from a box.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,8 @@ use crate::robot::Coordinate;
 use crate::space::shorter_way;
 use crate::tolerance::EPSILON;
 
-/// How far q is from the nearest end of one coordinate's interval, from without (positive) or within; and the derivative.
+/// The signed distance of a coordinate from its interval: positive outside, negative inside, with the derivative and the
+/// error.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     pub beyond: f64,
@@ -50,8 +51,8 @@ pub(super) fn span(coordinate: Coordinate, q: f64, low: f64, high: f64) -> Optio
     }
 }
 
-/// The measure of a set of intervals, each given with its coordinate, and the error: outside the length of what is beyond, inside
-/// the least depth.
+/// The signed distance from a box, and its error. Outside it is the length of the vector of excesses, inside minus the
+/// smallest depth. Each interval comes with the index of its coordinate.
 pub(super) fn measure_of(spans: impl Iterator<Item = (usize, Span)> + Clone) -> (f64, f64) {
     let error = spans.clone().map(|(_, span)| span.error).sum();
     let largest = largest(spans.clone());
@@ -61,7 +62,7 @@ pub(super) fn measure_of(spans: impl Iterator<Item = (usize, Span)> + Clone) -> 
     (length_outside(spans, largest), error)
 }
 
-/// The derivative of the same by so many coordinates.
+/// The derivative of the same with respect to the coordinates.
 pub(super) fn slopes_of(
     spans: impl Iterator<Item = (usize, Span)> + Clone,
     coordinates: usize,
@@ -81,16 +82,16 @@ pub(super) fn slopes_of(
     slopes
 }
 
-/// The most that a coordinate is beyond its interval.
+/// The largest signed distance of a coordinate from its interval.
 pub(super) fn largest(spans: impl Iterator<Item = (usize, Span)>) -> f64 {
     let beyond = spans.map(|(_, span)| span.beyond);
     beyond.fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The length of what is beyond the intervals, of which `largest` is the most.
+/// The length of the vector of excesses, whose largest entry is `largest`.
 fn length_outside(spans: impl Iterator<Item = (usize, Span)>, largest: f64) -> f64 {
     let outside = spans.filter(|(_, span)| span.beyond > 0.0);
-    // Scaled, so that no square overflows.
+    // Scaled: squares of large entries would overflow.
     let sum: f64 = outside.map(|(_, s)| (s.beyond / largest).powi(2)).sum();
     largest * sum.sqrt()
 }

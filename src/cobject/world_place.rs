@@ -1,21 +1,25 @@
-//! Sets of the world that links must keep out of: beyond the world box, and floors.
+//! Pure sets in the world: the outside of the world box, and floors.
 
 use super::SpaceState;
 use crate::pose::Vec3;
 use crate::tolerance::DISTANCE_ERROR;
 
-/// Where in the world a set is near: a point of a link (its origin, for the world box), and the direction out of the set.
+/// The place of contact with a set in the world: a point of a link (its origin, for the world box), and the direction out
+/// of the set.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldPlace {
+    /// The number of the link.
     pub link: usize,
-    /// Of the link's body, if the point is one of it.
+    /// The primitive of the link's body that holds the point; `None` for a link's origin.
     pub primitive: Option<u32>,
+    /// In the world.
     pub point: Vec3,
+    /// Of length 1, out of the set, in the world.
     pub normal: Vec3,
 }
 
-/// How far within the world box the links' origins are: the least of all, negative where one is outside, and there minus the
-/// most that one is. With the place that decides.
+/// The smallest signed distance of the links' origins from the outside of the world box, negative for origins outside, and
+/// the place that decides.
 pub(super) fn beyond_world(at: &SpaceState, links: &[usize]) -> (f64, Option<WorldPlace>) {
     let world = at.space.world();
     let mut least = f64::INFINITY;
@@ -24,7 +28,7 @@ pub(super) fn beyond_world(at: &SpaceState, links: &[usize]) -> (f64, Option<Wor
         let point = at.poses[link].translation;
         let mut outside = Vec3::zeros();
         let mut within = (f64::INFINITY, Vec3::zeros());
-        // The plane has no height.
+        // A planar world has no height.
         for axis in 0..at.space.dimension() as usize {
             for (clear, sign) in [
                 (point[axis] - world.low[axis], 1.0),
@@ -55,7 +59,7 @@ pub(super) fn beyond_world(at: &SpaceState, links: &[usize]) -> (f64, Option<Wor
     (least, place)
 }
 
-/// How far over a floor the lowest point of some links is, and that point.
+/// The height of the links' lowest point over a floor, and that point.
 pub(super) fn over_floor(
     at: &SpaceState,
     links: &[usize],
@@ -85,7 +89,7 @@ pub(super) fn over_floor(
     (least, place)
 }
 
-/// No coordinate that goes into the points of a link is larger.
+/// Bounds the coordinates that enter the points of a link.
 pub(super) fn largest_coordinate_of(at: &SpaceState, link: usize) -> f64 {
     let body = at.space.link(link).and_then(|link| link.body.as_deref());
     let body = body.map_or(0.0, |body| {

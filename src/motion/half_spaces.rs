@@ -1,23 +1,25 @@
-//! The nearest vector in an intersection of half-spaces: least distance programming by non-negative least squares (Lawson
-//! and Hanson 1974, ch. 23), an exact method that ends after finitely many exchanges.
+//! The nearest point of an intersection of half-spaces: least distance programming by non-negative least squares (Lawson
+//! and Hanson 1974, ch. 23), an exact active set method that ends after finitely many exchanges.
 
 use nalgebra::{DMatrix, DVector};
 
-/// A row `g` and a number `least`: the half-space `g . s >= least`.
+/// The half-space `row . s >= least` of vectors s.
 #[derive(Clone, Debug)]
 pub struct HalfSpace {
+    /// The normal, of any length, into the half-space.
     pub row: Vec<f64>,
+    /// The offset, in units of the row's length.
     pub least: f64,
 }
 
-/// Beyond rounding, in units of the vector's length.
+/// Tolerance for rounding, relative to the vector's length.
 const SLACK: f64 = 1e-9;
 
-/// The point of the half-spaces' intersection nearest to `wish`, or `None` if the intersection is (numerically) empty. Rows
-/// of 0 ask nothing that a vector could give, and are left out.
+/// The point of the half-spaces' intersection nearest to `wish`, or `None` if the intersection is (numerically) empty. Zero
+/// rows are left out: no vector changes them.
 pub fn nearest_in_half_spaces(wish: &[f64], half_spaces: &[HalfSpace]) -> Option<Vec<f64>> {
-    // Rows of unit length, right sides less the wish: the shortest x = s - wish with rows . x >= short.
-    let asked: Vec<(DVector<f64>, f64)> = half_spaces
+    // Normalized and relative to the wish: the shortest x = s - wish with unit . x >= short.
+    let constraints: Vec<(DVector<f64>, f64)> = half_spaces
         .iter()
         .filter_map(|h| {
             let length = dot(&h.row, &h.row).sqrt();
@@ -28,14 +30,14 @@ pub fn nearest_in_half_spaces(wish: &[f64], half_spaces: &[HalfSpace]) -> Option
             })
         })
         .collect();
-    let scale = asked
+    let scale = constraints
         .iter()
         .fold(0.0f64, |most, (_, short)| most.max(*short));
     if scale <= 0.0 {
         return Some(wish.to_vec());
     }
     let n = wish.len();
-    let columns: Vec<DVector<f64>> = asked
+    let columns: Vec<DVector<f64>> = constraints
         .iter()
         .map(|(unit, short)| unit.push(short / scale))
         .collect();
@@ -50,7 +52,7 @@ pub fn nearest_in_half_spaces(wish: &[f64], half_spaces: &[HalfSpace]) -> Option
     let holds = |(unit, short): &(DVector<f64>, f64)| {
         dot(unit.as_slice(), &x) >= short - 1e3 * SLACK * size
     };
-    asked
+    constraints
         .iter()
         .all(holds)
         .then(|| wish.iter().zip(&x).map(|(w, x)| w + x).collect())
@@ -61,7 +63,7 @@ fn non_negative_residual(columns: &[DVector<f64>], target: &DVector<f64>) -> DVe
     let mut u = vec![0.0; columns.len()];
     let mut passive: Vec<usize> = Vec::new();
     let mut residual = -target;
-    // Each exchange shortens the residual, so no set comes twice; the bound is for what rounding may do.
+    // Each exchange shortens the residual, so no passive set repeats; the limit guards against rounding.
     for _ in 0..3 * columns.len() + 10 {
         let entering = (0..columns.len())
             .filter(|j| !passive.contains(j))

@@ -1,4 +1,4 @@
-//! Motions: segments of C-space that are proved free, and the step that slides (Appendix A).
+//! Motions: proofs that a segment of C-space is free, and the sliding step (Appendix A).
 
 mod half_spaces;
 mod interval_proof;

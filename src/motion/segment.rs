@@ -1,6 +1,6 @@
-//! A proof that a way of constant velocity through C-space is free, by distances and motion bounds (Quinlan 1994, ch. 4):
-//! each body pair, and each pure set, with a distance and a motion bound of its own; of what a plane separates also along the
-//! plane's normal, so that a base may slide over a floor however near.
+//! Proves that a motion with constant velocity through C-space is free, by distances and motion bounds (Quinlan 1994, ch.
+//! 4). Each body pair, and each pure set, has its own distance and motion bound. Where a plane separates a pair, the motion
+//! along the plane's normal is bounded too, so that a base may slide over a floor however near.
 
 use std::sync::Arc;
 
@@ -17,13 +17,14 @@ use crate::query::{
 };
 use crate::space::Space;
 
-/// At most this many distances are computed for one pair; a way that needs more counts as not free.
+/// The most distances computed for one pair; a motion that needs more counts as not free.
 const MAX_DISTANCES: usize = 400;
 
-/// The part of a distance that a step of the proof uses up: the rest covers the rounding of kinematics and motion bounds.
+/// The fraction of a distance that a step of the proof uses; the rest covers rounding of kinematics and motion bounds.
 const STEP_FRACTION: f64 = 0.99;
 
-/// The way from q with velocity v for a unit of time, in one state of the world. Both ends are in the coordinates' ranges.
+/// The motion from q with velocity v for a unit of time, in one state of the world. Both ends are within the coordinates'
+/// ranges.
 #[derive(Clone, Copy)]
 pub(crate) struct LinearMotion<'a> {
     pub world: &'a World,
@@ -32,28 +33,29 @@ pub(crate) struct LinearMotion<'a> {
     pub v: &'a [f64],
 }
 
-/// How far a pair that touches at the start may move before a distance must prove it free: from a touch no proof can begin.
-/// The contacts must say that the pair does not come nearer, to first order.
+/// How far a pair that touches at the start may move before a distance must prove it free: conservative advancement cannot
+/// start at distance 0. Up to there its contacts must not come nearer, to first order.
 #[derive(Clone, Copy)]
 pub(crate) struct TouchAllowance {
     pub distance: f64,
-    /// A pair with more witnesses than this within the distance is not trusted.
+    /// A pair with more witnesses than this within the distance counts as not free.
     pub max_count: usize,
 }
 
-/// A motion towards a plane that is no more than this part of [`TouchAllowance::distance`] is the rounding of one along it.
+/// A motion towards a plane of at most this fraction of [`TouchAllowance::distance`] is taken for rounding of a motion
+/// along it.
 const LEVEL: f64 = 1e-9;
 
 impl TouchAllowance {
-    /// How much nearer than a touch a contact may come.
+    /// How far below 0 the clearance of a contact may fall.
     fn allowed(&self) -> f64 {
         1e-3 * self.distance
     }
 }
 
-/// What the robot must keep clear of on a way: a body pair, or a pure set.
+/// What the robot must keep clear of: a body pair, or a pure set.
 trait Obstacle {
-    /// A safe lower bound of the distance at a scene; a distance above `limit` may give the limit.
+    /// A safe lower bound of the distance in a scene; a distance above `limit` may be given as the limit.
     fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64>;
 
     /// The witnesses within a distance, with gradients.
@@ -61,28 +63,28 @@ trait Obstacle {
         &self,
         context: &mut QueryContext,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList>;
 
-    /// A plane fixed to the world between the robot and the obstacle, if one is known.
+    /// A plane fixed in the world that separates the robot from the obstacle, if one is known.
     fn separation(
         &self,
         context: &mut QueryContext,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         scene: &Scene,
     ) -> Option<Separation>;
 }
 
 /// A plane between a moving link and something at rest.
 struct Separation {
-    /// How far the two are apart along the plane's normal.
+    /// The gap between the two along the plane's normal.
     gap: f64,
-    /// How far the link moves along the normal, on the whole way, at most.
+    /// Bounds the link's motion along the normal over the whole motion.
     rate: f64,
 }
 
 impl Separation {
-    /// Whether it separates the two on the whole way.
+    /// Whether the plane separates the two during the whole motion.
     fn lasts(&self) -> bool {
         self.gap > 0.0 && STEP_FRACTION * self.gap >= self.rate
     }
@@ -95,26 +97,26 @@ struct PairOnMotion<'a> {
 }
 
 impl QueryContext {
-    /// Whether the robot keeps clear of the C-object all the way. `false` may also mean that it comes too near for a proof of
-    /// reasonable length.
-    pub(crate) fn way_is_free(
+    /// Whether the robot is proved to keep clear of the C-object. `false` may also mean that a proof would take too many
+    /// distances.
+    pub(crate) fn motion_is_free(
         &mut self,
-        way: &LinearMotion,
-        trust: &TouchAllowance,
+        motion: &LinearMotion,
+        allowance: &TouchAllowance,
     ) -> Result<bool> {
-        let scene = &way.scene(way.q)?;
-        if let Set::Union { induced, .. } = way.cobject.set() {
-            // Each for itself: pairs that several hold need not be named by all of them.
+        let scene = &motion.scene(motion.q)?;
+        if let Set::Union { induced, .. } = motion.cobject.set() {
+            // Term by term: a candidate that several terms hold names only one of them.
             for term in induced {
-                if !self.pairs_stay_clear(way, scene, term, trust)? {
+                if !self.pairs_stay_clear(motion, scene, term, allowance)? {
                     return Ok(false);
                 }
             }
         }
-        for set in pure_sets(way.cobject) {
-            for part in set.parts_on_way(way.cobject.space()) {
-                let rate = part.motion_bound(way.cobject.space(), way.q, way.v);
-                if !self.stays_clear(way, scene, &part, rate, trust)? {
+        for set in pure_sets(motion.cobject) {
+            for part in set.parts_on_way(motion.cobject.space()) {
+                let rate = part.motion_bound(motion.cobject.space(), motion.q, motion.v);
+                if !self.stays_clear(motion, scene, &part, rate, allowance)? {
                     return Ok(false);
                 }
             }
@@ -124,48 +126,48 @@ impl QueryContext {
 
     fn pairs_stay_clear(
         &mut self,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         scene: &Scene,
         term: &Arc<Induced>,
-        trust: &TouchAllowance,
+        allowance: &TouchAllowance,
     ) -> Result<bool> {
         let term = std::slice::from_ref(term);
-        let Some(fastest) = way.fastest_pair(&term[0]) else {
+        let Some(fastest) = motion.fastest_pair(&term[0]) else {
             return Ok(true);
         };
         let checked = scene.checked(term)?;
-        let wanted = CandidateFilter::within(fastest / STEP_FRACTION);
+        let filter = CandidateFilter::within(fastest / STEP_FRACTION);
         let candidates = scene.candidates(
             checked,
-            wanted,
+            filter,
             &mut self.candidates,
             self.scratch.meter_mut(),
         )?;
         for &target in &candidates {
-            let rate = way.rate(scene, &target);
+            let rate = motion.rate(scene, &target);
             if STEP_FRACTION * target.bound >= rate {
                 continue;
             }
-            // Alone in its searches, whose hits name it by its rank.
+            // Searched alone, so its rank is 0: hits name their pair by rank.
             let target = Target { rank: 0, ..target };
             let pair = PairOnMotion { term, target };
-            if !self.stays_clear(way, scene, &pair, rate, trust)? {
+            if !self.stays_clear(motion, scene, &pair, rate, allowance)? {
                 return Ok(false);
             }
         }
         Ok(true)
     }
 
-    /// Whether one obstacle's distance, which falls by no more than `rate` on the way from a scene, stays above 0.
+    /// Whether an obstacle's distance stays above 0 during the motion; `rate` bounds how much it falls.
     fn stays_clear(
         &mut self,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         start: &Scene,
         obstacle: &impl Obstacle,
         rate: f64,
-        trust: &TouchAllowance,
+        allowance: &TouchAllowance,
     ) -> Result<bool> {
-        // What rests may be as near as it likes.
+        // What does not move relative to the robot may be arbitrarily near.
         if rate == 0.0 {
             return Ok(true);
         }
@@ -176,71 +178,71 @@ impl QueryContext {
         if lower > 0.0 && STEP_FRACTION * lower >= rate {
             return Ok(true);
         }
-        let plane = obstacle.separation(self, way, start);
+        let plane = obstacle.separation(self, motion, start);
         if plane.as_ref().is_some_and(Separation::lasts) {
             return Ok(true);
         }
         if lower > 0.0 {
-            return self.advances(way, obstacle, rate, STEP_FRACTION * lower / rate);
+            return self.advances(motion, obstacle, rate, STEP_FRACTION * lower / rate);
         }
-        // What stays behind a plane and does not move towards it cannot come nearer, however far it slides.
+        // A link that does not move towards a separating plane cannot come nearer, however far it slides.
         let is_level = |plane: &Separation| {
-            plane.gap >= -trust.allowed() && plane.rate <= LEVEL * trust.distance
+            plane.gap >= -allowance.allowed() && plane.rate <= LEVEL * allowance.distance
         };
         let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
-        let share = if nearer > trust.distance {
-            trust.distance / nearer
+        let share = if nearer > allowance.distance {
+            allowance.distance / nearer
         } else {
             1.0
         };
-        if !self.keeps_off(way, obstacle, start, share, trust)? {
+        if !self.keeps_off(motion, obstacle, start, share, allowance)? {
             return Ok(false);
         }
-        Ok(share == 1.0 || self.advances(way, obstacle, rate, share)?)
+        Ok(share == 1.0 || self.advances(motion, obstacle, rate, share)?)
     }
 
-    /// Whether an obstacle's distance stays above 0 from parameter `start` on: conservative advancement.
+    /// Whether an obstacle's distance stays above 0 from parameter `start` on, by conservative advancement.
     fn advances(
         &mut self,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         obstacle: &impl Obstacle,
         rate: f64,
         start: f64,
     ) -> Result<bool> {
         let mut t = start;
         for _ in 0..MAX_DISTANCES {
-            let at = way.at(t);
-            let scene = &way.scene(&at)?;
+            let at = motion.at(t);
+            let scene = &motion.scene(&at)?;
             let rest = rate * (1.0 - t) / STEP_FRACTION;
             // A limit of 0 would make any bound 0.
             let lower = obstacle.lower(self, scene, rest.max(f64::MIN_POSITIVE))?;
             if lower <= 0.0 || lower >= rest {
                 return Ok(lower > 0.0);
             }
-            // Up to the next parameter the distance cannot have fallen to 0.
+            // The distance cannot fall to 0 before the next parameter.
             t = (t + STEP_FRACTION * lower / rate).min(1.0);
         }
         Ok(false)
     }
 
-    /// Whether the contacts at a touching start say that no witness comes nearer up to parameter `share`.
+    /// Whether, to first order, no contact of a touching start comes nearer up to parameter `share`.
     fn keeps_off(
         &mut self,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         obstacle: &impl Obstacle,
         scene: &Scene,
         share: f64,
-        trust: &TouchAllowance,
+        allowance: &TouchAllowance,
     ) -> Result<bool> {
-        let listed = WitnessRequest {
-            // What is farther cannot come to touch.
+        let request = WitnessRequest {
+            // Witnesses farther away cannot come to touch.
             with_gradients: true,
             counts_doubt: true,
-            ..WitnessRequest::within(trust.distance / STEP_FRACTION, trust.max_count)
+            ..WitnessRequest::within(allowance.distance / STEP_FRACTION, allowance.max_count)
         };
-        let list = obstacle.witnesses(self, scene, listed)?;
+        let list = obstacle.witnesses(self, scene, request)?;
         let keeps_off =
-            |a: &Approach| a.clearance + share * dot(a.gradient, way.v) >= -trust.allowed();
+            |a: &Approach| a.clearance + share * dot(a.gradient, motion.v) >= -allowance.allowed();
         let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
         Ok(is_known && list.approaches().iter().all(keeps_off))
     }
@@ -258,22 +260,22 @@ impl Obstacle for PairOnMotion<'_> {
         &self,
         context: &mut QueryContext,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
         let Some(target) = self.at(scene) else {
-            // Nothing is known of a pair that is not there.
+            // The scene does not hold the pair: nothing is known.
             return Ok(WitnessList {
                 truncated: true,
                 ..WitnessList::default()
             });
         };
-        context.list(self.term, scene, &[target], listed)
+        context.list(self.term, scene, &[target], request)
     }
 
     fn separation(
         &self,
         context: &mut QueryContext,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         scene: &Scene,
     ) -> Option<Separation> {
         let target = self.at(scene)?;
@@ -292,13 +294,13 @@ impl Obstacle for PairOnMotion<'_> {
         let normal = contacts.first()?.normal;
         Some(Separation {
             gap: pairing.gap_along(&normal) - target.options.margin,
-            rate: way.directed_rate(scene, link, target.sides[0], &normal)?,
+            rate: motion.directed_rate(scene, link, target.sides[0], &normal)?,
         })
     }
 }
 
 impl PairOnMotion<'_> {
-    /// The pair where the robot is now.
+    /// The pair at its poses in a scene; `None` if the scene does not hold it.
     fn at<'s>(&'s self, scene: &'s Scene) -> Option<Target<'s>> {
         let sides = scene.sides_of(&self.term[0], &self.target.key)?;
         Some(Target {
@@ -323,16 +325,16 @@ impl Obstacle for PureSet {
         &self,
         _: &mut QueryContext,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
-        pure_witnesses(&[(self, false)], scene, listed)
+        pure_witnesses(&[(self, false)], scene, request)
     }
 
-    /// A floor is such a plane.
+    /// A floor is itself the plane.
     fn separation(
         &self,
         _: &mut QueryContext,
-        way: &LinearMotion,
+        motion: &LinearMotion,
         scene: &Scene,
     ) -> Option<Separation> {
         let PureShape::Floor { links, normal, .. } = &self.shape else {
@@ -344,15 +346,15 @@ impl Obstacle for PureSet {
         let measure = self.measure(&scene.space_state()).ok()??;
         Some(Separation {
             gap: measure.signed - measure.error,
-            rate: way.directed_rate(scene, link, scene.link(link)?, normal)?,
+            rate: motion.directed_rate(scene, link, scene.link(link)?, normal)?,
         })
     }
 }
 
 impl<'a> LinearMotion<'a> {
     pub(super) fn at(&self, t: f64) -> Vec<f64> {
-        let way: Vec<f64> = self.v.iter().map(|x| x * t).collect();
-        self.cobject.space().step(self.q, &way)
+        let displacement: Vec<f64> = self.v.iter().map(|x| x * t).collect();
+        self.cobject.space().step(self.q, &displacement)
     }
 
     pub(super) fn scene<'s>(&'s self, q: &'s [f64]) -> Result<Scene<'s>> {
@@ -364,7 +366,7 @@ impl<'a> LinearMotion<'a> {
         )
     }
 
-    /// Whether every joint that the way moves, and that changes some distance, states its speeds.
+    /// Whether every joint that moves, and that changes some distance, states its speeds.
     pub fn states_speeds(&self) -> bool {
         let space = self.cobject.space();
         let of_pairs = match self.cobject.set() {
@@ -376,7 +378,7 @@ impl<'a> LinearMotion<'a> {
         of_pairs.chain(of_sets).all(f64::is_finite)
     }
 
-    /// No distance of a pair of the set changes by more than this; `None` where none changes.
+    /// Bounds the change of distance of all pairs of the set; `None` if no distance changes.
     pub(super) fn fastest_pair(&self, term: &Induced) -> Option<f64> {
         let &Self { world, q, v, .. } = self;
         let space = self.cobject.space();
@@ -390,7 +392,7 @@ impl<'a> LinearMotion<'a> {
                     held.fold(space.motion_bound(link, q, v), f64::max)
                 };
                 let of_links = links.iter().map(|&link| of_link(link));
-                // What is attached is an s-object to the other links, and moves.
+                // An attached object moves, and is an s-object to the other links.
                 let of_carriers = held.iter().map(|(holder, _)| of_link(*holder));
                 of_links.fold(0.0, f64::max) + of_carriers.fold(0.0, f64::max)
             }
@@ -408,7 +410,7 @@ impl<'a> LinearMotion<'a> {
         (fastest > 0.0).then_some(fastest)
     }
 
-    /// What a link carries moves no farther than this along a direction of the world on the way from a scene.
+    /// Bounds how far a body carried by a link moves along a direction of the world, from a scene on.
     fn directed_rate(
         &self,
         scene: &Scene,
@@ -421,7 +423,7 @@ impl<'a> LinearMotion<'a> {
         Some(space.directed_motion_bound(link, extent, direction, scene.state()?, self.v))
     }
 
-    /// The distance of a pair changes by no more than this: by the motion of its bodies relative to each other.
+    /// Bounds the change of a pair's distance, by the relative motion of its bodies.
     fn rate(&self, scene: &Scene, target: &Target) -> f64 {
         let &Self { q, v, .. } = self;
         let space = self.cobject.space();
@@ -437,12 +439,12 @@ impl<'a> LinearMotion<'a> {
     }
 }
 
-/// How far a link's body, or what the link holds, is from the link's origin, at most.
+/// Bounds the distance of a link's body, or of an object attached to the link, from the link's origin.
 fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
     (pose.translation - scene.poses()[link].translation).norm() + body.radius_from_origin()
 }
 
-/// The pure sets of a union, or the set itself if it is one.
+/// The pure sets of a union, or the set itself if it is pure.
 fn pure_sets(cobject: &CObject) -> impl Iterator<Item = &PureSet> {
     let own = match cobject.set() {
         Set::Pure(set) => Some(set),
@@ -456,7 +458,8 @@ fn pure_sets(cobject: &CObject) -> impl Iterator<Item = &PureSet> {
         }))
 }
 
-/// The links of a space that hold s-objects of an environment, and how far these radius from the links' origins.
+/// The links of a space that hold s-objects of an environment, with bounds of the objects' distances from the links'
+/// origins.
 fn extents_of_held(world: &World, environment: &Environment, space: &Space) -> Vec<(usize, f64)> {
     let attached = world.snapshot(environment).map(|now| now.attached());
     let extent = |object: &SObject| {

@@ -11,18 +11,19 @@ use crate::query::{
     Configuration, ContactRecord, QueryContext, WitnessList, World, check_threshold,
 };
 
-/// How to slide.
+/// Options of a slide. Distances are lengths.
 #[derive(Clone, Copy, Debug)]
 pub struct SlideOptions {
-    /// Contacts up to this distance constrain the step: the stand-off.
+    /// Contacts up to this distance constrain the step.
     pub max_shell: f64,
-    /// The distance at which the robot slides; it is pushed out where it is nearer.
+    /// The distance at which the robot slides; where it is nearer it is pushed out.
     pub desired_distance: f64,
-    /// Lengthens the step along the contact to that of the step asked for, at most fourfold: the report's `normalize?`.
+    /// Lengthens the step along the contact to the length of the requested step, at most fourfold: the report's
+    /// `normalize?`.
     pub normalize: bool,
-    /// A step is halved until it is accepted, or is shorter than this part of the step asked for.
+    /// A step is halved until it is accepted, or shorter than this fraction of the requested step.
     pub floor: f64,
-    /// At most this many witnesses are considered, the nearest first.
+    /// The most witnesses considered, the nearest first.
     pub max_witnesses: usize,
 }
 
@@ -71,60 +72,65 @@ impl SlideOptions {
 /// How a slide ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlideOutcome {
-    /// A step was found; it keeps clear of the C-object all the way.
+    /// A step was found; the whole motion is proved free.
     Moved,
-    /// The configuration is inside the C-object; there is no way to slide.
+    /// The configuration is inside the C-object, so it cannot slide.
     Inside,
-    /// No step leads on: the contacts, the coordinates' ranges or the world box are in the way. Of all steps as long as the
-    /// floor none that keeps clear, keeps the distance (or the desired distance, if that is less), the ranges and the box
-    /// gains more than 1 % of its length along the step asked for, to first order.
+    /// No step is possible: contacts, the coordinates' ranges or the world box block the way. To first order, no step as
+    /// long as the floor that stays free, keeps the distance (or the desired distance, if that is less), the ranges and the
+    /// box gains more than 1 % of its length along the requested step.
     Blocked,
 }
 
-/// The step taken. Unless it moved, the configuration is the one given.
+/// The result of a slide.
 #[derive(Clone, Debug)]
 pub struct SlideStep {
+    /// How the slide ended.
     pub outcome: SlideOutcome,
+    /// The configuration reached; the start unless the robot moved.
     pub configuration: Vec<f64>,
-    /// The distance at the configuration given, and at the one reached.
+    /// The distance at the start.
     pub distance_before: f64,
+    /// The distance at the configuration reached.
     pub distance_after: f64,
-    /// How many contacts constrained the step.
+    /// The number of contacts that constrained the step.
     pub contacts: usize,
 }
 
-/// A robot that is nearer than the desired distance by less than this part of it is not pushed out: else it would tremble.
+/// A robot that is nearer than the desired distance by less than this fraction of it is not pushed out; otherwise it would
+/// jitter.
 const DEAD_BAND: f64 = 1e-2;
 
-/// A step may fall short of the distance it is to keep by this part of the desired one: what corrections leave.
+/// A step may miss the distance to keep by this fraction of the desired distance: what corrections leave over.
 const FALL_SHORT: f64 = 1e-4;
 
-/// A step is corrected at most this many times where it leads: contacts turn on the way.
+/// The most corrections of a step at its end: contact normals turn during the step.
 const MAX_CORRECTIONS: usize = 3;
 
-/// The contacts that a step of this length can bring nearer than it may fall short.
+/// The contacts that a step of this length can bring nearer by more than the tolerance.
 fn approaches(list: &WitnessList, length: f64, desired: f64) -> Vec<Approach<'_>> {
     let mut all = list.approaches();
     all.retain(|a| norm(a.gradient) * 4.0 * length > 0.5 * FALL_SHORT * desired);
     all
 }
 
-/// What all tries of one slide share.
+/// What all attempts of one slide share.
 struct SlideRequest<'a> {
     world: &'a World,
     cobject: &'a CObject,
     q: &'a [f64],
     here: &'a WitnessList,
     options: &'a SlideOptions,
-    /// The length of the step asked for.
+    /// The length of the requested step.
     length: f64,
     detail: Detail,
 }
 
 impl QueryContext {
-    /// One step from q, a velocity for a unit of time: `step` itself where nothing is within the shell, else the nearest
-    /// step that brings no contact nearer than the desired distance (or than the nearest is, if that is less), pushed out
-    /// to it where it is within, corrected where it leads, and halved until the whole way is proved free.
+    /// One step from q, given as a velocity for a unit of time. The result is `step` itself where nothing is within the
+    /// shell; else the nearest step that brings no contact nearer than the desired distance (or than the nearest contact,
+    /// if that is nearer). A robot within the desired distance is pushed out to it. The step is corrected at its end, and
+    /// halved until the whole motion is proved free.
     pub fn slide(
         &mut self,
         cobject: &CObject,
@@ -136,7 +142,7 @@ impl QueryContext {
         let space = cobject.space();
         space.check_configuration(q)?;
         space.check_velocity(step, "step")?;
-        // One state of the world for all that is asked: else the proof would join distances of several.
+        // One state of the world for the whole slide: the proof must not combine distances of several.
         let world = &self.look(cobject);
         require_union(cobject)?;
         let distance = self.distance_at(world, cobject, q)?;
@@ -149,7 +155,7 @@ impl QueryContext {
             distance_after: distance,
             contacts,
         };
-        // A touch is no reason to stay; an overlap is, of primitives or of what the margin adds to them.
+        // A touching robot may slide; one whose primitives overlap, or are closer than the margin, may not.
         if overlaps(&here, options) {
             return Ok(ended(SlideOutcome::Inside));
         }
@@ -157,19 +163,19 @@ impl QueryContext {
         if length == 0.0 || !space.contains(q)? {
             return Ok(ended(SlideOutcome::Blocked));
         }
-        let way = LinearMotion {
+        let motion = LinearMotion {
             world,
             cobject,
             q,
             v: step,
         };
-        if !way.states_speeds() {
+        if !motion.states_speeds() {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 "a custom joint that the step moves does not state its speeds, so that no way can be proved free",
             ));
         }
-        let mut asked = SlideRequest {
+        let mut request = SlideRequest {
             world,
             cobject,
             q,
@@ -178,13 +184,13 @@ impl QueryContext {
             length,
             detail: Detail::Nearest,
         };
-        let mut reached = self.find_step(&asked, step)?;
-        // What the nearest contacts of large meshes leave out may have been in the way.
+        let mut reached = self.find_step(&request, step)?;
+        // Contacts that were left out of large meshes may have blocked the step, so try again with all.
         let all;
         if reached.is_none() {
             all = self.slide_contacts(world, cobject, q, options, Detail::All)?;
-            (asked.here, asked.detail) = (&all, Detail::All);
-            reached = self.find_step(&asked, step)?;
+            (request.here, request.detail) = (&all, Detail::All);
+            reached = self.find_step(&request, step)?;
         }
         let Some(reached) = reached else {
             return Ok(ended(SlideOutcome::Blocked));
@@ -196,16 +202,16 @@ impl QueryContext {
         })
     }
 
-    /// Where the longest part of a step leads that can be taken.
-    fn find_step(&mut self, asked: &SlideRequest, step: &[f64]) -> Result<Option<Vec<f64>>> {
-        let push = OutwardStep::of(asked)?;
+    /// The configuration reached by the longest acceptable fraction of a step.
+    fn find_step(&mut self, request: &SlideRequest, step: &[f64]) -> Result<Option<Vec<f64>>> {
+        let push = OutwardStep::of(request)?;
         let mut share = 1.0;
-        while share >= asked.options.floor {
+        while share >= request.options.floor {
             let wish: Vec<f64> = step.iter().map(|x| x * share).collect();
             let pushed = push.as_ref().map(|push| push.part(share));
             let wishes = pushed.as_ref().into_iter().map(Some).chain([None]);
             for push in wishes {
-                let found = self.try_step(asked, &wish, push)?;
+                let found = self.try_step(request, &wish, push)?;
                 if found.is_some() {
                     return Ok(found);
                 }
@@ -221,10 +227,10 @@ impl QueryContext {
         Ok(found.distance)
     }
 
-    /// Where one step leads that slides, keeps its distance, gains or is pushed out, and is free all the way.
+    /// The configuration reached by one attempt, if it keeps its distance, gains or is pushed out, and is free all the way.
     fn try_step(
         &mut self,
-        asked: &SlideRequest,
+        request: &SlideRequest,
         wish: &[f64],
         push: Option<&OutwardStep>,
     ) -> Result<Option<Vec<f64>>> {
@@ -235,13 +241,13 @@ impl QueryContext {
             here,
             options,
             ..
-        } = asked;
+        } = request;
         let space = cobject.space();
         let desired = options.desired_distance;
         let length = norm(wish);
-        let contacts = approaches(here, asked.length, desired);
+        let contacts = approaches(here, request.length, desired);
         let near = nearest_movable(&contacts);
-        // Of contacts within the desired distance only the nearest says what is to be kept.
+        // Within the desired distance, the nearest contact sets the distance to keep.
         let keep = near.min(desired);
         let limits = step_limits(space, q, length)?;
         let along = slide_step(wish, &contacts, &limits, keep, options.normalize);
@@ -257,11 +263,11 @@ impl QueryContext {
             if space.check_configuration(&reached).is_err() {
                 return Ok(None);
             }
-            let there = self.slide_contacts(world, cobject, &reached, options, asked.detail)?;
+            let there = self.slide_contacts(world, cobject, &reached, options, request.detail)?;
             if overlaps(&there, options) {
                 return Ok(None);
             }
-            let contacts = approaches(&there, asked.length, desired);
+            let contacts = approaches(&there, request.length, desired);
             let nearest = nearest_movable(&contacts);
             if corrections == MAX_CORRECTIONS || nearest >= keep - 0.1 * FALL_SHORT * desired {
                 break nearest;
@@ -279,31 +285,32 @@ impl QueryContext {
         let (gain, moved) = (dot(&way, wish) / length, norm(&way));
         let gains = moved > LEAST_GAIN * length && gain > LEAST_GAIN * moved;
         let keeps = nearest >= keep - FALL_SHORT * desired;
-        // A push alone must win more than steps that gain may lose, or the two would take turns.
+        // A push alone must gain more distance than advancing steps may lose, or the two would alternate forever.
         let is_pushed = push.is_some() && nearest - near >= 0.25 * DEAD_BAND * desired;
         let goes_on = keeps && (gains || is_pushed) && space.contains(&reached)?;
         if !goes_on {
             return Ok(None);
         }
-        let way = LinearMotion {
+        let motion = LinearMotion {
             world,
             cobject,
             q,
             v: &way,
         };
-        let trust = TouchAllowance {
-            distance: ON_TRUST * options.max_shell.min(smallest_radius(cobject)),
+        let allowance = TouchAllowance {
+            distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(cobject)),
             max_count: options.max_witnesses,
         };
-        let is_free = self.way_is_free(&way, &trust)?;
+        let is_free = self.motion_is_free(&motion, &allowance)?;
         Ok(is_free.then_some(reached))
     }
 }
 
-/// How far, as a part of the shell or of the smallest link, a touching robot may move before a distance must prove it free.
-const ON_TRUST: f64 = 1e-4;
+/// How far a touching robot may move before a distance must prove it free, as a fraction of the shell or of the smallest
+/// link.
+const TOUCH_FRACTION: f64 = 1e-4;
 
-/// Refuses sets whose distance says too little for a proof.
+/// Refuses sets whose distances cannot prove a motion free.
 fn require_union(cobject: &CObject) -> Result<()> {
     let measures = |cobject: &CObject| match cobject.set() {
         Set::Pure(pure) => !matches!(pure.shape, PureShape::Predicate(_)),
@@ -348,17 +355,17 @@ struct OutwardStep {
 }
 
 impl OutwardStep {
-    /// The push of a configuration within the desired distance, no longer than `length`; none where contacts stand against
-    /// each other so that hardly anything is won.
-    fn of(asked: &SlideRequest) -> Result<Option<Self>> {
-        let (space, length) = (asked.cobject.space(), asked.length);
-        let desired = asked.options.desired_distance;
-        let contacts = approaches(asked.here, length, desired);
+    /// The push for a configuration within the desired distance, no longer than `length`; `None` where opposing contacts
+    /// leave hardly any gain.
+    fn of(request: &SlideRequest) -> Result<Option<Self>> {
+        let (space, length) = (request.cobject.space(), request.length);
+        let desired = request.options.desired_distance;
+        let contacts = approaches(request.here, length, desired);
         let near = nearest_movable(&contacts);
         if near >= desired * (1.0 - DEAD_BAND) {
             return Ok(None);
         }
-        let limits = step_limits(space, asked.q, length)?;
+        let limits = step_limits(space, request.q, length)?;
         let Some(step) = spring_step(&contacts, &limits, desired) else {
             return Ok(None);
         };
@@ -370,7 +377,7 @@ impl OutwardStep {
         Ok(is_worth.then(|| Self { step }.part(part)))
     }
 
-    /// A part of the way: each contact is then as far as at one of the ends, at least.
+    /// A fraction of the push: to first order, each contact is then at least as far as at one of its ends.
     fn part(&self, share: f64) -> Self {
         Self {
             step: self.step.iter().map(|x| x * share).collect(),

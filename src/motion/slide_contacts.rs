@@ -1,4 +1,4 @@
-//! The contacts that constrain a slide: of each leaf those within its shell.
+//! The contacts that constrain a slide: those of each leaf within its shell.
 
 use super::slide::SlideOptions;
 use crate::cobject::{CObject, PureSet, Set};
@@ -8,17 +8,18 @@ use crate::query::{
     WitnessRequest, World, pure_witnesses,
 };
 
-/// Of a body pair with at most this many primitive pairs, all within the shell are listed; of a larger one only the nearest, since
-/// a fine mesh has thousands within the shell that say the same. (`scripts/bench.sh slides`)
+/// Body pairs with at most this many primitive pairs list all contacts within the shell. Larger ones list only the nearest,
+/// since a fine mesh has thousands of nearly equal contacts there. (`scripts/bench.sh slides`)
 const SMALL_PAIR: usize = 64;
 
-/// How much farther than the nearest, as a part of the shell, primitives of a larger pair are listed: what is parallel.
+/// Larger pairs list primitives up to this fraction of the shell farther than the nearest, so that parallel features are
+/// listed.
 const BAND: f64 = 0.01;
 
-/// At most this many witnesses of a larger pair are listed.
+/// The most witnesses listed of a larger pair.
 const MAX_OF_LARGE_PAIR: usize = 8;
 
-/// Which contacts of a large pair are listed: the nearest say enough for most steps.
+/// Which contacts of a large pair are listed; the nearest are enough for most steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Detail {
     Nearest,
@@ -26,8 +27,8 @@ pub(crate) enum Detail {
 }
 
 impl QueryContext {
-    /// The witnesses that constrain a step, with gradients. Distances and gradients of a leaf with a shell of its own are divided
-    /// by that and multiplied by the shell of the options, so that one desired distance serves all.
+    /// The witnesses that constrain a step, with gradients. For a leaf with its own shell, distances and gradients are
+    /// scaled by the shell of the options over that of the leaf, so that one desired distance fits all.
     pub(crate) fn slide_contacts(
         &mut self,
         world: &World,
@@ -49,20 +50,20 @@ impl QueryContext {
             lists: Vec::new(),
         };
         match cobject.set() {
-            Set::Pure(set) => search.see_set(set)?,
+            Set::Pure(set) => search.add_set(set)?,
             set => {
                 if let Set::Union { induced, .. } = set {
-                    search.see_bodies(self, induced)?;
+                    search.add_bodies(self, induced)?;
                 }
                 for part in set.parts() {
                     if let Set::Pure(set) = part.set() {
-                        search.see_set(set)?;
+                        search.add_set(set)?;
                     }
                 }
             }
         }
-        let listed = search.listed(f64::INFINITY);
-        Ok(WitnessList::merged(search.lists, scene, listed))
+        let request = search.request(f64::INFINITY);
+        Ok(WitnessList::merged(search.lists, scene, request))
     }
 }
 
@@ -74,44 +75,44 @@ struct ContactSearch<'a> {
 }
 
 impl ContactSearch<'_> {
-    fn listed(&self, epsilon: f64) -> WitnessRequest {
+    fn request(&self, epsilon: f64) -> WitnessRequest {
         WitnessRequest {
             with_gradients: true,
             ..WitnessRequest::within(epsilon, self.options.max_witnesses)
         }
     }
 
-    fn see_bodies(&mut self, context: &mut QueryContext, group: &Group) -> Result<()> {
+    fn add_bodies(&mut self, context: &mut QueryContext, group: &Group) -> Result<()> {
         let (scene, max_shell) = (self.scene, self.options.max_shell);
         let checked = scene.checked(group)?;
         let shells = group.iter().map(|term| term.shell.unwrap_or(max_shell));
-        let wanted = CandidateFilter::within(shells.fold(0.0, f64::max));
+        let filter = CandidateFilter::within(shells.fold(0.0, f64::max));
         let meter = context.scratch.meter_mut();
-        let candidates = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
+        let candidates = scene.candidates(checked, filter, &mut context.candidates, meter)?;
         for target in &candidates {
             let shell = group[target.term as usize].shell.unwrap_or(max_shell);
             if target.bound > shell {
                 continue;
             }
-            // Alone in its searches, whose hits name it by its rank.
+            // Searched alone, so its rank is 0: hits name their pair by rank.
             let target = &[Target { rank: 0, ..*target }];
-            let Some(listed) = self.listed_of(context, target, shell)? else {
+            let Some(request) = self.request_of(context, target, shell)? else {
                 continue;
             };
-            let list = context.list(group, scene, target, listed)?;
-            self.take(list, shell);
+            let list = context.list(group, scene, target, request)?;
+            self.add_list(list, shell);
         }
         Ok(())
     }
 
-    /// What is asked of a body pair; `None` if the bodies are farther apart than the shell.
-    fn listed_of(
+    /// Which witnesses to list of a body pair; `None` if the bodies are farther apart than the shell.
+    fn request_of(
         &self,
         context: &mut QueryContext,
         target: &[Target; 1],
         shell: f64,
     ) -> Result<Option<WitnessRequest>> {
-        let whole = self.listed(shell);
+        let whole = self.request(shell);
         let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
         if self.detail == Detail::All || a.saturating_mul(b) <= SMALL_PAIR {
             return Ok(Some(whole));
@@ -120,7 +121,7 @@ impl ContactSearch<'_> {
             return Ok(None);
         };
         let epsilon = (nearest.distance + BAND * shell).min(shell);
-        // Of primitives that meet all must be seen: some may overlap.
+        // All primitives that meet must be listed: some may overlap.
         let max_count = match nearest.distance > 0.0 {
             true => whole.max_count.min(MAX_OF_LARGE_PAIR),
             false => whole.max_count,
@@ -132,18 +133,19 @@ impl ContactSearch<'_> {
         }))
     }
 
-    /// Floors and the world box are seen link by link: one that rests on a floor does not hide another.
-    fn see_set(&mut self, set: &PureSet) -> Result<()> {
+    /// Adds the contacts of a pure set. Floors and the world box are split by link: a link that rests on a floor must not
+    /// hide another.
+    fn add_set(&mut self, set: &PureSet) -> Result<()> {
         let scene = self.scene;
         let parts = set.by_link();
         let shell = set.shell.unwrap_or(self.options.max_shell);
         let parts: Vec<(&PureSet, bool)> = parts.iter().map(|part| (part, false)).collect();
-        let list = pure_witnesses(&parts, scene, self.listed(shell))?;
-        self.take(list, shell);
+        let list = pure_witnesses(&parts, scene, self.request(shell))?;
+        self.add_list(list, shell);
         Ok(())
     }
 
-    fn take(&mut self, mut list: WitnessList, shell: f64) {
+    fn add_list(&mut self, mut list: WitnessList, shell: f64) {
         if list.witnesses.is_empty() {
             return;
         }

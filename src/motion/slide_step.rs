@@ -3,16 +3,17 @@
 use super::half_spaces::{HalfSpace, dot, nearest_in_half_spaces};
 use crate::query::WitnessList;
 
-/// A contact as the steps see it: how far it is, and how a step changes that.
+/// A contact's clearance, and how a step changes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Approach<'a> {
+    /// The derivative of the clearance, one entry per velocity.
     pub gradient: &'a [f64],
     /// The distance, less the margin; negative within it.
     pub clearance: f64,
 }
 
 impl WitnessList {
-    /// The contacts with their gradients; none where the list came without gradients.
+    /// The contacts with their gradients; empty if the list has no gradients.
     pub fn approaches(&self) -> Vec<Approach<'_>> {
         self.contacts
             .iter()
@@ -25,15 +26,16 @@ impl WitnessList {
     }
 }
 
-/// Steps of less than this part of the step asked for, or at a cosine to it below this, lead nowhere.
+/// A step that is shorter than this fraction of the requested step, or whose cosine to it is below this, is not worth
+/// taking.
 pub const LEAST_GAIN: f64 = 1e-2;
 
-/// The lengthened step is at most so many times the part of the step that contacts leave.
+/// The largest factor by which a step is lengthened.
 const MAX_STRETCH: f64 = 4.0;
 
-/// The step nearest to `step` that brings no contact nearer than `desired`, nor nearer at all where it is within that
-/// already, and keeps to the `limits`. With `normalize` it is lengthened to the step's length, fourfold at most. `None`
-/// where nothing worth taking is left: less than [`LEAST_GAIN`] of the step.
+/// The step nearest to `step` that brings no contact nearer than `desired`, brings contacts that are nearer already no
+/// nearer still, and keeps to the `limits`. With `normalize` it is lengthened to the length of `step`, at most fourfold.
+/// `None` where less than [`LEAST_GAIN`] of the step is left.
 pub fn slide_step(
     step: &[f64],
     approaches: &[Approach],
@@ -47,15 +49,15 @@ pub fn slide_step(
         least: (desired - a.clearance).min(0.0),
     }));
     let along = nearest_in_half_spaces(step, &half_spaces)?;
-    let [asked, left] = [step, &along].map(|s| dot(s, s).sqrt());
-    if left <= LEAST_GAIN * asked || dot(&along, step) <= LEAST_GAIN * left * asked {
+    let [requested, left] = [step, &along].map(|s| dot(s, s).sqrt());
+    if left <= LEAST_GAIN * requested || dot(&along, step) <= LEAST_GAIN * left * requested {
         return None;
     }
-    if normalize && left < asked {
-        let stretch = (asked / left).min(MAX_STRETCH);
+    if normalize && left < requested {
+        let stretch = (requested / left).min(MAX_STRETCH);
         let wish: Vec<f64> = step.iter().map(|x| x * stretch).collect();
         if let Some(longer) = nearest_in_half_spaces(&wish, &half_spaces)
-            && dot(&longer, &longer).sqrt() <= 1.5 * asked
+            && dot(&longer, &longer).sqrt() <= 1.5 * requested
         {
             return Some(longer);
         }
@@ -63,9 +65,8 @@ pub fn slide_step(
     Some(along)
 }
 
-/// The shortest step that takes all contacts out to `desired`, and none within it; where not all can get there, the step
-/// that takes them all out to the largest distance that they can share. `None` where no contact is nearer than `desired`, or
-/// none can be helped.
+/// The shortest step that takes all contacts out to `desired`. Where not all can get there, the step that takes them all
+/// out to the largest distance that they can share. `None` where no contact is nearer than `desired`, or none can move out.
 pub fn spring_step(
     approaches: &[Approach],
     limits: &[HalfSpace],
@@ -99,8 +100,8 @@ pub fn spring_step(
     best.filter(|found| dot(found, found) > 0.0)
 }
 
-/// The contacts that some step changes. Of those that joints carry along as one only rounding is left of the gradient; as a
-/// direction it would mean nothing.
+/// The contacts that some step changes. Where the joints move both bodies together, the gradient is rounding error, whose
+/// direction means nothing.
 fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s Approach<'a>> {
     let length = |a: &Approach| dot(a.gradient, a.gradient).sqrt();
     let largest = approaches.iter().map(length).fold(0.0, f64::max);
@@ -109,7 +110,7 @@ fn movable<'s, 'a>(approaches: &'s [Approach<'a>]) -> impl Iterator<Item = &'s A
         .filter(move |a| length(a) > ROUNDING * largest.max(ROUNDING))
 }
 
-/// A gradient shorter than this part of the longest is what is left of sums that cancel.
+/// A gradient shorter than this fraction of the longest is rounding error of sums that cancel.
 const ROUNDING: f64 = 1e-12;
 
 /// The clearance of the nearest contact that some step changes.

@@ -1,4 +1,4 @@
-//! What ranges and world box ask of a step, as half-spaces of velocities.
+//! The coordinates' ranges and the world box as half-spaces of steps.
 
 use super::half_spaces::{HalfSpace, dot};
 use crate::error::Result;
@@ -6,27 +6,27 @@ use crate::pose::{Pose, Vec3};
 use crate::robot::{BlockKind, Coordinate, RobotState};
 use crate::space::Space;
 
-/// Limits that a step of this many times the length asked for cannot reach are left out.
+/// Limits farther away than this many times the requested length are left out.
 const FAR: f64 = 8.0;
 
-/// How far inside the world box a step aims, in units of its coordinates.
+/// How far inside the world box a step aims, relative to the box's coordinates: covers the rounding of poses.
 const INSIDE: f64 = 1e-12;
 
-/// The half-spaces that keep a step of about `length` within the coordinates' ranges and the links' origins within the world
-/// box; exact for ranges of single coordinates, else to first order.
+/// The half-spaces that keep a step of about `length` within the coordinates' ranges, and the links' origins within the
+/// world box; exact for ranges of single coordinates, else to first order.
 pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpace>> {
-    let mut found = Vec::new();
-    // A value that moves with `row . v` must stay between two others.
+    let mut half_spaces = Vec::new();
+    // Keeps a value with derivative `row` between two bounds.
     let mut keep = |value: f64, lower: f64, upper: f64, row: &[f64]| {
         let farthest = FAR * length * dot(row, row).sqrt();
         if upper - value <= farthest {
-            found.push(HalfSpace {
+            half_spaces.push(HalfSpace {
                 row: row.iter().map(|x| -x).collect(),
                 least: value - upper,
             });
         }
         if value - lower <= farthest {
-            found.push(HalfSpace {
+            half_spaces.push(HalfSpace {
                 row: row.to_vec(),
                 least: lower - value,
             });
@@ -47,7 +47,7 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
             if block.kind == BlockKind::Line {
                 row[block.velocity] = 1.0;
             } else {
-                // The velocity is written in the moved frame.
+                // Velocities of free joints are in the moved frame.
                 let own = &q[block.coordinate..block.coordinate + 7];
                 let turned =
                     Pose::from_quaternion(Vec3::zeros(), [own[3], own[4], own[5], own[6]])?;
@@ -60,7 +60,7 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
     }
     let world = space.world();
     if world.low.iter().chain(&world.high).all(|x| x.is_infinite()) {
-        return Ok(found);
+        return Ok(half_spaces);
     }
     let poses = &space.link_poses(q)?;
     for (link, pose) in poses.iter().enumerate() {
@@ -68,7 +68,7 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
         let jacobian = space.jacobian(RobotState { q, poses }, link, origin)?;
         for (axis, row) in jacobian.chunks_exact(space.nv().max(1)).take(3).enumerate() {
             if row.iter().any(|x| *x != 0.0) {
-                // Aimed inside by what rounding of the pose may put it outside.
+                // Aims inside, since rounding of the pose could put the origin outside.
                 let [low, high] = [world.low[axis], world.high[axis]];
                 let doubt = |bound: f64| match bound.is_finite() {
                     true => INSIDE * (1.0 + bound.abs()),
@@ -78,5 +78,5 @@ pub fn step_limits(space: &Space, q: &[f64], length: f64) -> Result<Vec<HalfSpac
             }
         }
     }
-    Ok(found)
+    Ok(half_spaces)
 }

@@ -6,7 +6,12 @@ pub enum Coordinate {
     /// The circle S^1: angles in radians, equal modulo 2 pi.
     Circle,
     /// A closed interval; either end may be infinite.
-    Interval { lower: f64, upper: f64 },
+    Interval {
+        /// The lowest value.
+        lower: f64,
+        /// The highest value.
+        upper: f64,
+    },
     /// One of the four entries of a unit quaternion.
     Quaternion,
 }

@@ -4,12 +4,13 @@ use crate::hierarchy::wrapper::Surface;
 use crate::pose::Vec3;
 use crate::primitive::Convex;
 
-/// Directions are taken on so many circles of latitude, and so many on each.
+/// Circles of latitude of the sampled directions.
 const RINGS: usize = 16;
+/// Directions on each circle.
 const SECTORS: usize = 32;
 
-/// A curved primitive's points that are farthest along evenly spread directions, joined as the directions are: a mesh within
-/// the set, its corners on the surface. Of a set in the plane the outline.
+/// Meshes a curved primitive: support points along evenly spread directions, connected as the directions are. The mesh lies
+/// within the set, its vertices on the surface. For a planar set it is the outline.
 pub fn curved_surface(primitive: &Convex) -> Surface {
     use std::f64::consts::{PI, TAU};
     let at = |ring: usize, sector: usize| {

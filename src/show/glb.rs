@@ -1,4 +1,4 @@
-//! Writes triangles, placed and coloured, as a glTF 2.0 binary (.glb): a JSON chunk and a buffer chunk.
+//! Writes coloured triangle meshes at poses as a glTF 2.0 binary (.glb): a JSON chunk and a buffer chunk.
 
 use std::path::Path;
 
@@ -36,7 +36,7 @@ impl Triangles {
 /// A colour: red, green, blue and opacity from 0 to 1.
 pub type Colour = [f64; 4];
 
-/// A glTF document in the making.
+/// Builds a glTF document.
 #[derive(Default)]
 pub struct Document {
     buffer: Vec<u8>,
@@ -48,7 +48,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Adds a material; `both_sides` for surfaces that are seen from behind too.
+    /// Adds a material; `both_sides` for surfaces that are visible from behind.
     pub fn add_material(&mut self, name: &str, colour: Colour, both_sides: bool) -> usize {
         self.materials.push(json!({
             "name": name,
@@ -76,7 +76,7 @@ impl Document {
         Some(self.meshes.len() - 1)
     }
 
-    /// Adds a named node that shows a mesh at a pose, with data for the reader in its extras.
+    /// Adds a named node that shows a mesh at a pose; `extras` are data for the reader.
     pub fn add_node(&mut self, name: &str, mesh: usize, pose: &Pose, extras: Value) {
         let (r, t) = (&pose.rotation, &pose.translation);
         let mut columns: Vec<f64> = Vec::with_capacity(16);

@@ -1,4 +1,4 @@
-//! Nodes of a body's hierarchy: their wrappers as one surface, and as a picture (§3.3.2, Figures 6–9).
+//! Shows nodes of a body's hierarchy: their wrappers as surfaces, and as a picture (§3.3.2, Figures 6–9).
 
 use std::path::Path;
 
@@ -26,8 +26,8 @@ const COLOURS: [Colour; 8] = [
     [0.55, 0.82, 0.84, 1.0],
 ];
 
-/// The wrappers of nodes as meshes in the frame in which the body was given, leaves as their primitives. Fails for a node
-/// the hierarchy does not have.
+/// The wrappers of nodes as meshes, leaves as their primitives, in the frame in which the body was given. Fails for a node
+/// that the hierarchy does not have.
 pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
     let count = body.statistics().nodes;
     nodes

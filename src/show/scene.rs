@@ -15,7 +15,7 @@ use crate::query::{PseudoNormal, QueryContext, SSide, Shell, World};
 use crate::robot::RobotState;
 use crate::whole_file::write_whole;
 
-/// At most so many witnesses are drawn.
+/// The most witnesses drawn.
 const MAX_WITNESSES: usize = 64;
 
 /// Writes the scene at q: links, s-objects, witnesses, normals and gradients. The file is written whole or not at all.
@@ -28,9 +28,9 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
         max_count: MAX_WITNESSES,
         normalize: false,
     };
-    // One state of the world for the whole picture.
+    // The whole picture shows one state of the world.
     let world = &World::of(cobject);
-    // Limits without a scale have no place in the world: what is near is shown without them.
+    // Distances from pure sets without a scale cannot be compared with lengths: then only induced sets are measured.
     let is_mixed = cobject.require_one_metric().is_err();
     let part = is_mixed.then(|| cobject.induced_part());
     let measured = part.as_ref().unwrap_or(cobject);
@@ -60,7 +60,7 @@ struct Drawing<'a> {
     poses: Vec<Pose>,
     document: Document,
     meshes: HashMap<(u64, usize), Option<usize>>,
-    /// A length by which marks are scaled.
+    /// The length that scales marks.
     size: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Triangles of bodies, arrows and balls.
+//! Triangulates bodies, arrows and balls.
 
 use super::curved::curved_surface;
 use super::glb::Triangles;
@@ -7,7 +7,8 @@ use crate::hierarchy::wrapper::Surface;
 use crate::pose::Vec3;
 use crate::primitive::{Convex, plane_axes};
 
-/// The faces of a body's primitives, in the body's centred frame; points and segments are shown as thin balls and rods.
+/// The faces of a body's primitives, in the body's centred frame; points and segments are shown as small balls and thin
+/// rods.
 pub fn of_body(body: &Body) -> Triangles {
     let mut triangles = Triangles::default();
     for primitive in body.primitives().iter() {

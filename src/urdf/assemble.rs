@@ -31,7 +31,7 @@ pub enum UrdfGeometry {
 /// The joint between the root link and what carries the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BaseJoint {
-    /// No motion.
+    /// As [`JointKind::Fixed`].
     Fixed,
     /// As [`JointKind::Planar`].
     Planar,
