@@ -1,4 +1,4 @@
-//! The body pairs that induced sets hold in a scene.
+//! The broad phase of induced sets: the candidate body pairs in a scene.
 
 use std::ops::Deref;
 
@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
 use crate::work_meter::WorkMeter;
 
-/// What stands on the r-side: a link's own body, or an s-object attached to it.
+/// The r-side of a pair: a link's own body, or an s-object attached to the link.
 #[derive(Clone, Copy)]
 struct RSide {
     link: usize,
@@ -21,7 +21,7 @@ struct RSide {
     attached: u64,
 }
 
-/// An induced set of links against s-objects, its number in the group, and the state it sees.
+/// An induced set of links against s-objects, with its number in the group and the snapshot that it sees.
 struct ObjectsTerm<'t, 's> {
     links: &'t [usize],
     objects: &'t SObjects,
@@ -32,7 +32,7 @@ struct ObjectsTerm<'t, 's> {
 }
 
 impl ObjectsTerm<'_, '_> {
-    /// Whether the set holds the pair of an r-side, whose link is one of its links, and an s-object.
+    /// Whether the set contains a body pair; the link of `r` must be one of its links.
     fn admits(&self, r: RSide, object: &SObject) -> bool {
         let pair = AllowedPair {
             link: r.link,
@@ -45,7 +45,7 @@ impl ObjectsTerm<'_, '_> {
         let Some(attachment) = &object.attachment else {
             return true;
         };
-        // A pair of attached ones may have been named from either side.
+        // A pair of two attached objects may be allowed in either order.
         let turned = AllowedPair {
             link: attachment.link,
             attached: object.id,
@@ -54,7 +54,8 @@ impl ObjectsTerm<'_, '_> {
         if r.attached != 0 && self.allowed.binary_search(&turned).is_ok() {
             return false;
         }
-        // What is attached does not meet what holds it, and of two attached ones the lower stands on the r-side.
+        // An attached object is not tested against the link that holds it, nor against its touch links. Of two attached
+        // objects, the one with the lower id is the r-side.
         let touches = attachment.link == r.link
             || (r.attached == 0 && attachment.touch_links.contains(&r.link));
         let is_mirrored = r.attached > object.id
@@ -64,14 +65,14 @@ impl ObjectsTerm<'_, '_> {
     }
 }
 
-/// The s-side of a pair: the object, where it is, and the link that holds it.
+/// The s-side of a pair: the object, its placement, and the link that holds it.
 struct SObjectAt<'s> {
     object: &'s SObject,
     placement: Placement<'s>,
     carrier: Option<usize>,
 }
 
-/// A group whose sets searches can answer: [`Scene::checked`] makes it.
+/// A group that can be searched: it has passed [`Scene::checked`].
 #[derive(Clone, Copy)]
 pub(crate) struct CheckedGroup<'g>(&'g Group);
 
@@ -84,7 +85,7 @@ impl Deref for CheckedGroup<'_> {
 }
 
 impl<'a> Scene<'a> {
-    /// Whether there is no pair of bodies at all, as far as that is seen at a glance.
+    /// Whether the group obviously has no body pair: a cheap test.
     pub fn is_empty(&self, group: &Group) -> bool {
         group.iter().all(|term| match &term.pairs {
             BodyPairs::Links { pairs } => pairs.is_empty(),
@@ -101,8 +102,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Refuses sets that no search can answer, whatever it would look at first: bodies of planes and of space, and s-objects
-    /// that are attached to links of another space, so that nobody knows here where they are.
+    /// Refuses groups that cannot be searched: planar bodies against spatial ones, and s-objects attached to links of
+    /// another space, whose poses are unknown. Checking first makes the error independent of what the search visits.
     pub fn checked<'g>(&self, group: &'g Group) -> Result<CheckedGroup<'g>> {
         for term in group {
             let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
@@ -130,20 +131,20 @@ impl<'a> Scene<'a> {
         Ok(CheckedGroup(group))
     }
 
-    /// The body pairs of a group that a search may need, each once, ranked by ids and sorted by bound.
+    /// The candidates of a group, without duplicates, ranked by ids and sorted by bound.
     pub fn candidates(
         &self,
         group: CheckedGroup,
-        wanted: CandidateFilter,
+        filter: CandidateFilter,
         scratch: &mut CandidateScratch,
         meter: &mut WorkMeter,
     ) -> Result<Vec<Target<'_>>> {
-        let mut candidates = Candidates::new(wanted, scratch, meter);
+        let mut candidates = Candidates::new(filter, scratch, meter);
         for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
-                    let known = &mut scratch.links;
-                    self.offer_links(pairs, &term.options, number, &mut candidates, known);
+                    let link_bounds = &mut scratch.links;
+                    self.offer_links(pairs, &term.options, number, &mut candidates, link_bounds);
                 }
                 BodyPairs::Objects {
                     links,
@@ -174,15 +175,15 @@ impl<'a> Scene<'a> {
         options: &InducedOptions,
         term: u32,
         candidates: &mut Candidates<'s, '_>,
-        known: &mut Vec<Option<Bounds>>,
+        link_bounds: &mut Vec<Option<Bounds>>,
     ) {
-        // Most links are in several pairs.
-        known.clear();
-        known.resize(self.space().link_count(), None);
+        // Most links are in several pairs, so their bounds are computed once.
+        link_bounds.clear();
+        link_bounds.resize(self.space().link_count(), None);
         for &[r, s] in pairs {
             if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
                 let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
-                    *known[link].get_or_insert_with(|| Bounds::of(body, pose))
+                    *link_bounds[link].get_or_insert_with(|| Bounds::of(body, pose))
                 });
                 let target = || {
                     let r = RSide {
@@ -236,7 +237,7 @@ impl<'a> Scene<'a> {
             Some((link, body, pose))
         };
         let of_links = links.iter().filter_map(with_body);
-        // What is attached to a link goes on with numbers after those of all links.
+        // Attached objects are numbered after the links.
         let first_held = self.space().link_count();
         let environment = objects.environment().serial();
         let held = self.held_of(environment);
@@ -337,7 +338,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The body pair that a key names, with the options of each term that holds it; nothing if none does (any more).
+    /// The body pair of a cache key, once for each term that (still) holds it, with the term's options.
     pub fn find<'s>(
         &'s self,
         group: &'s Group,
@@ -351,7 +352,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The two bodies that a key names, at their poses, if an induced set holds the pair.
+    /// The two bodies of a cache key at their poses, if the induced set holds the pair.
     pub fn sides_of(&self, term: &Induced, key: &CacheKey) -> Option<[Placement<'_>; 2]> {
         let (r, s_side) = match *key {
             CacheKey::Candidate {
@@ -424,21 +425,21 @@ impl<'a> AttachedObject<'a> {
 }
 
 impl QueryContext {
-    /// Takes the memory of a list of body pairs that is not needed any more.
+    /// Takes back the memory of a candidate list for reuse.
     pub(super) fn keep_memory(&mut self, targets: Vec<Target>) {
         self.candidates.keep(targets);
     }
 
-    /// The body pairs of a group that a search may need: see [`Scene::candidates`].
+    /// The candidates of a group: see [`Scene::candidates`].
     pub(super) fn candidates<'s>(
         &mut self,
         scene: &'s Scene,
         group: CheckedGroup,
-        wanted: CandidateFilter,
+        filter: CandidateFilter,
     ) -> Result<Vec<Target<'s>>> {
         scene.candidates(
             group,
-            wanted,
+            filter,
             &mut self.candidates,
             self.scratch.meter_mut(),
         )

@@ -1,4 +1,4 @@
-//! The body pairs of a C-object that a search may need.
+//! Candidates: the body pairs that the broad phase lets through.
 
 use super::target::Target;
 use crate::cobject::InducedOptions;
@@ -7,14 +7,14 @@ use crate::error::Result;
 use crate::reused::emptied;
 use crate::work_meter::WorkMeter;
 
-/// Which body pairs a search needs.
+/// Which body pairs a search needs: those that fit any of the criteria.
 #[derive(Clone, Copy, Debug)]
 pub struct CandidateFilter {
-    /// All that may be within this.
+    /// Pairs that may be within this distance.
     pub within: f64,
-    /// All that may be in contact.
+    /// Pairs that may be in contact.
     pub in_contact: bool,
-    /// Those that may be nearest, if within this.
+    /// Pairs that may be the nearest, if within this distance.
     pub nearest: Option<f64>,
 }
 
@@ -28,47 +28,47 @@ impl CandidateFilter {
     }
 }
 
-/// Memory of searches for body pairs, used again by the next.
+/// Memory of the broad phase, reused by the next query.
 #[derive(Default)]
 pub(crate) struct CandidateScratch {
     pub near: NearScratch,
-    /// What bounds each link that is met.
+    /// The bounds of each link, computed on first use.
     pub links: Vec<Option<Bounds>>,
     targets: Vec<Target<'static>>,
 }
 
 impl CandidateScratch {
-    /// Takes the memory of a list that is not needed any more.
+    /// Takes back the memory of a candidate list for reuse.
     pub fn keep(&mut self, targets: Vec<Target>) {
         self.targets = emptied(targets);
     }
 }
 
-/// Body pairs with the bounds of their distances, of which those that are too far fall away as nearer ones are met.
+/// Collects body pairs with lower bounds of their distances; the cutoff falls as nearer pairs are found.
 pub(super) struct Candidates<'s, 'm> {
-    wanted: CandidateFilter,
+    filter: CandidateFilter,
     meter: &'m mut WorkMeter,
-    /// No pair that is farther than this, less its margin, is nearest.
+    /// The smallest upper bound of a distance less margin: pairs with a larger lower bound are not nearest.
     nearest: f64,
-    found: Vec<Target<'s>>,
+    targets: Vec<Target<'s>>,
 }
 
 impl<'s, 'm> Candidates<'s, 'm> {
     pub fn new(
-        wanted: CandidateFilter,
+        filter: CandidateFilter,
         scratch: &mut CandidateScratch,
         meter: &'m mut WorkMeter,
     ) -> Self {
         Self {
-            wanted,
+            filter,
             meter,
             nearest: f64::INFINITY,
-            found: emptied(std::mem::take(&mut scratch.targets)),
+            targets: emptied(std::mem::take(&mut scratch.targets)),
         }
     }
 
-    /// Takes a pair if it may matter, given what bounds the two and how far apart they are at least. Returns how far other
-    /// pairs of the same options may be to matter.
+    /// Adds a pair unless its bounds are beyond the cutoff. `at_least` is a lower bound of its distance. Returns the cutoff
+    /// for further pairs with the same options.
     #[inline(always)]
     pub fn offer(
         &mut self,
@@ -83,72 +83,72 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.nearest = self.nearest.min(upper - options.margin);
         let limit = self.limit(options);
         if bound <= limit {
-            self.found.push(Target { bound, ..target() });
+            self.targets.push(Target { bound, ..target() });
         }
         limit + options.margin
     }
 
-    /// Pairs that are farther apart than this, less their margin, do not matter: none does where the call has done enough.
+    /// The cutoff of the distance less margin; minus infinity once the call has reached its work limit.
     #[inline(always)]
     fn limit(&self, options: &InducedOptions) -> f64 {
         if self.meter.is_exceeded() {
             return f64::NEG_INFINITY;
         }
-        let contact = if self.wanted.in_contact {
+        let contact = if self.filter.in_contact {
             options.contact_epsilon
         } else {
             0.0
         };
         let nearest = self
-            .wanted
+            .filter
             .nearest
             .map_or(0.0, |most| self.nearest.min(most));
-        self.wanted.within.max(contact).max(nearest)
+        self.filter.within.max(contact).max(nearest)
     }
 
-    /// How far the first pairs of these options may be apart to matter.
+    /// The cutoff of the distance itself.
     pub fn cutoff(&self, options: &InducedOptions) -> f64 {
         self.limit(options) + options.margin
     }
 
-    /// Those that still matter, each once, ranked by ids and sorted by bound.
+    /// The pairs still within the cutoff, without duplicates, ranked by ids and sorted by bound.
     pub fn finish(mut self) -> Result<Vec<Target<'s>>> {
         self.meter.check()?;
-        let mut found = std::mem::take(&mut self.found);
-        found.retain(|target| target.bound <= self.limit(&target.options));
-        found.sort_unstable_by_key(|target| (target.parties(), target.term));
-        if found
+        let mut targets = std::mem::take(&mut self.targets);
+        targets.retain(|target| target.bound <= self.limit(&target.options));
+        targets.sort_unstable_by_key(|target| (target.parties(), target.term));
+        if targets
             .windows(2)
             .any(|two| two[0].parties() == two[1].parties())
         {
-            found = without_repeats(found);
+            targets = without_repeats(targets);
         }
-        for (target, rank) in found.iter_mut().zip(0..) {
+        for (target, rank) in targets.iter_mut().zip(0..) {
             target.rank = rank;
         }
-        found.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
-        Ok(found)
+        targets.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
+        Ok(targets)
     }
 }
 
-/// Each pair once, given in order of ids: where several terms hold a pair in one state, the most that any of them would call
-/// inside (the largest margin), and in contact, remains. An object that an environment and its snapshot hold in two states
-/// stands for two.
-fn without_repeats(found: Vec<Target>) -> Vec<Target> {
-    let mut kept: Vec<Target> = Vec::with_capacity(found.len());
-    for next in found {
-        let same_ids = kept
+/// Removes duplicates from pairs in order of ids. Where several terms hold a pair at the same poses, it gets the largest
+/// margin and the farthest contact distance of any: it is inside, or in contact, if it is for any term. An object that an
+/// environment and its snapshot hold in different states counts as two.
+fn without_repeats(targets: Vec<Target>) -> Vec<Target> {
+    let mut unique: Vec<Target> = Vec::with_capacity(targets.len());
+    for next in targets {
+        let same_ids = unique
             .iter_mut()
             .rev()
             .take_while(|known| known.parties() == next.parties());
-        let known = same_ids.into_iter().find(|known| {
+        let repeated = same_ids.into_iter().find(|known| {
             let sides = known.sides.iter().zip(&next.sides);
             let mut sides = sides
                 .map(|((a, pose_a), (b, pose_b))| pose_a == pose_b && a.serial() == b.serial());
             sides.all(|is_same| is_same)
         });
-        match known {
-            None => kept.push(next),
+        match repeated {
+            None => unique.push(next),
             Some(known) => {
                 let farthest_contact = |o: &InducedOptions| o.margin + o.contact_epsilon;
                 let by_distance = |o: &InducedOptions| (o.margin, o.contact_epsilon);
@@ -163,5 +163,5 @@ fn without_repeats(found: Vec<Target>) -> Vec<Target> {
             }
         }
     }
-    kept
+    unique
 }

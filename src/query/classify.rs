@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::candidates::CandidateFilter;
-use super::combination::{Known, cheap_first, emptied, is_pure};
+use super::combination::{Memo, cheap_first, emptied, is_pure};
 use super::context::QueryContext;
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
@@ -16,23 +16,23 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let world = self.look(cobject);
-        self.ask(cobject, &world, at, |context, scene| {
+        self.with_scene(cobject, &world, at, |context, scene| {
             context.class_of(cobject, scene)
         })
     }
 
-    /// The same in a given world, at a configuration.
+    /// The same in a given world.
     pub fn classify_in(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<Class> {
         let at = Configuration::Coordinates(q);
-        self.ask(cobject, world, at, |context, scene| {
+        self.with_scene(cobject, world, at, |context, scene| {
             context.class_of(cobject, scene)
         })
     }
 
     pub(super) fn class_of(&mut self, cobject: &CObject, scene: &Scene) -> Result<Class> {
-        let mut known = emptied(std::mem::take(&mut self.answers.classes));
-        let class = self.class_among(cobject, scene, &mut known);
-        self.answers.classes = known;
+        let mut memo = emptied(std::mem::take(&mut self.answers.classes));
+        let class = self.class_among(cobject, scene, &mut memo);
+        self.answers.classes = memo;
         class
     }
 
@@ -40,7 +40,7 @@ impl QueryContext {
         &mut self,
         cobject: &CObject,
         scene: &Scene,
-        known: &mut Known<Class>,
+        memo: &mut Memo<Class>,
     ) -> Result<Class> {
         if let Set::Union { induced, others } = cobject.set()
             && others.is_empty()
@@ -48,7 +48,7 @@ impl QueryContext {
             return self.class_of_group(induced, scene);
         }
         let key = (cobject.serial(), false);
-        if let Some(class) = known.get(&key) {
+        if let Some(class) = memo.get(&key) {
             return Ok(*class);
         }
         let class = match cobject.set() {
@@ -60,11 +60,11 @@ impl QueryContext {
                 };
                 return pure.class();
             }
-            Set::Complement(part) => self.class_among(part, scene, known)?.reversed(),
-            Set::Intersection(parts) => self.class_of_intersection(parts, scene, known)?,
-            Set::Union { induced, others } => self.class_of_union(induced, others, scene, known)?,
+            Set::Complement(part) => self.class_among(part, scene, memo)?.reversed(),
+            Set::Intersection(parts) => self.class_of_intersection(parts, scene, memo)?,
+            Set::Union { induced, others } => self.class_of_union(induced, others, scene, memo)?,
         };
-        known.insert(key, class);
+        memo.insert(key, class);
         Ok(class)
     }
 
@@ -72,11 +72,11 @@ impl QueryContext {
         &mut self,
         parts: &[Arc<CObject>],
         scene: &Scene,
-        known: &mut Known<Class>,
+        memo: &mut Memo<Class>,
     ) -> Result<Class> {
         let mut least = Class::Inside;
         for part in cheap_first(parts) {
-            least = least.min(self.class_among(part, scene, known)?);
+            least = least.min(self.class_among(part, scene, memo)?);
             if least == Class::Outside {
                 break;
             }
@@ -84,18 +84,18 @@ impl QueryContext {
         Ok(least)
     }
 
-    /// What is induced comes after the pure parts, which are cheap, and before all others.
+    /// Asks in order of cost: pure parts, then the induced sets, then all other parts.
     fn class_of_union(
         &mut self,
         induced: &Group,
         others: &[Arc<CObject>],
         scene: &Scene,
-        known: &mut Known<Class>,
+        memo: &mut Memo<Class>,
     ) -> Result<Class> {
         let parts = cheap_first(others);
         let mut most = Class::Outside;
         for part in parts.clone().filter(is_pure) {
-            most = most.max(self.class_among(part, scene, known)?);
+            most = most.max(self.class_among(part, scene, memo)?);
         }
         if most < Class::Inside && !induced.is_empty() {
             most = most.max(self.class_of_group(induced, scene)?);
@@ -104,7 +104,7 @@ impl QueryContext {
             if most == Class::Inside {
                 break;
             }
-            most = most.max(self.class_among(part, scene, known)?);
+            most = most.max(self.class_among(part, scene, memo)?);
         }
         Ok(most)
     }
@@ -115,11 +115,11 @@ impl QueryContext {
         if self.recent_is_within(scene, group, 0.0)? {
             return Ok(Class::Inside);
         }
-        let wanted = CandidateFilter {
+        let filter = CandidateFilter {
             in_contact: true,
             ..CandidateFilter::within(0.0)
         };
-        let candidates = self.candidates(scene, group, wanted)?;
+        let candidates = self.candidates(scene, group, filter)?;
         let class = if self.any_within(&candidates, |_| 0.0)? {
             Class::Inside
         } else if self.any_in_contact(&candidates, 0.0)? {
@@ -131,7 +131,7 @@ impl QueryContext {
         Ok(class)
     }
 
-    /// Whether some pair is within its contact epsilon, if no distance is below `lower`.
+    /// Whether some pair is within its contact epsilon, given that no distance is below `lower`.
     pub(super) fn any_in_contact(&mut self, candidates: &[Target], lower: f64) -> Result<bool> {
         let contact_epsilon = |c: &Target| {
             let epsilon = c.options.contact_epsilon;

@@ -1,4 +1,4 @@
-//! Sets made of others: their parts, each asked once.
+//! Compound sets: how they combine their parts, and memoized answers of the parts.
 
 use super::answer::Distance;
 use super::scene::Group;
@@ -7,37 +7,38 @@ use foldhash::fast::RandomState;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What parts have answered: by their serials, and whether the complement was asked.
-pub(super) type Known<T> = HashMap<(u64, bool), T, RandomState>;
+/// Answers of parts, by serial and whether the complement was meant.
+pub(super) type Memo<T> = HashMap<(u64, bool), T, RandomState>;
 
-/// Memory for what the parts of a set answer, used again by the next call.
+/// Memos of a query, whose memory is reused by the next.
 #[derive(Default)]
 pub(super) struct Answers {
-    pub classes: Known<Class>,
-    pub within: Known<bool>,
-    pub distances: Known<Distance>,
+    pub classes: Memo<Class>,
+    pub within: Memo<bool>,
+    pub distances: Memo<Distance>,
 }
 
-/// Memory is used again for so many parts: more would be swept by each call.
+/// Memos with more entries are freed rather than reused: clearing them would cost every call.
 const MAX_KEPT: usize = 1024;
 
-pub(super) fn emptied<T>(mut known: Known<T>) -> Known<T> {
-    if known.capacity() > MAX_KEPT {
-        return Known::default();
+/// An empty memo, in the memory of an old one.
+pub(super) fn emptied<T>(mut memo: Memo<T>) -> Memo<T> {
+    if memo.capacity() > MAX_KEPT {
+        return Memo::default();
     }
-    known.clear();
-    known
+    memo.clear();
+    memo
 }
 
-/// How a set is made of its parts, or of their complements.
+/// A set as a union or an intersection of its parts, or of their complements.
 pub(super) enum Composition<'a> {
-    /// A union: of what is induced, and of parts.
+    /// A union of the induced sets and the parts.
     Any(Option<&'a Group>, &'a [Arc<CObject>]),
     /// An intersection.
     All(Option<&'a Group>, &'a [Arc<CObject>]),
 }
 
-/// A set, or its complement by De Morgan's laws: complements stand at leaves only.
+/// A set, or its complement by De Morgan's laws, which move complements down to the leaves.
 pub(super) fn composition(set: &Set, complement: bool) -> Composition<'_> {
     match set {
         Set::Union { induced, others } => {
@@ -53,7 +54,7 @@ pub(super) fn composition(set: &Set, complement: bool) -> Composition<'_> {
     }
 }
 
-/// The parts with the cheap ones first.
+/// The parts, cheap ones first.
 pub(super) fn cheap_first(parts: &[Arc<CObject>]) -> impl Iterator<Item = &CObject> + Clone {
     let all = || parts.iter().map(|part| &**part);
     all()

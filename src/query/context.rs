@@ -13,29 +13,30 @@ use crate::work_meter::Statistics;
 use foldhash::fast::RandomState;
 use std::collections::HashMap;
 
-/// Names a body pair across queries: a space and two of its parties, or two bodies.
+/// Identifies a body pair across queries: two parties of a space, or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum CacheKey {
     Bodies(u64, u64),
     Candidate {
         space: u64,
         r_link: usize,
-        /// What is attached to the link and stands for it, or 0.
+        /// The s-object attached to the link that is the r-side, or 0.
         r_object: u64,
         s_side: SSide,
-        /// The s-object's body: an id keeps its body for good, but a key must not outlive what it names.
+        /// The serial of the s-side's body: an id keeps its body for good, but a key must not outlive what it names.
         body: u64,
     },
 }
 
-/// Scratch memory and the witnesses of earlier queries (§2.3.4). It changes how long an answer takes, never the answer.
+/// One thread's scratch memory, and the witnesses of earlier queries for warm starts (§2.3.4). It changes how long an
+/// answer takes, never the answer. One thread at a time may use it.
 #[derive(Default)]
 pub struct QueryContext {
     pub(crate) scratch: Scratch,
     pub(crate) candidates: CandidateScratch,
     pub(super) scene_memory: SceneMemory,
     pub(super) answers: Answers,
-    /// Which contacts lists of witnesses hold.
+    /// Which contacts witness lists hold.
     pub(super) contacts: ContactsListed,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
@@ -45,14 +46,16 @@ pub struct QueryContext {
 }
 
 impl QueryContext {
-    /// Beyond this many remembered witnesses the cache starts anew.
+    /// When this many witnesses are remembered, the cache is cleared.
     const CAPACITY: usize = 1 << 16;
 
+    /// A context that remembers nothing yet.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The world as a C-object sees it now, which [`QueryContext::version_seen`] tells from then on. A call begins with it.
+    /// Begins a call: takes the current snapshots of the C-object's environments, and records their versions for
+    /// [`QueryContext::version_seen`].
     pub(crate) fn look(&mut self, cobject: &CObject) -> World {
         self.scratch.meter_mut().start_call();
         let world = World::of(cobject);
@@ -61,61 +64,63 @@ impl QueryContext {
         world
     }
 
-    /// Asks about the scene of a query, in memory that the context keeps.
-    pub(super) fn ask<T>(
+    /// Runs a query on its scene, which is built in memory that the context keeps.
+    pub(super) fn with_scene<T>(
         &mut self,
         cobject: &CObject,
         world: &World,
         at: Configuration,
-        question: impl FnOnce(&mut Self, &Scene) -> Result<T>,
+        query: impl FnOnce(&mut Self, &Scene) -> Result<T>,
     ) -> Result<T> {
         let memory = std::mem::take(&mut self.scene_memory);
         let scene = scene(cobject, world, at, memory)?;
-        let answer = question(self, &scene);
+        let answer = query(self, &scene);
         self.scene_memory = scene.into_memory();
         answer
     }
 
-    /// Counts the bounds of two bodies; refuses to go on past the limit of the call.
+    /// Counts one test of bounds; fails once the call has reached its work limit.
     pub(super) fn count_body_pair(&mut self) -> Result<()> {
         let meter = self.scratch.meter_mut();
         meter.count_nodes(1);
         meter.check()
     }
 
-    /// The version of an environment that the last query with this context saw, if it was one of a C-object that refers
-    /// to it.
+    /// The version of an environment that the last query with this context saw; `None` if its C-object does not refer to
+    /// the environment.
     pub fn version_seen(&self, environment: &Environment) -> Option<u64> {
         let serial = environment.serial();
-        let found = self.seen.binary_search_by_key(&serial, |(known, _)| *known);
+        let found = self.seen.binary_search_by_key(&serial, |(seen, _)| *seen);
         found.ok().map(|i| self.seen[i].1)
     }
 
-    /// Work done since the context was made or last reset.
+    /// The work done since the context was created or last reset.
     pub fn statistics(&self) -> Statistics {
         self.scratch.meter().done
     }
 
+    /// Sets the statistics to 0.
     pub fn reset_statistics(&mut self) {
         self.scratch.meter_mut().done = Statistics::default();
     }
 
-    /// How many node pairs and primitive pairs a call may look at; `None` for no limit. A call that needs more fails with
+    /// The most node pairs and primitive pairs that a call may test; `None` for no limit. A call that needs more fails with
     /// [`crate::error::ErrorKind::Limit`].
     pub fn limit(&self) -> Option<u64> {
         self.scratch.meter().limit
     }
 
+    /// Sets the limit of later calls.
     pub fn set_limit(&mut self, limit: Option<u64>) {
         self.scratch.meter_mut().limit = limit;
     }
 
-    /// Which contacts come with the witnesses of lists.
+    /// Which contacts witness lists hold.
     pub fn contacts(&self) -> ContactsListed {
         self.contacts
     }
 
-    /// Which contacts come with the witnesses of lists from now on.
+    /// Sets which contacts later witness lists hold.
     pub fn set_contacts(&mut self, contacts: ContactsListed) {
         self.contacts = contacts;
     }
@@ -139,7 +144,7 @@ impl QueryContext {
     }
 }
 
-/// Refuses thresholds that are NaN or negative; infinity is welcome.
+/// Refuses thresholds that are NaN or negative; infinity is allowed.
 pub(crate) fn check_threshold(value: f64, name: &str) -> Result<()> {
     if value.is_nan() {
         return Err(Error::new(ErrorKind::NotFinite, format!("{name} is NaN")));
@@ -150,7 +155,8 @@ pub(crate) fn check_threshold(value: f64, name: &str) -> Result<()> {
     Ok(())
 }
 
-/// The scene of a query. Whether coordinates are needed does not depend on which parts come to be asked.
+/// The scene of a query. Refused for link poses if any part of the C-object needs coordinates, even one that the query
+/// would not reach.
 pub(super) fn scene<'a>(
     cobject: &'a CObject,
     world: &'a World,

@@ -1,9 +1,9 @@
-//! Operation 6: the distance from contact and the nearest primitive pair, of a C-object and of many body pairs.
+//! Operation 6: the distance from contact and the nearest primitive pair, for a C-object and for many body pairs.
 
 use super::answer::Distance;
 use super::body_pairs::CheckedGroup;
 use super::candidates::CandidateFilter;
-use super::combination::{Composition, Known, composition, emptied};
+use super::combination::{Composition, Memo, composition, emptied};
 use super::context::{QueryContext, check_threshold};
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
@@ -16,11 +16,11 @@ use crate::pair::{Hit, Nearest, Visitor, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
 pub(crate) struct NearestHit<'t, 'a> {
-    /// With its body pair, if one is within the limit.
+    /// The hit and its body pair; `None` if nothing is within the limit.
     pub hit: Option<(Hit, &'t Target<'a>)>,
-    /// No primitive pair seen is nearer than this; safe against rounding.
+    /// A lower bound of the distances of all pairs seen, safe against rounding.
     pub lower: f64,
-    /// What else was found out about the hit.
+    /// The measurement of the hit, if the search kept it.
     pub measured: Option<PrimitiveDistance>,
 }
 
@@ -46,7 +46,7 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         cobject.require_one_metric()?;
-        self.ask(cobject, world, at, |context, scene| {
+        self.with_scene(cobject, world, at, |context, scene| {
             context.set_distance(cobject, scene, max_distance)
         })
     }
@@ -57,9 +57,9 @@ impl QueryContext {
         scene: &Scene,
         max_distance: f64,
     ) -> Result<Distance> {
-        let mut known = emptied(std::mem::take(&mut self.answers.distances));
-        let found = self.distance_from(cobject, scene, max_distance, false, &mut known);
-        self.answers.distances = known;
+        let mut memo = emptied(std::mem::take(&mut self.answers.distances));
+        let found = self.distance_from(cobject, scene, max_distance, false, &mut memo);
+        self.answers.distances = memo;
         Ok(Distance {
             version: scene.version(),
             ..found?
@@ -73,7 +73,7 @@ impl QueryContext {
         scene: &Scene,
         max_distance: f64,
         complement: bool,
-        known: &mut Known<Distance>,
+        memo: &mut Memo<Distance>,
     ) -> Result<Distance> {
         match cobject.set() {
             Set::Pure(set) => {
@@ -85,7 +85,7 @@ impl QueryContext {
                 return pure.distance(max_distance);
             }
             Set::Complement(part) => {
-                return self.distance_from(part, scene, max_distance, !complement, known);
+                return self.distance_from(part, scene, max_distance, !complement, memo);
             }
             Set::Union { induced, others } if others.is_empty() && !complement => {
                 return self.distance_of_group(induced, scene, max_distance);
@@ -93,7 +93,7 @@ impl QueryContext {
             _ => {}
         }
         let key = (cobject.serial(), complement);
-        if let Some(distance) = known.get(&key) {
+        if let Some(distance) = memo.get(&key) {
             return Ok(distance.clone());
         }
         let (is_union, group, parts) = match composition(cobject.set(), complement) {
@@ -106,7 +106,7 @@ impl QueryContext {
             None => None,
         };
         for part in parts {
-            let next = self.distance_from(part, scene, max_distance, complement, known)?;
+            let next = self.distance_from(part, scene, max_distance, complement, memo)?;
             found = Some(match found {
                 None => next,
                 Some(found) if is_union => found.least(next),
@@ -114,7 +114,7 @@ impl QueryContext {
             });
         }
         let found = found.unwrap_or_else(|| Distance::empty(0));
-        known.insert(key, found.clone());
+        memo.insert(key, found.clone());
         Ok(found)
     }
 
@@ -127,11 +127,11 @@ impl QueryContext {
     ) -> Result<Distance> {
         let checked = scene.checked(group)?;
         let nearest = self.recent_distance(scene, checked, max_distance)?;
-        let wanted = CandidateFilter {
+        let filter = CandidateFilter {
             nearest: Some(nearest),
             ..CandidateFilter::within(0.0)
         };
-        let candidates = self.candidates(scene, checked, wanted)?;
+        let candidates = self.candidates(scene, checked, filter)?;
         let distance = self.distance_among(group, scene, &candidates, max_distance)?;
         self.keep_memory(candidates);
         Ok(distance)
@@ -156,13 +156,13 @@ impl QueryContext {
         })
     }
 
-    /// The distance from the complement of a union of induced sets: 0 where nothing meets; else not known.
+    /// The distance from the complement of a union of induced sets: 0 where no bodies meet; else unknown.
     fn distance_from_outside(&mut self, group: &Group, scene: &Scene) -> Result<Distance> {
         let meets = self.group_within(group, scene, 0.0)?;
         Ok(Distance::of_place(!meets))
     }
 
-    /// How far the primitive pair is that was found last, up to `limit`: nothing farther need be looked at.
+    /// An upper bound of the distance: that of the primitive pair found last, at most `limit`.
     pub(super) fn recent_distance(
         &mut self,
         scene: &Scene,
@@ -179,15 +179,15 @@ impl QueryContext {
         Ok(least)
     }
 
-    /// The nearest primitive pair, or piece of a body inside another, over all targets, which come sorted by bound, if
-    /// one is within `limit`.
+    /// The nearest primitive pair, or piece of a body inside another, over all targets, if within `limit`. Targets must be
+    /// sorted by bound.
     pub(crate) fn nearest<'t, 'a>(
         &mut self,
         targets: &'t [Target<'a>],
         limit: f64,
     ) -> Result<NearestHit<'t, 'a>> {
         let mut visitor = Nearest::up_to(limit);
-        // The pairs last nearest between each two bodies bound the distance before any tree is walked.
+        // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed.
         for target in targets.iter().filter(|_| targets.len() > 1) {
             visitor.margin = target.options.margin;
             visitor.pair = target.rank;

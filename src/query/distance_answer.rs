@@ -1,4 +1,4 @@
-//! Distances as answers: from what a search found, of nothing, of a pure set.
+//! Builds distance answers: from the hit of a search, from a pure set, for an empty set; and combines them.
 
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
 use super::distance::NearestHit;
@@ -8,7 +8,7 @@ use crate::convex::PrimitiveDistance;
 use crate::pair::{Hit, Pairing, PrimitiveScratch};
 use crate::pose::Vec3;
 
-/// The nearest pair of primitives: in the world its closest points, and its contact there if it has one.
+/// The nearest primitive pair, with its witness points in the world, and its contact there if it has one.
 pub(super) struct NearestPair<'a> {
     pub hit: &'a Hit,
     pub points: [Vec3; 2],
@@ -29,17 +29,17 @@ impl Distance {
         }
     }
 
-    /// Nothing is within `max_distance`, and nothing that was seen within `lower`.
+    /// The answer where nothing is within `max_distance`. `lower` bounds the distances seen.
     pub(super) fn beyond(max_distance: f64, lower: f64) -> Self {
         Self {
             kind: DistanceKind::BeyondMax,
-            // Pairs that were not looked at are farther, whatever the error of their distance.
+            // Pairs that were not visited are farther than `max_distance`, whatever the error of their distance.
             lower: max_distance.min(lower),
             ..Self::empty(0)
         }
     }
 
-    /// The answer to a search up to `max_distance`. `leaf` names the C-object that a target's term is.
+    /// The answer of a search up to `max_distance`. `leaf` gives the leaf of a target's term.
     pub(super) fn from_found(
         found: &NearestHit,
         max_distance: f64,
@@ -55,7 +55,7 @@ impl Distance {
         Self::of_hit(hit, found.lower, measured, target, pairing, leaf, scratch)
     }
 
-    /// That of the nearest primitive pair, and of what else is known of it.
+    /// The answer of a search that has a hit; `measured` saves measuring it again.
     pub(super) fn of_hit(
         hit: &Hit,
         lower: f64,
@@ -90,7 +90,7 @@ impl Distance {
         Self::of_pair(&found, lower, target, error, leaf)
     }
 
-    /// The same with the closest points and the contact.
+    /// The answer for a nearest pair with its witness points and contact.
     #[inline]
     pub(super) fn of_pair(
         found: &NearestPair,
@@ -113,8 +113,8 @@ impl Distance {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower,
-            // Sets count as meeting up to the error, which that of the measured distance may hide once more, and up to the
-            // doubt where that was not found exactly.
+            // Sets within the error count as meeting, and the measured distance may be wrong by the error once more. Where
+            // the distance was not measured exactly, it bounds the truth instead.
             upper: if hit.distance == 0.0 {
                 match hit.apart - target.options.margin + error {
                     beyond if beyond <= 0.0 => 0.0,
@@ -159,7 +159,7 @@ impl Distance {
         }
     }
 
-    /// Of a set that is known to hold the configuration, or known by nothing.
+    /// The answer of a set that does not measure: 0 if the configuration is known to be inside, else nothing is known.
     pub(super) fn of_place(is_inside: bool) -> Self {
         Self {
             kind: if is_inside {
@@ -174,7 +174,7 @@ impl Distance {
         }
     }
 
-    /// That of a union: the least. Of equal ones that given first.
+    /// The distance from a union: the smallest. Ties go to `self`.
     pub(super) fn least(self, other: Self) -> Self {
         let (best, rest) = if other.order_in_union() < self.order_in_union() {
             (other, self)
@@ -203,7 +203,7 @@ impl Distance {
         }
     }
 
-    /// What is known to be near comes first, then what may be, then what is too far, then nothing.
+    /// The order of preference in a union: known distances, lower bounds, beyond the maximum, empty.
     fn order_in_union(&self) -> (u8, f64) {
         match self.kind {
             DistanceKind::Exact => (0, self.distance),
@@ -213,7 +213,7 @@ impl Distance {
         }
     }
 
-    /// That of an intersection: no less than the most of all. It is known only where it is 0, or infinite.
+    /// The distance from an intersection: at least the largest of the parts. It is known only where it is 0 or infinite.
     pub(super) fn most(self, other: Self) -> Self {
         let rank = |d: &Self| match d.kind {
             DistanceKind::Empty => 2,
@@ -223,7 +223,7 @@ impl Distance {
         let is_more = (rank(&other), other.lower) > (rank(&self), self.lower);
         let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
         if is_zero(&self) && is_zero(&other) {
-            // Sets that meet the configuration up to rounding need not meet each other there.
+            // Two sets that contain the configuration only up to rounding need not meet there.
             let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
             let is_certain = is_inside(&self) && is_inside(&other);
             let widest = if other.upper > self.upper {
@@ -238,18 +238,18 @@ impl Distance {
             };
             return Self { upper, ..widest };
         }
-        let (most, _) = if is_more {
+        let (farthest, _) = if is_more {
             (other, self)
         } else {
             (self, other)
         };
-        match most.kind {
-            DistanceKind::Empty | DistanceKind::BeyondMax => most,
+        match farthest.kind {
+            DistanceKind::Empty | DistanceKind::BeyondMax => farthest,
             DistanceKind::Exact | DistanceKind::LowerBound => Self {
                 kind: DistanceKind::LowerBound,
-                distance: most.lower,
+                distance: farthest.lower,
                 upper: f64::INFINITY,
-                ..most
+                ..farthest
             },
         }
     }

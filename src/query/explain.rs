@@ -1,4 +1,4 @@
-//! Which leaves of a C-object's tree, and which feature pairs, made its class (§2.2.4, operations 4 and 5).
+//! Explains a class: which leaves of a C-object's tree, and which primitive pairs, decide it (§2.2.4, operations 4 and 5).
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -11,32 +11,36 @@ use super::witnesses::{WitnessRequest, pure_witnesses};
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
 
-/// What one leaf says.
+/// The class of one leaf, and its part in the class of the whole.
 #[derive(Clone, Copy, Debug)]
 pub struct Verdict {
+    /// The leaf.
     pub leaf: Leaf,
     /// The class with respect to the leaf itself.
     pub class: Class,
-    /// The tree takes the leaf's complement.
+    /// Whether the tree takes the leaf's complement.
     pub complemented: bool,
-    /// The class of the whole rests on this leaf: on the way down from the root, the part's class was that of each union and
-    /// intersection that holds it.
+    /// Whether the class of the whole rests on this leaf: from the root to the leaf, each part has the class of the union
+    /// or intersection that holds it.
     pub decisive: bool,
-    /// The pairs that made the leaf's class, if it is decisive: those that meet, or that are in contact.
+    /// Index of the first witness of the leaf's class, a pair that meets or is in contact. Only decisive leaves have any.
     pub first_witness: usize,
+    /// The number of its witnesses.
     pub witness_count: usize,
 }
 
 /// A class with its reasons.
 #[derive(Clone, Debug)]
 pub struct Explanation {
+    /// The class of the whole.
     pub class: Class,
-    /// Every leaf; one whose complement is meant too stands twice.
+    /// Every leaf; twice if both it and its complement are used.
     pub leaves: Vec<Verdict>,
+    /// The witnesses of all decisive leaves.
     pub list: WitnessList,
 }
 
-/// A leaf of the tree, as it is asked.
+/// A leaf of the tree, in the form that queries take.
 #[derive(Clone, Copy)]
 enum LeafQuery<'a> {
     Induced(&'a Group),
@@ -52,7 +56,7 @@ impl LeafQuery<'_> {
     }
 }
 
-/// The classes of all parts, by their numbers.
+/// The classes of all parts, by serial.
 struct Classes<'a> {
     scene: &'a Scene<'a>,
     leaves: HashMap<u64, Class>,
@@ -60,7 +64,7 @@ struct Classes<'a> {
 }
 
 impl QueryContext {
-    /// The class of a configuration, which leaves made it, and by which pairs of primitives: at most `max_count`.
+    /// The class of a configuration, the leaves that decide it, and at most `max_count` witnesses.
     pub fn explain(
         &mut self,
         cobject: &CObject,
@@ -83,13 +87,13 @@ impl QueryContext {
                 ..WitnessList::default()
             },
         };
-        for (asked, complemented, decisive) in verdicts(cobject, &classes) {
-            let leaf = asked.leaf();
+        for (query, complemented, decisive) in verdicts(cobject, &classes) {
+            let leaf = query.leaf();
             let class = classes.leaves[&leaf.serial];
             let first_witness = explanation.list.witnesses.len();
             if decisive {
                 let room = max_count - first_witness;
-                let list = self.reasons(asked, class, room, &scene)?;
+                let list = self.reasons(query, class, room, &scene)?;
                 explanation.list.truncated |= list.truncated;
                 for witness in &list.witnesses {
                     explanation.list.take(&list, witness);
@@ -107,17 +111,17 @@ impl QueryContext {
         Ok(explanation)
     }
 
-    /// The class of a part, and of all below it: nothing is passed over.
+    /// Classifies a part and all below it, without early out.
     fn class_of_all(&mut self, cobject: &CObject, classes: &mut Classes) -> Result<Class> {
         if let Some(class) = classes.compounds.get(&cobject.serial()) {
             return Ok(*class);
         }
         let mut parts = Vec::new();
-        for asked in own_leaves(cobject) {
-            let serial = asked.leaf().serial;
+        for query in own_leaves(cobject) {
+            let serial = query.leaf().serial;
             let class = match classes.leaves.get(&serial) {
                 Some(class) => *class,
-                None => match asked {
+                None => match query {
                     LeafQuery::Induced(group) => self.class_of_group(group, classes.scene)?,
                     LeafQuery::Pure(set) => set.classify(&classes.scene.space_state())?,
                 },
@@ -138,33 +142,33 @@ impl QueryContext {
         Ok(class)
     }
 
-    /// What made a leaf's class.
+    /// The witnesses of a leaf's class.
     fn reasons(
         &mut self,
-        asked: LeafQuery,
+        query: LeafQuery,
         class: Class,
         max_count: usize,
         scene: &Scene,
     ) -> Result<WitnessList> {
-        let epsilon = match (class, asked) {
+        let epsilon = match (class, query) {
             (Class::Outside, _) => return Ok(WitnessList::default()),
             (Class::Inside, _) => 0.0,
             (Class::Contact, LeafQuery::Induced(group)) => group[0].options.contact_epsilon,
             (Class::Contact, LeafQuery::Pure(set)) => set.epsilon(),
         };
-        // Doubt made the class, so that it must list what made it.
-        let listed = WitnessRequest {
+        // Classes count doubt as within, so the request must too.
+        let request = WitnessRequest {
             counts_doubt: true,
             ..WitnessRequest::within(epsilon, max_count)
         };
-        match asked {
-            LeafQuery::Induced(group) => self.group_witnesses(group, scene, listed),
-            LeafQuery::Pure(set) => pure_witnesses(&[(set, false)], scene, listed),
+        match query {
+            LeafQuery::Induced(group) => self.group_witnesses(group, scene, request),
+            LeafQuery::Pure(set) => pure_witnesses(&[(set, false)], scene, request),
         }
     }
 }
 
-/// The leaves that a part holds itself.
+/// The leaves directly in a part.
 fn own_leaves(cobject: &CObject) -> impl Iterator<Item = LeafQuery<'_>> {
     let induced = match cobject.set() {
         Set::Union { induced, .. } => &induced[..],
@@ -177,32 +181,32 @@ fn own_leaves(cobject: &CObject) -> impl Iterator<Item = LeafQuery<'_>> {
     induced.chunks(1).map(LeafQuery::Induced).chain(pure)
 }
 
-/// All leaves from the first on, each with whether its complement is meant and whether it decides.
+/// All leaves in order, each with whether its complement is meant and whether it is decisive.
 fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(LeafQuery<'a>, bool, bool)> {
-    let mut found: Vec<(LeafQuery<'a>, bool, bool)> = Vec::new();
+    let mut leaves: Vec<(LeafQuery<'a>, bool, bool)> = Vec::new();
     let mut place_of: HashMap<(u64, bool), usize> = HashMap::new();
     let mut seen: HashSet<(u64, bool, bool)> = HashSet::new();
-    let mut open: Vec<(&'a CObject, bool, bool)> = vec![(cobject, false, true)];
-    while let Some((next, complemented, decides)) = open.pop() {
+    let mut stack: Vec<(&'a CObject, bool, bool)> = vec![(cobject, false, true)];
+    while let Some((next, complemented, decides)) = stack.pop() {
         if !seen.insert((next.serial(), complemented, decides)) {
             continue;
         }
         let class = classes.compounds[&next.serial()];
-        for asked in own_leaves(next) {
-            let serial = asked.leaf().serial;
+        for query in own_leaves(next) {
+            let serial = query.leaf().serial;
             let decisive = decides && classes.leaves[&serial] == class;
             let place = *place_of.entry((serial, complemented)).or_insert_with(|| {
-                found.push((asked, complemented, false));
-                found.len() - 1
+                leaves.push((query, complemented, false));
+                leaves.len() - 1
             });
-            found[place].2 |= decisive;
+            leaves[place].2 |= decisive;
         }
         let is_complement = matches!(next.set(), Set::Complement(_));
         let below = |part: &'a Arc<CObject>| {
             let decides = decides && (is_complement || classes.compounds[&part.serial()] == class);
             (&**part, complemented != is_complement, decides)
         };
-        open.extend(next.set().parts().iter().rev().map(below));
+        stack.extend(next.set().parts().iter().rev().map(below));
     }
-    found
+    leaves
 }

@@ -1,23 +1,23 @@
-//! Which pairs of links a self-collision set should test: not those joined, those that touch at rest, or those that hardly
-//! ever part.
+//! Finds the link pairs that self-collision should test: leaves out adjacent links, links that touch at rest, and links
+//! that touch in (almost) all configurations.
 
 use super::context::QueryContext;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::robot::JointKind;
 use crate::space::{Sampler, Space};
 
-/// How pairs of links are judged.
+/// Options of the search for link pairs.
 #[derive(Clone, Debug)]
 pub struct LinkPairOptions {
-    /// So many configurations are drawn from the space.
+    /// The number of configurations sampled.
     pub samples: usize,
-    /// Decides which.
+    /// The seed of the sampling.
     pub seed: u64,
-    /// The configuration at rest; none stands for all at 0, clamped to the ranges.
+    /// The configuration at rest; `None` for all coordinates 0, clamped to the ranges.
     pub rest: Option<Vec<f64>>,
-    /// Links at most this far apart touch.
+    /// Links within this distance count as touching.
     pub margin: f64,
-    /// Pairs that touch in this share of the samples, or more, always touch.
+    /// Pairs that touch in at least this fraction of the samples count as always touching.
     pub always: f64,
 }
 
@@ -33,29 +33,31 @@ impl Default for LinkPairOptions {
     }
 }
 
-/// What was found out about a pair of links.
+/// The verdict on a pair of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PairVerdict {
-    /// It is to be tested: it touched in some samples, or the links are of different robots.
+    /// The pair should be tested: it touched in some samples, or belongs to different robots.
     Test,
-    /// Joined, with no link that has a body in between; or fixed to each other.
+    /// The links are joined, with no body in between, or fixed to each other.
     Adjacent,
     /// The links touch at rest.
     AtRest,
-    /// The links touch in all samples, or nearly.
+    /// The links touch in all samples, or almost all.
     Always,
-    /// The links touched in no sample. That is no proof that they cannot.
+    /// The links touch in no sample. This does not prove that they cannot.
     Never,
 }
 
-/// A pair of links that have bodies, the lower number first.
+/// A pair of links with bodies, the lower number first.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkPair {
+    /// The links, by number in the space.
     pub links: [usize; 2],
-    /// The robots that the two are of.
+    /// The robots that the links belong to.
     pub robots: [usize; 2],
+    /// Whether to test the pair, or why not.
     pub verdict: PairVerdict,
-    /// The share of the samples in which the two touch; 0 where the verdict needed none.
+    /// The fraction of the samples in which the links touch; 0 where the verdict needed no samples.
     pub share: f64,
 }
 
@@ -84,11 +86,12 @@ impl LinkPairOptions {
     }
 }
 
+/// The most samples accepted.
 const MAX_SAMPLES: usize = 1 << 30;
 
 impl QueryContext {
-    /// Judges all pairs of links that have bodies, in order of their numbers. Coordinates without bounds stay at rest.
-    /// `progress` hears the fraction done and may end the work with an error.
+    /// Gives a verdict on all pairs of links with bodies, in order of their numbers. Coordinates without bounds stay at
+    /// rest. `progress` receives the fraction done and may stop the work with an error.
     pub fn link_pairs(
         &mut self,
         space: &Space,
@@ -138,14 +141,14 @@ impl QueryContext {
         Ok(pairs)
     }
 
-    /// Tells of each pair that is to be tested and touches at q.
+    /// Calls `on_touch` for each pair with verdict `Test` that touches at q.
     fn touch(
         &mut self,
         space: &Space,
         q: &[f64],
         margin: f64,
         pairs: &mut [LinkPair],
-        mut tell: impl FnMut(&mut LinkPair),
+        mut on_touch: impl FnMut(&mut LinkPair),
     ) -> Result<()> {
         let poses = space.link_poses(q)?;
         for pair in pairs.iter_mut().filter(|p| p.verdict == PairVerdict::Test) {
@@ -157,14 +160,14 @@ impl QueryContext {
             };
             let [at_a, at_b] = pair.links.map(|link| &poses[link]);
             if self.bodies_within((a, at_a), (b, at_b), margin)? {
-                tell(pair);
+                on_touch(pair);
             }
         }
         Ok(())
     }
 }
 
-/// All pairs of links with bodies, those that are adjacent marked.
+/// All pairs of links with bodies, with adjacent ones marked.
 fn structure(space: &Space) -> Result<Vec<LinkPair>> {
     let has_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
     let links: Vec<usize> = (0..space.link_count()).filter(has_body).collect();
@@ -174,7 +177,7 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
             "no link of the space has a body",
         ));
     }
-    // Links without a body hang together in parts, which the lowest of each names.
+    // Connected links without a body form one part, named by its lowest link.
     let mut part: Vec<usize> = (0..space.link_count()).collect();
     for link in 0..space.link_count() {
         let parent = space.parent(link).filter(|parent| !has_body(parent));
@@ -182,7 +185,8 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
             part[link] = part[parent];
         }
     }
-    // What a link stands on: a link with a body, or a part without one, which stands on a link itself, or on nothing.
+    // What a link is joined to: a link with a body, or a part without bodies, which is itself joined to a link or to the
+    // world.
     let below = |link: usize| space.parent(link).map(|parent| part[parent]);
     let are_joined = |r: usize, s: usize| {
         let stands_on = |s: usize, r: usize| {
@@ -192,7 +196,7 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
         let shared = below(r).filter(|next| !has_body(next) && below(s) == Some(*next));
         stands_on(r, s) || stands_on(s, r) || shared.is_some()
     };
-    // Links that are fixed to each other move as one, which the lowest of them stands for.
+    // Links fixed to each other move as one; the lowest of them stands for all.
     let mut lowest: Vec<usize> = (0..space.link_count()).collect();
     for link in 0..space.link_count() {
         let is_fixed = space

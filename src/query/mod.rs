@@ -1,5 +1,5 @@
-//! Queries: class, distance, witnesses and gradients of a C-object at a configuration (§2.2.4, operations 4–8), the same
-//! for two bodies.
+//! Queries: class, distance, witnesses and gradients of a C-object at a configuration (§2.2.4, operations 4–8), and the
+//! same for two bodies.
 
 mod answer;
 mod body_pairs;

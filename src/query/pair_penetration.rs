@@ -1,4 +1,4 @@
-//! Penetrations of two bodies' primitives: of all pairs that meet, the deepest.
+//! Penetration depths of two bodies: the deepest of all primitive pairs that meet.
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -26,7 +26,7 @@ struct Deepest<'a> {
     target: &'a Target<'a>,
     pairing: &'a Pairing<'a>,
     list: Shortlist<PrimitivePenetration>,
-    /// The lowest pair that cannot be measured, and why: with it the call fails.
+    /// The lowest pair whose depth cannot be computed, and the error, which fails the call.
     failed: Option<([u32; 2], Error)>,
 }
 
@@ -41,10 +41,10 @@ impl Visitor for Deepest<'_> {
         self.failed.as_ref().map(|(primitives, _)| *primitives)
     }
 
-    fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()> {
-        let primitives = met.primitives;
+    fn visit(&mut self, pair: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()> {
+        let primitives = pair.primitives;
         let is_settled = self.settled_from().is_some_and(|from| from <= primitives);
-        if !meets(met) || is_settled {
+        if !meets(pair) || is_settled {
             return ControlFlow::Continue(());
         }
         match self.pairing.world_penetration(primitives, meter) {
@@ -66,9 +66,9 @@ impl Visitor for Deepest<'_> {
 }
 
 impl QueryContext {
-    /// All primitive pairs that meet, with the shortest translation that takes each apart; of more than `max_count`, the
-    /// deepest. Fails where a smooth primitive meets another: the depth of those is not computed. A piece that lies
-    /// wholly inside a solid meets no primitive of it, and is not listed.
+    /// All primitive pairs that meet, each with the shortest translation that separates it; if there are more than
+    /// `max_count`, the deepest. Fails where a smooth primitive meets another, whose depth is not computed. A piece that
+    /// lies wholly inside a solid meets none of its primitives, and is not listed.
     pub fn pair_penetration(
         &mut self,
         a: Placement,

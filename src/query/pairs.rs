@@ -1,4 +1,4 @@
-//! Queries of two bodies at two poses: the level of FCL and Coal.
+//! Queries on two bodies at two poses: the level of FCL and Coal.
 
 use super::answer::{ContactRecord, Distance, WitnessList};
 use super::context::{CacheKey, QueryContext, check_threshold};
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::gjk::DistanceLimits;
 use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles};
 
-/// Refuses two bodies of which one is of planar worlds, unless both are and stay there.
+/// Refuses bodies of different dimension, and planar bodies that leave the plane.
 fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
     if a.0.dimension() == 3 && b.0.dimension() == 3 {
         return Ok(());
@@ -32,7 +32,7 @@ fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
     Ok(())
 }
 
-/// Two bodies as a target of searches.
+/// Two bodies as the target of a search.
 pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
     check_dimensions(a, b)?;
     Ok(Target {
@@ -47,8 +47,8 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
     })
 }
 
-/// Whether two bodies are one primitive each and no more than it, and not both a polygon of space: for these there are outlines,
-/// which the walk compares.
+/// Whether both bodies are a single primitive, so that no traversal is needed. Two polygons in space are excluded: only the
+/// traversal compares their outlines.
 fn are_singles(a: &Body, b: &Body) -> bool {
     let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
     let are_planar = a.dimension() == 2;
@@ -118,7 +118,7 @@ impl QueryContext {
         self.bodies_within(a, b, threshold)
     }
 
-    /// The same as a part of a call, with a threshold that was checked.
+    /// The same within a call, with a checked threshold.
     pub(super) fn bodies_within(
         &mut self,
         a: Placement,
@@ -142,7 +142,7 @@ impl QueryContext {
         Ok(Singles::new(pairing, scratch).are_within(threshold))
     }
 
-    /// All primitive pairs at most `epsilon` apart; of more than `max_count`, the nearest.
+    /// All primitive pairs at most `epsilon` apart, nearest first, at most `max_count` of them.
     pub fn pair_witnesses(
         &mut self,
         a: Placement,

@@ -1,4 +1,4 @@
-//! Appendix A's `cstk-pseudo-normal`: everything about one configuration.
+//! Appendix A's `cstk-pseudo-normal`: class, distance, witnesses and gradients at one configuration.
 
 use super::answer::{Distance, WitnessList};
 use super::candidates::CandidateFilter;
@@ -12,23 +12,26 @@ use crate::error::Result;
 /// Class, distance, witnesses and gradients at one configuration.
 #[derive(Clone, Debug)]
 pub struct PseudoNormal {
+    /// The class of the configuration.
     pub class: Class,
+    /// The distance, with the nearest witness.
     pub distance: Distance,
+    /// Witnesses and gradients within the shell.
     pub list: WitnessList,
 }
 
-/// What of a configuration is wanted besides its class and its distance.
+/// Which witnesses and gradients a pseudo-normal lists.
 #[derive(Clone, Copy, Debug)]
 pub struct Shell {
-    /// Witnesses and gradients up to this distance.
+    /// The largest distance of a witness.
     pub max_shell: f64,
-    /// At most so many witnesses, the nearest.
+    /// The most witnesses, the nearest first.
     pub max_count: usize,
-    /// Gradients are scaled to length 1, but for those of length 0.
+    /// Scales gradients to length 1, except those of length 0.
     pub normalize: bool,
 }
 
-/// A union of induced sets alone, as most C-objects are.
+/// The induced sets of a union that has no other parts, as most C-objects are.
 fn only_group(cobject: &CObject) -> Option<&Group> {
     match cobject.set() {
         Set::Union { induced, others } if others.is_empty() => Some(induced),
@@ -58,19 +61,19 @@ impl QueryContext {
     ) -> Result<PseudoNormal> {
         check_threshold(shell.max_shell, "max_shell")?;
         cobject.require_one_metric()?;
-        let listed = WitnessRequest {
+        let request = WitnessRequest {
             with_gradients: true,
             contacts: self.contacts,
             ..WitnessRequest::within(shell.max_shell, shell.max_count)
         };
         let at = Configuration::Coordinates(q);
-        let mut found = self.ask(cobject, world, at, |context, scene| {
+        let mut found = self.with_scene(cobject, world, at, |context, scene| {
             match only_group(cobject) {
-                Some(group) => context.group_pseudo_normal(group, scene, listed),
+                Some(group) => context.group_pseudo_normal(group, scene, request),
                 None => Ok(PseudoNormal {
                     class: context.class_of(cobject, scene)?,
                     distance: context.set_distance(cobject, scene, f64::INFINITY)?,
-                    list: context.set_witnesses(cobject, scene, listed)?,
+                    list: context.set_witnesses(cobject, scene, request)?,
                 }),
             }
         })?;
@@ -80,21 +83,21 @@ impl QueryContext {
         Ok(found)
     }
 
-    /// All of a union of induced sets from one look for candidates.
+    /// Answers everything from one list of candidates.
     fn group_pseudo_normal(
         &mut self,
         group: &Group,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<PseudoNormal> {
-        let wanted = CandidateFilter {
+        let filter = CandidateFilter {
             in_contact: true,
             nearest: Some(f64::INFINITY),
-            ..CandidateFilter::within(listed.epsilon)
+            ..CandidateFilter::within(request.epsilon)
         };
-        let candidates = self.candidates(scene, scene.checked(group)?, wanted)?;
+        let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
         let distance = self.distance_among(group, scene, &candidates, f64::INFINITY)?;
-        let list = self.list(group, scene, &candidates, listed)?;
+        let list = self.list(group, scene, &candidates, request)?;
         let class = if distance.lower == 0.0 {
             Class::Inside
         } else if self.any_in_contact(&candidates, distance.lower)? {

@@ -1,4 +1,4 @@
-//! What queries answer about a pure set.
+//! Answers of queries about a pure set.
 
 use super::answer::{ContactRecord, Distance, PurePlace, SSide, Witness};
 use super::scene::Scene;
@@ -12,12 +12,12 @@ use crate::primitive::Feature;
 #[derive(Clone, Copy)]
 pub(crate) struct PureAt<'a> {
     pub set: &'a PureSet,
-    /// The complement is meant.
+    /// Asks about the complement instead.
     pub complement: bool,
     pub scene: &'a Scene<'a>,
 }
 
-/// A pure set that is near, with its contact, and the gradient where it was asked for.
+/// The witness of a pure set, its contact, and the gradient if requested.
 pub(crate) struct PureWitness {
     pub witness: Witness,
     pub contact: Option<ContactRecord>,
@@ -30,7 +30,7 @@ impl PureAt<'_> {
         Ok(class.reversed_if(self.complement))
     }
 
-    /// How far it is; of a set that does not measure whether it holds the configuration, and nothing else.
+    /// The distance. Of a set that does not measure only a 0 is known, where the configuration is inside.
     pub fn bounded_distance(&self) -> Result<BoundedDistance> {
         if let Some(measure) = self.set.measure(&self.scene.space_state())? {
             return Ok(measure.bounded_distance(self.complement));
@@ -57,8 +57,7 @@ impl PureAt<'_> {
         ))
     }
 
-    /// The witness, its contact and its gradient, if the set may be within `epsilon`; the gradient only where it is asked
-    /// for.
+    /// The witness and its contact, if the set may be within `epsilon`, with the gradient if requested.
     pub fn within(&self, epsilon: f64, with_gradient: bool) -> Result<Option<PureWitness>> {
         let bounds = self.bounded_distance()?;
         let measures = bounds.is_exact || bounds.lower > 0.0;
@@ -125,8 +124,8 @@ impl PureAt<'_> {
         let knows = if measure.signed > 0.0 {
             !(self.complement && measure.is_bound)
         } else {
-            // How deep a link is in a floor says less than how far the robot is from being out, but tells the way. At the
-            // boundary of an open set nothing is deep.
+            // The depth of a link in a floor is not the depth of the robot, but gives the direction out. At the boundary of
+            // an open set the depth is 0.
             let is_at_boundary = self.set.shape.is_open() && measure.signed >= -measure.error;
             let is_floor = matches!(self.set.shape, PureShape::Floor { .. });
             measure.knows_depth || is_floor || is_at_boundary
@@ -150,7 +149,7 @@ impl PureAt<'_> {
 }
 
 impl ContactRecord {
-    /// Puts the contact where a link is next to the world box or a floor.
+    /// Sets points and normal at the place where a link is near the world box or a floor.
     fn place(&mut self, place: &WorldPlace, sign: f64) {
         let normal = place.normal * sign;
         self.points = [place.point, place.point - normal * self.clearance];

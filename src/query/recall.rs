@@ -1,4 +1,4 @@
-//! The primitive pair that was found last, asked first: mostly it decides along a motion (§2.3.4).
+//! Temporal coherence: the primitive pair found last is tested first, since it mostly decides along a motion (§2.3.4).
 
 use super::body_pairs::CheckedGroup;
 use super::context::QueryContext;
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::pair::{Pairing, Scratch};
 
 impl QueryContext {
-    /// Visits the primitive pair that was found last, once for each term that holds it.
+    /// Visits the primitive pair found last, once for each term that holds it.
     pub(super) fn visit_recent(
         &mut self,
         scene: &Scene,

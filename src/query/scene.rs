@@ -15,30 +15,32 @@ use crate::space::Space;
 /// Where the robot is: by its coordinates, or by the pose of every link of the space.
 #[derive(Clone, Copy, Debug)]
 pub enum Configuration<'a> {
+    /// The coordinates of the space.
     Coordinates(&'a [f64]),
+    /// The pose of every link, in the world.
     LinkPoses(&'a [Pose]),
 }
 
-/// The world at one configuration: link poses, and the states of the environments.
+/// The world at one configuration: link poses, and snapshots of the environments.
 pub struct Scene<'a> {
     space: &'a Space,
     q: Option<&'a [f64]>,
-    /// Those that the caller gave; else they are in `computed`.
+    /// Link poses given by the caller; else they are in `computed`.
     given: Option<&'a [Pose]>,
     computed: Vec<Pose>,
     world: &'a World,
-    /// By their environments' serial numbers, in their order.
+    /// Attached s-objects, in order of their environments' serials.
     held: Vec<AttachedObject<'a>>,
 }
 
-/// Memory of a scene, used again by the next.
+/// Memory of a scene, reused by the next.
 #[derive(Default)]
 pub struct SceneMemory {
     poses: Vec<Pose>,
     held: Vec<AttachedObject<'static>>,
 }
 
-/// An s-object attached to a link, where that has taken it.
+/// An s-object attached to a link, with its pose in the world.
 pub struct AttachedObject<'a> {
     /// The serial number of its environment.
     pub environment: u64,
@@ -47,7 +49,7 @@ pub struct AttachedObject<'a> {
     pub pose: Pose,
 }
 
-/// The induced sets of a union, searched as one.
+/// The induced sets of a union, which are searched together.
 pub type Group = [Arc<Induced>];
 
 impl<'a> Scene<'a> {
@@ -115,7 +117,7 @@ impl<'a> Scene<'a> {
         self.world.version()
     }
 
-    /// The configuration as pure sets see it.
+    /// The configuration in the form that pure sets take.
     pub fn space_state(&self) -> SpaceState<'_> {
         SpaceState {
             space: self.space,

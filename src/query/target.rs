@@ -1,4 +1,4 @@
-//! A body pair that a search looks at.
+//! A body pair as the target of a search.
 
 use super::answer::SSide;
 use super::context::CacheKey;
@@ -10,7 +10,7 @@ use crate::pose::Pose;
 /// A body at a pose.
 pub type Placement<'a> = (&'a Body, &'a Pose);
 
-/// A body pair with what its C-object says of it.
+/// A body pair with the properties that its C-object gives it.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<'a> {
     pub sides: [Placement<'a>; 2],
@@ -18,18 +18,18 @@ pub(crate) struct Target<'a> {
     pub options: InducedOptions,
     /// The user data of the two sides, or 0.
     pub data: [usize; 2],
-    /// The link that holds the s-object, if it is attached.
+    /// The link that the s-object is attached to, if any.
     pub s_carrier: Option<usize>,
-    /// Which induced set of the group holds it.
+    /// The number of the induced set in its group.
     pub term: u32,
-    /// Among all of a search, in order of ids: hits name their pair by it.
+    /// The position in order of ids among all targets of a search: hits name their pair by it.
     pub rank: u32,
     /// A safe lower bound of the distance less the margin.
     pub bound: f64,
 }
 
 impl<'a> Target<'a> {
-    /// The link, what is attached to it and stands for it (or 0), and what is on the other side. Without a robot all are 0.
+    /// The r-link, the attached object that is the r-side (or 0), and the s-side. All 0 for two bodies without a robot.
     #[inline(always)]
     pub fn parties(&self) -> (usize, u64, SSide) {
         match self.key {
@@ -52,19 +52,19 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// The tags of a primitive of each.
+    /// The tags of two primitives, one of each body.
     pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
         let [(a, _), (b, _)] = self.sides;
         [a.tag(on_a), b.tag(on_b)]
     }
 
-    /// The two in one frame: made when it is needed, as most targets turn out to be too far.
+    /// Both bodies in one frame. Made on demand: most targets turn out to be too far.
     pub fn pairing(&self) -> Pairing<'a> {
         let [a, b] = self.sides;
         Pairing::new(a.0, a.1, b.0, b.1)
     }
 
-    /// The same, unless the balls around the bodies are more than `limit` apart, less the margin.
+    /// The same, or `None` if the bounding spheres are more than `limit` apart, less the margin.
     pub fn pairing_within(&self, limit: f64) -> Option<Pairing<'a>> {
         if self.bound > limit {
             return None;

@@ -1,8 +1,8 @@
-//! Whether the distance may be at most a threshold: of a C-object, and of many body pairs.
+//! Whether the distance may be at most a threshold, for a C-object and for many body pairs.
 
 use super::body_pairs::CheckedGroup;
 use super::candidates::CandidateFilter;
-use super::combination::{Composition, Known, cheap_first, composition, emptied};
+use super::combination::{Composition, Memo, cheap_first, composition, emptied};
 use super::context::{QueryContext, check_threshold};
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
@@ -12,13 +12,13 @@ use crate::error::Result;
 use crate::pair::{Pairing, Within, traverse, visit_pair};
 
 impl QueryContext {
-    /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does a distance of
-    /// which nothing is known.
+    /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does an unknown
+    /// distance.
     pub fn within(&mut self, cobject: &CObject, at: Configuration, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         cobject.require_one_metric()?;
         let world = self.look(cobject);
-        self.ask(cobject, &world, at, |context, scene| {
+        self.with_scene(cobject, &world, at, |context, scene| {
             context.set_within(cobject, scene, threshold)
         })
     }
@@ -29,9 +29,9 @@ impl QueryContext {
         scene: &Scene,
         threshold: f64,
     ) -> Result<bool> {
-        let mut known = emptied(std::mem::take(&mut self.answers.within));
-        let within = self.within_among(cobject, scene, threshold, false, &mut known);
-        self.answers.within = known;
+        let mut memo = emptied(std::mem::take(&mut self.answers.within));
+        let within = self.within_among(cobject, scene, threshold, false, &mut memo);
+        self.answers.within = memo;
         within
     }
 
@@ -42,7 +42,7 @@ impl QueryContext {
         scene: &Scene,
         threshold: f64,
         complement: bool,
-        known: &mut Known<bool>,
+        memo: &mut Memo<bool>,
     ) -> Result<bool> {
         match cobject.set() {
             Set::Pure(set) => {
@@ -55,7 +55,7 @@ impl QueryContext {
                 return Ok(lower <= threshold && lower < f64::INFINITY);
             }
             Set::Complement(part) => {
-                return self.within_among(part, scene, threshold, !complement, known);
+                return self.within_among(part, scene, threshold, !complement, memo);
             }
             Set::Union { induced, others } if others.is_empty() && !complement => {
                 return self.group_within(induced, scene, threshold);
@@ -63,33 +63,33 @@ impl QueryContext {
             _ => {}
         }
         let key = (cobject.serial(), complement);
-        if let Some(within) = known.get(&key) {
+        if let Some(within) = memo.get(&key) {
             return Ok(*within);
         }
-        let mut ask = |part: &CObject, known: &mut Known<bool>| {
-            self.within_among(part, scene, threshold, complement, known)
+        let mut part_within = |part: &CObject, memo: &mut Memo<bool>| {
+            self.within_among(part, scene, threshold, complement, memo)
         };
         let within = match composition(cobject.set(), complement) {
             Composition::Any(group, parts) => {
                 let mut any = false;
                 for part in cheap_first(parts) {
-                    any = any || ask(part, known)?;
+                    any = any || part_within(part, memo)?;
                 }
                 match group {
                     Some(group) if !any => self.group_within(group, scene, threshold)?,
                     _ => any,
                 }
             }
-            // The distance from the complement of what is induced is not known when it is not 0: no bound is above 0.
+            // The group is skipped: the distance from its complement is 0 or unknown, so its lower bound is 0.
             Composition::All(_, parts) => {
                 let mut all = true;
                 for part in cheap_first(parts) {
-                    all = all && ask(part, known)?;
+                    all = all && part_within(part, memo)?;
                 }
                 all
             }
         };
-        known.insert(key, within);
+        memo.insert(key, within);
         Ok(within)
     }
 
@@ -109,8 +109,8 @@ impl QueryContext {
         Ok(is_within)
     }
 
-    /// Whether the primitive pair that was found within a threshold last is within one now: mostly so along a motion, and
-    /// then nothing else need be asked.
+    /// Whether the primitive pair found last is within the threshold now (temporal coherence): along a motion it mostly is,
+    /// and then the query is decided.
     pub(super) fn recent_is_within(
         &mut self,
         scene: &Scene,
@@ -130,14 +130,14 @@ impl QueryContext {
         Ok(is_within)
     }
 
-    /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may differ from
-    /// target to target.
+    /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may depend on the
+    /// target.
     pub(super) fn any_within(
         &mut self,
         targets: &[Target],
         threshold: impl Fn(&Target) -> f64,
     ) -> Result<bool> {
-        // Those last found to meet first.
+        // The pair found last is tested first.
         let recent = self.recent;
         let is_recent = |target: &&Target| recent == Some(target.key);
         let first = targets.iter().filter(is_recent);
@@ -166,7 +166,7 @@ impl QueryContext {
         Ok(false)
     }
 
-    /// The places of the first primitive pair that is found within a threshold.
+    /// The places of the first primitive pair found within a threshold.
     fn first_within<const REFINES: bool>(
         &mut self,
         pairing: &Pairing,

@@ -1,4 +1,4 @@
-//! Operations 7 and 8: the witnesses of a set, of all its leaves, nearest first, and the gradients of their contacts.
+//! Operations 7 and 8: the witnesses of all leaves of a set, nearest first, and the gradients of their contacts.
 
 use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
 use super::candidates::CandidateFilter;
@@ -14,7 +14,8 @@ use crate::space::Space;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// The leaves of a C-object, each once: unions of induced sets, and pure sets with whether their complements are meant.
+/// The leaves of a C-object, without duplicates: unions of induced sets, and pure sets, with `true` where the complement is
+/// meant.
 #[derive(Default)]
 pub(super) struct Leaves<'a> {
     pub groups: Vec<Vec<Arc<Induced>>>,
@@ -26,8 +27,8 @@ impl<'a> Leaves<'a> {
         let mut found = Self::default();
         let mut seen = HashSet::new();
         let mut seen_leaves = HashSet::new();
-        let mut open = vec![(cobject, false)];
-        while let Some((next, complement)) = open.pop() {
+        let mut stack = vec![(cobject, false)];
+        while let Some((next, complement)) = stack.pop() {
             match next.set() {
                 Set::Pure(set) => {
                     if seen_leaves.insert((set.leaf.serial, complement)) {
@@ -47,7 +48,7 @@ impl<'a> Leaves<'a> {
             for part in next.set().parts().iter().rev() {
                 let is_leaf = matches!(part.set(), Set::Pure(_));
                 if is_leaf || seen.insert((part.serial(), complement)) {
-                    open.push((part, complement));
+                    stack.push((part, complement));
                 }
             }
         }
@@ -55,14 +56,14 @@ impl<'a> Leaves<'a> {
     }
 }
 
-/// What is asked of witnesses.
+/// Which witnesses a query lists, and what it computes for them.
 #[derive(Clone, Copy)]
 pub(crate) struct WitnessRequest {
     pub epsilon: f64,
     pub max_count: usize,
     pub with_gradients: bool,
     pub contacts: ContactsListed,
-    /// Pairs count as within `epsilon` if their lower bound is, as they do for classes; else if their distance is.
+    /// Pairs count as within `epsilon` if their lower bound is, as for classes; otherwise if their distance is.
     pub counts_doubt: bool,
 }
 
@@ -79,7 +80,7 @@ impl WitnessRequest {
 }
 
 impl QueryContext {
-    /// Operation 7: all primitive pairs of the leaves at most `epsilon` apart; of more than `max_count`, the nearest.
+    /// Operation 7: all primitive pairs of the leaves at most `epsilon` apart, nearest first, at most `max_count` of them.
     pub fn witnesses(
         &mut self,
         cobject: &CObject,
@@ -87,11 +88,11 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let listed = WitnessRequest {
+        let request = WitnessRequest {
             contacts: self.contacts,
             ..WitnessRequest::within(epsilon, max_count)
         };
-        self.listed(cobject, at, listed)
+        self.witness_list(cobject, at, request)
     }
 
     /// Operation 8: the same, with the gradient of each contact's distance.
@@ -102,25 +103,25 @@ impl QueryContext {
         epsilon: f64,
         max_count: usize,
     ) -> Result<WitnessList> {
-        let listed = WitnessRequest {
+        let request = WitnessRequest {
             with_gradients: true,
             contacts: self.contacts,
             ..WitnessRequest::within(epsilon, max_count)
         };
-        self.listed(cobject, Configuration::Coordinates(q), listed)
+        self.witness_list(cobject, Configuration::Coordinates(q), request)
     }
 
-    fn listed(
+    fn witness_list(
         &mut self,
         cobject: &CObject,
         at: Configuration,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
-        check_threshold(listed.epsilon, "epsilon")?;
+        check_threshold(request.epsilon, "epsilon")?;
         cobject.require_one_metric()?;
         let world = self.look(cobject);
-        self.ask(cobject, &world, at, |context, scene| {
-            context.set_witnesses(cobject, scene, listed)
+        self.with_scene(cobject, &world, at, |context, scene| {
+            context.set_witnesses(cobject, scene, request)
         })
     }
 
@@ -128,33 +129,33 @@ impl QueryContext {
         &mut self,
         cobject: &CObject,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
         let leaves = Leaves::of(cobject);
         let mut lists = Vec::with_capacity(leaves.groups.len() + 1);
         for group in &leaves.groups {
-            lists.push(self.group_witnesses(group, scene, listed)?);
+            lists.push(self.group_witnesses(group, scene, request)?);
         }
         if !leaves.pure.is_empty() {
-            lists.push(pure_witnesses(&leaves.pure, scene, listed)?);
+            lists.push(pure_witnesses(&leaves.pure, scene, request)?);
         }
         if lists.len() == 1
             && let Some(only) = lists.pop()
         {
             return Ok(only);
         }
-        Ok(WitnessList::merged(lists, scene, listed))
+        Ok(WitnessList::merged(lists, scene, request))
     }
 
     pub(super) fn group_witnesses(
         &mut self,
         group: &Group,
         scene: &Scene,
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
-        let wanted = CandidateFilter::within(listed.epsilon);
-        let candidates = self.candidates(scene, scene.checked(group)?, wanted)?;
-        let list = self.list(group, scene, &candidates, listed)?;
+        let filter = CandidateFilter::within(request.epsilon);
+        let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
+        let list = self.list(group, scene, &candidates, request)?;
         self.keep_memory(candidates);
         Ok(list)
     }
@@ -165,14 +166,14 @@ impl QueryContext {
         group: &Group,
         scene: &Scene,
         candidates: &[Target],
-        listed: WitnessRequest,
+        request: WitnessRequest,
     ) -> Result<WitnessList> {
-        let visitor = Collect::new(listed.epsilon, listed.max_count, listed.counts_doubt);
+        let visitor = Collect::new(request.epsilon, request.max_count, request.counts_doubt);
         let (hits, truncated) = self.collect(candidates, visitor)?;
-        let state = scene.state().filter(|_| listed.with_gradients);
+        let state = scene.state().filter(|_| request.with_gradients);
         let mut list = WitnessList {
             truncated,
-            ..WitnessList::empty(scene, listed)
+            ..WitnessList::empty(scene, request)
         };
         let ranked = by_rank(candidates);
         let mut scratch = PrimitiveScratch::default();
@@ -182,7 +183,7 @@ impl QueryContext {
             let first = list.contacts.len();
             let leaf = group[target.term as usize].leaf;
             let pairing = target.pairing();
-            list.push(target, &pairing, hit, leaf, listed.contacts, &mut scratch);
+            list.push(target, &pairing, hit, leaf, request.contacts, &mut scratch);
             if let Some(state) = state {
                 for contact in &list.contacts[first..] {
                     push_gradient(scene.space(), state, target, contact, &mut list.gradients)?;
@@ -192,8 +193,8 @@ impl QueryContext {
         Ok(list)
     }
 
-    /// All pieces inside other bodies and all primitive pairs that the visitor lists, nearest first, and whether there are
-    /// more than it keeps.
+    /// All pieces inside other bodies and all primitive pairs that the visitor accepts, nearest first, and whether the list
+    /// is truncated.
     pub(super) fn collect(
         &mut self,
         targets: &[Target],
@@ -219,10 +220,11 @@ impl QueryContext {
     }
 }
 
+/// The witnesses of pure sets, nearest first; `true` asks about the complement.
 pub(crate) fn pure_witnesses(
     leaves: &[(&PureSet, bool)],
     scene: &Scene,
-    listed: WitnessRequest,
+    request: WitnessRequest,
 ) -> Result<WitnessList> {
     let mut found: Vec<PureWitness> = Vec::new();
     for &(set, complement) in leaves {
@@ -231,23 +233,23 @@ pub(crate) fn pure_witnesses(
             complement,
             scene,
         };
-        found.extend(pure.within(listed.epsilon, listed.with_gradients)?);
+        found.extend(pure.within(request.epsilon, request.with_gradients)?);
     }
-    // Stable: equal ones stay in the order of the leaves.
+    // A stable sort: ties stay in the order of the leaves.
     found.sort_by(|a, b| a.witness.distance.total_cmp(&b.witness.distance));
-    let mut list = WitnessList::empty(scene, listed);
-    list.truncated = found.len() > listed.max_count;
-    for next in found.into_iter().take(listed.max_count) {
+    let mut list = WitnessList::empty(scene, request);
+    list.truncated = found.len() > request.max_count;
+    for next in found.into_iter().take(request.max_count) {
         let first_contact = list.contacts.len();
-        if listed.contacts != ContactsListed::None {
+        if request.contacts != ContactsListed::None {
             list.contacts.extend(next.contact);
             list.gradients.extend(next.row);
         }
-        let is_untold = listed.contacts == ContactsListed::None && next.witness.distance == 0.0;
+        let is_undecided = request.contacts == ContactsListed::None && next.witness.distance == 0.0;
         list.witnesses.push(Witness {
             first_contact,
             contact_count: list.contacts.len() - first_contact,
-            overlapping: next.witness.overlapping || is_untold,
+            overlapping: next.witness.overlapping || is_undecided,
             ..next.witness
         });
     }
@@ -255,10 +257,10 @@ pub(crate) fn pure_witnesses(
 }
 
 impl WitnessList {
-    fn empty(scene: &Scene, listed: WitnessRequest) -> Self {
+    fn empty(scene: &Scene, request: WitnessRequest) -> Self {
         Self {
             version: scene.version(),
-            nv: if listed.with_gradients {
+            nv: if request.with_gradients {
                 scene.space().nv()
             } else {
                 0
@@ -267,22 +269,22 @@ impl WitnessList {
         }
     }
 
-    /// Takes a primitive pair with its contacts, as many as are listed.
+    /// Appends a primitive pair with the contacts requested.
     pub(super) fn push(
         &mut self,
         target: &Target,
         pairing: &Pairing,
         hit: &Hit,
         leaf: Leaf,
-        listed: ContactsListed,
+        contacts: ContactsListed,
         scratch: &mut PrimitiveScratch,
     ) {
         let first_contact = self.contacts.len();
-        if hit.contained.is_none() && listed != ContactsListed::None {
+        if hit.contained.is_none() && contacts != ContactsListed::None {
             let measured = pairing.closest(hit, scratch);
             let record = |contact| ContactRecord::new(contact, target.options.margin);
             let primitives = hit.key.primitives;
-            if listed == ContactsListed::Nearest {
+            if contacts == ContactsListed::Nearest {
                 let found = pairing.first_world_contact(primitives, &measured, scratch);
                 self.contacts.extend(found.map(record));
             } else {
@@ -299,29 +301,29 @@ impl WitnessList {
         });
     }
 
-    /// Makes room for so many witnesses; most have one contact.
+    /// Reserves memory for witnesses; most have one contact.
     pub(super) fn reserve(&mut self, count: usize) {
         self.witnesses.reserve(count);
         self.contacts.reserve(count);
     }
 
-    /// Several lists as one: the nearest first, of equal ones those of earlier lists.
-    pub(crate) fn merged(lists: Vec<WitnessList>, scene: &Scene, listed: WitnessRequest) -> Self {
-        let mut merged = Self::empty(scene, listed);
+    /// Merges lists, nearest first; ties go to earlier lists.
+    pub(crate) fn merged(lists: Vec<WitnessList>, scene: &Scene, request: WitnessRequest) -> Self {
+        let mut merged = Self::empty(scene, request);
         let count: usize = lists.iter().map(|list| list.witnesses.len()).sum();
-        merged.truncated = count > listed.max_count || lists.iter().any(|list| list.truncated);
+        merged.truncated = count > request.max_count || lists.iter().any(|list| list.truncated);
         let all = lists
             .iter()
             .flat_map(|list| list.witnesses.iter().map(move |witness| (list, witness)));
         let mut all: Vec<(&WitnessList, &Witness)> = all.collect();
         all.sort_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
-        for (list, witness) in all.into_iter().take(listed.max_count) {
+        for (list, witness) in all.into_iter().take(request.max_count) {
             merged.take(list, witness);
         }
         merged
     }
 
-    /// Takes a witness of another list, with its contacts.
+    /// Appends a witness of another list, with its contacts.
     pub(super) fn take(&mut self, list: &WitnessList, witness: &Witness) {
         let contacts = witness.first_contact..witness.first_contact + witness.contact_count;
         self.witnesses.push(Witness {
@@ -337,7 +339,7 @@ impl WitnessList {
 }
 
 impl Witness {
-    /// A witness whose contacts are not known yet.
+    /// A witness without contacts, which are added later.
     pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
         let (r_link, r_object, s_side) = target.parties();
         Self {
@@ -360,7 +362,7 @@ impl Witness {
 }
 
 impl ContactRecord {
-    /// A contact; distances less the margin.
+    /// A contact, with the margin subtracted from its distances.
     pub(super) fn new(found: WorldContact, margin: f64) -> Self {
         Self {
             points: found.points,
@@ -373,7 +375,7 @@ impl ContactRecord {
     }
 }
 
-/// Appends one row: the derivative of the contact's distance, eq. (39). Both points are those of the configuration at hand.
+/// Appends one row: the derivative of the contact's distance, eq. (39). Both witness points are those at the configuration.
 fn push_gradient(
     space: &Space,
     state: RobotState,
@@ -393,7 +395,7 @@ fn push_gradient(
     Ok(())
 }
 
-/// The candidates in the order of their ranks, by which hits name them.
+/// The candidates in order of rank: hits name them by rank.
 fn by_rank<'t, 'a>(candidates: &'t [Target<'a>]) -> Vec<&'t Target<'a>> {
     let mut ranked: Vec<_> = candidates.iter().collect();
     ranked.sort_unstable_by_key(|candidate| candidate.rank);

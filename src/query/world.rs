@@ -1,4 +1,4 @@
-//! The states of environments that queries see.
+//! The snapshots of environments that queries see.
 
 use std::sync::Arc;
 
@@ -8,16 +8,17 @@ use crate::cobject::CObject;
 use crate::environment::{Attachment, Environment, SObject, Snapshot};
 use crate::space::Space;
 
-/// One snapshot of each environment that a C-object refers to: what a query, or several that belong together, see.
+/// One snapshot of each environment that a C-object refers to: the state that one query, or several that belong together,
+/// see.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// By serials of environments, in their order.
+    /// In order of the environments' serials.
     snapshots: SmallVec<[(u64, Arc<Snapshot>); 2]>,
     version: u64,
 }
 
 impl World {
-    /// The world as it is now.
+    /// The current world of a C-object.
     pub fn of(cobject: &CObject) -> Self {
         let environments = cobject.environments().iter();
         let snapshots: SmallVec<[(u64, Arc<Snapshot>); 2]> = environments
@@ -30,18 +31,18 @@ impl World {
         }
     }
 
-    /// The largest version of the environments.
+    /// The largest version of the snapshots.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// The version of each environment, by serial numbers.
+    /// The serial and the version of each environment.
     pub fn versions(&self) -> impl Iterator<Item = (u64, u64)> {
         let all = self.snapshots.iter();
         all.map(|(serial, snapshot)| (*serial, snapshot.version))
     }
 
-    /// The s-objects attached to links of a space, with their environments' serial numbers.
+    /// The s-objects attached to links of a space, with their environments' serials.
     pub fn attached<'a>(
         &'a self,
         space: &Space,
@@ -57,7 +58,7 @@ impl World {
         })
     }
 
-    /// The state of an environment; `None` if the world is that of a C-object that does not refer to it.
+    /// The snapshot of an environment; `None` if the C-object does not refer to it.
     pub fn snapshot(&self, environment: &Environment) -> Option<&Arc<Snapshot>> {
         let serial = environment.serial();
         let place = self
