@@ -78,9 +78,9 @@ typedef struct cstk_induced_options cstk_induced_options;
 /**
  * @defgroup status Versions, statuses, callbacks
  *
- * Calls that can fail return a status, and leave a message that names the culprit. Long calls report how far they are, and
- * user data are given back, by functions of the caller. In the examples of the sections below, check() stands for what a
- * program does about a status; this is how it may begin.
+ * Calls that can fail return a status, and leave a message that names the culprit. Callbacks report the progress of long
+ * calls and release user data. In the examples of the sections below, check() stands for a program's own handling of a
+ * status, which may begin like this:
  *
  * @code
      cstk_status status = cstk_query_create(&query);
@@ -101,7 +101,7 @@ typedef struct cstk_induced_options cstk_induced_options;
 #define CSTK_VERSION_PATCH 0
 
 /**
- * How a call ended. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
+ * The status of a call. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
  * argument, which polygon, which line. A failed call has changed nothing and written no output.
  */
 enum cstk_status
@@ -110,7 +110,7 @@ enum cstk_status
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * The call did what was asked.
+   * The call succeeded.
    */
   CSTK_OK = 0,
   /**
@@ -138,7 +138,7 @@ enum cstk_status
    */
   CSTK_ERROR_WRONG_SIZE = 6,
   /**
-   * Nothing was given where at least one item is needed: a body without primitives, a robot without links.
+   * No item was given where at least one is needed: a body without primitives, a robot without links.
    */
   CSTK_ERROR_EMPTY = 7,
   /**
@@ -162,7 +162,7 @@ enum cstk_status
    */
   CSTK_ERROR_NOT_FOUND = 12,
   /**
-   * Something the library does not do: an unknown file format, a change to a snapshot.
+   * Something that the library does not support: an unknown file format, a change to a snapshot.
    */
   CSTK_ERROR_UNSUPPORTED = 13,
   /**
@@ -178,7 +178,7 @@ enum cstk_status
    */
   CSTK_ERROR_NOT_CONVERGED = 16,
   /**
-   * The caller's progress function asked to stop.
+   * The caller's progress function stopped the call.
    */
   CSTK_ERROR_CANCELLED = 17,
   /**
@@ -186,11 +186,11 @@ enum cstk_status
    */
   CSTK_ERROR_BUSY = 18,
   /**
-   * A fault of the library itself. It was contained; please report it with the message.
+   * An internal fault of the library, which was contained; please report it with the message.
    */
   CSTK_ERROR_INTERNAL = 19,
   /**
-   * A function of the caller's failed; the message names it and what it returned.
+   * A callback failed; the message names it and what it returned.
    */
   CSTK_ERROR_CALLBACK_FAILED = 20,
   /**
@@ -202,7 +202,7 @@ enum cstk_status
    */
   CSTK_ERROR_LIMIT = 22,
   /**
-   * There is not enough memory for what the input asks for.
+   * There is not enough memory for the input.
    */
   CSTK_ERROR_OUT_OF_MEMORY = 23,
 };
@@ -215,30 +215,31 @@ typedef int32_t cstk_status;
 #endif // __cplusplus
 
 /**
- * Gives user data back to the caller, once, when nothing refers to it any more. It may call the library.
+ * Releases user data: called once, when nothing refers to them any more. It may call the library.
  */
 typedef void (*cstk_destroy_fn)(void *user);
 
 /**
- * Hears how far a long call has come, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_ERROR_CANCELLED. It is
- * called on the thread that made the call; it must not throw.
+ * Receives the progress of a long call, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_ERROR_CANCELLED. It
+ * is called on the thread that made the call; it must not throw.
  */
 typedef int32_t (*cstk_progress_fn)(double fraction, void *user);
 
 
 /**
- * The version of the library that is linked, as "major.minor.patch"; static.
+ * Returns the version of the library that is linked, as "major.minor.patch"; static.
  */
 const char *cstk_version(void);
 
 /**
- * The name of a status, such as "CSTK_ERROR_NOT_FINITE"; "unknown status" for a number that is none. Never NULL; static.
+ * Returns the name of a status, such as "CSTK_ERROR_NOT_FINITE"; "unknown status" for an unknown number. Never NULL;
+ * static.
  */
 const char *cstk_status_name(int32_t status);
 
 /**
- * The message of this thread's last failed call; empty if none has failed. Valid until the next failure on this thread.
- * Never NULL; UTF-8.
+ * Returns the message of this thread's last failed call; empty if none has failed. Valid until the next failure on this
+ * thread. Never NULL; UTF-8.
  */
 const char *cstk_last_error_message(void);
 
@@ -247,8 +248,8 @@ const char *cstk_last_error_message(void);
 /**
  * @defgroup pose Poses
  *
- * Poses are 12 doubles, row-major [R | t]. They are made from quaternions, or from the report's Euler angles (§4.1), whose
- * rates are those of §4.3, and composed.
+ * Poses are 12 doubles, row-major [R | t]. They are converted from quaternions or from the report's Euler angles (§4.1),
+ * whose rates are those of §4.3, and composed.
  *
  * @code
      const double above[7] = {0, 0, 0.5, 0, 0, 0, 1}; // x, y, z, and the quaternion x, y, z, w
@@ -272,7 +273,7 @@ enum cstk_angular_frame
    */
   CSTK_ANGULAR_WORLD = 0,
   /**
-   * The turning body's own, as in eq. (25) to (31).
+   * The rotating body's own, as in eq. (25) to (31).
    */
   CSTK_ANGULAR_BODY = 1,
 };
@@ -286,87 +287,88 @@ typedef int32_t cstk_angular_frame;
 
 
 /**
- * Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
- * pitch (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
+ * Converts the report's placement (§4.1, eq. 3-6) to a pose. `xyz_ypr` holds x, y, z and the angles yaw (about Y), pitch
+ * (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
  */
 cstk_status cstk_pose_from_euler(const double *xyz_ypr,
                                  double *pose);
 
 /**
  * The inverse of cstk_pose_from_euler (eq. 7). Where cos(pitch) = 0 only yaw + roll or yaw - roll is determined; roll is
- * then given as 0.
+ * then 0.
  */
 cstk_status cstk_pose_to_euler(const double *pose_12,
                                double *xyz_ypr);
 
 /**
- * Converts a translation and a unit quaternion to a pose: `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
- * of the quaternion, whose norm may be off 1 by 1e-6; `pose` receives 12 doubles.
+ * Converts a translation and a unit quaternion to a pose. `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
+ * of the quaternion, whose norm must be 1 to within 1e-6; `pose` receives 12 doubles.
  */
 cstk_status cstk_pose_from_quaternion(const double *xyz_quaternion,
                                       double *pose);
 
 /**
- * The pose `a` then `b`: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in
- * frame 0. All are 12 doubles; `out` may be `a` or `b`.
+ * Composes poses: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in frame 0. All
+ * are 12 doubles; `out` may be `a` or `b`.
  */
 cstk_status cstk_pose_compose(const double *a,
                               const double *b,
                               double *out);
 
 /**
- * The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles
- * each; both may be the same.
+ * Inverts a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
+ * may be the same.
  */
 cstk_status cstk_pose_inverse(const double *pose_12,
                               double *out);
 
 /**
- * Carries a point of the child frame into the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be the
- * same.
+ * Transforms a point from the child frame to the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be
+ * the same.
  */
 cstk_status cstk_pose_transform_point(const double *pose_12,
                                       const double *point,
                                       double *out);
 
 /**
- * The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation the one with w >= 0.
+ * The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation it writes the one with w >= 0.
  */
 cstk_status cstk_pose_to_quaternion(const double *pose_12,
                                     double *xyz_quaternion);
 
 /**
- * Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation of 9 doubles, row-major.
+ * Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation matrix of 9 doubles, row-major.
  */
-cstk_status cstk_euler_to_rotation(const double *yaw_pitch_roll, double *rotation);
+cstk_status cstk_euler_to_rotation(const double *yaw_pitch_roll,
+                                   double *rotation);
 
 /**
- * The inverse of cstk_euler_to_rotation (eq. 7), with the same rule where cos(pitch) = 0 as cstk_pose_to_euler.
+ * The inverse of cstk_euler_to_rotation (eq. 7). Where cos(pitch) = 0 it chooses roll 0, as cstk_pose_to_euler does.
  */
 cstk_status cstk_euler_from_rotation(const double *rotation,
                                      double *yaw_pitch_roll);
 
 /**
- * The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity.
- * `frame` is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial
- * columns of (33), with which only the inertial form combines.
+ * Writes the matrix of eq. (31), 9 doubles, row-major, which maps the rates of yaw, pitch and roll to an angular velocity.
+ * `frame` is a cstk_angular_frame. The report prints the matrix for the body's frame, but uses it with the inertial
+ * columns of (33), which only the inertial form fits.
  */
 cstk_status cstk_euler_rates(const double *yaw_pitch_roll,
                              int32_t frame,
                              double *matrix);
 
 /**
- * The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_ERROR_DEGENERATE where cos(pitch) =
- * 0.
+ * Writes the inverse of the matrix of cstk_euler_rates: maps an angular velocity to the rates of yaw, pitch and roll.
+ * CSTK_ERROR_DEGENERATE where cos(pitch) = 0.
  */
 cstk_status cstk_euler_rates_inverse(const double *yaw_pitch_roll,
                                      int32_t frame,
                                      double *matrix);
 
 /**
- * Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,
- * 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_ERROR_DEGENERATE where
- * cos(pitch) = 0.
+ * Converts a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), to the Jacobian of x, y, z, yaw, pitch, roll (eq.
+ * 22, 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler.
+ * CSTK_ERROR_DEGENERATE where cos(pitch) = 0.
  */
 cstk_status cstk_jacobian_to_euler(const double *yaw_pitch_roll,
                                    double *jacobian,
@@ -382,8 +384,8 @@ cstk_status cstk_jacobian_from_euler(const double *yaw_pitch_roll, double *jacob
 /**
  * @defgroup body Bodies
  *
- * A body is a rigid union of convex primitives: polygons, polyhedra, ready-made shapes, points. A builder collects them, from
- * arrays or mesh files; what is built never changes, and serves any number of links, obstacles and threads.
+ * A body is a rigid union of convex primitives: polygons, polyhedra, predefined shapes, points. A builder collects them,
+ * from arrays or mesh files. A body never changes once built, and serves any number of links, obstacles and threads.
  *
  * @code
      const double half_extents[3] = {0.2, 0.1, 0.3};
@@ -443,8 +445,8 @@ enum cstk_feature_kind
    */
   CSTK_FEATURE_INTERIOR = 3,
   /**
-   * The surface of a cylinder, cone, ellipsoid or set by a support function; it has no vertices. What has a radius holds
-   * its points by the features of its core.
+   * The surface of a cylinder, cone, ellipsoid or support function; it has no vertices. Rounded primitives use the
+   * features of their core.
    */
   CSTK_FEATURE_SURFACE = 4,
 };
@@ -462,40 +464,41 @@ typedef int32_t cstk_feature_kind;
 typedef struct cstk_body cstk_body;
 
 /**
- * Collects the primitives of a body.
+ * Collects the primitives of a body. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.
  */
 typedef struct cstk_body_builder cstk_body_builder;
 
 /**
- * Writes to `point` (three doubles) a point of a bounded convex set that is farthest along the unit vector `direction`.
- * Returns CSTK_OK, or anything else when it fails.
+ * Writes to `point` (three doubles) a support point of a bounded convex set: one that is farthest along the unit vector
+ * `direction` (three doubles). Returns CSTK_OK, or anything else for failure.
  */
 typedef int32_t (*cstk_support_fn)(const double *direction, double *point, void *user);
 
 /**
- * What a primitive is. A sphere is a point with a radius, a capsule a segment with one: its features are those of this core.
+ * A primitive of a body. A sphere is a point with a radius, a capsule a segment with one: their features are those of this
+ * core.
  */
 typedef struct cstk_primitive {
   cstk_primitive_kind kind;
   /**
-   * Features of the primitive, or of its core; 0 for cylinders, cones, ellipsoids and support functions.
+   * Numbers of features of the primitive, or of its core; 0 for cylinders, cones, ellipsoids and support functions.
    */
   uint32_t vertex_count;
   uint32_t edge_count;
   uint32_t face_count;
   /**
-   * Around the core: of spheres, capsules, and rounded polygons and polyhedra. 0 for others.
+   * The radius around the core of spheres, capsules, rounded polygons and rounded polyhedra; 0 for others.
    */
   double radius;
   /**
-   * As it was given; of a mesh's face its index, of a point of a cloud its own.
+   * The caller's tag; for a mesh face its index, for a point of a cloud the point's index.
    */
   uint64_t tag;
   uint64_t reserved[8];
 } cstk_primitive;
 
 /**
- * What became of a body's input, and what was built.
+ * Statistics of a body and of the input it was built from.
  */
 typedef struct cstk_body_statistics {
   /**
@@ -507,25 +510,25 @@ typedef struct cstk_body_statistics {
    */
   uint64_t faces_split;
   /**
-   * Mesh faces without area, left out.
+   * Mesh faces without area, which were left out.
    */
   uint64_t faces_dropped;
   /**
-   * Nodes of the hierarchy, and its levels.
+   * Nodes of the hierarchy, and the number of its levels.
    */
   uint64_t node_count;
   uint64_t depth;
   /**
-   * The box of all vertices, in the frame in which the body was given.
+   * The axis-aligned bounding box of all vertices, in the frame in which the body was given.
    */
   double low[3];
   double high[3];
   /**
-   * What of the body hangs together: polygons that share vertices, and each polyhedron.
+   * Connected pieces of the body: polygons that share vertices, and each polyhedron.
    */
   uint64_t piece_count;
   /**
-   * It was declared solid (cstk_body_builder_set_solid).
+   * Whether it was declared solid (cstk_body_builder_set_solid).
    */
   bool solid;
   uint8_t reserved_bytes[7];
@@ -534,8 +537,9 @@ typedef struct cstk_body_statistics {
 
 
 /**
- * Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
- * surfaces, unless cstk_body_builder_set_solid says otherwise). Release it with cstk_body_builder_release.
+ * Creates an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
+ * surfaces, unless cstk_body_builder_set_solid declares them the boundary of a solid). Release it with
+ * cstk_body_builder_release.
  */
 cstk_status cstk_body_builder_create(uint32_t dimension,
                                      cstk_body_builder **out);
@@ -551,11 +555,11 @@ cstk_status cstk_body_builder_retain(cstk_body_builder *builder);
 cstk_status cstk_body_builder_release(cstk_body_builder *builder);
 
 /**
- * Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, either way round. In space it is a
- * surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
+ * Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, clockwise or counter-clockwise.
+ * In 3-D it is a surface, in the plane it is solid. `tag` is any number of yours; witnesses return it.
  *
- * CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_CONVEX or CSTK_ERROR_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
- * by 1e-12 of the polygon's diameter; use cstk_body_builder_add_mesh to have other polygons split.
+ * CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_CONVEX or CSTK_ERROR_NOT_PLANAR, with a message that names the vertex. Vertices
+ * may leave the plane by 1e-12 of the polygon's diameter. cstk_body_builder_add_mesh splits other polygons.
  */
 cstk_status cstk_body_builder_add_polygon(cstk_body_builder *builder,
                                           const double *xyz,
@@ -563,8 +567,8 @@ cstk_status cstk_body_builder_add_polygon(cstk_body_builder *builder,
                                           uint64_t tag);
 
 /**
- * Adds the convex hull of `point_count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
- * points are no more than that. Points inside the hull are ignored.
+ * Adds the convex hull of `point_count` points of three doubles: a solid, or a point, a segment or a flat polygon if the
+ * points span no more. Points inside the hull are ignored.
  */
 cstk_status cstk_body_builder_add_polyhedron(cstk_body_builder *builder,
                                              const double *xyz,
@@ -572,17 +576,19 @@ cstk_status cstk_body_builder_add_polyhedron(cstk_body_builder *builder,
                                              uint64_t tag);
 
 /**
- * Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
- * `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
- * NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
+ * Adds the faces of a mesh as polygons. `vertices` holds `vertex_count` vertices of three doubles. Face f has
+ * `face_sizes[f]` vertices; `face_sizes` has `face_count` entries, or is NULL for triangles. `indices` holds the vertex
+ * indices of all faces, face after face, `index_count` in all. Faces are tagged with their index in this call; triangles
+ * of a split face keep its tag.
  *
- * The mesh is scaled along its own x, y and z by the three factors of `scale`, NULL for 1, then moved by `pose`, NULL for the
- * identity. Factors below 0 mirror; faces of what is mirrored are turned round, so that they face outwards as before.
- * CSTK_ERROR_INVALID_ARGUMENT for a factor nearer to 0 than 1e-50 or larger than 1e50.
+ * The mesh is scaled along its own x, y and z by the three factors of `scale` (NULL for 1), then moved by `pose` (NULL for
+ * the identity). Negative factors mirror; the faces of a mirrored mesh are reversed, so that they still face outwards.
+ * CSTK_ERROR_INVALID_ARGUMENT for a factor of magnitude below 1e-50 or above 1e50.
  *
  * Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
- * cstk_body_get_statistics). CSTK_ERROR_NOT_FOUND for an index beyond the vertices, CSTK_ERROR_WRONG_SIZE for counts that do not
- * match, CSTK_ERROR_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
+ * cstk_body_get_statistics). CSTK_ERROR_NOT_FOUND for an index beyond the vertices, CSTK_ERROR_WRONG_SIZE for counts that
+ * do not match, CSTK_ERROR_NOT_CONVEX for an outline that crosses itself. The message names the face, and nothing is
+ * added.
  */
 cstk_status cstk_body_builder_add_mesh(cstk_body_builder *builder,
                                        const double *vertices,
@@ -595,9 +601,10 @@ cstk_status cstk_body_builder_add_mesh(cstk_body_builder *builder,
                                        const double *scale);
 
 /**
- * Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name ends in .obj, .stl (ASCII or binary) or .dae
- * (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
- * CSTK_ERROR_IO if it cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED for another ending.
+ * Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
+ * .obj, .stl (ASCII or binary) or .dae (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as in the ROS
+ * tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
+ * for another ending.
  */
 cstk_status cstk_body_builder_add_mesh_file(cstk_body_builder *builder,
                                             const char *file,
@@ -605,29 +612,30 @@ cstk_status cstk_body_builder_add_mesh_file(cstk_body_builder *builder,
                                             const double *scale);
 
 /**
- * Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
- * the default). In a solid the inside counts: a body wholly inside it meets it, at distance 0. Polyhedra are solid by
- * themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
+ * Declares that all polygons and mesh faces together are the closed boundary of a solid (true), or surfaces (false, the
+ * default). The inside of a solid counts: a body wholly inside it meets it, at distance 0. Polyhedra (flat ones too) are
+ * not part of the boundary: they are solid by themselves. In the plane polygons are always solid, so this changes nothing.
  *
- * It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
- * their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other;
- * faces without area that were left out count where others need them to join. Faces that alone share an edge are turned
- * round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is
- * inside where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell
- * that faces the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
+ * cstk_body_build checks that the boundary of everything added by then is closed. Edges join where their ends have the
+ * same coordinates, to the last bit; along each edge as many faces must run one way as the other. Faces without area,
+ * which are otherwise left out, count where others need them to join. Where exactly two faces share an edge and disagree,
+ * faces are reversed; of each group of faces connected in this way, the orientation that covers the larger area is kept. A
+ * point is inside where the boundary's winding number is not 0. Hence shells with the same orientation may overlap; a
+ * cavity is a shell with the opposite orientation of the shell around it; and a boundary that faces inwards everywhere
+ * bounds the same solid.
  */
 cstk_status cstk_body_builder_set_solid(cstk_body_builder *builder,
                                         bool solid);
 
 /**
- * Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
- * defaults; `progress` may be NULL, `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared solid,
- * CSTK_ERROR_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
- * CSTK_ERROR_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
+ * Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
+ * the defaults; `progress` may be NULL; `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared
+ * solid: CSTK_ERROR_NOT_CLOSED if the boundary has open edges, or is one-sided (not orientable), with a message that names
+ * edges and primitives; CSTK_ERROR_DEGENERATE if it bounds nothing, because each face has a copy that faces the other way.
  *
- * The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon, and
- * 1 to 2 a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a
- * file (cstk_body_save).
+ * The hierarchy affects the speed of queries, never their answers. Building takes about 5 microseconds a polygon, and 1 to
+ * 2 a point for bodies of points only (cstk_body_builder_add_points). Build once and share, or save the body
+ * (cstk_body_save).
  */
 cstk_status cstk_body_build(cstk_body_builder *builder,
                             const cstk_hierarchy_options *options,
@@ -636,8 +644,8 @@ cstk_status cstk_body_build(cstk_body_builder *builder,
                             cstk_body **out);
 
 /**
- * Adds a ball around `center` (three doubles); in the plane a disc. As exact as a point: 1e-12 of the largest coordinate.
- * A radius of 0 leaves the point.
+ * Adds a ball around `center` (three doubles); in the plane a disc. Exact to 1e-12 of the largest coordinate, as points
+ * are. A radius of 0 gives a point.
  */
 cstk_status cstk_body_builder_add_sphere(cstk_body_builder *builder,
                                          const double *center,
@@ -645,8 +653,8 @@ cstk_status cstk_body_builder_add_sphere(cstk_body_builder *builder,
                                          uint64_t tag);
 
 /**
- * Adds all points within `radius` of the segment from `a` to `b` (three doubles each). As exact as a segment: 1e-12 of the
- * largest coordinate. Along a face or another capsule it has the contacts that span both.
+ * Adds all points within `radius` of the segment from `a` to `b` (three doubles each). Exact to 1e-12 of the largest
+ * coordinate, as segments are. Along a face or another capsule it has several contacts, which span the common part.
  */
 cstk_status cstk_body_builder_add_capsule(cstk_body_builder *builder,
                                           const double *a,
@@ -656,7 +664,7 @@ cstk_status cstk_body_builder_add_capsule(cstk_body_builder *builder,
 
 /**
  * Adds the solid box with `half_extents` (three doubles, positive) around the origin of the frame at `pose`, along its
- * axes. It is a polyhedron, with a polyhedron's features and exactness. Not in the plane: there it is a polygon.
+ * axes. It is a polyhedron, with the features and the exactness of one. Refused in the plane: use a polygon there.
  */
 cstk_status cstk_body_builder_add_box(cstk_body_builder *builder,
                                       const double *pose,
@@ -664,11 +672,11 @@ cstk_status cstk_body_builder_add_box(cstk_body_builder *builder,
                                       uint64_t tag);
 
 /**
- * Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is smooth:
- * distances are iterated until a lower and an upper bound agree, to 1e-11 of its diameter at worst and about 1e-15 of the
- * largest coordinate as a rule; where they would not, `lower` and `upper` of an answer tell. Its contacts have
- * CSTK_FEATURE_SURFACE for a feature, which counts as a point in their modes, and there is one only, even where it stands or lies
- * on a face. cstk_pair_penetration refuses it.
+ * Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is
+ * smooth: distances are iterated until the lower and the upper bound agree to 1e-11 of its diameter at worst, and usually
+ * about 1e-15 of the largest coordinate. Where they do not, `lower` and `upper` of the result show it. The feature of its
+ * contacts is CSTK_FEATURE_SURFACE, which counts as a point in contact modes, and there is only one contact, even where it
+ * stands or lies on a face. cstk_pair_penetration refuses it.
  */
 cstk_status cstk_body_builder_add_cylinder(cstk_body_builder *builder,
                                            const double *pose,
@@ -678,7 +686,7 @@ cstk_status cstk_body_builder_add_cylinder(cstk_body_builder *builder,
 
 /**
  * Adds the solid cone around the z axis of the frame at `pose`: the base at z = -height / 2, the apex at z = height / 2.
- * Smooth, with what that means for cstk_body_builder_add_cylinder.
+ * Smooth: see cstk_body_builder_add_cylinder.
  */
 cstk_status cstk_body_builder_add_cone(cstk_body_builder *builder,
                                        const double *pose,
@@ -687,8 +695,8 @@ cstk_status cstk_body_builder_add_cone(cstk_body_builder *builder,
                                        uint64_t tag);
 
 /**
- * Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth, with
- * what that means for cstk_body_builder_add_cylinder.
+ * Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth:
+ * see cstk_body_builder_add_cylinder.
  */
 cstk_status cstk_body_builder_add_ellipsoid(cstk_body_builder *builder,
                                             const double *pose,
@@ -696,8 +704,8 @@ cstk_status cstk_body_builder_add_ellipsoid(cstk_body_builder *builder,
                                             uint64_t tag);
 
 /**
- * Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon;
- * the features of contacts are the polygon's.
+ * Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon,
+ * whose features its contacts have.
  */
 cstk_status cstk_body_builder_add_rounded_polygon(cstk_body_builder *builder,
                                                   const double *xyz,
@@ -706,7 +714,8 @@ cstk_status cstk_body_builder_add_rounded_polygon(cstk_body_builder *builder,
                                                   uint64_t tag);
 
 /**
- * Adds all points within `radius` of the convex hull of points. As exact as the hull; the features of contacts are its.
+ * Adds all points within `radius` of the convex hull of `point_count` points. As exact as the hull, whose features its
+ * contacts have.
  */
 cstk_status cstk_body_builder_add_rounded_polyhedron(cstk_body_builder *builder,
                                                      const double *xyz,
@@ -715,14 +724,14 @@ cstk_status cstk_body_builder_add_rounded_polyhedron(cstk_body_builder *builder,
                                                      uint64_t tag);
 
 /**
- * Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
- * of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
- * added then.
+ * Adds a point cloud: balls of one radius around `point_count` points of three doubles, tagged with their indices. A
+ * radius of 0 gives points. Exact to 1e-12 of the largest coordinate. On failure the message names the point, and nothing
+ * is added.
  *
- * A body of nothing but points is built in 1 to 2 microseconds a point, and holds less than 100 bytes of each: points are
- * split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
- * hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
- * primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.
+ * A body of points only builds in 1 to 2 microseconds a point, and takes less than 100 bytes a point: its points are split
+ * top-down whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are computed when nodes of its
+ * hierarchy are first inspected, which takes 10 to 30 microseconds and about 1 kB a point; queries do not need them. Mixed
+ * with other primitives, points are built as those are, at up to 60 microseconds each: keep clouds in their own bodies.
  */
 cstk_status cstk_body_builder_add_points(cstk_body_builder *builder,
                                          const double *xyz,
@@ -730,10 +739,10 @@ cstk_status cstk_body_builder_add_points(cstk_body_builder *builder,
                                          double radius);
 
 /**
- * Adds a grid of heights over the plane of x and y: `nx` by `ny` nodes, two at least each way, `cell_x` and `cell_y` apart,
- * the first at the origin; `heights[j * nx + i]` is the z of node (i, j). Every cell is two triangles, split along the
- * diagonal from (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. With `base` NaN the field is a surface; else it
- * is solid ground down to z = base, which must be below all heights: each triangle becomes a prism. Exact to 1e-12 of the
+ * Adds a height field over the xy-plane: `nx` by `ny` nodes, at least two each way, `cell_x` and `cell_y` apart, the first
+ * at the origin; `heights[j * nx + i]` is the z of node (i, j). Each cell is two triangles, split along the diagonal from
+ * (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. If `base` is NaN the field is a surface; otherwise it is
+ * solid ground down to z = base, which must be below all heights, and each triangle becomes a prism. Exact to 1e-12 of the
  * largest coordinate.
  */
 cstk_status cstk_body_builder_add_height_field(cstk_body_builder *builder,
@@ -745,17 +754,17 @@ cstk_status cstk_body_builder_add_height_field(cstk_body_builder *builder,
                                                double base);
 
 /**
- * Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that
- * means for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+ * Adds the bounded convex set that the function `support` describes, in the frame in which the body is given. Smooth: see
+ * cstk_body_builder_add_cylinder; its distances are as exact as the function's points.
  *
- * The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
- * not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:
- * CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it answers (or leaves unwritten) what is not finite,
- * CSTK_ERROR_NOT_CONVEX if two answers show that it is no support function. A query cannot end with its failure: where it fails
- * then, the set counts as the box that was found here, so that what is called free is free.
+ * The function is called from any thread that queries the body, concurrently, and from within queries. It must be pure,
+ * must not throw, and must not call back into the running query. It is tested here along the axes and 300 other
+ * directions: CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it writes numbers that are not finite, or
+ * none, CSTK_ERROR_NOT_CONVEX if two points contradict each other. A later failure does not fail the query: the set then
+ * counts as the bounding box found here, so that an answer of "free" stays safe.
  *
- * `destroy` may be NULL. It is called once with `user`, by whichever thread drops the last reference to what uses the
- * function; not when this call fails. Such a body cannot be saved.
+ * `destroy` may be NULL. It is called once with `user`, by the thread that drops the last reference to whatever uses the
+ * function, and not if this call fails. Such a body cannot be saved.
  */
 cstk_status cstk_body_builder_add_support(cstk_body_builder *builder,
                                           cstk_support_fn support,
@@ -764,9 +773,10 @@ cstk_status cstk_body_builder_add_support(cstk_body_builder *builder,
                                           uint64_t tag);
 
 /**
- * Writes what a primitive of the body is. Primitives are numbered from 0 in the order in which they were added, triangles of
- * a split face side by side; cstk_body_get_statistics tells how many there are, and cstk_body_get_feature_vertices where the
- * vertices are: CSTK_FEATURE_VERTEX for one, CSTK_FEATURE_INTERIOR for all. CSTK_ERROR_NOT_FOUND for an index beyond the last.
+ * Describes a primitive of the body. Primitives are numbered from 0 in the order in which they were added; the triangles
+ * of a split face have consecutive numbers. cstk_body_get_statistics gives their number, and
+ * cstk_body_get_feature_vertices their vertices: CSTK_FEATURE_VERTEX for one, CSTK_FEATURE_INTERIOR for all.
+ * CSTK_ERROR_NOT_FOUND for an index beyond the last.
  */
 cstk_status cstk_body_get_primitive(const cstk_body *body,
                                     uint32_t index,
@@ -778,22 +788,22 @@ cstk_status cstk_body_get_primitive(const cstk_body *body,
 cstk_status cstk_body_retain(cstk_body *body);
 
 /**
- * Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
+ * Drops a reference. NULL is a no-op. Robots and environments hold references to their bodies.
  */
 cstk_status cstk_body_release(cstk_body *body);
 
 /**
- * Attaches data of the caller's to a body, however it was made (§2.2.3): witnesses hand them back, as `r_data` for a link's
- * body, and as `s_data` for a link's or for that of an s-object without data of its own. Once for each body: the second call
- * is CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by whichever thread drops the last reference to the
- * body, and not when this call fails. Other threads may ask about the body meanwhile.
+ * Attaches user data to a body, however it was created (§2.2.3). Witnesses return it: as `r_data` for a link's body, and
+ * as `s_data` for the body of a link or of an s-object without its own data. A second call for the same body is
+ * CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
+ * the body, and not if this call fails. Other threads may query the body meanwhile.
  */
 cstk_status cstk_body_set_data(cstk_body *body,
                                void *data,
                                cstk_destroy_fn destroy);
 
 /**
- * Writes the data attached to a body, or NULL.
+ * Writes the user data attached to a body, or NULL.
  */
 cstk_status cstk_body_get_data(const cstk_body *body, void **out);
 
@@ -804,10 +814,10 @@ cstk_status cstk_body_get_statistics(const cstk_body *body,
                                      cstk_body_statistics *out);
 
 /**
- * The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
- * edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a cstk_feature_kind.
- * At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to
- * `count`.
+ * Writes the vertices of a feature of a primitive, in the frame in which the body was given. A polygon has one face (0),
+ * and its edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a
+ * cstk_feature_kind. At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and
+ * their full number to `count`.
  */
 cstk_status cstk_body_get_feature_vertices(const cstk_body *body,
                                            uint32_t primitive,
@@ -818,17 +828,18 @@ cstk_status cstk_body_get_feature_vertices(const cstk_body *body,
                                            size_t *count);
 
 /**
- * Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
- * docs/body-file.md describes the format. CSTK_ERROR_IO if it cannot be written, CSTK_ERROR_UNSUPPORTED for a body with a support
- * function, which no file can hold.
+ * Saves the body with its hierarchy to a file. An existing file is replaced only once everything is written. The format is
+ * described in docs/body-file.md. CSTK_ERROR_IO if the file cannot be written, CSTK_ERROR_UNSUPPORTED for a body with a
+ * support function, which cannot be saved.
  */
 cstk_status cstk_body_save(const cstk_body *body,
                            const char *file);
 
 /**
- * Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_ERROR_IO if
- * the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or no body file, CSTK_ERROR_UNSUPPORTED if it is of another
- * version of the format. The checksum finds damage; it is no protection against forgery.
+ * Loads a body that cstk_body_save wrote. Nothing is rebuilt, and queries give the same answers as for the saved body, bit
+ * for bit. CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or not a body file,
+ * CSTK_ERROR_UNSUPPORTED for another version of the format. The checksum detects damage; it does not protect against
+ * forgery.
  */
 cstk_status cstk_body_load(const char *file,
                            cstk_body **out);
@@ -838,8 +849,8 @@ cstk_status cstk_body_load(const char *file,
 /**
  * @defgroup hierarchy Hierarchies
  *
- * Every body carries a binary tree of bounding volumes over its primitives (§3.2). It decides how fast the body is asked, never what
- * is answered. Options choose how it is built; its nodes can be measured, listed and drawn.
+ * Every body has a binary tree of bounding volumes over its primitives (§3.2). It affects the speed of queries, never
+ * their answers. Options choose how it is built; its nodes can be measured, listed and drawn.
  *
  * @code
      cstk_hierarchy_options options;
@@ -859,15 +870,15 @@ enum cstk_wrapper_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Where
-   * no primitive is cut into slabs they are made when nodes are first looked at, on as many threads as the build, and
-   * the boxes that queries walk are fitted to the primitives themselves.
+   * Convex hulls, or oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Unless a
+   * primitive is cut into slabs, they are computed when nodes are first inspected, on as many threads as the build, and
+   * the boxes that queries traverse are fitted to the primitives themselves.
    */
   CSTK_WRAPPER_HULL = 0,
   CSTK_WRAPPER_ORIENTED_BOX = 1,
   CSTK_WRAPPER_ALIGNED_BOX = 2,
   /**
-   * Spheres around the vertices below.
+   * Spheres around the vertices below the node.
    */
   CSTK_WRAPPER_TIGHT_SPHERE = 3,
   /**
@@ -892,17 +903,17 @@ enum cstk_grouping
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. More than
-   * 16,384 parts without pieces are first cut into regions of no more, from the top. Bodies of nothing but points
-   * (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
+   * Clusters edge-adjacent primitives, then near ones (the report's Simple Hybrid). The default. More than 16,384 parts
+   * without pieces are first cut top-down into regions of at most that size. Bodies of points only
+   * (cstk_body_builder_add_points), which have no edges, are split top-down altogether.
    */
   CSTK_GROUPING_HYBRID = 0,
   /**
-   * Clustering of what is near, in such regions; needs no adjacency (the report's Basic Clustering).
+   * Clusters near primitives, in such regions; needs no adjacency (the report's Basic Clustering).
    */
   CSTK_GROUPING_BASIC = 1,
   /**
-   * Top-down splits by the surface-area heuristic; the fastest to build.
+   * Splits top-down by the surface-area heuristic; the fastest to build.
    */
   CSTK_GROUPING_TOP_DOWN = 2,
 };
@@ -915,7 +926,7 @@ typedef int32_t cstk_grouping;
 #endif // __cplusplus
 
 /**
- * Whether primitives that form a convex piece of the body get a node of their own, bounded exactly.
+ * Whether primitives that form a convex piece of the body get their own node, bounded exactly.
  */
 enum cstk_pieces
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -928,7 +939,7 @@ enum cstk_pieces
    */
   CSTK_PIECES_COPLANAR = 1,
   /**
-   * These, and edge-adjacent polygons that bound a convex part of a closed body.
+   * Also edge-adjacent polygons that bound a convex part of a closed body.
    */
   CSTK_PIECES_PATCHES = 2,
 };
@@ -941,23 +952,24 @@ typedef int32_t cstk_pieces;
 #endif // __cplusplus
 
 /**
- * Polygons in space, for looking at. Immutable; threads may share it.
+ * A mesh of polygons, for display. Immutable; threads may share it.
  */
 typedef struct cstk_mesh cstk_mesh;
 
 /**
- * How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first. Answers do not depend on it, only
- * their speed does.
+ * Options of a body's hierarchy. Write it with cstk_hierarchy_options_default first. They affect the speed of queries,
+ * never their answers.
  */
 struct cstk_hierarchy_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * Wrappers are convex hulls of at most so many vertices; larger ones become oriented boxes. At least 8; default 32.
+   * The most vertices of a convex hull; larger ones become oriented boxes. At least 8; default 32.
    */
   uint32_t hull_vertex_limit;
   /**
-   * Threads to build on; 0 for as many as the machine runs at once. Default 1. The hierarchy does not depend on it.
+   * The number of threads to build on; 0 for as many as the machine runs at once. Default 1. The hierarchy does not
+   * depend on it.
    */
   uint32_t threads;
   /**
@@ -974,27 +986,27 @@ struct cstk_hierarchy_options {
   int32_t pieces;
   uint32_t reserved;
   /**
-   * The cost of merging two bodies is diameter^A (B Fill + C Balance): Fill is the merged diameter over the sum of the
-   * two, Balance the greater ratio of the two. These are A (at most 16), B and C; not negative.
+   * A (at most 16), B and C of the cost of merging two clusters, diameter^A (B Fill + C Balance): Fill is the merged
+   * diameter over the sum of the two, Balance the larger ratio of the two. Not negative.
    */
   double cost_diameter;
   double cost_fill;
   double cost_balance;
   /**
-   * The largest diameter of bodies merged in the first round, and the largest gap between them; both double from round
+   * The largest diameter of clusters merged in the first round, and the largest gap between them; both double from round
    * to round. 0, the default, for limits that suit the primitives.
    */
   double diameter_limit;
   double gap_limit;
   /**
-   * Primitives longer than this many times their width get several leaves, each bounding a part; witnesses name the
-   * primitive as ever. At least 1.5, or 0, the default, for one leaf each.
+   * Primitives longer than this many times their width get several leaves, each bounding a part; witnesses still name
+   * the primitive. At least 1.5, or 0, the default, for one leaf each.
    */
   double aspect_limit;
 };
 
 /**
- * What a body's hierarchy is like.
+ * Statistics of a body's hierarchy.
  */
 typedef struct cstk_hierarchy_statistics {
   /**
@@ -1003,53 +1015,53 @@ typedef struct cstk_hierarchy_statistics {
   cstk_wrapper_kind wrapper;
   uint32_t reserved_0;
   /**
-   * Nodes; the leaves among them; the nodes that hold a maximal convex piece.
+   * The number of nodes, of leaves among them, and of nodes that hold a maximal convex piece.
    */
   uint64_t node_count;
   uint64_t leaf_count;
   uint64_t piece_count;
   /**
-   * Levels, and the mean level of a leaf; the root's is 0.
+   * The number of levels, and the mean level of a leaf; the root's level is 0.
    */
   uint64_t depth;
   double mean_leaf_level;
   /**
-   * Means over interior nodes: the greater ratio of the children's diameters (1 is perfect spatial balance), and the
-   * diameter over the sum of the children's (1/2: they overlap wholly; above 1: they are apart).
+   * Means over interior nodes. `balance`: the larger ratio of the children's diameters (1 is perfect spatial balance).
+   * `fill`: the diameter over the sum of the children's (1/2: they overlap completely; above 1: they are apart).
    */
   double balance;
   double fill;
   /**
-   * The mean number of tests that a random line through the body's box makes, a primitive counting as four nodes: for
-   * comparing hierarchies of one body.
+   * The mean number of tests for a random line through the body's box, a primitive counting as four nodes: compares
+   * hierarchies of one body.
    */
   double expected_cost;
   /**
-   * Seconds the phases took on the machine that built it: convex pieces and slender primitives, the tree of sets, the
-   * boxes that queries walk with the wrappers that they are fitted to.
+   * Build times in seconds, on the machine that built it: convex pieces and slender primitives; the tree of sets; the
+   * boxes that queries traverse and the wrappers they are fitted to.
    */
   double preparation_seconds;
   double grouping_seconds;
   double construction_seconds;
   /**
-   * Memory of the hierarchy and of what queries read of the primitives. Of hulls and of a body of nothing but points,
-   * whose wrappers are made when nodes are first looked at, it is several times more afterwards.
+   * Memory of the hierarchy and of the primitive data that queries read. It grows several times once the wrappers are
+   * computed, for hulls and for bodies of points only, whose wrappers are computed when nodes are first inspected.
    */
   uint64_t memory_bytes;
   uint64_t reserved[8];
 } cstk_hierarchy_statistics;
 
 /**
- * A level of a hierarchy.
+ * Statistics of a level of a hierarchy.
  */
 typedef struct cstk_level_statistics {
   /**
-   * Nodes of the level; leaves of the levels above it. Together they cover the body.
+   * The number of nodes of the level, and of leaves above it. Together they cover the body.
    */
   uint64_t node_count;
   uint64_t leaves_above;
   /**
-   * Sums of the volumes and surfaces of all these nodes' wrappers; flat wrappers have two sides.
+   * The total volume and surface area of the wrappers of all these nodes; flat wrappers count both sides.
    */
   double volume;
   double surface;
@@ -1061,7 +1073,7 @@ typedef struct cstk_level_statistics {
  */
 typedef struct cstk_hierarchy_node {
   /**
-   * The children; UINT32_MAX both for a leaf.
+   * The children; both UINT32_MAX for a leaf.
    */
   uint32_t children[2];
   /**
@@ -1079,7 +1091,7 @@ typedef struct cstk_hierarchy_node {
   uint64_t corner_count;
   double excess;
   /**
-   * A sphere around the primitives below, in the frame in which the body was given.
+   * A sphere around the primitives below the node, in the frame in which the body was given.
    */
   double center[3];
   double radius;
@@ -1087,7 +1099,7 @@ typedef struct cstk_hierarchy_node {
 } cstk_hierarchy_node;
 
 /**
- * What a mesh holds: pointers that live as long as the mesh.
+ * The arrays of a mesh; they are valid as long as the mesh.
  */
 typedef struct cstk_mesh_view {
   /**
@@ -1096,13 +1108,13 @@ typedef struct cstk_mesh_view {
   const double *vertices;
   size_t vertex_count;
   /**
-   * Per face, its number of vertices, and the node it stands for.
+   * For each face, its number of vertices, and the node it stands for.
    */
   const uint32_t *face_sizes;
   const uint32_t *face_nodes;
   size_t face_count;
   /**
-   * The vertices of the faces, face after face, counter-clockwise seen from outside.
+   * The vertex indices of the faces, face after face, counter-clockwise seen from outside.
    */
   const uint32_t *indices;
   size_t index_count;
@@ -1116,24 +1128,25 @@ typedef struct cstk_mesh_view {
 cstk_status cstk_hierarchy_options_default(cstk_hierarchy_options *out, size_t size);
 
 /**
- * Describes the body's hierarchy. Takes time in proportion to its nodes. Where wrappers are made when they are first looked
- * at (hulls without an aspect_limit that cuts, and nothing but points) it is described by the boxes around the
- * primitives, along the axes of coordinates.
+ * Writes statistics of the body's hierarchy; takes time in proportion to its nodes. Where wrappers are computed on first
+ * inspection (hulls without an aspect_limit that cuts, and bodies of points only), axis-aligned boxes around the
+ * primitives are measured instead.
  */
 cstk_status cstk_body_get_hierarchy_statistics(const cstk_body *body,
                                                cstk_hierarchy_statistics *out);
 
 /**
- * Measures a level of the hierarchy; the root's is 0. CSTK_ERROR_NOT_FOUND for a level it does not have. The wrappers' hulls are
- * computed for it: some tens of microseconds a node.
+ * Writes statistics of a level of the hierarchy; the root's is 0. CSTK_ERROR_NOT_FOUND for a level it does not have.
+ * Computes the wrappers' hulls: some tens of microseconds a node.
  */
 cstk_status cstk_body_get_level_statistics(const cstk_body *body,
                                            uint32_t level,
                                            cstk_level_statistics *out);
 
 /**
- * The nodes of a level and the leaves above it, which together cover the body. At most `max_count` are written to `nodes`
- * (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a level the hierarchy does not have.
+ * Writes the nodes of a level and the leaves above it, which together cover the body. At most `max_count` are written to
+ * `nodes` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a level that the
+ * hierarchy does not have.
  */
 cstk_status cstk_body_get_level_nodes(const cstk_body *body,
                                       uint32_t level,
@@ -1142,9 +1155,9 @@ cstk_status cstk_body_get_level_nodes(const cstk_body *body,
                                       size_t *count);
 
 /**
- * At most `max_count` nodes that cover the body as tightly as opening the largest wrapper again and again gets: for
- * broad-phase structures of limited size. They are written to `nodes`, their number to `count`. CSTK_ERROR_INVALID_ARGUMENT
- * if `max_count` is 0.
+ * Writes at most `max_count` nodes that cover the body, found by repeatedly replacing the node with the largest wrapper by
+ * its children: for broad-phase structures of limited size. They are written to `nodes`, their number to `count`.
+ * CSTK_ERROR_INVALID_ARGUMENT if `max_count` is 0.
  */
 cstk_status cstk_body_get_cover_nodes(const cstk_body *body,
                                       size_t max_count,
@@ -1152,16 +1165,16 @@ cstk_status cstk_body_get_cover_nodes(const cstk_body *body,
                                       size_t *count);
 
 /**
- * Describes a node. CSTK_ERROR_NOT_FOUND for one the hierarchy does not have.
+ * Describes a node. CSTK_ERROR_NOT_FOUND for a node that the hierarchy does not have.
  */
 cstk_status cstk_body_get_node(const cstk_body *body,
                                uint32_t node,
                                cstk_hierarchy_node *out);
 
 /**
- * The corners of a node's wrapper, in the frame in which the body was given. At most `max_count` points of three doubles
- * are written to `xyz` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a node the
- * hierarchy does not have.
+ * Writes the corners of a node's wrapper, in the frame in which the body was given. At most `max_count` points of three
+ * doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a
+ * node that the hierarchy does not have.
  */
 cstk_status cstk_body_get_node_corners(const cstk_body *body,
                                        uint32_t node,
@@ -1170,8 +1183,8 @@ cstk_status cstk_body_get_node_corners(const cstk_body *body,
                                        size_t *count);
 
 /**
- * The wrappers of nodes as one mesh, in the frame in which the body was given; leaves as their primitives. Release it with
- * cstk_mesh_release. CSTK_ERROR_NOT_FOUND for a node the hierarchy does not have.
+ * Creates a mesh of the wrappers of nodes, leaves as their primitives, in the frame in which the body was given. Release
+ * it with cstk_mesh_release. CSTK_ERROR_NOT_FOUND for a node that the hierarchy does not have.
  */
 cstk_status cstk_mesh_create_from_nodes(const cstk_body *body,
                                         const uint32_t *nodes,
@@ -1179,9 +1192,9 @@ cstk_status cstk_mesh_create_from_nodes(const cstk_body *body,
                                         cstk_mesh **out);
 
 /**
- * Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in
- * different colours, leaves as their primitives. The name must end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is
- * written whole or not at all; CSTK_ERROR_IO if that fails.
+ * Writes a picture of at least one node to a .glb file (glTF), neighbours in different colours, leaves as their
+ * primitives. The name must end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all;
+ * CSTK_ERROR_IO if that fails.
  */
 cstk_status cstk_body_show_nodes(const cstk_body *body,
                                  const uint32_t *nodes,
@@ -1199,7 +1212,7 @@ cstk_status cstk_mesh_retain(cstk_mesh *mesh);
 cstk_status cstk_mesh_release(cstk_mesh *mesh);
 
 /**
- * Shows what the mesh holds; the pointers live as long as the mesh.
+ * Writes the arrays of the mesh; they are valid as long as the mesh.
  */
 cstk_status cstk_mesh_get_view(const cstk_mesh *mesh, cstk_mesh_view *out);
 
@@ -1208,8 +1221,8 @@ cstk_status cstk_mesh_get_view(const cstk_mesh *mesh, cstk_mesh_view *out);
 /**
  * @defgroup robot Robots
  *
- * A robot is a tree of links, each with a joint to its parent and perhaps a body (§4.2). A builder collects the links; forward
- * kinematics and Jacobians come with the robot.
+ * A robot is a tree of links, each with a joint to its parent and perhaps a body (§4.2). A builder collects the links. The
+ * robot computes forward kinematics and Jacobians.
  *
  * @code
      cstk_link_def upper_arm;
@@ -1224,8 +1237,8 @@ cstk_status cstk_mesh_get_view(const cstk_mesh *mesh, cstk_mesh_view *out);
  */
 
 /**
- * How a joint moves its link, and by which coordinates. Velocities (and so steps and gradients) are the coordinates' rates,
- * one each, but where the coordinates hold a unit quaternion x, y, z, w: there they are as said.
+ * How a joint moves its link, and its coordinates. Velocities (and so steps and gradients) are the coordinates' rates, one
+ * each, except for joints with a unit quaternion x, y, z, w, which state theirs.
  */
 enum cstk_joint_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -1233,37 +1246,37 @@ enum cstk_joint_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Not at all.
+   * Does not move.
    */
   CSTK_JOINT_FIXED = 0,
   /**
-   * Turns it about the axis; the coordinate is an angle in radians.
+   * Rotates about the axis; the coordinate is an angle in radians.
    */
   CSTK_JOINT_REVOLUTE = 1,
   /**
-   * Shifts it along the axis; the coordinate is a length.
+   * Translates along the axis; the coordinate is a length.
    */
   CSTK_JOINT_PRISMATIC = 2,
   /**
-   * Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+   * Moves in the xy-plane of the joint's frame: x, y, and an angle about z.
    */
   CSTK_JOINT_PLANAR = 3,
   /**
-   * Turns it about its origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
+   * Rotates about the origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
    */
   CSTK_JOINT_SPHERICAL = 4,
   /**
-   * Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's
+   * Moves freely. Seven coordinates: x, y, z and a quaternion; six velocities: linear, then angular, in the link's
    * frame.
    */
   CSTK_JOINT_FREE = 5,
   /**
-   * Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Where cos(pitch) = 0 they cannot
-   * turn it about every axis.
+   * Moves freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Singular at cos(pitch) = 0: there
+   * no velocity turns the link about some axis.
    */
   CSTK_JOINT_FREE_EULER = 6,
   /**
-   * By functions of the caller; see cstk_custom_joint.
+   * Moves by callbacks; see cstk_custom_joint.
    */
   CSTK_JOINT_CUSTOM = 7,
 };
@@ -1276,39 +1289,39 @@ typedef int32_t cstk_joint_kind;
 #endif // __cplusplus
 
 /**
- * A tree of links. Immutable; threads may share it. It keeps the bodies of its links.
+ * A tree of links. Immutable; threads may share it. It keeps references to the bodies of its links.
  */
 typedef struct cstk_robot cstk_robot;
 
 /**
- * Collects the links of a robot.
+ * Collects the links of a robot. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.
  */
 typedef struct cstk_robot_builder cstk_robot_builder;
 
 /**
- * Writes the pose of the link in the joint's frame, 12 doubles, at the joint's own `n` coordinates. Returns CSTK_OK, or
- * anything else to make the call that asked fail with CSTK_ERROR_CALLBACK_FAILED.
+ * Writes the pose of the link in the joint's frame, 12 doubles, at the joint's `n` coordinates. Returns CSTK_OK, or
+ * anything else to make the calling function fail with CSTK_ERROR_CALLBACK_FAILED.
  */
 typedef int32_t (*cstk_joint_pose_fn)(const double *q, size_t n, double *pose, void *user);
 
 /**
- * Writes the derivative of that pose, 6 rows of `n` doubles, row-major: velocity of the link's origin, then angular
- * velocity of the link, both in the joint's frame.
+ * Writes the derivative of that pose: 6 rows of `n` doubles, row-major, three of the velocity of the link's origin, then
+ * three of the angular velocity of the link, both in the joint's frame.
  */
 typedef int32_t (*cstk_joint_jacobian_fn)(const double *q, size_t n, double *jacobian, void *user);
 
 /**
- * A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
- * first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they
- * must be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or
- * left unwritten in a Jacobian) are answered with CSTK_ERROR_NOT_FINITE, a pose that is none (or left unwritten) with
- * CSTK_ERROR_NOT_A_ROTATION, one that leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_ERROR_INVALID_ARGUMENT.
+ * A joint defined by callbacks: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default first.
+ * Both functions are called from any thread that uses the robot, concurrently, and from within queries; they must be pure,
+ * must not throw, and must not call back into the running query. Numbers that are NaN or infinite (or left unwritten in a
+ * Jacobian) are CSTK_ERROR_NOT_FINITE, a pose that is not rigid (or left unwritten) is CSTK_ERROR_NOT_A_ROTATION, and a
+ * pose that leaves the plane of a planar robot or a number beyond 1e50 is CSTK_ERROR_INVALID_ARGUMENT.
  */
 typedef struct cstk_custom_joint {
   uint32_t size;
   uint32_t cookie;
   /**
-   * How many coordinates it has, 1 to 64; as many velocities, their rates.
+   * The number of coordinates, 1 to 64; as many velocities, their rates.
    */
   uint32_t coordinates;
   uint32_t reserved;
@@ -1318,31 +1331,32 @@ typedef struct cstk_custom_joint {
   cstk_joint_pose_fn pose;
   cstk_joint_jacobian_fn jacobian;
   /**
-   * Handed to the functions.
+   * Passed to the functions.
    */
   void *user;
   /**
-   * May be NULL. Called once for each link that was added with it, by whichever thread drops the last reference to what
-   * uses the link's joint; not called when adding the link fails.
+   * May be NULL. Called once for each link added with it, by the thread that drops the last reference to whatever uses
+   * the link's joint; not called if adding the link fails.
    */
   cstk_destroy_fn destroy;
   /**
-   * Bounds of the speed of the link's origin and of its turning, in radians, per unit of any one coordinate, wherever it
-   * stands. Negative, the default: not known; then slides that move this joint are refused, as their way cannot be proved
-   * free.
+   * Upper bounds of the speed of the link's origin and of its angular speed (radians), per unit rate of any one
+   * coordinate, at all coordinates. Negative, the default, means unknown: slides that move this joint are then refused,
+   * since their motion cannot be proved free.
    */
   double linear_speed;
   double angular_speed;
 } cstk_custom_joint;
 
 /**
- * A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
+ * The definition of a link and its joint. Write it with cstk_link_def_default first: a fixed link without name or body at
+ * the world's origin.
  */
 typedef struct cstk_link_def {
   uint32_t size;
   uint32_t cookie;
   /**
-   * A name of its own within the robot, UTF-8; NULL for "link<number>". It is copied.
+   * Unique within the robot, UTF-8; NULL for "link<number>". It is copied.
    */
   const char *name;
   /**
@@ -1350,7 +1364,7 @@ typedef struct cstk_link_def {
    */
   const cstk_body *body;
   /**
-   * The number of the link it is attached to, or -1 for the world.
+   * The number of the parent link, or -1 for the world.
    */
   int32_t parent;
   /**
@@ -1358,7 +1372,7 @@ typedef struct cstk_link_def {
    */
   int32_t joint;
   /**
-   * The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body stands, is
+   * The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body is given, is
    * pose(link) = pose(parent) at motion(coordinate), and coincides with the joint's frame at coordinate 0. For the
    * report's (x, y, z, yaw, pitch, roll) see cstk_pose_from_euler.
    */
@@ -1368,23 +1382,23 @@ typedef struct cstk_link_def {
    */
   double axis[3];
   /**
-   * The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
-   * follow a single coordinate of any earlier joint, and so mimic it; other joints have coordinates of their own.
+   * The joint's first coordinate, or -1 for the next unused ones. A revolute or prismatic joint may use a single
+   * coordinate of an earlier joint, and so mimic it; other joints have their own coordinates.
    */
   int32_t coordinate;
   uint32_t reserved;
   /**
-   * A name of the joint's own within the robot, UTF-8, or NULL for none. It is copied.
+   * The joint's name, unique within the robot, UTF-8; NULL for none. It is copied.
    */
   const char *joint_name;
   /**
-   * A revolute or prismatic joint follows multiplier * coordinate + offset; default 1 and 0.
+   * A revolute or prismatic joint moves by multiplier * coordinate + offset; default 1 and 0.
    */
   double multiplier;
   double offset;
   /**
-   * The range of a revolute or prismatic joint's coordinate, unless the space says otherwise; the default is infinite:
-   * revolute joints then turn on the circle. Ignored where the joint shares an earlier one's coordinate.
+   * The range of a revolute or prismatic joint's coordinate, which a space may override; radians or lengths. The default
+   * is infinite: a revolute joint then turns on a circle. Ignored where the joint shares an earlier joint's coordinate.
    */
   double lower;
   double upper;
@@ -1395,16 +1409,17 @@ typedef struct cstk_link_def {
 } cstk_link_def;
 
 /**
- * What a robot knows of a link and the joint that moves it.
+ * A link of a robot and the joint that moves it.
  */
 typedef struct cstk_link_info {
   /**
-   * The link it is attached to, or -1 for the world.
+   * The parent link, or -1 for the world.
    */
   int32_t parent;
   cstk_joint_kind joint;
   /**
-   * The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
+   * The joint has `nq` coordinates from `coordinate` on and `nv` velocities from `velocity` on, by their index in the
+   * robot.
    */
   uint32_t coordinate;
   uint32_t nq;
@@ -1429,7 +1444,8 @@ typedef struct cstk_link_info {
 cstk_status cstk_custom_joint_default(cstk_custom_joint *out, size_t size);
 
 /**
- * Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
+ * Creates an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3. Release it
+ * with cstk_robot_builder_release.
  */
 cstk_status cstk_robot_builder_create(uint32_t dimension,
                                       cstk_robot_builder **out);
@@ -1450,8 +1466,8 @@ cstk_status cstk_robot_builder_release(cstk_robot_builder *builder);
 cstk_status cstk_link_def_default(cstk_link_def *out, size_t size);
 
 /**
- * Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
- * which may be NULL.
+ * Adds a link; parents before children. Links are numbered from 0 in the order in which they are added; the number is
+ * written to `out`, which may be NULL.
  */
 cstk_status cstk_robot_builder_add_link(cstk_robot_builder *builder,
                                         const cstk_link_def *def,
@@ -1469,12 +1485,13 @@ cstk_status cstk_robot_build(cstk_robot_builder *builder,
 cstk_status cstk_robot_retain(cstk_robot *robot);
 
 /**
- * Drops a reference. NULL is a no-op. Spaces keep the robots they use.
+ * Drops a reference. NULL is a no-op. Spaces hold references to their robots.
  */
 cstk_status cstk_robot_release(cstk_robot *robot);
 
 /**
- * Writes the number of coordinates (nq), of velocities (nv; less by one for each quaternion) and of links; each may be NULL.
+ * Writes the number of coordinates (nq), of velocities (nv; one fewer for each quaternion) and of links; each output may
+ * be NULL.
  */
 cstk_status cstk_robot_get_size(const cstk_robot *robot,
                                 size_t *nq,
@@ -1494,23 +1511,23 @@ cstk_status cstk_robot_find_joint(const cstk_robot *robot,
                                   uint32_t *out);
 
 /**
- * Writes what the robot knows of a link.
+ * Describes a link and its joint. CSTK_ERROR_NOT_FOUND for a link that the robot does not have.
  */
 cstk_status cstk_robot_get_link_info(const cstk_robot *robot,
                                      uint32_t link,
                                      cstk_link_info *out);
 
 /**
- * Gives the body of a link, with a reference for the caller to release. CSTK_ERROR_EMPTY if it has none.
+ * Writes the body of a link, with a reference that the caller must release. CSTK_ERROR_EMPTY if the link has none.
  */
 cstk_status cstk_robot_get_body(const cstk_robot *robot,
                                 uint32_t link,
                                 cstk_body **out);
 
 /**
- * Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
- * `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_ERROR_WRONG_SIZE if the name does not
- * fit.
+ * Writes a link's name, NUL-terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
+ * `length`, which may be NULL. With a NULL buffer of capacity 0 only the length is written. CSTK_ERROR_WRONG_SIZE if the
+ * name does not fit.
  */
 cstk_status cstk_robot_get_link_name(const cstk_robot *robot,
                                      uint32_t link,
@@ -1519,7 +1536,7 @@ cstk_status cstk_robot_get_link_name(const cstk_robot *robot,
                                      size_t *length);
 
 /**
- * The same for the name of the joint that moves the link; "" if it has none.
+ * Writes the name of the joint that moves a link, "" if it has none; arguments as for cstk_robot_get_link_name.
  */
 cstk_status cstk_robot_get_joint_name(const cstk_robot *robot,
                                       uint32_t link,
@@ -1528,7 +1545,7 @@ cstk_status cstk_robot_get_joint_name(const cstk_robot *robot,
                                       size_t *length);
 
 /**
- * The pose of a link in the world at configuration q (forward kinematics, §4.2), as 12 doubles.
+ * Writes the pose of a link in the world at configuration q (`nq` doubles; forward kinematics, §4.2), as 12 doubles.
  */
 cstk_status cstk_robot_link_pose(const cstk_robot *robot,
                                  const double *q,
@@ -1537,8 +1554,9 @@ cstk_status cstk_robot_link_pose(const cstk_robot *robot,
                                  double *pose);
 
 /**
- * The basic Jacobian (§4.3, eq. 33) at q of a point fixed to a link, given in the link's frame: 6 rows of nv doubles,
- * row-major; three rows of linear velocity of the point, then three of angular velocity of the link, both in the world.
+ * Writes the basic Jacobian (§4.3, eq. 33) at q of a point fixed to a link; `point` is given in the link's frame. 6 rows
+ * of nv doubles, row-major: three rows of linear velocity of the point, then three of angular velocity of the link, both
+ * in the world.
  */
 cstk_status cstk_robot_jacobian(const cstk_robot *robot,
                                 const double *q,
@@ -1580,7 +1598,7 @@ enum cstk_urdf_geometry
    */
   CSTK_URDF_VISUAL = 1,
   /**
-   * None: the links have frames only, and no mesh file is looked for.
+   * None: the links have frames only, and no mesh file is read.
    */
   CSTK_URDF_NO_GEOMETRY = 2,
 };
@@ -1593,7 +1611,7 @@ typedef int32_t cstk_urdf_geometry;
 #endif // __cplusplus
 
 /**
- * How to read a URDF file. Write it with cstk_urdf_options_default first.
+ * Options for reading a URDF file. Write it with cstk_urdf_options_default first.
  */
 typedef struct cstk_urdf_options {
   uint32_t size;
@@ -1603,8 +1621,7 @@ typedef struct cstk_urdf_options {
    */
   int32_t geometry;
   /**
-   * How the root link is joined to what carries the robot: CSTK_JOINT_FIXED (the default), _PLANAR, _FREE or
-   * _FREE_EULER.
+   * The joint of the root link: CSTK_JOINT_FIXED (the default), _PLANAR, _FREE or _FREE_EULER.
    */
   int32_t base;
   /**
@@ -1612,21 +1629,20 @@ typedef struct cstk_urdf_options {
    */
   int32_t parent;
   /**
-   * 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided,
-   * 3 to 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
+   * 0, the default, keeps spheres, cylinders and capsules exact. 3 to 1024 replaces them by polyhedra that enclose them,
+   * their circles divided into this many sides; contacts then span a cylinder's faces.
    */
   uint32_t sides;
   /**
-   * Where the robot stands on its parent: a pose of 12 doubles.
+   * The frame of the root's joint in the parent's frame: a pose of 12 doubles.
    */
   double at[12];
   /**
-   * Put before the names of links and joints, so that a file can be read twice; may be NULL.
+   * Prepended to the names of links and joints, so that a file can be loaded twice; may be NULL.
    */
   const char *prefix;
   /**
-   * Folders in which the packages of package:// names are looked for; the folders that hold the URDF file are looked
-   * through after them.
+   * Folders to search for the packages of package:// names, before the URDF file's folder and those above it.
    */
   const char *const *package_paths;
   size_t package_path_count;
@@ -1635,16 +1651,16 @@ typedef struct cstk_urdf_options {
    */
   const cstk_hierarchy_options *hierarchy;
   /**
-   * A folder that keeps the links' bodies, so that the next load builds none of them; made if there is none. NULL, the
-   * default, for none. A body is kept under a digest of its meshes' bytes, its shapes and these options; a file that is
-   * damaged, of other content or of another version of the library is built anew and replaced. Processes may share the
-   * folder. Nothing is ever deleted from it. Who can write to it can change the robot's shapes.
+   * A folder that caches the links' bodies, so that the next load builds none of them; created if it does not exist.
+   * NULL, the default, for none. The key of a body is a digest of its meshes' bytes, its shapes and these options. A
+   * file that is damaged, or from another version of the library, is rebuilt and replaced. Processes may share the
+   * folder. Nothing is ever deleted from it. Whoever can write to it can change the robot's shapes.
    */
   const char *cache_folder;
 } cstk_urdf_options;
 
 /**
- * What was read from a URDF file, what was built, and what was passed over.
+ * What was read from a URDF file, what was built, and what was skipped.
  */
 typedef struct cstk_urdf_report {
   /**
@@ -1652,25 +1668,25 @@ typedef struct cstk_urdf_report {
    */
   uint32_t root;
   /**
-   * The `link` and `joint` elements.
+   * The number of `link` and of `joint` elements.
    */
   uint32_t link_count;
   uint32_t joint_count;
   /**
-   * Links that have a body. A robot without any meets nothing.
+   * Links that have a body. A robot without any never collides.
    */
   uint32_t links_with_body;
   /**
-   * Links without a body that have shapes of the kind that was not asked for: `visual` with CSTK_URDF_COLLISION, and so
-   * on. Where it is not 0, ask for that kind, or for both in two robots.
+   * Links without a body that have shapes of the kind not requested: `visual` with CSTK_URDF_COLLISION, and the reverse.
+   * If it is not 0, request the other kind, or load both as two robots.
    */
   uint32_t links_with_other_shapes;
   /**
-   * The links' bodies: links of equal shapes share one.
+   * The number of different bodies: links with equal shapes share one.
    */
   uint32_t body_count;
   /**
-   * Those of them that were read from the cache folder; the others were built.
+   * Bodies read from the cache folder; the others were built.
    */
   uint32_t bodies_from_cache;
   /**
@@ -1678,22 +1694,23 @@ typedef struct cstk_urdf_report {
    */
   uint32_t cache_failures;
   /**
-   * The shapes that the bodies consist of, those of a shared body once for each link.
+   * The number of shapes of all links; those of a shared body count once for each link.
    */
   uint32_t shape_count;
   uint32_t mesh_file_count;
   /**
-   * Elements in the robot, its links, joints and shapes that were passed over: inertia, materials, transmissions, shapes
-   * of the other kind.
+   * Elements of the robot, its links, joints and shapes that were skipped: inertia, materials, transmissions, shapes of
+   * the other kind.
    */
   uint32_t skipped_elements;
   uint32_t reserved_number;
   /**
-   * Convex primitives of the bodies, those of a shared body once.
+   * The number of convex primitives; those of a shared body count once.
    */
   uint64_t primitive_count;
   /**
-   * Mesh faces that were not convex or not planar and became triangles, and those without area that were left out.
+   * Mesh faces that were not convex or not planar and were split into triangles, and those without area, which were left
+   * out.
    */
   uint64_t faces_split;
   uint64_t faces_dropped;
@@ -1707,22 +1724,21 @@ typedef struct cstk_urdf_report {
 cstk_status cstk_urdf_options_default(cstk_urdf_options *out, size_t size);
 
 /**
- * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before
- * children, branch by branch, the branches of a link in the order of its joints in the file; the root link's number is
- * written to `root`, which may be NULL. `urdf_options` may be NULL for the defaults; `progress`, which may be NULL, is
- * told the part of the links that is done, `user` is passed to it.
+ * Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, depth first, parents
+ * before children, siblings in file order. The root link's number is written to `root`, which may be NULL. `urdf_options`
+ * may be NULL for the defaults; `progress` may be NULL and receives the fraction of the links done; `user` is passed to
+ * it.
  *
- * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
- * box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
- * are surfaces: what is wholly inside one does not meet it. A mesh file is read once, and links of equal shapes share one
- * body: cstk_body_set_data then is for all of them. Whatever else the file says is passed over;
- * cstk_robot_builder_get_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
- * then as it was.
+ * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
+ * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; the shapes of one link become one body. Meshes are
+ * surfaces: a body wholly inside one does not meet it. A mesh file is read once, and links with equal shapes share one
+ * body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
+ * Error messages name the file, the line and the element; the builder is then unchanged.
  *
- * Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
- * and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
- * that are made by referring to a mesh or a geometry again; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
- * namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
+ * Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23
+ * faces and 2^25 indices of faces, in one mesh file and in all bodies of the robot together, of which 2^20 faces and 2^22
+ * indices may come from repeated use of a mesh or a geometry; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes
+ * of an element, 2^8 namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
  */
 cstk_status cstk_robot_builder_load_urdf(cstk_robot_builder *builder,
                                          const char *file,
@@ -1732,7 +1748,7 @@ cstk_status cstk_robot_builder_load_urdf(cstk_robot_builder *builder,
                                          uint32_t *root);
 
 /**
- * Writes what became of the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
+ * Writes the report on the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
  */
 cstk_status cstk_robot_builder_get_urdf_report(cstk_robot_builder *builder,
                                                cstk_urdf_report *out);
@@ -1742,8 +1758,8 @@ cstk_status cstk_robot_builder_get_urdf_report(cstk_robot_builder *builder,
 /**
  * @defgroup space Spaces
  *
- * A space is the C-space of one robot or several: its coordinates, their ranges, and the world box. It offers what planners do
- * with configurations: samples, differences, steps, interpolation, limits, link poses.
+ * A space is the C-space of one or more robots: their coordinates, the coordinates' ranges, and the world box. It offers
+ * what planners need: samples, differences, steps, interpolation, limits, link poses.
  *
  * @code
      uint64_t random = 1;
@@ -1771,11 +1787,11 @@ enum cstk_range_kind
    */
   CSTK_RANGE_INTERVAL = 1,
   /**
-   * What the joint says: its limits; without any, a circle for angles and the whole line for lengths.
+   * The joint's default: its limits; without any, a circle for angles and the whole line for lengths.
    */
   CSTK_RANGE_DEFAULT = 2,
   /**
-   * One of the four entries of a unit quaternion: what joints with quaternions say, and nothing else may be said of them.
+   * One of the four entries of a unit quaternion: the only range of the coordinates of such joints.
    */
   CSTK_RANGE_QUATERNION = 3,
 };
@@ -1788,7 +1804,7 @@ typedef int32_t cstk_range_kind;
 #endif // __cplusplus
 
 /**
- * The C-space of one or more robots. Immutable; threads may share it. It keeps its robots.
+ * The C-space of one or more robots. Immutable; threads may share it. It keeps references to its robots.
  */
 typedef struct cstk_space cstk_space;
 
@@ -1806,7 +1822,7 @@ typedef struct cstk_range {
 } cstk_range;
 
 /**
- * Where a robot's numbers begin in a space.
+ * The first link, coordinate and velocity of a robot in a space.
  */
 typedef struct cstk_space_offset {
   uint32_t link;
@@ -1817,13 +1833,12 @@ typedef struct cstk_space_offset {
 
 
 /**
- * Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
+ * Creates the C-space of `robot_count` robots. Links and coordinates are numbered through all robots, in the order given.
  *
- * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
- * cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the
- * links' origins may be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer
- * anywhere. Robots of dimension 2 make a planar world, of dimension 3 a spatial one (the report's
- * make-c-space-planar-world and make-c-space-3d-world).
+ * `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for all defaults; see cstk_range_kind. A range
+ * of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: bounds for the links' origins; NULL
+ * for none. Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make
+ * a planar world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
  */
 cstk_status cstk_space_create(const cstk_robot *const *robots,
                               size_t robot_count,
@@ -1838,12 +1853,13 @@ cstk_status cstk_space_create(const cstk_robot *const *robots,
 cstk_status cstk_space_retain(cstk_space *space);
 
 /**
- * Drops a reference. NULL is a no-op. C-objects keep their space.
+ * Drops a reference. NULL is a no-op. C-objects hold a reference to their space.
  */
 cstk_status cstk_space_release(cstk_space *space);
 
 /**
- * Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each may be NULL.
+ * Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each output may be
+ * NULL.
  */
 cstk_status cstk_space_get_size(const cstk_space *space,
                                 size_t *nq,
@@ -1851,7 +1867,7 @@ cstk_status cstk_space_get_size(const cstk_space *space,
                                 size_t *link_count);
 
 /**
- * Writes the name of a link, numbered through the space; see cstk_robot_get_link_name.
+ * Writes the name of a link, by number in the space; see cstk_robot_get_link_name.
  */
 cstk_status cstk_space_get_link_name(const cstk_space *space,
                                      uint32_t link,
@@ -1860,7 +1876,8 @@ cstk_status cstk_space_get_link_name(const cstk_space *space,
                                      size_t *length);
 
 /**
- * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own.
+ * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own
+ * numbers. Robots are counted from 0.
  */
 cstk_status cstk_space_get_offset(const cstk_space *space,
                                   size_t robot,
@@ -1892,8 +1909,8 @@ cstk_status cstk_space_within_limits(const cstk_space *space,
                                      uint32_t *coordinate);
 
 /**
- * Writes whether the origin of every link's frame is in the world box at q, and to `link`, which may be NULL, the first that
- * is not (CSTK_NONE if all are).
+ * Writes whether the origin of every link is in the world box at q, and to `link`, which may be NULL, the first that is
+ * not (CSTK_NONE if all are).
  */
 cstk_status cstk_space_within_world(const cstk_space *space,
                                     const double *q,
@@ -1910,7 +1927,8 @@ cstk_status cstk_space_link_poses(const cstk_space *space,
                                   double *poses);
 
 /**
- * The basic Jacobian (eq. 33) at q of a point fixed to a link of the space; as cstk_robot_jacobian, with the space's nv.
+ * Writes the basic Jacobian (eq. 33) at q of a point fixed to a link of the space; as cstk_robot_jacobian, with the
+ * space's nv.
  */
 cstk_status cstk_space_jacobian(const cstk_space *space,
                                 const double *q,
@@ -1920,15 +1938,16 @@ cstk_status cstk_space_jacobian(const cstk_space *space,
                                 double *jacobian);
 
 /**
- * Writes the configuration of no shift and no turn: zeros, and quaternions 0, 0, 0, 1. It may be out of range.
+ * Writes the neutral configuration, nq doubles: all coordinates 0, and identity quaternions 0, 0, 0, 1. It may be out of
+ * range.
  */
 cstk_status cstk_space_get_neutral(const cstk_space *space,
                                    double *q);
 
 /**
- * The configuration that velocity `v` of `nv` doubles leads to from `q` in a unit of time: straight for intervals and
- * circles (which are not wrapped), at constant angular velocity for quaternions, along a screw for free joints. `out` has
- * `nq` doubles and may be `q`.
+ * Writes the configuration reached from `q` with velocity `v` (`nv` doubles) after a unit of time: straight for intervals
+ * and circles (which are not wrapped), at constant angular velocity for quaternions, along a screw for free joints. `out`
+ * has `nq` doubles and may be `q`.
  */
 cstk_status cstk_space_step(const cstk_space *space,
                             const double *q,
@@ -1938,8 +1957,8 @@ cstk_status cstk_space_step(const cstk_space *space,
                             double *out);
 
 /**
- * The smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way round (the
- * negative one of two that are equal), quaternions turn by at most half a turn.
+ * Writes the smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way
+ * round (opposite angles by -pi), quaternions turn by at most half a turn.
  */
 cstk_status cstk_space_difference(const cstk_space *space,
                                   const double *q0,
@@ -1948,9 +1967,9 @@ cstk_status cstk_space_difference(const cstk_space *space,
                                   double *v);
 
 /**
- * The configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
- * cstk_space_difference; `t` may lie beyond. `out` has `nq` doubles and may be one of the two. On free joints this way is a
- * screw: the origin does not go straight. See cstk_space_distance.
+ * Writes the configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
+ * cstk_space_difference; `t` may lie outside [0, 1]. `out` has `nq` doubles and may be `q0` or `q1`. Free joints follow a
+ * screw: their origin does not move straight. See cstk_space_distance.
  */
 cstk_status cstk_space_interpolate(const cstk_space *space,
                                    const double *q0,
@@ -1960,10 +1979,10 @@ cstk_status cstk_space_interpolate(const cstk_space *space,
                                    double *out);
 
 /**
- * The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
- * negative, or is NULL for 1 each. A metric, but with free joints, or unequal weights of a
- * spherical one: there the triangle inequality fails. For planning
- * trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
+ * Writes the length of the difference of two configurations, each velocity multiplied by its weight: `weights` has nv
+ * doubles, none negative, or is NULL for 1 each. It is a metric, except with free joints, or with unequal weights of a
+ * spherical joint: there the triangle inequality fails. For planning trees use a chain of prismatic x, y, z and a
+ * spherical joint instead, which translates straight and rotates separately.
  */
 cstk_status cstk_space_distance(const cstk_space *space,
                                 const double *q0,
@@ -1973,17 +1992,17 @@ cstk_status cstk_space_distance(const cstk_space *space,
                                 double *out);
 
 /**
- * Draws a configuration uniformly from the coordinates' ranges; quaternions uniformly from the rotations. `state` is that of
- * the stream of random numbers: any number to begin with; each call advances it. Equal states give equal configurations, on
- * every machine. CSTK_ERROR_UNSUPPORTED, naming the coordinate, where a range is unbounded.
+ * Writes a configuration drawn uniformly from the coordinates' ranges, and uniformly from the rotations for quaternions.
+ * `state` is the state of the random number generator: any number to begin with; each call advances it. Equal states give
+ * equal configurations, on every machine. CSTK_ERROR_UNSUPPORTED, naming the coordinate, where a range is unbounded.
  */
 cstk_status cstk_space_sample(const cstk_space *space,
                               uint64_t *state,
                               double *q);
 
 /**
- * The nearest configuration whose coordinates are all in range; quaternions are made unit. `out` has `nq` doubles and may be
- * `q`.
+ * Writes the nearest configuration with all coordinates in range; quaternions are normalized. `out` has `nq` doubles and
+ * may be `q`.
  */
 cstk_status cstk_space_clamp(const cstk_space *space,
                              const double *q,
@@ -1991,7 +2010,7 @@ cstk_status cstk_space_clamp(const cstk_space *space,
                              double *out);
 
 /**
- * The same configuration with circles in [0, 2 pi), as §4.4 has them, and quaternions unit with w >= 0. `out` has `nq`
+ * Writes the same configuration with circles in [0, 2 pi), as in §4.4, and unit quaternions with w >= 0. `out` has `nq`
  * doubles and may be `q`.
  */
 cstk_status cstk_space_wrap(const cstk_space *space,
@@ -2004,8 +2023,8 @@ cstk_status cstk_space_wrap(const cstk_space *space,
 /**
  * @defgroup environment Environments
  *
- * An environment holds s-objects, the obstacles: bodies at poses. Changes are applied together or not at all, while others
- * query; a query sees the state before or after, never between. Objects can be attached to links.
+ * An environment holds s-objects, the obstacles: bodies at poses. Changes are applied together or not at all, while other
+ * threads query: a query sees the state before or after, never between. Objects can be attached to links.
  *
  * @code
      cstk_environment_change table;
@@ -2019,7 +2038,7 @@ cstk_status cstk_space_wrap(const cstk_space *space,
  */
 
 /**
- * What a change does.
+ * The kinds of changes.
  */
 enum cstk_change_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -2031,7 +2050,7 @@ enum cstk_change_kind
    */
   CSTK_CHANGE_ADD = 0,
   /**
-   * Moves object `id` to `pose`; one that is attached to a link is let go there.
+   * Moves object `id` to `pose`; an attached object is detached.
    */
   CSTK_CHANGE_MOVE = 1,
   /**
@@ -2039,10 +2058,10 @@ enum cstk_change_kind
    */
   CSTK_CHANGE_DELETE = 2,
   /**
-   * Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew. To take an
-   * object from where it stands, `pose` is the inverse of the link's pose composed with the object's; to set it down
-   * there again, CSTK_CHANGE_MOVE to the link's pose composed with that. Attached once more, it gets another pose or
-   * other touch links.
+   * Attaches object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is rebuilt. To grasp an
+   * object where it is, pass the inverse of the link's pose composed with the object's pose. To release it in place, use
+   * CSTK_CHANGE_MOVE with the link's pose composed with `pose`. Attaching an attached object changes its pose or its
+   * touch links.
    */
   CSTK_CHANGE_ATTACH = 3,
 };
@@ -2055,13 +2074,13 @@ typedef int32_t cstk_change_kind;
 #endif // __cplusplus
 
 /**
- * The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
- * bodies of its objects.
+ * A set of s-objects. It may be changed while other threads query it: each query sees one consistent state. It keeps
+ * references to the bodies of its objects.
  */
 typedef struct cstk_environment cstk_environment;
 
 /**
- * One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
+ * A change of an environment. Write it with cstk_environment_change_default first: an addition at the world's origin.
  */
 typedef struct cstk_environment_change {
   uint32_t size;
@@ -2072,7 +2091,7 @@ typedef struct cstk_environment_change {
   int32_t kind;
   uint32_t reserved;
   /**
-   * The object to move or delete.
+   * The object to move, delete or attach.
    */
   uint64_t id;
   /**
@@ -2080,48 +2099,48 @@ typedef struct cstk_environment_change {
    */
   const cstk_body *body;
   /**
-   * Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
+   * The body's frame, 12 doubles: in the world, for CSTK_CHANGE_ATTACH in the link's frame.
    */
   double pose[12];
   /**
-   * For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets that the
-   * object belongs to are refused with CSTK_ERROR_UNSUPPORTED: where it is is not known there. The object moves with the
-   * link. In a set of links against s-objects it is tested against the other s-objects as the link itself is (r_object
-   * of a witness names it), and as an s-object against the links, but for the one that holds it and `touch_count`
-   * others, `touch_links` (the fingers, say). These may touch it only while it is held: for approach and retreat make
-   * a second set with `allowed` of cstk_induced_options.
+   * For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link.
+   * Queries in other spaces on sets that include the object fail with CSTK_ERROR_UNSUPPORTED, since its pose is unknown
+   * there. In a set of links against s-objects, it is tested against the other s-objects as the link itself is
+   * (`r_object` of a witness names it); and as an s-object against the links, except the link that holds it and the
+   * `touch_count` links in `touch_links` (the fingers, say). Those may touch it only while it is attached: for approach
+   * and retreat create a second set with `allowed` of cstk_induced_options.
    */
   const cstk_space *space;
   const uint32_t *touch_links;
   uint32_t link;
   uint32_t touch_count;
   /**
-   * For CSTK_CHANGE_ADD data of the caller's, handed back with witnesses; `destroy` may be NULL, and is called once, by
-   * whichever thread drops the last state that holds the object, not when the change fails.
+   * For CSTK_CHANGE_ADD: user data, returned with witnesses. `destroy` may be NULL; it is called once, by the thread
+   * that drops the last state that holds the object, and not if the change fails.
    */
   void *data;
   cstk_destroy_fn destroy;
 } cstk_environment_change;
 
 /**
- * An s-object, as it is in one state of its environment.
+ * The state of an s-object.
  */
 typedef struct cstk_object_info {
   uint64_t id;
   /**
-   * In the world, or, where the object is attached to a link, in that link's frame.
+   * In the world, or, for an attached object, in the link's frame.
    */
   double pose[12];
   /**
-   * The link that it is attached to, numbered through the space it was attached with; CSTK_NONE if it is let go.
+   * The link that it is attached to, by number in the space it was attached with; CSTK_NONE if it is not attached.
    */
   uint32_t link;
   /**
-   * How many other links may touch it meanwhile.
+   * The number of other links that may touch it while it is attached.
    */
   uint32_t touch_count;
   /**
-   * Its data, or its body's where it has none of its own, or NULL.
+   * Its user data, or its body's if it has none, or NULL.
    */
   void *data;
   uint64_t reserved[8];
@@ -2129,7 +2148,7 @@ typedef struct cstk_object_info {
 
 
 /**
- * Makes an empty environment.
+ * Creates an empty environment.
  */
 cstk_status cstk_environment_create(cstk_environment **out);
 
@@ -2139,7 +2158,7 @@ cstk_status cstk_environment_create(cstk_environment **out);
 cstk_status cstk_environment_retain(cstk_environment *environment);
 
 /**
- * Drops a reference. NULL is a no-op. C-objects keep the environments they refer to.
+ * Drops a reference. NULL is a no-op. C-objects hold references to their environments.
  */
 cstk_status cstk_environment_release(cstk_environment *environment);
 
@@ -2149,17 +2168,17 @@ cstk_status cstk_environment_release(cstk_environment *environment);
 cstk_status cstk_environment_change_default(cstk_environment_change *out, size_t size);
 
 /**
- * Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
- * about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
- * are unique in the process. All changes have the size of the first.
+ * Applies `count` changes together: all of them or, on failure, none. `ids` receives the id of the object of each change
+ * (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never reused, and are unique in
+ * the process. All changes have the size of the first.
  *
- * A change takes some microseconds, whatever the number of objects, and many changes in one call much less each: boxes above
- * objects that stay near are refitted in one pass. At times the tree over all objects is built anew (some microseconds an
- * object): after changes of a sixteenth of the objects at the earliest. Other threads that change wait meanwhile; those that
- * query never do. The environment keeps the memory of the state before the last change for the next one; a call that finds
- * that state held by a query or a snapshot copies the parts it changes.
+ * A change takes some microseconds, whatever the number of objects, and much less when many are applied in one call: the
+ * bounding volumes above objects that stay near are refitted in one pass. After changes of at least a sixteenth of the
+ * objects the tree over all objects may be rebuilt (some microseconds an object). Meanwhile other threads that apply
+ * changes wait; queries never do. The environment keeps the memory of the state before the last change for the next
+ * change; if a query or a snapshot still holds that state, the changed parts are copied.
  *
- * CSTK_ERROR_NOT_FOUND for an id that is not there (any more), CSTK_ERROR_UNSUPPORTED for a snapshot.
+ * CSTK_ERROR_NOT_FOUND for an unknown or deleted id, CSTK_ERROR_UNSUPPORTED for a snapshot.
  */
 cstk_status cstk_environment_apply(cstk_environment *environment,
                                    const cstk_environment_change *changes,
@@ -2168,22 +2187,23 @@ cstk_status cstk_environment_apply(cstk_environment *environment,
                                    uint64_t *version);
 
 /**
- * Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.
+ * Creates a snapshot: an environment that stays as this one is now. It can be used wherever an environment can, but not
+ * changed.
  */
 cstk_status cstk_environment_snapshot(const cstk_environment *environment,
                                       cstk_environment **out);
 
 /**
- * Writes the number of objects and the version, which counts the calls of cstk_environment_apply that succeeded; either
- * may be NULL.
+ * Writes the number of objects and the version, which counts the successful calls of cstk_environment_apply; either may be
+ * NULL.
  */
 cstk_status cstk_environment_get_state(const cstk_environment *environment,
                                        size_t *object_count,
                                        uint64_t *version);
 
 /**
- * Writes the ids of the objects in the order in which they came: at most `max_count` to `ids` (NULL if that is 0), and their
- * full number to `count`.
+ * Writes the ids of the objects in the order in which they were added: at most `max_count` to `ids` (NULL if `max_count`
+ * is 0), and their full number to `count`.
  */
 cstk_status cstk_environment_get_objects(const cstk_environment *environment,
                                          size_t max_count,
@@ -2191,7 +2211,7 @@ cstk_status cstk_environment_get_objects(const cstk_environment *environment,
                                          size_t *count);
 
 /**
- * Writes where an s-object is and what holds it. CSTK_ERROR_NOT_FOUND if there is none with this id (any more).
+ * Writes the pose, the attachment and the data of an s-object. CSTK_ERROR_NOT_FOUND for an unknown or deleted id.
  */
 cstk_status cstk_environment_get_object_info(const cstk_environment *environment,
                                              uint64_t id,
@@ -2199,7 +2219,7 @@ cstk_status cstk_environment_get_object_info(const cstk_environment *environment
 
 /**
  * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to (see
- * cstk_environment_get_object_info). CSTK_ERROR_NOT_FOUND if there is none with this id.
+ * cstk_environment_get_object_info). CSTK_ERROR_NOT_FOUND for an unknown or deleted id.
  */
 cstk_status cstk_environment_get_object_pose(const cstk_environment *environment,
                                              uint64_t id,
@@ -2210,8 +2230,8 @@ cstk_status cstk_environment_get_object_pose(const cstk_environment *environment
 /**
  * @defgroup cobject C-objects
  *
- * A C-object is a set in a space (§2.1.3). Induced sets are all q at which links meet obstacles or each other; pure sets are
- * given by coordinates or by functions of the caller; unions, intersections, complements and differences are made of others.
+ * A C-object is a set in a space (§2.1.3). Induced sets hold all q at which links meet obstacles or each other; pure sets
+ * are given by coordinates or by callbacks; unions, intersections, complements and differences combine other sets.
  *
  * @code
      cstk_cobject *obstacles, *limits, *forbidden;
@@ -2224,32 +2244,33 @@ cstk_status cstk_environment_get_object_pose(const cstk_environment *environment
  */
 
 /**
- * A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or made of
- * others. Immutable (but for the environments it refers to); threads may share it. It keeps its space and environments.
+ * A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or combined
+ * from others. Immutable (except for the environments it refers to); threads may share it. It keeps references to its
+ * space and environments.
  */
 typedef struct cstk_cobject cstk_cobject;
 
 /**
- * A pair that may meet: a link, and an s-object.
+ * A pair that may meet: a link, or an s-object attached to it, and an s-object.
  */
 typedef struct cstk_allowed_pair {
   /**
-   * A link of the space.
+   * A link, by number in the space.
    */
   uint32_t link;
   uint32_t reserved;
   /**
-   * An s-object that is attached to the link and stands in its place, or 0 for the link's own body.
+   * The s-object attached to the link that may meet `object`, or 0 for the link's own body.
    */
   uint64_t attached;
   /**
-   * The s-object it may meet.
+   * The s-object that it may meet.
    */
   uint64_t object;
 } cstk_allowed_pair;
 
 /**
- * How an induced C-object measures. Write it with cstk_induced_options_default first.
+ * Options of an induced C-object. Write it with cstk_induced_options_default first.
  */
 struct cstk_induced_options {
   uint32_t size;
@@ -2259,32 +2280,33 @@ struct cstk_induced_options {
    */
   double contact_epsilon;
   /**
-   * Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
-   * than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
+   * Grows the s-objects by this length: it is subtracted from every distance, so that configurations nearer than the
+   * margin are inside. Points and normals remain those of the real surfaces. Default 0.
    */
   double margin;
   /**
-   * Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none. Ids
-   * are not checked: an object may come later. Sets are made in no time; who allows other pairs makes another one.
+   * Pairs that may meet, left out of a set of links against s-objects: `allowed_count` entries; NULL, the default, for
+   * none. Ids are not checked: an object may be added later. Sets are cheap to create; to allow other pairs, create
+   * another one.
    */
   const cstk_allowed_pair *allowed;
   size_t allowed_count;
 };
 
 /**
- * Writes where configuration q (`nq` doubles) stands: a cstk_class. Returns CSTK_OK, or anything else to make the query
+ * Writes the class of configuration q (`nq` doubles), a cstk_class. Returns CSTK_OK, or anything else to make the query
  * fail with CSTK_ERROR_CALLBACK_FAILED.
  */
 typedef int32_t (*cstk_predicate_class_fn)(const double *q, size_t nq, int32_t *out, void *user);
 
 /**
- * Writes how far q is from the set, in units of C-space: positive where the class is not CSTK_CLASS_INSIDE, and there 0, or minus
- * the depth.
+ * Writes the signed distance of q from the set, in C-space units: positive where the class is not CSTK_CLASS_INSIDE,
+ * otherwise 0 or minus the depth.
  */
 typedef int32_t (*cstk_predicate_distance_fn)(const double *q, size_t nq, double *out, void *user);
 
 /**
- * Writes the derivative of that distance, `nv` doubles, one a velocity of cstk_space_step.
+ * Writes the derivative of that distance to `row`: `nv` doubles, one per velocity of cstk_space_step.
  */
 typedef int32_t (*cstk_predicate_gradient_fn)(const double *q,
                                               size_t nq,
@@ -2293,60 +2315,62 @@ typedef int32_t (*cstk_predicate_gradient_fn)(const double *q,
                                               void *user);
 
 /**
- * A set by functions of the caller. Write it with cstk_predicate_default first. The functions are called by any thread
- * that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call
- * back into the query that asks. Slides take no sets with predicates. What they write is checked: numbers that are none,
- * a class that is none, and a distance that does not fit the class are answered with CSTK_ERROR_CALLBACK_FAILED.
+ * A set defined by callbacks. Write it with cstk_predicate_default first. The functions are called from any thread that
+ * queries the set, concurrently, and from within queries; they must be pure, must not throw, and must not call back into
+ * the running query. Slides refuse sets with predicates. Results are checked: a number that is not finite, an unknown
+ * class, or a distance that contradicts the class is CSTK_ERROR_CALLBACK_FAILED.
  */
 typedef struct cstk_predicate {
   uint32_t size;
   uint32_t cookie;
   /**
-   * Must be set. It alone says what is in contact; the options' contact_epsilon is not looked at.
+   * Must be set. It alone decides what is in contact; contact_epsilon of the options is ignored.
    */
   cstk_predicate_class_fn classify;
   /**
-   * May be NULL: then distances are not known outside the set (CSTK_DISTANCE_LOWER_BOUND, from 0), nor those from its complement
-   * where the class is not CSTK_CLASS_OUTSIDE, and it has witnesses only where it holds q. Distances are at most 1e50.
+   * May be NULL: then distances are unknown outside the set (CSTK_DISTANCE_LOWER_BOUND, from 0), as are distances from
+   * its complement where the class is not CSTK_CLASS_OUTSIDE, and the set has witnesses only where it holds q. Distances
+   * are at most 1e50.
    */
   cstk_predicate_distance_fn distance;
   /**
-   * May be NULL: then cstk_gradients and cstk_pseudo_normal are refused within epsilon of the set (CSTK_ERROR_UNSUPPORTED).
-   * Without a distance function either, the set has no gradients: no witness outside, one without a contact inside.
+   * May be NULL: then cstk_gradients and cstk_pseudo_normal are CSTK_ERROR_UNSUPPORTED within epsilon of the set. If
+   * `distance` is NULL too, the set has no gradients: no witness outside, one without a contact inside.
    */
   cstk_predicate_gradient_fn gradient;
   /**
-   * Handed to the functions.
+   * Passed to the functions.
    */
   void *user;
   /**
-   * May be NULL. Called once, by whichever thread drops the last reference to what uses the functions.
+   * May be NULL. Called once, by the thread that drops the last reference to whatever uses the functions.
    */
   cstk_destroy_fn destroy;
   /**
-   * The distance function gives lower bounds outside: the truth may be more. Default 0.
+   * 1 if the distance function gives lower bounds outside the set, 0 (the default) if it gives distances.
    */
   uint32_t distance_is_bound;
   /**
-   * The distance function gives minus the depth inside: the distance from the complement, exactly. Default 0.
+   * 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0.
    */
   uint32_t knows_depth;
 } cstk_predicate;
 
 /**
- * How a pure set measures. Write it with cstk_pure_options_default first.
+ * Options of a pure set. Write it with cstk_pure_options_default first.
  */
 typedef struct cstk_pure_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * Distances above 0 and up to this classify as CSTK_CLASS_CONTACT; in units of C-space, for floors and the world box in
+   * Distances above 0 and up to this classify as CSTK_CLASS_CONTACT; in C-space units, for floors and the world box in
    * lengths. Default 0.
    */
   double contact_epsilon;
   /**
-   * The length that a unit of C-space stands for. Distances of the set are multiplied by it, and so can be compared with
-   * those of induced sets; 0, the default: they are not, and queries of distance of both together are refused.
+   * The length that a C-space unit stands for. Distances of the set are multiplied by it, which makes them comparable
+   * with those of induced sets. With 0, the default, they are not comparable, and distance queries on a set that mixes
+   * both are refused.
    */
   double scale;
 } cstk_pure_options;
@@ -2358,16 +2382,15 @@ typedef struct cstk_pure_options {
 cstk_status cstk_induced_options_default(cstk_induced_options *out, size_t size);
 
 /**
- * Makes the set of configurations at which a link meets an s-object.
+ * Creates the set of configurations at which a link meets an s-object.
  *
- * `links` holds `link_count` numbers of links of the space; with `link_count` 0 all are meant (CSTK_ERROR_EMPTY if none has a
- * body), those too that no joint moves, such as a base: their gradients are 0, and they may always be nearest. What a
- * link of these holds is tested with it (see CSTK_CHANGE_ATTACH): a frame without a body, such as a tool's, counts for
- * what it holds, and must be among `links` for that. Links 0 to i - 1 give the set of the first i links. The robot with
- * itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with
- * `id_count` 0 all its objects are meant, those added later too. An object that is deleted later contributes nothing;
- * one of another dimension than the robots is refused by the queries that meet it. `options` may be NULL for the
- * defaults.
+ * `links` holds `link_count` link numbers of the space; `link_count` 0 means all links (CSTK_ERROR_EMPTY if none has a
+ * body). That includes links that no joint moves, such as a base: their gradients are 0, and they may always be the
+ * nearest. Objects attached to these links are tested with them (see CSTK_CHANGE_ATTACH): a frame without a body, such as
+ * a tool frame, must be among `links` for that. The robot is not tested against itself; see cstk_cobject_induced_links.
+ * `ids` holds `id_count` ids of objects of the environment; `id_count` 0 means all its objects, including those added
+ * later. An object that is deleted later contributes nothing. An object of another dimension than the robots makes queries
+ * fail. `options` may be NULL for the defaults.
  */
 cstk_status cstk_cobject_induced(const cstk_space *space,
                                  const uint32_t *links,
@@ -2379,9 +2402,9 @@ cstk_status cstk_cobject_induced(const cstk_space *space,
                                  cstk_cobject **out);
 
 /**
- * Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
- * other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
- * joined touch at every configuration; leave such pairs out. Without any pair the set is empty.
+ * Creates the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
+ * other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Joined links touch at
+ * every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty.
  */
 cstk_status cstk_cobject_induced_links(const cstk_space *space,
                                        const uint32_t *pairs,
@@ -2400,52 +2423,54 @@ cstk_status cstk_cobject_retain(cstk_cobject *cobject);
 cstk_status cstk_cobject_release(cstk_cobject *cobject);
 
 /**
- * Makes the union of `count` C-objects of one space: its class is the largest of theirs. It keeps its parts. A
- * body pair that several induced parts hold in one state counts once, with the largest margin.
+ * Creates the union of `count` C-objects of one space: its class is the largest of theirs. It keeps references to its
+ * parts. A body pair that several induced parts share counts once, with the largest margin.
  *
- * Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). A union may be grown one part at a
- * time: a call takes time in proportion to `count`, the first query of the whole in proportion to all parts. Of a union of induced sets every
- * query is exact; of other compounds cstk_distance says what it knows:
+ * Sets of any kind may be combined, to a depth of 256 (a union in a union adds no level). A union may be grown one part at
+ * a time: each call takes time in proportion to `count`, the first query of the result in proportion to all parts. All
+ * queries on a union of induced sets are exact; for other compounds cstk_distance reports what is known:
  * - a union is as near as its nearest part;
- * - an intersection is no nearer than its farthest part: CSTK_DISTANCE_LOWER_BOUND, but for 0 where all parts are 0;
- * - a complement is taken of the leaves, by De Morgan's laws. From the complement of a pure set (no predicate) the distance
- *   is exact; from that of an induced set it is 0 where nothing meets, and not known inside: CSTK_DISTANCE_LOWER_BOUND, from 0.
+ * - an intersection is no nearer than its farthest part: CSTK_DISTANCE_LOWER_BOUND, except for 0 where all parts are 0;
+ * - a complement is moved down to the leaves, by De Morgan's laws. The distance from the complement of a pure set (other
+ *   than a predicate) is exact; from that of an induced set it is 0 where nothing meets, otherwise unknown:
+ *   CSTK_DISTANCE_LOWER_BOUND, from 0.
  *
- * cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
- * induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the
+ * cstk_within(t) is true where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
+ * induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree combines them to; rows are the
  * derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
- * but the class is not CSTK_CLASS_INSIDE. Lengths and units of C-space are not compared: CSTK_ERROR_UNSUPPORTED for distances where
- * a pure set without a scale meets an induced one.
+ * but the class is not CSTK_CLASS_INSIDE. Lengths and C-space units are not compared: CSTK_ERROR_UNSUPPORTED for distances
+ * where a pure set without a scale is combined with an induced one.
  */
 cstk_status cstk_cobject_union(const cstk_cobject *const *parts,
                                size_t count,
                                cstk_cobject **out);
 
 /**
- * Makes the intersection of `count` C-objects of one space: its class is the smallest of theirs. See cstk_cobject_union.
+ * Creates the intersection of `count` C-objects of one space: its class is the smallest of theirs. See cstk_cobject_union.
  */
 cstk_status cstk_cobject_intersection(const cstk_cobject *const *parts,
                                       size_t count,
                                       cstk_cobject **out);
 
 /**
- * Makes the complement of a C-object: CSTK_CLASS_INSIDE where that is CSTK_CLASS_OUTSIDE, and the other way round; contact stays. See
+ * Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. See
  * cstk_cobject_union.
  */
 cstk_status cstk_cobject_complement(const cstk_cobject *part,
                                     cstk_cobject **out);
 
 /**
- * Makes the set of what is in `of` and not in `without`: the intersection with the complement. See cstk_cobject_union.
+ * Creates the difference `of` without `without`: the intersection of `of` with the complement of `without`. See
+ * cstk_cobject_union.
  */
 cstk_status cstk_cobject_difference(const cstk_cobject *of,
                                     const cstk_cobject *without,
                                     cstk_cobject **out);
 
 /**
- * Makes the same set with data of the caller's attached (§2.2.3). Witnesses, distances and explanations of every C-object
- * that has the new one as a leaf hand `data` back. `destroy` may be NULL; it is called once, by whichever thread drops the
- * last reference to what carries the data, and not when this call fails.
+ * Creates a copy of a set with user data attached (§2.2.3), under a new number. Witnesses, distances and explanations of
+ * every C-object that has the copy as a leaf return `data`. `destroy` may be NULL; it is called once, by the thread that
+ * drops the last reference to whatever carries the data, and not if this call fails.
  */
 cstk_status cstk_cobject_with_data(const cstk_cobject *cobject,
                                    void *data,
@@ -2453,22 +2478,22 @@ cstk_status cstk_cobject_with_data(const cstk_cobject *cobject,
                                    cstk_cobject **out);
 
 /**
- * Makes the same induced or pure set with a shell of its own for cstk_slide: its contacts constrain a step up to that distance,
- * instead of `max_shell` of the slide's options, and it is kept at the same part of it: with a desired distance of a tenth of
- * max_shell, at a tenth of `shell`. Links of a robot are mostly near each other: a self-collision set with a shell of one or
- * two steps' motion, in a union with obstacles that are looked for from afar, makes steps several times faster. `shell` is a
- * length, for a pure set in the unit of its distances, larger than 0. Other queries do not look at it. The set keeps its data
- * and takes a number of its own (cstk_cobject_get_data). A union, an intersection or a complement is refused:
- * CSTK_ERROR_UNSUPPORTED; its parts take shells before they are combined.
+ * Creates a copy of an induced or pure set with its own shell for cstk_slide: its contacts constrain a step within `shell`
+ * instead of `max_shell` of the slide's options, and the desired distance scales with it: one of a tenth of max_shell
+ * becomes a tenth of `shell`. The links of a robot are mostly near each other, so a self-collision set with a shell of one
+ * or two steps' motion, in a union with obstacles that have a larger one, makes steps several times faster. `shell` is a
+ * length above 0, for a pure set in the unit of its distances. Other queries ignore it. The copy keeps the data and gets a
+ * new number (cstk_cobject_get_data). CSTK_ERROR_UNSUPPORTED for a union, an intersection or a complement: give shells to
+ * the parts before combining them.
  */
 cstk_status cstk_cobject_with_shell(const cstk_cobject *cobject,
                                     double shell,
                                     cstk_cobject **out);
 
 /**
- * Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
- * either may be NULL. No two sets of a process have one number; the
- * complement of a complement is the set itself, and so has its number.
+ * Writes the user data of a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
+ * either output may be NULL. No two sets of a process share a number; the complement of a complement is the original set,
+ * with its number.
  */
 cstk_status cstk_cobject_get_data(const cstk_cobject *cobject,
                                   void **data,
@@ -2485,8 +2510,8 @@ cstk_status cstk_predicate_default(cstk_predicate *out, size_t size);
 cstk_status cstk_pure_options_default(cstk_pure_options *out, size_t size);
 
 /**
- * Makes the set of configurations with a coordinate beyond its range in the space: the joint limits as an obstacle. At a
- * limit the configuration is not inside yet (the set is open). Distances are those from the nearest limit, in units of the
+ * Creates the set of configurations with a coordinate outside its range in the space: the joint limits as an obstacle. The
+ * set is open: a configuration at a limit is not inside. Distances are measured to the nearest limit, in units of the
  * coordinates. `options` may be NULL for the defaults, here and below. A space without limits gives an empty set.
  */
 cstk_status cstk_cobject_beyond_limits(const cstk_space *space,
@@ -2494,23 +2519,23 @@ cstk_status cstk_cobject_beyond_limits(const cstk_space *space,
                                        cstk_cobject **out);
 
 /**
- * Makes the set of configurations at which the origin of some link is outside the world box of the space. It measures in
- * lengths, whatever the scale, and answers at link poses too. Open, as cstk_cobject_beyond_limits.
+ * Creates the set of configurations at which the origin of some link is outside the world box of the space. It measures in
+ * lengths, whatever the scale, and can be queried at link poses. Open, as cstk_cobject_beyond_limits.
  */
 cstk_status cstk_cobject_beyond_world(const cstk_space *space,
                                       const cstk_pure_options *options,
                                       cstk_cobject **out);
 
 /**
- * Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
- * (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
- * `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
- * floor. A margin is had by a larger offset. What links hold is not tested: where they carry something, a large box in the
- * environment sees that.
+ * Creates the set of configurations at which the body of a link meets the half-space normal . x <= offset of the world: an
+ * unbounded floor, wall or ceiling. `normal` has three doubles and any length above 0; in the plane its z is 0. `links`
+ * holds `link_count` link numbers; `link_count` 0 means all links with a body. Leave out a base that stands on the floor.
+ * For a margin, increase the offset. Objects attached to links are not tested; a large box in the environment can test
+ * them.
  *
- * Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
- * at link poses too. Contacts are at that point (see CSTK_MODE_PURE_SET), and have a gradient where it is inside as well. The
- * distance from its complement is not known where it is not 0.
+ * Queries are exact and take logarithmic time. The set measures in lengths, whatever the scale, to the lowest point of
+ * all, and can be queried at link poses. Contacts are at that point (see CSTK_MODE_PURE_SET), and have a gradient inside
+ * as well. The distance from the complement is unknown where it is not 0.
  */
 cstk_status cstk_cobject_below_floor(const cstk_space *space,
                                      const uint32_t *links,
@@ -2521,10 +2546,10 @@ cstk_status cstk_cobject_below_floor(const cstk_space *space,
                                      cstk_cobject **out);
 
 /**
- * Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
- * INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i]
- * upwards to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of
- * the sum of the squares, angles the shorter way round.
+ * Creates the set of configurations with every coordinate i in [low[i], high[i]] (`nq` doubles each). -INFINITY and
+ * INFINITY leave a coordinate free; for quaternions both are required. On a circle the interval is the arc from low[i]
+ * upwards to high[i], which must not be less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root
+ * of the sum of squares, with angles the shorter way round.
  */
 cstk_status cstk_cobject_box(const cstk_space *space,
                              const double *low,
@@ -2534,8 +2559,8 @@ cstk_status cstk_cobject_box(const cstk_space *space,
                              cstk_cobject **out);
 
 /**
- * Makes the set of configurations with normal . q <= offset (`nq` doubles). Entries for coordinates on circles and of
- * quaternions must be 0.
+ * Creates the set of configurations with normal . q <= offset (`normal` has `nq` doubles). Entries for coordinates on
+ * circles and of quaternions must be 0.
  */
 cstk_status cstk_cobject_halfspace(const cstk_space *space,
                                    const double *normal,
@@ -2545,8 +2570,9 @@ cstk_status cstk_cobject_halfspace(const cstk_space *space,
                                    cstk_cobject **out);
 
 /**
- * Makes the set of configurations at most `radius` from `center` (`nq` doubles): by the root of the sum of the squares of
- * differences, angles the shorter way round, quaternions by the angle of the turn, free joints by shift and turn.
+ * Creates the set of configurations within `radius` of `center` (`nq` doubles). The distance is the root of the sum of
+ * squared differences: angles the shorter way round, quaternions by the angle of rotation, free joints by translation and
+ * rotation.
  */
 cstk_status cstk_cobject_ball(const cstk_space *space,
                               const double *center,
@@ -2556,8 +2582,8 @@ cstk_status cstk_cobject_ball(const cstk_space *space,
                               cstk_cobject **out);
 
 /**
- * Makes a set that functions of the caller define. `predicate` is copied; its data are given back when nothing refers to the
- * set any more, and not when this call fails.
+ * Creates a set defined by callbacks. `predicate` is copied; its user data are released by `destroy` when nothing refers
+ * to the set any more, and not if this call fails.
  */
 cstk_status cstk_cobject_predicate(const cstk_space *space,
                                    const cstk_predicate *predicate,
@@ -2569,8 +2595,8 @@ cstk_status cstk_cobject_predicate(const cstk_space *space,
 /**
  * @defgroup query Query contexts
  *
- * A query context holds one thread's caches and scratch memory, and the lists that its last call wrote. What it remembers
- * changes how long an answer takes, never the answer (§2.3.4).
+ * A query context holds one thread's caches and scratch memory, and the lists that its last call wrote. Its caches change
+ * how long an answer takes, never the answer (§2.3.4).
  *
  * @code
      cstk_query_statistics work;
@@ -2583,8 +2609,8 @@ cstk_status cstk_cobject_predicate(const cstk_space *space,
  */
 
 /**
- * Which contacts come with each witness of a list (cstk_query_set_contacts). Finding them takes most of the time that a
- * witness takes.
+ * Which contacts are computed for each witness of a list (cstk_query_set_contacts). They take most of the time of a
+ * witness.
  */
 enum cstk_contacts_listed
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -2592,15 +2618,16 @@ enum cstk_contacts_listed
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * All: parallel features have several. With these a context begins.
+   * All contacts: parallel features have several. The initial setting of a context.
    */
   CSTK_CONTACTS_ALL = 0,
   /**
-   * The one at the closest points.
+   * The contact at the witness points.
    */
   CSTK_CONTACTS_NEAREST = 1,
   /**
-   * None, and no gradients. It is then not told whether what meets touches or overlaps: at distance 0 `overlapping` is true.
+   * No contacts and no gradients. Touching and overlapping are then not distinguished: `overlapping` is true at distance
+   * 0.
    */
   CSTK_CONTACTS_NONE = 2,
 };
@@ -2613,29 +2640,30 @@ typedef int32_t cstk_contacts_listed;
 #endif // __cplusplus
 
 /**
- * One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
- * time and answers CSTK_ERROR_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
+ * One thread's caches and scratch memory, and the owner of the arrays in its results. A context serves one thread at a
+ * time; other calls meanwhile return CSTK_ERROR_BUSY. Create one per thread. Caches change how long an answer takes, never
+ * the answer.
  */
 typedef struct cstk_query cstk_query;
 
 /**
- * The work a query context has done.
+ * The work done by a query context.
  */
 typedef struct cstk_query_statistics {
   /**
-   * Pairs of hierarchy nodes whose wrappers were tested, pairs of bodies with them; of rays into solids, the nodes.
+   * Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes.
    */
   uint64_t node_pairs;
   /**
-   * Primitive pairs that were looked at; of rays, the faces.
+   * Primitive pairs tested; for rays, the faces.
    */
   uint64_t primitive_pairs;
   /**
-   * Witnesses of earlier queries that were evaluated first.
+   * Witnesses of earlier queries that were tested first.
    */
   uint64_t cache_hits;
   /**
-   * Of `primitive_pairs` those whose distance was asked for: polygons that a direction known before parts are left out.
+   * Those of `primitive_pairs` whose distance was computed, not polygons that a remembered direction separates.
    */
   uint64_t primitive_distances;
   uint64_t reserved[4];
@@ -2643,7 +2671,7 @@ typedef struct cstk_query_statistics {
 
 
 /**
- * Makes a query context.
+ * Creates a query context.
  */
 cstk_status cstk_query_create(cstk_query **out);
 
@@ -2658,38 +2686,38 @@ cstk_status cstk_query_retain(cstk_query *query);
 cstk_status cstk_query_release(cstk_query *query);
 
 /**
- * Writes the version of an environment that the last query with this context saw: of each environment that its C-object
- * refers to. CSTK_ERROR_NOT_FOUND if it refers to others only, or nothing was asked yet.
+ * Writes the version of an environment that the last query with this context saw. CSTK_ERROR_NOT_FOUND if the query's
+ * C-object does not refer to the environment, or there was no query yet.
  */
 cstk_status cstk_query_get_version(cstk_query *query,
                                    const cstk_environment *environment,
                                    uint64_t *out);
 
 /**
- * Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
- * their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
- * the same with each. cstk_slide asks for what it needs itself; cstk_slide_step and cstk_spring_step need lists with all
- * contacts. CSTK_ERROR_INVALID_ARGUMENT for another number.
+ * Sets which contacts cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and their variants compute
+ * with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances do not depend on it.
+ * cstk_slide ignores it; cstk_slide_step and cstk_spring_step need lists with all contacts. CSTK_ERROR_INVALID_ARGUMENT
+ * for another number.
  */
 cstk_status cstk_query_set_contacts(cstk_query *query,
                                     int32_t listed);
 
 /**
- * Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the
- * context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns CSTK_ERROR_LIMIT and
- * writes nothing; the context can be asked again at once. 0 stands for no limit, with which a context begins.
+ * Limits the work of each later query with this context to `node_and_primitive_pairs`: of every call that takes the
+ * context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns
+ * CSTK_ERROR_LIMIT and writes nothing; the context can be used again at once. 0, the initial setting, means no limit.
  *
- * What counts is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10
- * milliseconds (nodes of meshes) to a second (primitives that are no polygons). Penetrations of polyhedra count each two edges that are compared, too. The work depends on the question
- * and on what the context remembers of earlier ones, neither on the thread nor on the machine's load: a context asked the
- * same from its creation on ends at the same call. Not counted is what a call takes whatever it finds: kinematics, pure
- * sets, functions of the caller.
+ * Work is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10 milliseconds
+ * (nodes of meshes) to a second (primitives other than polygons). Penetrations of polyhedra also count each two edges that
+ * are compared. The work depends on the query and on what the context remembers of earlier ones, not on the thread or on
+ * the machine's load: contexts that run the same queries from creation on reach the limit at the same call. Fixed costs of
+ * a call do not count: kinematics, pure sets, callbacks.
  */
 cstk_status cstk_query_set_limit(cstk_query *query,
                                  uint64_t node_and_primitive_pairs);
 
 /**
- * Writes the work done since the context was made, or since the last call with `reset`.
+ * Writes the work done since the context was created, or since the last call with `reset`; `reset` sets the counts to 0.
  */
 cstk_status cstk_query_get_statistics(cstk_query *query,
                                       bool reset,
@@ -2700,8 +2728,8 @@ cstk_status cstk_query_get_statistics(cstk_query *query,
 /**
  * @defgroup at_configuration Queries at a configuration
  *
- * Operations 4 to 8 of §2.2.4 for a C-object: is q free, how far from contact, between what, which way is out, and why. Callers with
- * kinematics of their own ask at link poses instead of q.
+ * Operations 4 to 8 of §2.2.4 for a C-object: is q free, how far is it from contact, between what, which way is out, and
+ * why. Callers with their own kinematics pass link poses instead of q.
  *
  * @code
      cstk_class place;
@@ -2713,12 +2741,12 @@ cstk_status cstk_query_get_statistics(cstk_query *query,
  */
 
 /**
- * Stands for "no such number" in fields that hold a link's number.
+ * Means "none" in fields that hold the number of a link or a coordinate.
  */
 #define CSTK_NONE 4294967295
 
 /**
- * Where a configuration stands. The order is that of the set algebra: a union takes the largest.
+ * The class of a configuration. The order is that of the set algebra: a union takes the largest.
  */
 enum cstk_class
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -2726,11 +2754,11 @@ enum cstk_class
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Farther from contact than the contact epsilon.
+   * Farther away than the contact epsilon.
    */
   CSTK_CLASS_OUTSIDE = 0,
   /**
-   * Apart, by at most the contact epsilon; doubt within rounding counts as contact.
+   * Apart, but no farther than the contact epsilon; doubt within rounding counts as contact.
    */
   CSTK_CLASS_CONTACT = 1,
   /**
@@ -2747,7 +2775,7 @@ typedef int32_t cstk_class;
 #endif // __cplusplus
 
 /**
- * What a distance says.
+ * How much is known of a distance.
  */
 enum cstk_distance_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -2755,19 +2783,19 @@ enum cstk_distance_kind
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * The distance, to rounding.
+   * The distance is known, up to rounding.
    */
   CSTK_DISTANCE_EXACT = 0,
   /**
-   * Only `lower` and `upper` are known; `distance` repeats `lower`.
+   * Only `lower` and `upper` are known; `distance` equals `lower`.
    */
   CSTK_DISTANCE_LOWER_BOUND = 1,
   /**
-   * Nothing is within max_distance: `lower` is max_distance, less rounding; `distance` and `upper` are infinite.
+   * Nothing is within max_distance: `lower` is max_distance less rounding, `distance` and `upper` are infinite.
    */
   CSTK_DISTANCE_BEYOND_MAX = 2,
   /**
-   * There is nothing to measure to; all three are infinite.
+   * The set is empty; all three are infinite.
    */
   CSTK_DISTANCE_EMPTY = 3,
 };
@@ -2794,8 +2822,8 @@ enum cstk_contact_mode
   CSTK_MODE_FACE_POINT = 4,
   CSTK_MODE_EDGE_EDGE = 5,
   /**
-   * The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the
-   * link's origin, of a floor those of the link's lowest point.
+   * The boundary of a pure set: there are no features. Points and normal are 0, except for the world box (at the link's
+   * origin) and for a floor (at the link's lowest point).
    */
   CSTK_MODE_PURE_SET = 6,
 };
@@ -2808,7 +2836,7 @@ typedef int32_t cstk_contact_mode;
 #endif // __cplusplus
 
 /**
- * What was found out about a pair of links.
+ * The verdict on a pair of links.
  */
 enum cstk_pair_verdict
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -2816,23 +2844,23 @@ enum cstk_pair_verdict
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * To be tested: the two touched in some samples, or are of different robots.
+   * The pair should be tested: it touched in some samples, or belongs to different robots.
    */
   CSTK_PAIR_TEST = 0,
   /**
-   * The two are joined, with no link that has a body in between, or fixed to each other.
+   * The links are joined, with no body in between, or fixed to each other.
    */
   CSTK_PAIR_ADJACENT = 1,
   /**
-   * They touch at rest.
+   * The links touch at rest.
    */
   CSTK_PAIR_AT_REST = 2,
   /**
-   * They touch in all samples, or nearly.
+   * The links touch in all samples, or almost all.
    */
   CSTK_PAIR_ALWAYS = 3,
   /**
-   * They touched in no sample; tested all the same unless skip_never.
+   * The links touched in no sample; still tested unless skip_never is set.
    */
   CSTK_PAIR_NEVER = 4,
 };
@@ -2845,16 +2873,16 @@ typedef int32_t cstk_pair_verdict;
 #endif // __cplusplus
 
 /**
- * One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE,
- * but for `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
+ * A pair of primitives, a piece of one body wholly inside the other, or a pure set. The links of a pure set are CSTK_NONE,
+ * except `r_link` of the world box and of floors: the link nearest to the set, or deepest in it.
  */
 typedef struct cstk_witness {
   /**
-   * The link, numbered through the space; 0 for pairs of bodies.
+   * The link, by number in the space; 0 in queries on two bodies.
    */
   uint32_t r_link;
   /**
-   * The second link, or the one that the s-object is attached to; CSTK_NONE if the s-side is another s-object or a body.
+   * The second link, or the link that the s-object is attached to; CSTK_NONE for other s-objects and for bodies.
    */
   uint32_t s_link;
   /**
@@ -2873,61 +2901,60 @@ typedef struct cstk_witness {
    */
   double distance;
   /**
-   * Its contacts are `contact_count` entries of the list from `first_contact`. Parallel features have several, which
-   * span the common part.
+   * The contacts are `contact_count` entries of the list from `first_contact` on. Parallel features have several
+   * contacts, which span their common part.
    */
   uint32_t first_contact;
   uint32_t contact_count;
   /**
-   * The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient. With
-   * CSTK_CONTACTS_NONE all at distance 0 counts as overlapping.
+   * The primitives overlap more than slightly, or `contained` is set: there is no contact and no gradient. With
+   * CSTK_CONTACTS_NONE every pair at distance 0 counts as overlapping.
    */
   bool overlapping;
   /**
-   * A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet:
-   * they stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+   * A connected piece of one body lies wholly inside the other, a solid. The primitives, which do not meet, are the
+   * lowest of the piece and the lowest of the part of the solid's boundary around it.
    */
   bool contained;
   /**
-   * The set's complement is meant.
+   * The distance is that of the set's complement.
    */
   bool complemented;
   uint8_t reserved_bytes[1];
   /**
-   * Of joint limits and C-space boxes the coordinate that decides: the one farthest beyond its range, or nearest to
-   * its end (distances combine all); else CSTK_NONE.
+   * For joint limits and C-space boxes, the coordinate that decides: the one farthest outside its range, or nearest to
+   * an end of it (the distance combines all coordinates). Otherwise CSTK_NONE.
    */
   uint32_t coordinate;
   /**
-   * The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of
-   * bodies.
+   * The leaf C-object that the pair belongs to, by its number (cstk_cobject_get_data), and its data; 0 and NULL in
+   * queries on two bodies.
    */
   uint64_t cobject;
   void *cobject_data;
   /**
-   * The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there
-   * are none.
+   * The data of the r-side's body, and of the s-object or, if it has none, of its body; NULL for none.
    */
   void *r_data;
   void *s_data;
   /**
-   * The s-object attached to r_link that is the r-side, or 0 for the link's own body.
+   * The s-object attached to `r_link` that is the r-side, or 0 for the link's own body.
    */
   uint64_t r_object;
   uint64_t reserved[4];
 } cstk_witness;
 
 /**
- * One contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
+ * A contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
  */
 typedef struct cstk_contact {
   /**
-   * The two points, in the world.
+   * The witness points, in the world.
    */
   double r_point[3];
   double s_point[3];
   /**
-   * Unit, in the world, from the s-side to the r-side; right at exact touch too.
+   * Of length 1, in the world, from the s-side to the r-side; also valid at exact touch.
    */
   double normal[3];
   /**
@@ -2936,7 +2963,7 @@ typedef struct cstk_contact {
   double distance;
   cstk_contact_mode mode;
   /**
-   * The features that hold the points; for their vertices see cstk_body_get_feature_vertices.
+   * The features that hold the points; cstk_body_get_feature_vertices gives their vertices.
    */
   cstk_feature_kind r_feature_kind;
   uint32_t r_feature;
@@ -2944,9 +2971,9 @@ typedef struct cstk_contact {
   uint32_t s_feature;
   uint32_t reserved_word;
   /**
-   * The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
-   * primitives are just inside one another (by at most 1e-6 of the pair's size), or as deep as their radii let
-   * round ones be while their cores are apart.
+   * The signed distance between the points, less the C-object's margin. It is negative within the margin, and where
+   * primitives overlap slightly: by at most 1e-6 of the pair's size, or, for round ones, as deep as their radii allow
+   * while their cores are apart.
    */
   double clearance;
   uint64_t reserved[2];
@@ -2958,45 +2985,47 @@ typedef struct cstk_contact {
 typedef struct cstk_distance_result {
   cstk_distance_kind kind;
   /**
-   * `witness` and the points below hold the nearest primitive pair; ties (equal to the last bit) go to the lowest ids.
+   * Whether `witness`, `r_point` and `s_point` are set: the nearest primitive pair. Ties (equal to the last bit) go to
+   * the lowest ids.
    */
   bool has_witness;
   /**
-   * `contact` holds the contact at these points. An overlap has none. Parallel features have more; see
+   * Whether `contact` is set: the contact at these points. An overlap has none; parallel features have more, see
    * cstk_witnesses.
    */
   bool has_contact;
   uint8_t reserved_bytes[2];
   /**
-   * 0 exactly when the sets meet, the s-side grown by the C-object's margin.
+   * 0 if and only if the sets meet, the s-side grown by the C-object's margin.
    */
   double distance;
   /**
-   * Never above the truth. Where `distance` is finite, 0 exactly when that is.
+   * Never above the true distance. Where `distance` is finite, `lower` is 0 if and only if `distance` is.
    */
   double lower;
   /**
-   * Never below the truth: infinite where of an intersection, a difference or a complement no more is known.
+   * Never below the true distance; infinite where nothing better is known, for an intersection, a difference or a
+   * complement.
    */
   double upper;
   /**
-   * The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
-   * inside a solid, a vertex of the piece.
+   * The witness points, in the world. Where the sets overlap both are one common point; for a piece inside a solid both
+   * are a vertex of the piece.
    */
   double r_point[3];
   double s_point[3];
   cstk_witness witness;
   cstk_contact contact;
   /**
-   * The version of the environment that was measured, the largest of several; 0 where there is none.
+   * The version of the environment that the query saw, the largest of several; 0 without an environment.
    */
   uint64_t environment_version;
   uint64_t reserved[8];
 } cstk_distance_result;
 
 /**
- * Primitive pairs, nearest first, with their contacts. The arrays belong to the query context and stay valid until its
- * next call or its release.
+ * Witnesses, nearest first, with their contacts. The arrays belong to the query context and stay valid until its next call
+ * or its release.
  */
 typedef struct cstk_witness_list {
   const cstk_witness *witnesses;
@@ -3004,8 +3033,8 @@ typedef struct cstk_witness_list {
   const cstk_contact *contacts;
   size_t contact_count;
   /**
-   * One row of `nv` doubles per contact (not per witness): by how much its distance grows per unit of each
-   * velocity. NULL where there is none.
+   * One row of `nv` doubles per contact (not per witness): the derivative of its distance with respect to each velocity.
+   * NULL without gradients.
    */
   const double *gradients;
   size_t nv;
@@ -3014,7 +3043,7 @@ typedef struct cstk_witness_list {
    */
   bool truncated;
   /**
-   * Not all contacts are listed, by cstk_query_set_contacts: cstk_slide_step and cstk_spring_step refuse such a list.
+   * cstk_query_set_contacts has left out contacts: cstk_slide_step and cstk_spring_step refuse the list.
    */
   bool contacts_left_out;
   uint8_t reserved_bytes[6];
@@ -3023,7 +3052,7 @@ typedef struct cstk_witness_list {
 } cstk_witness_list;
 
 /**
- * Everything about one configuration: Appendix A's cstk-pseudo-normal.
+ * Class, distance, witnesses and gradients at one configuration: Appendix A's cstk-pseudo-normal.
  */
 typedef struct cstk_pseudo_normal_result {
   cstk_class point_class;
@@ -3036,11 +3065,11 @@ typedef struct cstk_pseudo_normal_result {
 } cstk_pseudo_normal_result;
 
 /**
- * What one leaf of a C-object's tree says of a configuration.
+ * The class of one leaf of a C-object's tree, and its part in the class of the whole.
  */
 typedef struct cstk_verdict {
   /**
-   * The leaf, as cstk_cobject_get_data numbers it, and its data.
+   * The leaf, by its number (cstk_cobject_get_data), and its data.
    */
   uint64_t cobject;
   void *data;
@@ -3049,17 +3078,17 @@ typedef struct cstk_verdict {
    */
   cstk_class leaf_class;
   /**
-   * The tree takes the leaf's complement.
+   * Whether the tree takes the leaf's complement.
    */
   bool complemented;
   /**
-   * The class of the whole rests on this leaf (and on the other decisive ones): on the way down to it the part's class was
-   * that of each union and intersection.
+   * Whether the class of the whole rests on this leaf (and on the other decisive ones): from the root to the leaf, each
+   * part has the class of the union or intersection that holds it.
    */
   bool decisive;
   uint8_t reserved_bytes[2];
   /**
-   * The pairs of primitives that made the leaf's class, if it is decisive: `witness_count` entries of the list.
+   * The witnesses of the leaf's class, if it is decisive: `witness_count` entries of the list from `first_witness` on.
    */
   uint32_t first_witness;
   uint32_t witness_count;
@@ -3067,87 +3096,88 @@ typedef struct cstk_verdict {
 } cstk_verdict;
 
 /**
- * A class with its reasons. The arrays belong to the query context and stay valid until its next call or its release.
+ * A class and the leaves and witnesses that decide it. The arrays belong to the query context and stay valid until its
+ * next call or its release.
  */
 typedef struct cstk_explanation {
   cstk_class point_class;
   uint32_t reserved_word;
   /**
-   * Every leaf; one that is meant both as it is and by its complement stands twice.
+   * Every leaf; twice if both it and its complement are used.
    */
   const cstk_verdict *leaves;
   size_t leaf_count;
   /**
-   * Pairs that meet where the leaf's class is CSTK_CLASS_INSIDE, or are within its contact epsilon where it is CSTK_CLASS_CONTACT: as
-   * for classes, doubt within rounding counts as within, so that `distance` may be above the epsilon by that.
+   * Pairs that meet where the leaf's class is CSTK_CLASS_INSIDE, or are within its contact epsilon where it is
+   * CSTK_CLASS_CONTACT. As for classes, doubt within rounding counts as within, so that `distance` may exceed the
+   * epsilon by rounding.
    */
   cstk_witness_list list;
   uint64_t reserved[4];
 } cstk_explanation;
 
 /**
- * How pairs of links are judged. Write it with cstk_link_pair_options_default first.
+ * Options of cstk_find_link_pairs. Write it with cstk_link_pair_options_default first.
  */
 typedef struct cstk_link_pair_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * How many configurations are drawn from the space; default 1000.
+   * The number of configurations sampled; default 1000.
    */
   uint64_t samples;
   /**
-   * Decides which; default 0. Equal seeds give equal answers.
+   * The seed of the sampling; default 0. Equal seeds give equal answers.
    */
   uint64_t seed;
   /**
-   * The configuration at rest, as many doubles as the space has coordinates; NULL, the default, for all at 0, clamped to
-   * their ranges. Coordinates without bounds stay as at rest.
+   * The configuration at rest, nq doubles of the space; NULL, the default, for all coordinates 0, clamped to their
+   * ranges. Coordinates without bounds are not sampled: they stay at rest.
    */
   const double *rest;
   /**
-   * Links at most this far apart count as touching; default 0.
+   * Links within this distance count as touching; default 0.
    */
   double margin;
   /**
-   * Pairs that touch in this share of the samples, or more, always touch; default 0.95.
+   * Pairs that touch in at least this fraction of the samples count as always touching; default 0.95.
    */
   double always;
   /**
-   * Nonzero: pairs that touched in no sample are left out of the pairs to test, too. No sampling proves that they
-   * cannot touch. Default 0.
+   * Nonzero: leaves out pairs that touched in no sample. Sampling does not prove that they cannot touch. Default 0.
    */
   uint32_t skip_never;
   uint32_t reserved;
 } cstk_link_pair_options;
 
 /**
- * A pair of links that have bodies, the lower number first.
+ * A pair of links with bodies, the lower number first.
  */
 typedef struct cstk_link_pair {
   uint32_t r_link;
   uint32_t s_link;
   cstk_pair_verdict verdict;
   /**
-   * The robots that the two are of, in the order of the space's.
+   * The robots of the two links, in the order of the space.
    */
   uint32_t r_robot;
   uint32_t s_robot;
   uint32_t reserved;
   /**
-   * The share of the samples in which they touch; 0 where the verdict needed none.
+   * The fraction of the samples in which the links touch; 0 where the verdict needed no samples.
    */
   double share;
 } cstk_link_pair;
 
 /**
- * All pairs of links that have bodies. The arrays belong to the query context and stay valid until its next call or its
+ * All pairs of links with bodies. The arrays belong to the query context and stay valid until its next call or its
  * release.
  */
 typedef struct cstk_link_pair_list {
   const cstk_link_pair *pairs;
   size_t count;
   /**
-   * The pairs to test, two numbers each, as cstk_cobject_induced_links takes them; NULL where there is none.
+   * The pairs to test, two link numbers each, as cstk_cobject_induced_links takes them; NULL if there are none.
    */
   const uint32_t *tested;
   size_t tested_count;
@@ -3155,7 +3185,7 @@ typedef struct cstk_link_pair_list {
 } cstk_link_pair_list;
 
 /**
- * A pair of primitives that meet, and the shortest translation that takes the two apart.
+ * A pair of primitives that meet, and the shortest translation that separates them.
  */
 typedef struct cstk_penetration {
   /**
@@ -3166,15 +3196,16 @@ typedef struct cstk_penetration {
   uint64_t r_tag;
   uint64_t s_tag;
   /**
-   * How far; 0 for primitives that only touch, or have no inside in common.
+   * The length of the translation; 0 for primitives that only touch, or whose interiors do not meet.
    */
   double depth;
   /**
-   * Which way body a has to go: a unit vector in the world, from body b to body a.
+   * The direction in which body a must move: a unit vector in the world, from body b to body a.
    */
   double direction[3];
   /**
-   * A point of each, in the world, that the translation brings together: s_point = r_point + depth * direction.
+   * A point of each primitive, in the world, that the translation brings together: s_point = r_point + depth *
+   * direction.
    */
   double r_point[3];
   double s_point[3];
@@ -3182,15 +3213,15 @@ typedef struct cstk_penetration {
 } cstk_penetration;
 
 /**
- * Primitive pairs that meet, the deepest first. The array belongs to the query context and stays valid until its next
- * call or its release.
+ * Primitive pairs that meet, deepest first. The array belongs to the query context and stays valid until its next call or
+ * its release.
  */
 typedef struct cstk_penetration_list {
   const cstk_penetration *penetrations;
   size_t count;
   /**
-   * Each body is one convex primitive: the first entry takes the bodies apart. Else an entry takes apart its two
-   * primitives only.
+   * Each body is a single convex primitive, so that the first entry separates the bodies. Otherwise an entry separates
+   * its two primitives only.
    */
   bool of_whole_bodies;
   /**
@@ -3203,7 +3234,7 @@ typedef struct cstk_penetration_list {
 
 
 /**
- * Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
+ * Writes the class of configuration q: inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
  * `nq` doubles, as many as the space has coordinates.
  */
 cstk_status cstk_classify(cstk_query *query,
@@ -3213,9 +3244,9 @@ cstk_status cstk_classify(cstk_query *query,
                           cstk_class *out);
 
 /**
- * cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
- * world, `link_count` runs of 12 doubles. Such callers get a contact's gradient as n^T (J_r - J_s), with their Jacobians of
- * the links' points r_point and s_point.
+ * cstk_classify for callers with their own kinematics. `link_poses` holds the pose of every link of the space in the
+ * world, 12 doubles each, `link_count` poses in all. Such callers compute a contact's gradient as n^T (J_r - J_s), with
+ * their own Jacobians of the points r_point and s_point of the links.
  */
 cstk_status cstk_classify_at_link_poses(cstk_query *query,
                                         const cstk_cobject *cobject,
@@ -3224,11 +3255,11 @@ cstk_status cstk_classify_at_link_poses(cstk_query *query,
                                         cstk_class *out);
 
 /**
- * Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
- * as within. Of unions of induced sets and closed pure sets it is true with threshold 0 where cstk_classify says
- * CSTK_CLASS_INSIDE. At the boundary of an open set (at a joint limit, say), and where of an intersection or a complement only a
- * lower bound of the distance is known, it is true where the class is less: ask cstk_classify whether a configuration is
- * allowed. Cheaper than a distance.
+ * Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts as
+ * within. For unions of induced sets and closed pure sets, threshold 0 gives true where cstk_classify gives
+ * CSTK_CLASS_INSIDE. It is also true on the boundary of an open set (at a joint limit, say), and where only a lower bound
+ * of the distance from an intersection or a complement is known, although the class is lower there: use cstk_classify to
+ * decide whether a configuration is allowed. Cheaper than cstk_distance.
  */
 cstk_status cstk_within(cstk_query *query,
                         const cstk_cobject *cobject,
@@ -3238,7 +3269,7 @@ cstk_status cstk_within(cstk_query *query,
                         bool *out);
 
 /**
- * cstk_within with the pose of every link, as in cstk_classify_at_link_poses.
+ * cstk_within with link poses instead of q; see cstk_classify_at_link_poses.
  */
 cstk_status cstk_within_at_link_poses(cstk_query *query,
                                       const cstk_cobject *cobject,
@@ -3248,8 +3279,9 @@ cstk_status cstk_within_at_link_poses(cstk_query *query,
                                       bool *out);
 
 /**
- * Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
- * `max_distance` (INFINITY to have them all) are not computed, which saves time; the answer is then CSTK_DISTANCE_BEYOND_MAX.
+ * Writes the distance from contact at q, and the nearest primitive pair (§2.2.4, operation 6). Distances above
+ * `max_distance` are not computed, which saves time: the result is then CSTK_DISTANCE_BEYOND_MAX. Pass INFINITY for no
+ * maximum.
  */
 cstk_status cstk_distance(cstk_query *query,
                           const cstk_cobject *cobject,
@@ -3259,7 +3291,7 @@ cstk_status cstk_distance(cstk_query *query,
                           cstk_distance_result *out);
 
 /**
- * cstk_distance with the pose of every link, as in cstk_classify_at_link_poses.
+ * cstk_distance with link poses instead of q; see cstk_classify_at_link_poses.
  */
 cstk_status cstk_distance_at_link_poses(cstk_query *query,
                                         const cstk_cobject *cobject,
@@ -3269,11 +3301,11 @@ cstk_status cstk_distance_at_link_poses(cstk_query *query,
                                         cstk_distance_result *out);
 
 /**
- * Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
- * contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
- * nearest are given and `truncated` is set. Neighbouring faces of a mesh share edges and vertices, so that one physical
- * contact may have several witnesses. Each piece of a body that lies inside another, a solid, is a witness too, at distance
- * 0 (see `contained`). The arrays stay valid until the next call with this query context.
+ * Writes all primitive pairs at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
+ * contacts. Within rounding of epsilon, cstk_within may be true where no witness is listed. If there are more than
+ * `max_count` pairs, the nearest are listed and `truncated` is set. Neighbouring faces of a mesh share edges and vertices,
+ * so that one physical contact may have several witnesses. A piece of a body that lies inside another, a solid, is a
+ * witness at distance 0 (see `contained`). The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_witnesses(cstk_query *query,
                            const cstk_cobject *cobject,
@@ -3284,7 +3316,7 @@ cstk_status cstk_witnesses(cstk_query *query,
                            cstk_witness_list *out);
 
 /**
- * cstk_witnesses with the pose of every link, as in cstk_classify_at_link_poses.
+ * cstk_witnesses with link poses instead of q; see cstk_classify_at_link_poses.
  */
 cstk_status cstk_witnesses_at_link_poses(cstk_query *query,
                                          const cstk_cobject *cobject,
@@ -3295,11 +3327,11 @@ cstk_status cstk_witnesses_at_link_poses(cstk_query *query,
                                          cstk_witness_list *out);
 
 /**
- * cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows
- * per unit of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance
- * first and give its `upper` as epsilon where that is finite: a large epsilon visits every pair, whatever max_count. Row
- * i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact and no row. The arrays stay
- * valid until the next call with this query context.
+ * cstk_witnesses, with the gradient of each contact's distance (§2.2.4, operation 8; §4.4): its derivative with respect to
+ * the velocities of cstk_space_step, the way out in joint space. Row i, at gradients + i * nv, belongs to contacts[i];
+ * overlapping witnesses have neither contact nor row. A large epsilon visits every pair, whatever max_count: for the
+ * nearest pair alone, call cstk_distance first and pass its `upper`, if finite, as epsilon. The arrays stay valid until
+ * the next call with this query context.
  */
 cstk_status cstk_gradients(cstk_query *query,
                            const cstk_cobject *cobject,
@@ -3310,8 +3342,9 @@ cstk_status cstk_gradients(cstk_query *query,
                            cstk_witness_list *out);
 
 /**
- * Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
- * length 1 (those of length 0 stay). The list's arrays stay valid until the next call with this query context.
+ * Writes the class and the distance at q, and the witnesses and gradients within `max_shell`, at most `max_count`
+ * witnesses. `normalize` scales gradients to length 1, except those of length 0. The list's arrays stay valid until the
+ * next call with this query context.
  */
 cstk_status cstk_pseudo_normal(cstk_query *query,
                                const cstk_cobject *cobject,
@@ -3323,8 +3356,9 @@ cstk_status cstk_pseudo_normal(cstk_query *query,
                                cstk_pseudo_normal_result *out);
 
 /**
- * Writes the class of q as cstk_classify does, and what made it: which leaves of the C-object, and which pairs of primitives
- * (§2.2.4, operations 4 and 5). Every leaf is asked, so it takes longer. At most `max_count` pairs are listed.
+ * Writes the class of q as cstk_classify does, and what decides it: the leaves of the C-object, and at most `max_count`
+ * primitive pairs (§2.2.4, operations 4 and 5). Slower than cstk_classify, since every leaf is tested. `q` has `nq`
+ * doubles.
  */
 cstk_status cstk_explain(cstk_query *query,
                          const cstk_cobject *cobject,
@@ -3339,12 +3373,11 @@ cstk_status cstk_explain(cstk_query *query,
 cstk_status cstk_link_pair_options_default(cstk_link_pair_options *out, size_t size);
 
 /**
- * Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
- * touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
- * robots are always tested. Give `tested` to cstk_cobject_induced_links (it may be empty); to
- * allow further pairs, leave them out. Two links may count as touching by `margin`: take no less than the margin of that set
- * together with its contact epsilon, else pairs are tested that are always in contact. `options`
- * may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
+ * Writes which pairs of links of the space to test for self-collision, and why the others are left out: links that are
+ * joined, that touch at rest, or that touch in at least `always` of the sampled configurations. Links of different robots
+ * are always tested. Pass `tested` to cstk_cobject_induced_links (it may be empty); to allow further pairs, leave them
+ * out. Set `margin` to at least the margin plus the contact epsilon of that set; otherwise pairs that are always in
+ * contact are tested. `options` may be NULL for the defaults; `progress` may be NULL; `user` is passed to it.
  */
 cstk_status cstk_find_link_pairs(cstk_query *query,
                                  const cstk_space *space,
@@ -3358,7 +3391,7 @@ cstk_status cstk_find_link_pairs(cstk_query *query,
 /**
  * @defgroup pair Pair queries
  *
- * Two bodies at two poses: what is asked of FCL or Coal.
+ * Two bodies at two poses, without a robot: the queries that FCL and Coal offer.
  *
  * @code
      cstk_distance_result nearest;
@@ -3370,9 +3403,9 @@ cstk_status cstk_find_link_pairs(cstk_query *query,
  */
 
 /**
- * Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
- * doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
- * all) are not computed; the answer is then CSTK_DISTANCE_BEYOND_MAX.
+ * Writes the distance of body a at pose_a from body b at pose_b, and the nearest primitive pair. Poses are 12 doubles,
+ * row-major [R | t], the body's frame in the world. Distances above `max_distance` are not computed: the result is then
+ * CSTK_DISTANCE_BEYOND_MAX. Pass INFINITY for no maximum.
  */
 cstk_status cstk_pair_distance(cstk_query *query,
                                const cstk_body *body_a,
@@ -3383,7 +3416,7 @@ cstk_status cstk_pair_distance(cstk_query *query,
                                cstk_distance_result *out);
 
 /**
- * Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); 0 asks whether they meet.
+ * Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); with 0, whether they meet.
  * Doubt within rounding counts as within. Cheaper than a distance.
  */
 cstk_status cstk_pair_within(cstk_query *query,
@@ -3395,9 +3428,9 @@ cstk_status cstk_pair_within(cstk_query *query,
                              bool *out);
 
 /**
- * Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts; and at distance 0
- * each piece of a body that lies inside the other, a solid (see `contained`). Of more than `max_count`, the nearest are
- * given and `truncated` is set. The arrays stay valid until the next call with this query context.
+ * Writes all primitive pairs at most `epsilon` apart, none missing, none twice, and their contacts. Each piece of a body
+ * that lies inside the other, a solid, is listed at distance 0 (see `contained`). If there are more than `max_count`, the
+ * nearest are listed and `truncated` is set. The arrays stay valid until the next call with this query context.
  */
 cstk_status cstk_pair_witnesses(cstk_query *query,
                                 const cstk_body *body_a,
@@ -3409,14 +3442,13 @@ cstk_status cstk_pair_witnesses(cstk_query *query,
                                 cstk_witness_list *out);
 
 /**
- * Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
- * translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
- * not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
- * pair of polyhedra grows with the number of their edges and with that of the pairs of edges that face each other.
- * CSTK_ERROR_UNSUPPORTED where a cylinder, cone, ellipsoid
- * or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
- * of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
- * set. The array stays valid until the next call with this query context.
+ * Writes all primitive pairs that meet, none missing, none twice, and their penetration: the shortest translation that
+ * separates the two. It separates bodies of one convex primitive each; for bodies of several it separates the two
+ * primitives only (see `of_whole_bodies`). Exact to rounding, with radii too. The work for a pair of polyhedra grows with
+ * the number of their edges and of the pairs of edges that face each other. CSTK_ERROR_UNSUPPORTED where a cylinder, cone,
+ * ellipsoid or support function meets another primitive. A body wholly inside a solid (cstk_body_builder_set_solid) meets
+ * none of its primitives, and is not listed. If there are more than `max_count` pairs, the deepest are listed and
+ * `truncated` is set. The array stays valid until the next call with this query context.
  */
 cstk_status cstk_pair_penetration(cstk_query *query,
                                   const cstk_body *body_a,
@@ -3431,7 +3463,7 @@ cstk_status cstk_pair_penetration(cstk_query *query,
 /**
  * @defgroup slide Slides
  *
- * The step that slides along contact, proved free on its whole way, and its two halves for callers who put them together
+ * A step that slides along contacts, proved free on its whole way, and its two halves for callers who combine them
  * themselves (§2.2.4, Appendix A).
  *
  * @code
@@ -3453,19 +3485,19 @@ enum cstk_slide_outcome
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * A step was found, and it keeps clear of the C-object all the way.
+   * A step was found, and the whole motion is proved free.
    */
   CSTK_SLIDE_MOVED = 0,
   /**
-   * The configuration is inside the C-object; nothing was moved.
+   * The configuration is inside the C-object; it is not moved.
    */
   CSTK_SLIDE_INSIDE = 1,
   /**
-   * No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
-   * range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
-   * the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
-   * gains more than 1 % of its length along the step asked for, to first order. With a contact_count of 0 the step is
-   * 0, ranges or the world box are in the way, or the shell is so short that even the step of the floor's length
+   * No step is possible: contacts, ranges or the world box block the way, or q itself violates ranges or box (a joint
+   * held by a range of one value must have it to the last bit; see cstk_space_clamp). The configuration is not moved. To
+   * first order, no step as long as the floor that stays free, keeps its distance (or the desired one, if that is less),
+   * the ranges and the box gains more than 1 % of its length along the requested step. With a contact_count of 0 the
+   * step is 0, or ranges or the world box block it, or the shell is so short that even a step of the floor's length
    * leads beyond it.
    */
   CSTK_SLIDE_BLOCKED = 2,
@@ -3479,49 +3511,48 @@ typedef int32_t cstk_slide_outcome;
 #endif // __cplusplus
 
 /**
- * How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
+ * Options of a slide. Write it with cstk_slide_options_default first, then set `max_shell`.
  */
 typedef struct cstk_slide_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
-   * two or three times as far as a step moves the robot does well. Parts of the C-object may have shells of their own:
-   * see cstk_cobject_with_shell.
+   * Contacts up to this distance constrain the step. Must be set, larger than 0; two or three times as far as a step
+   * moves the robot works well. Parts of the C-object may have their own shells: see cstk_cobject_with_shell.
    */
   double max_shell;
   /**
-   * The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-   * tenth of max_shell. Independent of the C-object's contact epsilon. A part with a shell of its own keeps the same
-   * part of that.
+   * The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, means a tenth of
+   * max_shell. Independent of the C-object's contact epsilon. For a part with its own shell it is scaled with that
+   * shell.
    */
   double desired_distance;
   /**
-   * Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default,
-   * leaves what is left of the step. (The report's normalize?)
+   * Nonzero: lengthens the step along the contact to the length of the requested step, at most fourfold. 0, the default,
+   * keeps what is left of the step. (The report's normalize?)
    */
   uint32_t normalize;
   /**
-   * At most this many witnesses are considered, the nearest first. Default 256.
+   * The most witnesses considered, the nearest first. Default 256.
    */
   uint32_t max_witnesses;
   /**
-   * A step is halved until it is accepted, or is shorter than this part of the step asked for. Default 1/1024.
+   * A step is halved until it is accepted, or shorter than this fraction of the requested step. Default 1/1024.
    */
   double floor;
 } cstk_slide_options;
 
 /**
- * What a slide did.
+ * The result of a slide.
  */
 typedef struct cstk_slide_result {
   cstk_slide_outcome outcome;
   /**
-   * How many contacts within the shells there were at q.
+   * The number of contacts within the shells at q.
    */
   uint32_t contact_count;
   /**
-   * The distance at the configuration given, and at the one reached.
+   * The distance at q, and at the configuration reached.
    */
   double distance_before;
   double distance_after;
@@ -3535,24 +3566,25 @@ typedef struct cstk_slide_result {
 cstk_status cstk_slide_options_default(cstk_slide_options *out, size_t size);
 
 /**
- * Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
- * nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
- * contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
- * world box, pushed out where the robot is within that distance, corrected where it leads, and halved until the whole
- * way is proved free. Along a contact only part of the step is left; see `normalize`.
+ * Takes one step from q that slides along contacts instead of running into them (Appendix A). Where nothing is within the
+ * shell, it is `step` itself. Otherwise it is the nearest step (by the unweighted sum of squared velocities) that brings
+ * no contact nearer than the desired distance (or than the nearest contact, if that is nearer) and keeps to the ranges and
+ * the world box. A robot within the desired distance is pushed out to it. The step is corrected at its end, and halved
+ * until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
  *
- * The proof takes each pair of bodies, and each link with a floor or the world box, for itself: by its own distance, and by
- * how far the joints between the two can move them relative to each other, or a link along the normal of a plane between
- * it and an obstacle. Pairs that no joint of the step moves relative to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
- * first 1e-4 of max_shell (or of the smallest link's radius), and must be apart from there on, unless the whole way is
- * shorter than that. Of two bodies with more than 64 primitive pairs only the nearest constrain a step: at most 8, no more
- * than 1 % of the shell farther apart than the first.
+ * The proof treats each body pair, and each link with a floor or the world box, separately: by its own distance, and by a
+ * bound of how far the joints between the two can move them relative to each other, or of how far a link moves along the
+ * normal of a plane between it and an obstacle. Pairs that no joint of the step moves relative to each other may touch.
+ * For a pair that touches at q and moves, the gradients of its contacts are trusted for the first 1e-4 of max_shell (or of
+ * the smallest link's radius); from there on it must be apart, unless the whole motion is shorter. Of two bodies with more
+ * than 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than
+ * the nearest.
  *
- * `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of
- * time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
- * than 1 % a step; who wants to stop then looks at what was gained. The C-object is an induced or pure set or a union of
- * such, without predicates: else, and where a custom joint that changes some distance does not state its speeds,
- * CSTK_ERROR_UNSUPPORTED.
+ * `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit
+ * of time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
+ * than 1 % a step: callers who want to stop then should check the gain. The C-object must be an induced set, a pure set
+ * other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise, and where a custom joint that changes some
+ * distance does not state its speeds.
  */
 cstk_status cstk_slide(cstk_query *query,
                        const cstk_cobject *cobject,
@@ -3565,10 +3597,10 @@ cstk_status cstk_slide(cstk_query *query,
                        cstk_slide_result *out);
 
 /**
- * The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
- * `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
- * is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
- * cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
+ * The report's slide-step. From a list with gradients (cstk_gradients, or cstk_pseudo_normal without `normalize`),
+ * computes the step nearest to `step` that brings no contact nearer than `desired_distance`, and contacts that are nearer
+ * already no nearer still. It is a first-order step: ranges are ignored and the motion is not checked. `normalize` is that
+ * of cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
  * `out` zero, where less than 1 % of the step would be left.
  */
 cstk_status cstk_slide_step(const cstk_witness_list *list,
@@ -3580,9 +3612,9 @@ cstk_status cstk_slide_step(const cstk_witness_list *list,
                             bool *found);
 
 /**
- * The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to first
- * order; where they stand against each other, out to the largest distance they can share. `found` is false, and `out` zero,
- * where no contact is nearer or none can be helped. See cstk_slide_step for the list.
+ * The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to
+ * first order; where contacts oppose each other, out to the largest distance they can share. `out` has `nv` doubles.
+ * `found` is false, and `out` zero, where no contact is nearer or none can move out. See cstk_slide_step for the list.
  */
 cstk_status cstk_spring_step(const cstk_witness_list *list,
                              size_t nv,
@@ -3604,10 +3636,10 @@ cstk_status cstk_spring_step(const cstk_witness_list *list,
  */
 
 /**
- * Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
- * pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
- * along the gradient (blue). Distances and gradients stand in the nodes' extras. The name must end in .glb
- * (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
+ * Writes the scene at q to a .glb file (glTF; the report's show-c-object): links, s-objects, the nearest pair of points
+ * and the contacts within the contact epsilon (red), each contact's normal (green) and the direction in which its point
+ * moves along the gradient (blue). Distances and gradients are in the nodes' extras. `q` has `nq` doubles. The name must
+ * end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
  */
 cstk_status cstk_show(const cstk_cobject *cobject,
                       const double *q,

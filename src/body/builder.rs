@@ -54,16 +54,9 @@ impl BodyBuilder {
         self.push(convex_polyhedron(points)?, tag, false)
     }
 
-    /// Declares that the polygons and the faces of meshes are the closed boundary of a solid: a body wholly inside is in
-    /// collision. Inside is where the boundary's winding number is not 0. So shells that face the same way may overlap; a
-    /// cavity is a shell that faces the other way than the one around it; and a boundary that faces inwards everywhere bounds
-    /// the same solid.
-    ///
-    /// [`BodyBuilder::build`] checks that the boundary is closed. Edges join if their ends have the same coordinates, to the
-    /// last bit; each edge must be used by as many faces one way as the other. Faces without area count where others need
-    /// them to join. If exactly two faces share an edge, one is first reversed where necessary; of each component connected
-    /// that way, the larger part by area keeps its orientation. Polyhedra, flat ones too, are solid by themselves and no part
-    /// of the boundary. In the plane, where polygons are solid too, this changes nothing.
+    /// Declares that all polygons and mesh faces together are the closed boundary of a solid: a body wholly inside it meets
+    /// it. [`BodyBuilder::build`] checks that it is closed; the rules are those of `cstk_body_builder_set_solid` in the
+    /// header.
     pub fn set_solid(&mut self, is_solid: bool) {
         self.is_solid = is_solid;
     }

@@ -1,4 +1,4 @@
-//! The guard every exported function runs in: errors become a status and this thread's message, panics too.
+//! The guard that every exported function runs in: errors and panics become a status and this thread's message.
 
 use std::cell::{Cell, RefCell};
 use std::ffi::{CString, c_char};
@@ -57,7 +57,7 @@ pub fn guard(call: impl FnOnce() -> Result<(), Failure>) -> cstk_status {
         }
     };
     let text = CString::new(failure.message.replace('\0', " ")).unwrap_or_default();
-    // During a thread's end the message may be gone already; the status still tells.
+    // While a thread exits its message may be gone already; the status remains.
     let _ = MESSAGE.try_with(|message| message.replace(text));
     failure.status
 }

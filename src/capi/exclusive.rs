@@ -5,8 +5,8 @@ use std::sync::{Mutex, TryLockError};
 use super::boundary::Failure;
 use crate::error::{Error, ErrorKind};
 
-/// Runs an action with the object to itself; [`ErrorKind::Busy`] if another call has it. `mend` puts an object in order that
-/// a fault may have left half changed.
+/// Runs an action with exclusive access to the object; [`ErrorKind::Busy`] if another call has it. `mend` repairs an object
+/// that a panic may have left half changed.
 pub fn exclusively<T>(
     object: &Mutex<T>,
     name: &str,

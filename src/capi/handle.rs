@@ -1,8 +1,8 @@
 //! Handles: what C holds instead of an `Arc`.
 //!
-//! A handle points to a slot that names the kind of object and counts the references C holds. Slots of released objects
-//! are kept and marked for a long while before they are used again, so that a released handle, like one of another
-//! kind, is found out instead of followed.
+//! A handle points to a slot that holds the kind of the object and the number of references that C holds. Slots of released
+//! objects stay marked for a long time before they are reused, so that a released handle, or one of another kind, is
+//! detected instead of followed.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicPtr, AtomicU32, Ordering};
@@ -16,17 +16,17 @@ use crate::capi::status::status::cstk_status;
 pub trait Noun: Send + Sync + 'static {
     /// The opaque type of the header.
     type Handle;
-    /// A number of its own.
+    /// Unique among the handle types.
     const KIND: u32;
-    /// What messages call it.
+    /// The name in error messages.
     const NAME: &'static str;
 }
 
 /// Marks a slot whose object was released.
 const RELEASED: u32 = 0x4445_4144;
-/// Begins every kind number, so that foreign memory is unlikely to look like a slot.
+/// The base of all kind numbers: makes it unlikely that foreign memory looks like a slot.
 const KIND_BASE: u32 = 0x4353_5400;
-/// So many released slots wait before one is used again.
+/// The number of released slots that are kept back before one is reused.
 const QUARANTINE: usize = 4096;
 
 struct Slot {
@@ -44,9 +44,9 @@ static QUARANTINED: Mutex<Quarantine> = Mutex::new(Quarantine(VecDeque::new()));
 /// A new handle with one reference.
 pub fn create<T: Noun>(value: Arc<T>) -> *mut T::Handle {
     let value = Arc::into_raw(value).cast_mut().cast();
-    let mut waiting = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
-    let reused = (waiting.0.len() > QUARANTINE)
-        .then(|| waiting.0.pop_front())
+    let mut quarantine = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
+    let reused = (quarantine.0.len() > QUARANTINE)
+        .then(|| quarantine.0.pop_front())
         .flatten();
     let slot = reused.unwrap_or_else(|| {
         Box::into_raw(Box::new(Slot {
@@ -89,7 +89,7 @@ fn wrong<T: Noun>(argument: &str, what: &str) -> Failure {
     )
 }
 
-/// A share of the object behind a handle, to be kept, or for the time of a call: functions of the caller that it calls may
+/// Shared ownership of the object behind a handle, to keep it, or for the time of a call that runs callbacks: they may
 /// release the handle.
 pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>, Failure> {
     let slot = slot_of::<T>(handle, argument)?;
@@ -101,15 +101,14 @@ pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>
     }
 }
 
-/// The object behind a handle, for the time of a call that runs no function of the caller's: only that could release the
-/// handle meanwhile.
+/// The object behind a handle, for the time of a call that runs no callbacks: only they could release the handle during it.
 pub fn borrowed<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a T, Failure> {
     let slot = slot_of::<T>(handle, argument)?;
-    // SAFETY: a slot of this kind holds a pointer from Arc::into_raw, and the caller holds a reference for the time of the call.
+    // SAFETY: a slot of this kind holds a pointer from Arc::into_raw, and the caller holds a reference during the call.
     Ok(unsafe { &*slot.value.load(Ordering::Relaxed).cast::<T>() })
 }
 
-/// One more reference.
+/// Adds a reference.
 pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), Failure> {
     let references = &slot_of::<T>(handle, argument)?.references;
     if references.fetch_add(1, Ordering::Relaxed) > u32::MAX / 2 {
@@ -122,7 +121,7 @@ pub fn retain<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<(), F
     Ok(())
 }
 
-/// One reference less; the last one lets go of the object. NULL is a no-op.
+/// Drops a reference; the last one releases the object. NULL is a no-op.
 pub fn release<T: Noun>(handle: *mut T::Handle, argument: &str) -> Result<(), Failure> {
     if handle.is_null() {
         return Ok(());
@@ -137,7 +136,7 @@ pub fn release<T: Noun>(handle: *mut T::Handle, argument: &str) -> Result<(), Fa
         // SAFETY: the slot held this Arc, and the last reference to the slot is gone.
         drop(unsafe { Arc::from_raw(value.cast::<T>()) });
     }
-    let mut waiting = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
-    waiting.0.push_back(handle.cast());
+    let mut quarantine = QUARANTINED.lock().unwrap_or_else(PoisonError::into_inner);
+    quarantine.0.push_back(handle.cast());
     Ok(())
 }

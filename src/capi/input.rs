@@ -1,4 +1,4 @@
-//! Checked input: slices, strings, outputs, and options structures.
+//! Checks arguments: slices, strings, outputs, and options structures.
 
 use std::ffi::{CStr, c_char};
 use std::fmt::{self, Display};
@@ -9,7 +9,7 @@ use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 
-/// What is said of a NULL that is not welcome.
+/// The error for a pointer that must not be NULL.
 #[cold]
 pub fn null(argument: &str) -> Failure {
     Failure::new(
@@ -26,7 +26,7 @@ fn misaligned(argument: &str) -> Failure {
     )
 }
 
-/// `count` items; NULL is welcome where the count is 0.
+/// `count` items; NULL is allowed if the count is 0.
 pub unsafe fn slice<'a, T>(
     items: *const T,
     count: usize,
@@ -51,18 +51,17 @@ pub unsafe fn slice<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts(items, count) })
 }
 
-/// What is made of items of the caller's, whose count decides how much memory that takes: where there is not enough, the call
-/// is refused.
+/// Collects items whose count comes from the caller. If there is not enough memory, the call is refused.
 pub fn collected<T>(
     items: impl ExactSizeIterator<Item = T>,
     argument: impl Display,
 ) -> Result<Vec<T>, Failure> {
-    let mut made = reserved(items.len(), argument)?;
-    made.extend(items);
-    Ok(made)
+    let mut collected = reserved(items.len(), argument)?;
+    collected.extend(items);
+    Ok(collected)
 }
 
-/// Room for as many items as the caller has; where there is not enough memory, the call is refused.
+/// An empty array with room for `count` items. If there is not enough memory, the call is refused.
 pub fn reserved<T>(count: usize, argument: impl Display) -> Result<Vec<T>, Failure> {
     let mut room = Vec::new();
     let done = room.try_reserve_exact(count);
@@ -145,7 +144,7 @@ unsafe fn c_string<'a>(string: *const c_char, argument: &str) -> Result<&'a CStr
     Ok(unsafe { CStr::from_ptr(string) })
 }
 
-/// A place for one result. It is checked first and written last.
+/// The destination of a result, checked before the call's work and written last.
 pub struct Output<T>(*mut T);
 
 impl<T> Output<T> {
@@ -159,7 +158,7 @@ impl<T> Output<T> {
         Ok(Self(out))
     }
 
-    /// NULL is welcome: nothing is written then.
+    /// NULL is allowed: then nothing is written.
     pub fn optional(out: *mut T, argument: &str) -> Result<OptionalOutput<T>, Failure> {
         if out.is_null() {
             return Ok(OptionalOutput(None));
@@ -173,7 +172,7 @@ impl<T> Output<T> {
     }
 }
 
-/// A place for a result the caller may not want.
+/// The destination of a result that the caller may leave out.
 pub struct OptionalOutput<T>(Option<Output<T>>);
 
 impl<T> OptionalOutput<T> {
@@ -184,7 +183,7 @@ impl<T> OptionalOutput<T> {
     }
 }
 
-/// A place for `count` results.
+/// The destination of `count` results.
 pub struct OutputSlice<T> {
     items: *mut T,
     count: usize,
@@ -208,26 +207,26 @@ impl<T: Copy> OutputSlice<T> {
     }
 }
 
-/// A structure that C fills with options. It begins with `size` and `cookie`; fields are only ever appended, and a zero
-/// in a field the caller does not know means its default.
+/// An options structure that C fills in. It begins with `size` and `cookie`. Fields are only ever appended, and 0 in a
+/// field that the caller does not know means its default.
 ///
 /// # Safety
 /// `repr(C)`, beginning with two `u32`, without padding, valid for every bit pattern.
 pub unsafe trait OptionsStruct: Copy {
-    /// A number of its own.
+    /// Unique among the options structures.
     const COOKIE: u32;
     /// The C name.
     const NAME: &'static str;
     /// The sizes of its earlier versions.
     const EARLIER_SIZES: &'static [usize] = &[];
-    /// The defaults, but for size and cookie.
+    /// The defaults, except for size and cookie.
     fn defaults() -> Self;
 }
 
-/// Sizes beyond this are taken for damage.
+/// The largest size accepted; larger ones are taken for damage.
 const LARGEST_OPTIONS: usize = 1 << 16;
 
-/// Whether a version of the structure has this size: an earlier one, this one, or one to come.
+/// Whether a version of the structure has this size: an earlier, the current or a later one.
 fn is_version<T: OptionsStruct>(size: usize) -> bool {
     T::EARLIER_SIZES.contains(&size) || (size_of::<T>()..=LARGEST_OPTIONS).contains(&size)
 }
@@ -253,7 +252,7 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
     Ok(())
 }
 
-/// A structure of the caller's: as it is where it has this library's layout, else a copy that has.
+/// A structure of the caller: borrowed if it has this library's layout, else a copy in that layout.
 pub enum CallerStruct<'a, T> {
     Theirs(&'a T),
     Ours(T),
@@ -282,7 +281,7 @@ pub unsafe fn options<T: OptionsStruct>(
     })
 }
 
-/// The same, copied only where that must be: for arrays of them.
+/// The same, copied only if necessary: for arrays.
 pub unsafe fn options_in_place<'a, T: OptionsStruct>(
     given: *const T,
     argument: impl fmt::Display,

@@ -1,6 +1,6 @@
 //! Pair queries.
 //!
-//! Two bodies at two poses: what is asked of FCL or Coal.
+//! Two bodies at two poses, without a robot: the queries that FCL and Coal offer.
 //!
 //! ```c
 //! cstk_distance_result nearest;
@@ -23,7 +23,7 @@ use crate::pose::Pose;
 
 type Placement<'a> = (&'a Body, &'a Pose);
 
-/// Checks the arguments all pair queries share, and runs one.
+/// Checks the arguments that all pair queries share, and runs one.
 unsafe fn run<T>(
     query: *mut cstk_query,
     body_a: *const cstk_body,
@@ -31,7 +31,7 @@ unsafe fn run<T>(
     body_b: *const cstk_body,
     pose_b: *const f64,
     out: *mut T,
-    ask: impl FnOnce(&mut State, Placement, Placement, Output<T>) -> Result<(), Failure>,
+    action: impl FnOnce(&mut State, Placement, Placement, Output<T>) -> Result<(), Failure>,
 ) -> cstk_status {
     guard(|| {
         let a = handle::borrowed::<Body>(body_a, "body_a")?;
@@ -40,10 +40,10 @@ unsafe fn run<T>(
             let out = Output::checked(out, "out")?;
             // SAFETY: checked for NULL; the header states the lengths.
             let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };
-            ask(state, (a, &pose_a), (b, &pose_b), out)
+            action(state, (a, &pose_a), (b, &pose_b), out)
         };
         if a.has_functions() || b.has_functions() {
-            // Functions of the caller's may release what is asked.
+            // Callbacks may release the bodies during the call.
             let _kept = handle::share::<Body>(body_a, "body_a")?;
             let _kept_too = handle::share::<Body>(body_b, "body_b")?;
             return with_query(query, answer);
@@ -52,9 +52,9 @@ unsafe fn run<T>(
     })
 }
 
-/// Writes the distance of body a at pose_a from body b at pose_b, and the nearest pair of primitives. Poses are 12
-/// doubles, row-major [R | t], the body's frame in the world. Distances beyond `max_distance` (INFINITY to have them
-/// all) are not computed; the answer is then CSTK_DISTANCE_BEYOND_MAX.
+/// Writes the distance of body a at pose_a from body b at pose_b, and the nearest primitive pair. Poses are 12 doubles,
+/// row-major [R | t], the body's frame in the world. Distances above `max_distance` are not computed: the result is then
+/// CSTK_DISTANCE_BEYOND_MAX. Pass INFINITY for no maximum.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_distance(
     query: *mut cstk_query,
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn cstk_pair_distance(
     }
 }
 
-/// Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); 0 asks whether they meet.
+/// Writes whether the two bodies are at most `threshold` apart (not negative; may be INFINITY); with 0, whether they meet.
 /// Doubt within rounding counts as within. Cheaper than a distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_within(
@@ -111,9 +111,9 @@ pub unsafe extern "C" fn cstk_pair_within(
     }
 }
 
-/// Writes all pairs of primitives at most `epsilon` apart, none missing, none twice, and their contacts; and at distance 0
-/// each piece of a body that lies inside the other, a solid (see `contained`). Of more than `max_count`, the nearest are
-/// given and `truncated` is set. The arrays stay valid until the next call with this query context.
+/// Writes all primitive pairs at most `epsilon` apart, none missing, none twice, and their contacts. Each piece of a body
+/// that lies inside the other, a solid, is listed at distance 0 (see `contained`). If there are more than `max_count`, the
+/// nearest are listed and `truncated` is set. The arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_witnesses(
     query: *mut cstk_query,
@@ -143,14 +143,13 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
     }
 }
 
-/// Writes all pairs of primitives that meet, none missing, none twice, and how deep they are in one another: the shortest
-/// translation that takes the two apart. Bodies of one convex primitive each are taken apart by it; those of several are
-/// not, for it is about two primitives only (see `of_whole_bodies`). Exact to rounding, with radii too; the work for a
-/// pair of polyhedra grows with the number of their edges and with that of the pairs of edges that face each other.
-/// CSTK_ERROR_UNSUPPORTED where a cylinder, cone, ellipsoid
-/// or support function meets another primitive. What lies wholly inside a solid (cstk_body_builder_set_solid) meets none
-/// of its primitives: nothing is listed for it. Of more than `max_count` pairs, the deepest are given and `truncated` is
-/// set. The array stays valid until the next call with this query context.
+/// Writes all primitive pairs that meet, none missing, none twice, and their penetration: the shortest translation that
+/// separates the two. It separates bodies of one convex primitive each; for bodies of several it separates the two
+/// primitives only (see `of_whole_bodies`). Exact to rounding, with radii too. The work for a pair of polyhedra grows with
+/// the number of their edges and of the pairs of edges that face each other. CSTK_ERROR_UNSUPPORTED where a cylinder, cone,
+/// ellipsoid or support function meets another primitive. A body wholly inside a solid (cstk_body_builder_set_solid) meets
+/// none of its primitives, and is not listed. If there are more than `max_count` pairs, the deepest are listed and
+/// `truncated` is set. The array stays valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pair_penetration(
     query: *mut cstk_query,

@@ -1,7 +1,7 @@
 //! Poses.
 //!
-//! Poses are 12 doubles, row-major [R | t]. They are made from quaternions, or from the report's Euler angles (§4.1), whose
-//! rates are those of §4.3, and composed.
+//! Poses are 12 doubles, row-major [R | t]. They are converted from quaternions or from the report's Euler angles (§4.1),
+//! whose rates are those of §4.3, and composed.
 //!
 //! ```c
 //! const double above[7] = {0, 0, 0.5, 0, 0, 0, 1}; // x, y, z, and the quaternion x, y, z, w
@@ -20,8 +20,8 @@ use crate::euler::{
 };
 use crate::pose::{Mat3, Pose, Vec3};
 
-/// Converts a placement of the report (§4.1, eq. 3-6) to a pose: `xyz_ypr` holds x, y, z and the angles yaw (about Y),
-/// pitch (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
+/// Converts the report's placement (§4.1, eq. 3-6) to a pose. `xyz_ypr` holds x, y, z and the angles yaw (about Y), pitch
+/// (about the new Z) and roll (about the new X) in radians; `pose` receives 12 doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_from_euler(xyz_ypr: *const f64, pose: *mut f64) -> cstk_status {
     guard(|| {
@@ -35,7 +35,7 @@ pub unsafe extern "C" fn cstk_pose_from_euler(xyz_ypr: *const f64, pose: *mut f6
 }
 
 /// The inverse of cstk_pose_from_euler (eq. 7). Where cos(pitch) = 0 only yaw + roll or yaw - roll is determined; roll is
-/// then given as 0.
+/// then 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_to_euler(pose_12: *const f64, xyz_ypr: *mut f64) -> cstk_status {
     guard(|| {
@@ -47,8 +47,8 @@ pub unsafe extern "C" fn cstk_pose_to_euler(pose_12: *const f64, xyz_ypr: *mut f
     })
 }
 
-/// Converts a translation and a unit quaternion to a pose: `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
-/// of the quaternion, whose norm may be off 1 by 1e-6; `pose` receives 12 doubles.
+/// Converts a translation and a unit quaternion to a pose. `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
+/// of the quaternion, whose norm must be 1 to within 1e-6; `pose` receives 12 doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_from_quaternion(
     xyz_quaternion: *const f64,
@@ -67,8 +67,8 @@ pub unsafe extern "C" fn cstk_pose_from_quaternion(
     })
 }
 
-/// The pose `a` then `b`: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in
-/// frame 0. All are 12 doubles; `out` may be `a` or `b`.
+/// Composes poses: if `a` places frame 1 in frame 0 and `b` places frame 2 in frame 1, `out` places frame 2 in frame 0. All
+/// are 12 doubles; `out` may be `a` or `b`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_compose(
     a: *const f64,
@@ -84,8 +84,8 @@ pub unsafe extern "C" fn cstk_pose_compose(
     })
 }
 
-/// The inverse of a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles
-/// each; both may be the same.
+/// Inverts a pose (eq. 10): if `pose_12` places frame 1 in frame 0, `out` places frame 0 in frame 1. 12 doubles each; both
+/// may be the same.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_inverse(pose_12: *const f64, out: *mut f64) -> cstk_status {
     guard(|| {
@@ -97,8 +97,8 @@ pub unsafe extern "C" fn cstk_pose_inverse(pose_12: *const f64, out: *mut f64) -
     })
 }
 
-/// Carries a point of the child frame into the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be the
-/// same.
+/// Transforms a point from the child frame to the parent frame (eq. 8): `out` = R `point` + t. 3 doubles each; both may be
+/// the same.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_transform_point(
     pose_12: *const f64,
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn cstk_pose_transform_point(
     })
 }
 
-/// The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation the one with w >= 0.
+/// The inverse of cstk_pose_from_quaternion; of the two quaternions of a rotation it writes the one with w >= 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pose_to_quaternion(
     pose_12: *const f64,
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn cstk_pose_to_quaternion(
     })
 }
 
-/// Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation of 9 doubles, row-major.
+/// Converts yaw, pitch and roll (radians; §4.1, eq. 6) to a rotation matrix of 9 doubles, row-major.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_to_rotation(
     yaw_pitch_roll: *const f64,
@@ -148,7 +148,7 @@ pub unsafe extern "C" fn cstk_euler_to_rotation(
     })
 }
 
-/// The inverse of cstk_euler_to_rotation (eq. 7), with the same rule where cos(pitch) = 0 as cstk_pose_to_euler.
+/// The inverse of cstk_euler_to_rotation (eq. 7). Where cos(pitch) = 0 it chooses roll 0, as cstk_pose_to_euler does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_from_rotation(
     rotation: *const f64,
@@ -173,7 +173,7 @@ pub unsafe extern "C" fn cstk_euler_from_rotation(
 pub enum cstk_angular_frame {
     /// The inertial frame, as in eq. (33) and everywhere else in this header.
     CSTK_ANGULAR_WORLD = 0,
-    /// The turning body's own, as in eq. (25) to (31).
+    /// The rotating body's own, as in eq. (25) to (31).
     CSTK_ANGULAR_BODY = 1,
 }
 
@@ -190,9 +190,9 @@ impl cstk_angular_frame {
     }
 }
 
-/// The matrix of eq. (31): 9 doubles, row-major, that turn the rates of yaw, pitch and roll into an angular velocity.
-/// `frame` is a cstk_angular_frame; the report prints the matrix for the body's frame, and uses it beside the inertial
-/// columns of (33), with which only the inertial form combines.
+/// Writes the matrix of eq. (31), 9 doubles, row-major, which maps the rates of yaw, pitch and roll to an angular velocity.
+/// `frame` is a cstk_angular_frame. The report prints the matrix for the body's frame, but uses it with the inertial
+/// columns of (33), which only the inertial form fits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_rates(
     yaw_pitch_roll: *const f64,
@@ -207,8 +207,8 @@ pub unsafe extern "C" fn cstk_euler_rates(
     })
 }
 
-/// The inverse of cstk_euler_rates: rates of yaw, pitch and roll from an angular velocity. CSTK_ERROR_DEGENERATE where cos(pitch) =
-/// 0.
+/// Writes the inverse of the matrix of cstk_euler_rates: maps an angular velocity to the rates of yaw, pitch and roll.
+/// CSTK_ERROR_DEGENERATE where cos(pitch) = 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_euler_rates_inverse(
     yaw_pitch_roll: *const f64,
@@ -234,9 +234,9 @@ unsafe fn rates(
     Ok(())
 }
 
-/// Turns a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), into the Jacobian of x, y, z, yaw, pitch, roll (eq. 22,
-/// 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler. CSTK_ERROR_DEGENERATE where
-/// cos(pitch) = 0.
+/// Converts a basic Jacobian, as cstk_robot_jacobian writes it (eq. 33), to the Jacobian of x, y, z, yaw, pitch, roll (eq.
+/// 22, 23), in place: 6 rows of `nv` doubles. `yaw_pitch_roll` are the link's, see cstk_pose_to_euler.
+/// CSTK_ERROR_DEGENERATE where cos(pitch) = 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_jacobian_to_euler(
     yaw_pitch_roll: *const f64,

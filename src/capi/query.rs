@@ -1,7 +1,7 @@
 //! Query contexts.
 //!
-//! A query context holds one thread's caches and scratch memory, and the lists that its last call wrote. What it remembers
-//! changes how long an answer takes, never the answer (§2.3.4).
+//! A query context holds one thread's caches and scratch memory, and the lists that its last call wrote. Its caches change
+//! how long an answer takes, never the answer (§2.3.4).
 //!
 //! ```c
 //! cstk_query_statistics work;
@@ -32,8 +32,9 @@ use crate::query::{
     ContactsListed, LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList,
 };
 
-/// One thread's caches and scratch memory, and the home of the arrays it answers with. A context serves one thread at a
-/// time and answers CSTK_ERROR_BUSY otherwise; make one per thread. Caches change how long an answer takes, never the answer.
+/// One thread's caches and scratch memory, and the owner of the arrays in its results. A context serves one thread at a
+/// time; other calls meanwhile return CSTK_ERROR_BUSY. Create one per thread. Caches change how long an answer takes, never
+/// the answer.
 pub struct cstk_query {
     _opaque: [u8; 0],
 }
@@ -49,7 +50,7 @@ pub(super) struct State {
     pub verdicts: Vec<cstk_verdict>,
     pub pairs: Vec<cstk_link_pair>,
     pub tested: Vec<u32>,
-    /// Memory for the link poses that a call is given.
+    /// Memory for the link poses passed to a call.
     pub poses: Vec<Pose>,
 }
 
@@ -61,13 +62,13 @@ impl Noun for Query {
     const NAME: &'static str = "cstk_query";
 }
 
-/// Fills an array anew, in the memory that it has.
+/// Refills an array, reusing its memory.
 fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
     array.clear();
     array.extend(items.iter().map(From::from));
 }
 
-/// Where an array is; NULL if it is empty.
+/// The address of an array; NULL if it is empty.
 pub(super) fn start<T>(items: &[T]) -> *const T {
     if items.is_empty() {
         std::ptr::null()
@@ -77,7 +78,7 @@ pub(super) fn start<T>(items: &[T]) -> *const T {
 }
 
 impl State {
-    /// Takes over a list and says where its array now is.
+    /// Stores a list, and returns a view of its array.
     pub fn keep_penetrations(&mut self, list: &PenetrationList) -> cstk_penetration_list {
         refill(&mut self.penetrations, &list.penetrations);
         cstk_penetration_list {
@@ -90,7 +91,7 @@ impl State {
         }
     }
 
-    /// Takes over pairs of links, and which of them are to be tested.
+    /// Stores link pairs, and which of them to test.
     pub fn keep_pairs(&mut self, pairs: &[LinkPair], skip_never: bool) {
         refill(&mut self.pairs, pairs);
         let is_tested = |pair: &&LinkPair| match pair.verdict {
@@ -104,7 +105,7 @@ impl State {
             .collect();
     }
 
-    /// Takes over a list and says where its arrays now are.
+    /// Stores a list, and returns a view of its arrays.
     pub fn keep(&mut self, list: WitnessList) -> cstk_witness_list {
         refill(&mut self.witnesses, &list.witnesses);
         refill(&mut self.contacts, &list.contacts);
@@ -125,7 +126,7 @@ impl State {
     }
 }
 
-/// Runs a query with the context to itself.
+/// Runs a query with exclusive access to the context.
 pub(super) fn with_query(
     query: *mut cstk_query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
@@ -133,7 +134,7 @@ pub(super) fn with_query(
     exclusively_with(&*handle::share::<Query>(query, "query")?, action)
 }
 
-/// The same for an action that runs no function of the caller's.
+/// The same for an action that runs no callbacks.
 pub(super) fn with_borrowed_query(
     query: *mut cstk_query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
@@ -145,7 +146,7 @@ fn exclusively_with(
     query: &Query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    // Caches are dispensable, and scratch memory is only as good as the call that left it. What the caller has set stays.
+    // After a panic caches and scratch memory are dropped: they may be inconsistent. The limit stays.
     let renew = |state: &mut State| {
         let limit = state.context.limit();
         *state = State::default();
@@ -154,7 +155,7 @@ fn exclusively_with(
     exclusively(&query.0, "the query context", renew, action)
 }
 
-/// Makes a query context.
+/// Creates a query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_create(out: *mut *mut cstk_query) -> cstk_status {
     guard(|| {
@@ -176,8 +177,8 @@ pub unsafe extern "C" fn cstk_query_release(query: *mut cstk_query) -> cstk_stat
     guard(|| handle::release::<Query>(query, "query"))
 }
 
-/// Writes the version of an environment that the last query with this context saw: of each environment that its C-object
-/// refers to. CSTK_ERROR_NOT_FOUND if it refers to others only, or nothing was asked yet.
+/// Writes the version of an environment that the last query with this context saw. CSTK_ERROR_NOT_FOUND if the query's
+/// C-object does not refer to the environment, or there was no query yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_get_version(
     query: *mut cstk_query,
@@ -198,23 +199,24 @@ pub unsafe extern "C" fn cstk_query_get_version(
     })
 }
 
-/// Which contacts come with each witness of a list (cstk_query_set_contacts). Finding them takes most of the time that a
-/// witness takes.
+/// Which contacts are computed for each witness of a list (cstk_query_set_contacts). They take most of the time of a
+/// witness.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_contacts_listed {
-    /// All: parallel features have several. With these a context begins.
+    /// All contacts: parallel features have several. The initial setting of a context.
     CSTK_CONTACTS_ALL = 0,
-    /// The one at the closest points.
+    /// The contact at the witness points.
     CSTK_CONTACTS_NEAREST = 1,
-    /// None, and no gradients. It is then not told whether what meets touches or overlaps: at distance 0 `overlapping` is true.
+    /// No contacts and no gradients. Touching and overlapping are then not distinguished: `overlapping` is true at distance
+    /// 0.
     CSTK_CONTACTS_NONE = 2,
 }
 
-/// Sets which contacts come with the witnesses that cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and
-/// their variants list with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances are
-/// the same with each. cstk_slide asks for what it needs itself; cstk_slide_step and cstk_spring_step need lists with all
-/// contacts. CSTK_ERROR_INVALID_ARGUMENT for another number.
+/// Sets which contacts cstk_witnesses, cstk_gradients, cstk_pseudo_normal, cstk_pair_witnesses and their variants compute
+/// with this context from now on; `listed` is a cstk_contacts_listed. Witnesses and their distances do not depend on it.
+/// cstk_slide ignores it; cstk_slide_step and cstk_spring_step need lists with all contacts. CSTK_ERROR_INVALID_ARGUMENT
+/// for another number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_set_contacts(
     query: *mut cstk_query,
@@ -237,15 +239,15 @@ pub unsafe extern "C" fn cstk_query_set_contacts(
     })
 }
 
-/// Limits the work of each query with this context from now on to `node_and_primitive_pairs`: of every call that is given the
-/// context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns CSTK_ERROR_LIMIT and
-/// writes nothing; the context can be asked again at once. 0 stands for no limit, with which a context begins.
+/// Limits the work of each later query with this context to `node_and_primitive_pairs`: of every call that takes the
+/// context and answers, or slides, from cstk_pair_within to cstk_find_link_pairs. A query that needs more returns
+/// CSTK_ERROR_LIMIT and writes nothing; the context can be used again at once. 0, the initial setting, means no limit.
 ///
-/// What counts is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10
-/// milliseconds (nodes of meshes) to a second (primitives that are no polygons). Penetrations of polyhedra count each two edges that are compared, too. The work depends on the question
-/// and on what the context remembers of earlier ones, neither on the thread nor on the machine's load: a context asked the
-/// same from its creation on ends at the same call. Not counted is what a call takes whatever it finds: kinematics, pure
-/// sets, functions of the caller.
+/// Work is what cstk_query_statistics counts as `node_pairs` and `primitive_pairs`: a million takes from 10 milliseconds
+/// (nodes of meshes) to a second (primitives other than polygons). Penetrations of polyhedra also count each two edges that
+/// are compared. The work depends on the query and on what the context remembers of earlier ones, not on the thread or on
+/// the machine's load: contexts that run the same queries from creation on reach the limit at the same call. Fixed costs of
+/// a call do not count: kinematics, pure sets, callbacks.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_set_limit(
     query: *mut cstk_query,
@@ -260,22 +262,22 @@ pub unsafe extern "C" fn cstk_query_set_limit(
     })
 }
 
-/// The work a query context has done.
+/// The work done by a query context.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_query_statistics {
-    /// Pairs of hierarchy nodes whose wrappers were tested, pairs of bodies with them; of rays into solids, the nodes.
+    /// Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes.
     pub node_pairs: u64,
-    /// Primitive pairs that were looked at; of rays, the faces.
+    /// Primitive pairs tested; for rays, the faces.
     pub primitive_pairs: u64,
-    /// Witnesses of earlier queries that were evaluated first.
+    /// Witnesses of earlier queries that were tested first.
     pub cache_hits: u64,
-    /// Of `primitive_pairs` those whose distance was asked for: polygons that a direction known before parts are left out.
+    /// Those of `primitive_pairs` whose distance was computed, not polygons that a remembered direction separates.
     pub primitive_distances: u64,
     pub reserved: [u64; 4],
 }
 
-/// Writes the work done since the context was made, or since the last call with `reset`.
+/// Writes the work done since the context was created, or since the last call with `reset`; `reset` sets the counts to 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_query_get_statistics(
     query: *mut cstk_query,

@@ -16,10 +16,10 @@ use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::show::show;
 
-/// Writes the scene at q to a .glb file that glTF viewers open (the report's show-c-object): links, s-objects, the nearest
-/// pair of points and those within the contact epsilon (red), each contact's normal (green) and the way its point moves
-/// along the gradient (blue). Distances and gradients stand in the nodes' extras. The name must end in .glb
-/// (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
+/// Writes the scene at q to a .glb file (glTF; the report's show-c-object): links, s-objects, the nearest pair of points
+/// and the contacts within the contact epsilon (red), each contact's normal (green) and the direction in which its point
+/// moves along the gradient (blue). Distances and gradients are in the nodes' extras. `q` has `nq` doubles. The name must
+/// end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_show(
     cobject: *const cstk_cobject,

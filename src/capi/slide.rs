@@ -1,6 +1,6 @@
 //! Slides.
 //!
-//! The step that slides along contact, proved free on its whole way, and its two halves for callers who put them together
+//! A step that slides along contacts, proved free on its whole way, and its two halves for callers who combine them
 //! themselves (§2.2.4, Appendix A).
 //!
 //! ```c
@@ -22,26 +22,25 @@ use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, require_coordinates};
 use crate::motion::{Approach, SlideOptions, SlideOutcome, slide_step, spring_step};
 
-/// How to slide. Write it with cstk_slide_options_default first, then set `max_shell`.
+/// Options of a slide. Write it with cstk_slide_options_default first, then set `max_shell`.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_slide_options {
     pub size: u32,
     pub cookie: u32,
-    /// The stand-off: contacts up to this distance constrain the step. Must be set, larger than 0;
-    /// two or three times as far as a step moves the robot does well. Parts of the C-object may have shells of their own:
-    /// see cstk_cobject_with_shell.
+    /// Contacts up to this distance constrain the step. Must be set, larger than 0; two or three times as far as a step
+    /// moves the robot works well. Parts of the C-object may have their own shells: see cstk_cobject_with_shell.
     pub max_shell: f64,
-    /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, stands for a
-    /// tenth of max_shell. Independent of the C-object's contact epsilon. A part with a shell of its own keeps the same
-    /// part of that.
+    /// The distance at which the robot slides; where it is nearer it is pushed out. Negative, the default, means a tenth of
+    /// max_shell. Independent of the C-object's contact epsilon. For a part with its own shell it is scaled with that
+    /// shell.
     pub desired_distance: f64,
-    /// Not 0: lengthens the step along the contact to that of the step asked for, at most fourfold; 0, the default,
-    /// leaves what is left of the step. (The report's normalize?)
+    /// Nonzero: lengthens the step along the contact to the length of the requested step, at most fourfold. 0, the default,
+    /// keeps what is left of the step. (The report's normalize?)
     pub normalize: u32,
-    /// At most this many witnesses are considered, the nearest first. Default 256.
+    /// The most witnesses considered, the nearest first. Default 256.
     pub max_witnesses: u32,
-    /// A step is halved until it is accepted, or is shorter than this part of the step asked for. Default 1/1024.
+    /// A step is halved until it is accepted, or shorter than this fraction of the requested step. Default 1/1024.
     pub floor: f64,
 }
 
@@ -67,27 +66,27 @@ unsafe impl OptionsStruct for cstk_slide_options {
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_slide_outcome {
-    /// A step was found, and it keeps clear of the C-object all the way.
+    /// A step was found, and the whole motion is proved free.
     CSTK_SLIDE_MOVED = 0,
-    /// The configuration is inside the C-object; nothing was moved.
+    /// The configuration is inside the C-object; it is not moved.
     CSTK_SLIDE_INSIDE = 1,
-    /// No step leads on: contacts, ranges or the world box are in the way, or q itself is out of them (a joint held by a
-    /// range of one value must have it to the last bit; see cstk_space_clamp); nothing was moved. Of all steps as long as
-    /// the floor none that keeps clear, keeps its distance (or the desired one, if that is less), the ranges and the box
-    /// gains more than 1 % of its length along the step asked for, to first order. With a contact_count of 0 the step is
-    /// 0, ranges or the world box are in the way, or the shell is so short that even the step of the floor's length
+    /// No step is possible: contacts, ranges or the world box block the way, or q itself violates ranges or box (a joint
+    /// held by a range of one value must have it to the last bit; see cstk_space_clamp). The configuration is not moved. To
+    /// first order, no step as long as the floor that stays free, keeps its distance (or the desired one, if that is less),
+    /// the ranges and the box gains more than 1 % of its length along the requested step. With a contact_count of 0 the
+    /// step is 0, or ranges or the world box block it, or the shell is so short that even a step of the floor's length
     /// leads beyond it.
     CSTK_SLIDE_BLOCKED = 2,
 }
 
-/// What a slide did.
+/// The result of a slide.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_slide_result {
     pub outcome: cstk_slide_outcome,
-    /// How many contacts within the shells there were at q.
+    /// The number of contacts within the shells at q.
     pub contact_count: u32,
-    /// The distance at the configuration given, and at the one reached.
+    /// The distance at q, and at the configuration reached.
     pub distance_before: f64,
     pub distance_after: f64,
     pub reserved: [u64; 8],
@@ -103,24 +102,25 @@ pub unsafe extern "C" fn cstk_slide_options_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Takes one step from q that slides along contacts instead of running into them (Appendix A): `step` itself where
-/// nothing is within the shell; else the nearest step (by the sum of the velocities' squares, as they are) that brings no
-/// contact nearer than the desired distance (or than the nearest is, if that is less) and keeps to the ranges and the
-/// world box, pushed out where the robot is within that distance, corrected where it leads, and halved until the whole
-/// way is proved free. Along a contact only part of the step is left; see `normalize`.
+/// Takes one step from q that slides along contacts instead of running into them (Appendix A). Where nothing is within the
+/// shell, it is `step` itself. Otherwise it is the nearest step (by the unweighted sum of squared velocities) that brings
+/// no contact nearer than the desired distance (or than the nearest contact, if that is nearer) and keeps to the ranges and
+/// the world box. A robot within the desired distance is pushed out to it. The step is corrected at its end, and halved
+/// until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
 ///
-/// The proof takes each pair of bodies, and each link with a floor or the world box, for itself: by its own distance, and by
-/// how far the joints between the two can move them relative to each other, or a link along the normal of a plane between
-/// it and an obstacle. Pairs that no joint of the step moves relative to each other may touch. A pair that touches at q and moves is taken on the word of its contacts' gradients for the
-/// first 1e-4 of max_shell (or of the smallest link's radius), and must be apart from there on, unless the whole way is
-/// shorter than that. Of two bodies with more than 64 primitive pairs only the nearest constrain a step: at most 8, no more
-/// than 1 % of the shell farther apart than the first.
+/// The proof treats each body pair, and each link with a floor or the world box, separately: by its own distance, and by a
+/// bound of how far the joints between the two can move them relative to each other, or of how far a link moves along the
+/// normal of a plane between it and an obstacle. Pairs that no joint of the step moves relative to each other may touch.
+/// For a pair that touches at q and moves, the gradients of its contacts are trusted for the first 1e-4 of max_shell (or of
+/// the smallest link's radius); from there on it must be apart, unless the whole motion is shorter. Of two bodies with more
+/// than 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than
+/// the nearest.
 ///
-/// `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit of
-/// time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
-/// than 1 % a step; who wants to stop then looks at what was gained. The C-object is an induced or pure set or a union of
-/// such, without predicates: else, and where a custom joint that changes some distance does not state its speeds,
-/// CSTK_ERROR_UNSUPPORTED.
+/// `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit
+/// of time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more
+/// than 1 % a step: callers who want to stop then should check the gain. The C-object must be an induced set, a pure set
+/// other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise, and where a custom joint that changes some
+/// distance does not state its speeds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide(
     query: *mut cstk_query,
@@ -172,10 +172,10 @@ pub unsafe extern "C" fn cstk_slide(
     })
 }
 
-/// The report's slide-step: of the contacts of a list with gradients (cstk_gradients, or cstk_pseudo_normal without
-/// `normalize`), the step nearest to `step` that brings none nearer than `desired_distance`, nor nearer at all where it
-/// is within that already; to first order, and without a look at ranges or the way. `normalize` is that of
-/// cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
+/// The report's slide-step. From a list with gradients (cstk_gradients, or cstk_pseudo_normal without `normalize`),
+/// computes the step nearest to `step` that brings no contact nearer than `desired_distance`, and contacts that are nearer
+/// already no nearer still. It is a first-order step: ranges are ignored and the motion is not checked. `normalize` is that
+/// of cstk_slide_options. `step` and `out` have `nv` doubles, that of the list, and may be the same. `found` is false, and
 /// `out` zero, where less than 1 % of the step would be left.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_slide_step(
@@ -201,9 +201,9 @@ pub unsafe extern "C" fn cstk_slide_step(
     })
 }
 
-/// The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to first
-/// order; where they stand against each other, out to the largest distance they can share. `found` is false, and `out` zero,
-/// where no contact is nearer or none can be helped. See cstk_slide_step for the list.
+/// The report's compute-spring-step: the shortest step that takes all contacts of a list out to `desired_distance`, to
+/// first order; where contacts oppose each other, out to the largest distance they can share. `out` has `nv` doubles.
+/// `found` is false, and `out` zero, where no contact is nearer or none can move out. See cstk_slide_step for the list.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_spring_step(
     list: *const cstk_witness_list,

@@ -33,11 +33,11 @@ pub enum cstk_urdf_geometry {
     CSTK_URDF_COLLISION = 0,
     /// The `visual` elements.
     CSTK_URDF_VISUAL = 1,
-    /// None: the links have frames only, and no mesh file is looked for.
+    /// None: the links have frames only, and no mesh file is read.
     CSTK_URDF_NO_GEOMETRY = 2,
 }
 
-/// How to read a URDF file. Write it with cstk_urdf_options_default first.
+/// Options for reading a URDF file. Write it with cstk_urdf_options_default first.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_urdf_options {
@@ -45,28 +45,26 @@ pub struct cstk_urdf_options {
     pub cookie: u32,
     /// A cstk_urdf_geometry; default CSTK_URDF_COLLISION.
     pub geometry: i32,
-    /// How the root link is joined to what carries the robot: CSTK_JOINT_FIXED (the default), _PLANAR, _FREE or
-    /// _FREE_EULER.
+    /// The joint of the root link: CSTK_JOINT_FIXED (the default), _PLANAR, _FREE or _FREE_EULER.
     pub base: i32,
     /// The link of the builder that carries the robot, or -1 for the world.
     pub parent: i32,
-    /// 0, the default, for spheres, cylinders and capsules as they are. Or into how many sides their circles are divided,
-    /// 3 to 1024: polyhedra that hold the shapes, with contacts that span a cylinder's faces.
+    /// 0, the default, keeps spheres, cylinders and capsules exact. 3 to 1024 replaces them by polyhedra that enclose them,
+    /// their circles divided into this many sides; contacts then span a cylinder's faces.
     pub sides: u32,
-    /// Where the robot stands on its parent: a pose of 12 doubles.
+    /// The frame of the root's joint in the parent's frame: a pose of 12 doubles.
     pub at: [f64; 12],
-    /// Put before the names of links and joints, so that a file can be read twice; may be NULL.
+    /// Prepended to the names of links and joints, so that a file can be loaded twice; may be NULL.
     pub prefix: *const c_char,
-    /// Folders in which the packages of package:// names are looked for; the folders that hold the URDF file are looked
-    /// through after them.
+    /// Folders to search for the packages of package:// names, before the URDF file's folder and those above it.
     pub package_paths: *const *const c_char,
     pub package_path_count: usize,
     /// How the links' hierarchies are built; NULL for the defaults.
     pub hierarchy: *const cstk_hierarchy_options,
-    /// A folder that keeps the links' bodies, so that the next load builds none of them; made if there is none. NULL, the
-    /// default, for none. A body is kept under a digest of its meshes' bytes, its shapes and these options; a file that is
-    /// damaged, of other content or of another version of the library is built anew and replaced. Processes may share the
-    /// folder. Nothing is ever deleted from it. Who can write to it can change the robot's shapes.
+    /// A folder that caches the links' bodies, so that the next load builds none of them; created if it does not exist.
+    /// NULL, the default, for none. The key of a body is a digest of its meshes' bytes, its shapes and these options. A
+    /// file that is damaged, or from another version of the library, is rebuilt and replaced. Processes may share the
+    /// folder. Nothing is ever deleted from it. Whoever can write to it can change the robot's shapes.
     pub cache_folder: *const c_char,
 }
 
@@ -93,36 +91,37 @@ unsafe impl OptionsStruct for cstk_urdf_options {
     }
 }
 
-/// What was read from a URDF file, what was built, and what was passed over.
+/// What was read from a URDF file, what was built, and what was skipped.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_urdf_report {
     /// The number of the root link in the builder.
     pub root: u32,
-    /// The `link` and `joint` elements.
+    /// The number of `link` and of `joint` elements.
     pub link_count: u32,
     pub joint_count: u32,
-    /// Links that have a body. A robot without any meets nothing.
+    /// Links that have a body. A robot without any never collides.
     pub links_with_body: u32,
-    /// Links without a body that have shapes of the kind that was not asked for: `visual` with CSTK_URDF_COLLISION, and so
-    /// on. Where it is not 0, ask for that kind, or for both in two robots.
+    /// Links without a body that have shapes of the kind not requested: `visual` with CSTK_URDF_COLLISION, and the reverse.
+    /// If it is not 0, request the other kind, or load both as two robots.
     pub links_with_other_shapes: u32,
-    /// The links' bodies: links of equal shapes share one.
+    /// The number of different bodies: links with equal shapes share one.
     pub body_count: u32,
-    /// Those of them that were read from the cache folder; the others were built.
+    /// Bodies read from the cache folder; the others were built.
     pub bodies_from_cache: u32,
     /// Built bodies that could not be written to the cache folder.
     pub cache_failures: u32,
-    /// The shapes that the bodies consist of, those of a shared body once for each link.
+    /// The number of shapes of all links; those of a shared body count once for each link.
     pub shape_count: u32,
     pub mesh_file_count: u32,
-    /// Elements in the robot, its links, joints and shapes that were passed over: inertia, materials, transmissions, shapes
-    /// of the other kind.
+    /// Elements of the robot, its links, joints and shapes that were skipped: inertia, materials, transmissions, shapes of
+    /// the other kind.
     pub skipped_elements: u32,
     pub reserved_number: u32,
-    /// Convex primitives of the bodies, those of a shared body once.
+    /// The number of convex primitives; those of a shared body count once.
     pub primitive_count: u64,
-    /// Mesh faces that were not convex or not planar and became triangles, and those without area that were left out.
+    /// Mesh faces that were not convex or not planar and were split into triangles, and those without area, which were left
+    /// out.
     pub faces_split: u64,
     pub faces_dropped: u64,
     pub reserved: [u64; 6],
@@ -161,22 +160,21 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, parents before
-/// children, branch by branch, the branches of a link in the order of its joints in the file; the root link's number is
-/// written to `root`, which may be NULL. `urdf_options` may be NULL for the defaults; `progress`, which may be NULL, is
-/// told the part of the links that is done, `user` is passed to it.
+/// Adds the robot of a URDF file to a builder of dimension 3: links and joints under their names, depth first, parents
+/// before children, siblings in file order. The root link's number is written to `root`, which may be NULL. `urdf_options`
+/// may be NULL for the defaults; `progress` may be NULL and receives the fraction of the links done; `user` is passed to
+/// it.
 ///
-/// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes:
-/// box, sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; several of one link become one body. Meshes
-/// are surfaces: what is wholly inside one does not meet it. A mesh file is read once, and links of equal shapes share one
-/// body: cstk_body_set_data then is for all of them. Whatever else the file says is passed over;
-/// cstk_robot_builder_get_urdf_report tells what was found. Failures name the file, the line and the element; the builder is
-/// then as it was.
+/// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
+/// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; the shapes of one link become one body. Meshes are
+/// surfaces: a body wholly inside one does not meet it. A mesh file is read once, and links with equal shapes share one
+/// body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
+/// Error messages name the file, the line and the element; the builder is then unchanged.
 ///
-/// Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23 faces
-/// and 2^25 indices of faces, in one mesh file and in all bodies of the robot together; of these 2^20 faces and 2^22 indices
-/// that are made by referring to a mesh or a geometry again; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes of an element, 2^8
-/// namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
+/// Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB for the URDF file, 1 GiB for a mesh file; 2^17 links; 2^23
+/// faces and 2^25 indices of faces, in one mesh file and in all bodies of the robot together, of which 2^20 faces and 2^22
+/// indices may come from repeated use of a mesh or a geometry; 2^14 corners of a face. In XML, 2^23 tags, 2^12 attributes
+/// of an element, 2^8 namespaces; in DAE, 2^20 nodes, transforms and instances, 64 levels. Only regular files are read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     builder: *mut cstk_robot_builder,
@@ -203,7 +201,7 @@ pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     })
 }
 
-/// Writes what became of the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
+/// Writes the report on the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_get_urdf_report(
     builder: *mut cstk_robot_builder,

@@ -1,4 +1,4 @@
-//! Data of the caller's, attached to objects and handed back with answers (§2.2.3).
+//! User data, attached to objects and returned with answers (§2.2.3).
 
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::user_data::UserData;
 
-/// The caller's address and how to give it back.
+/// The caller's address and the function that releases it.
 pub(super) struct CallerData {
     data: *mut c_void,
     destroy: cstk_destroy_fn,
-    /// Whether the data are the library's to give back.
+    /// Whether the library must release the data.
     owned: AtomicBool,
 }
 
@@ -29,13 +29,13 @@ impl CallerData {
         })
     }
 
-    /// The data as objects carry them; `None` where there is neither an address nor a function.
+    /// The data in the form that objects carry; `None` if there is neither an address nor a function.
     pub fn as_user_data(self: &Arc<Self>) -> Option<UserData> {
         let is_something = !self.data.is_null() || self.destroy.is_some();
         is_something.then(|| UserData::new(self.data as usize, Some(self.clone())))
     }
 
-    /// From now on the data are given back when nothing refers to them: to be called when nothing can fail any more.
+    /// From now on the data are released when nothing refers to them. Call it when nothing can fail any more.
     pub fn take_ownership(&self) {
         self.owned.store(true, Ordering::Release);
     }
@@ -52,7 +52,7 @@ impl Drop for CallerData {
     }
 }
 
-/// The address that a number of user data stands for.
+/// The address behind a value of user data.
 pub(super) fn address(value: usize) -> *mut c_void {
     value as *mut c_void
 }

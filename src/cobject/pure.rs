@@ -50,7 +50,7 @@ pub enum PureShape {
     HalfSpace {
         /// One entry per coordinate; of any length above 0.
         normal: Vec<f64>,
-        /// In units of the normal's length.
+        /// The largest `normal . q` in the set.
         offset: f64,
     },
     /// The configurations within `radius` of a centre (see [`super::measure`] for the metric).
@@ -106,8 +106,8 @@ impl PureShape {
         }
     }
 
-    /// A floor for links, or for all with a body if `links` is empty. The normal may have any length above 0; the offset is
-    /// in units of that length.
+    /// A floor for links, or for all with a body if `links` is empty. The normal may have any length above 0; the floor is
+    /// `normal . x <= offset`.
     pub fn floor(space: &Space, links: &[usize], normal: &Vec3, offset: f64) -> Result<Self> {
         require_coordinates(normal.as_slice(), "normal entry")?;
         require_coordinates(&[offset], "offset")?;

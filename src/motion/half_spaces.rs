@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 pub struct HalfSpace {
     /// The normal, of any length, into the half-space.
     pub row: Vec<f64>,
-    /// The offset, in units of the row's length.
+    /// The smallest `row . s` in the half-space.
     pub least: f64,
 }
 

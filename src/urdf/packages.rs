@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, ErrorKind, Result};
 
 /// Finds the file that a mesh name stands for. `package://name/rest` (or `model://`) is searched for as `name/rest` in each
-/// search folder, as `rest` in a search folder called `name`, and likewise in the ancestors of the URDF file's folder.
+/// search folder, as `rest` in a search folder called `name`, and likewise in the URDF file's folder and those above it.
 /// `file://` gives a path; other names are relative to the URDF file.
 pub fn resolve(name: &str, folder: &Path, search: &[PathBuf]) -> Result<PathBuf> {
     let in_package = name

@@ -1,4 +1,4 @@
-//! The structures in which answers are given, and their conversion.
+//! The result structures of queries, and their conversion.
 
 use std::ffi::c_void;
 
@@ -10,16 +10,16 @@ use crate::query::{
     ContactRecord, Distance, DistanceKind, PrimitivePenetration, PurePlace, SSide, Witness,
 };
 
-/// Stands for "no such number" in fields that hold a link's number.
+/// Means "none" in fields that hold the number of a link or a coordinate.
 pub const CSTK_NONE: u32 = 0xFFFF_FFFF;
 
-/// Where a configuration stands. The order is that of the set algebra: a union takes the largest.
+/// The class of a configuration. The order is that of the set algebra: a union takes the largest.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_class {
-    /// Farther from contact than the contact epsilon.
+    /// Farther away than the contact epsilon.
     CSTK_CLASS_OUTSIDE = 0,
-    /// Apart, by at most the contact epsilon; doubt within rounding counts as contact.
+    /// Apart, but no farther than the contact epsilon; doubt within rounding counts as contact.
     CSTK_CLASS_CONTACT = 1,
     /// The sets meet: distance 0.
     CSTK_CLASS_INSIDE = 2,
@@ -45,44 +45,44 @@ pub enum cstk_contact_mode {
     CSTK_MODE_POINT_FACE = 3,
     CSTK_MODE_FACE_POINT = 4,
     CSTK_MODE_EDGE_EDGE = 5,
-    /// The boundary of a pure set: there are no features. Points and normal are 0; of the world box they are those of the
-    /// link's origin, of a floor those of the link's lowest point.
+    /// The boundary of a pure set: there are no features. Points and normal are 0, except for the world box (at the link's
+    /// origin) and for a floor (at the link's lowest point).
     CSTK_MODE_PURE_SET = 6,
 }
 
-/// One contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
+/// A contact. The r-side is the link (or body a), the s-side the s-object, second link or body b.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_contact {
-    /// The two points, in the world.
+    /// The witness points, in the world.
     pub r_point: [f64; 3],
     pub s_point: [f64; 3],
-    /// Unit, in the world, from the s-side to the r-side; right at exact touch too.
+    /// Of length 1, in the world, from the s-side to the r-side; also valid at exact touch.
     pub normal: [f64; 3],
     /// The distance between the points, less the C-object's margin and at least 0.
     pub distance: f64,
     pub mode: cstk_contact_mode,
-    /// The features that hold the points; for their vertices see cstk_body_get_feature_vertices.
+    /// The features that hold the points; cstk_body_get_feature_vertices gives their vertices.
     pub r_feature_kind: cstk_feature_kind,
     pub r_feature: u32,
     pub s_feature_kind: cstk_feature_kind,
     pub s_feature: u32,
     pub reserved_word: u32,
-    /// The distance between the points, less the C-object's margin, with its sign: negative within the margin, and where the
-    /// primitives are just inside one another (by at most 1e-6 of the pair's size), or as deep as their radii let
-    /// round ones be while their cores are apart.
+    /// The signed distance between the points, less the C-object's margin. It is negative within the margin, and where
+    /// primitives overlap slightly: by at most 1e-6 of the pair's size, or, for round ones, as deep as their radii allow
+    /// while their cores are apart.
     pub clearance: f64,
     pub reserved: [u64; 2],
 }
 
-/// One pair of primitives, or a piece of one body wholly inside the other; or one pure set, whose links are CSTK_NONE,
-/// but for `r_link` of the world box and of floors: the link that is nearest to them, or farthest into them.
+/// A pair of primitives, a piece of one body wholly inside the other, or a pure set. The links of a pure set are CSTK_NONE,
+/// except `r_link` of the world box and of floors: the link nearest to the set, or deepest in it.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness {
-    /// The link, numbered through the space; 0 for pairs of bodies.
+    /// The link, by number in the space; 0 in queries on two bodies.
     pub r_link: u32,
-    /// The second link, or the one that the s-object is attached to; CSTK_NONE if the s-side is another s-object or a body.
+    /// The second link, or the link that the s-object is attached to; CSTK_NONE for other s-objects and for bodies.
     pub s_link: u32,
     /// The s-object's id, or 0.
     pub s_object: u64,
@@ -93,31 +93,30 @@ pub struct cstk_witness {
     pub s_tag: u64,
     /// The primitives' distance, less the C-object's margin and at least 0.
     pub distance: f64,
-    /// Its contacts are `contact_count` entries of the list from `first_contact`. Parallel features have several, which
-    /// span the common part.
+    /// The contacts are `contact_count` entries of the list from `first_contact` on. Parallel features have several
+    /// contacts, which span their common part.
     pub first_contact: u32,
     pub contact_count: u32,
-    /// The primitives overlap, deeper than just inside, or `contained`: there is no contact, and no gradient. With
-    /// CSTK_CONTACTS_NONE all at distance 0 counts as overlapping.
+    /// The primitives overlap more than slightly, or `contained` is set: there is no contact and no gradient. With
+    /// CSTK_CONTACTS_NONE every pair at distance 0 counts as overlapping.
     pub overlapping: bool,
-    /// A piece of one body (what of it hangs together) lies wholly inside the other, a solid. The primitives do not meet:
-    /// they stand for the two, the lowest of the piece and the lowest of what of the solid's boundary is around it.
+    /// A connected piece of one body lies wholly inside the other, a solid. The primitives, which do not meet, are the
+    /// lowest of the piece and the lowest of the part of the solid's boundary around it.
     pub contained: bool,
-    /// The set's complement is meant.
+    /// The distance is that of the set's complement.
     pub complemented: bool,
     pub reserved_bytes: [u8; 1],
-    /// Of joint limits and C-space boxes the coordinate that decides: the one farthest beyond its range, or nearest to
-    /// its end (distances combine all); else CSTK_NONE.
+    /// For joint limits and C-space boxes, the coordinate that decides: the one farthest outside its range, or nearest to
+    /// an end of it (the distance combines all coordinates). Otherwise CSTK_NONE.
     pub coordinate: u32,
-    /// The leaf C-object that the pair is of, as cstk_cobject_get_data numbers it, and its data; 0 and NULL for pairs of
-    /// bodies.
+    /// The leaf C-object that the pair belongs to, by its number (cstk_cobject_get_data), and its data; 0 and NULL in
+    /// queries on two bodies.
     pub cobject: u64,
     pub cobject_data: *mut c_void,
-    /// The data of the r-side's body and of the s-object, or of its body where it has none of its own; NULL where there
-    /// are none.
+    /// The data of the r-side's body, and of the s-object or, if it has none, of its body; NULL for none.
     pub r_data: *mut c_void,
     pub s_data: *mut c_void,
-    /// The s-object attached to r_link that is the r-side, or 0 for the link's own body.
+    /// The s-object attached to `r_link` that is the r-side, or 0 for the link's own body.
     pub r_object: u64,
     pub reserved: [u64; 4],
 }
@@ -125,17 +124,17 @@ pub struct cstk_witness {
 // SAFETY: the caller's addresses are only handed back, never followed.
 unsafe impl Send for cstk_witness {}
 
-/// What a distance says.
+/// How much is known of a distance.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_distance_kind {
-    /// The distance, to rounding.
+    /// The distance is known, up to rounding.
     CSTK_DISTANCE_EXACT = 0,
-    /// Only `lower` and `upper` are known; `distance` repeats `lower`.
+    /// Only `lower` and `upper` are known; `distance` equals `lower`.
     CSTK_DISTANCE_LOWER_BOUND = 1,
-    /// Nothing is within max_distance: `lower` is max_distance, less rounding; `distance` and `upper` are infinite.
+    /// Nothing is within max_distance: `lower` is max_distance less rounding, `distance` and `upper` are infinite.
     CSTK_DISTANCE_BEYOND_MAX = 2,
-    /// There is nothing to measure to; all three are infinite.
+    /// The set is empty; all three are infinite.
     CSTK_DISTANCE_EMPTY = 3,
 }
 
@@ -144,31 +143,33 @@ pub enum cstk_distance_kind {
 #[derive(Clone, Copy)]
 pub struct cstk_distance_result {
     pub kind: cstk_distance_kind,
-    /// `witness` and the points below hold the nearest primitive pair; ties (equal to the last bit) go to the lowest ids.
+    /// Whether `witness`, `r_point` and `s_point` are set: the nearest primitive pair. Ties (equal to the last bit) go to
+    /// the lowest ids.
     pub has_witness: bool,
-    /// `contact` holds the contact at these points. An overlap has none. Parallel features have more; see
+    /// Whether `contact` is set: the contact at these points. An overlap has none; parallel features have more, see
     /// cstk_witnesses.
     pub has_contact: bool,
     pub reserved_bytes: [u8; 2],
-    /// 0 exactly when the sets meet, the s-side grown by the C-object's margin.
+    /// 0 if and only if the sets meet, the s-side grown by the C-object's margin.
     pub distance: f64,
-    /// Never above the truth. Where `distance` is finite, 0 exactly when that is.
+    /// Never above the true distance. Where `distance` is finite, `lower` is 0 if and only if `distance` is.
     pub lower: f64,
-    /// Never below the truth: infinite where of an intersection, a difference or a complement no more is known.
+    /// Never below the true distance; infinite where nothing better is known, for an intersection, a difference or a
+    /// complement.
     pub upper: f64,
-    /// The closest points, in the world, r-side and s-side. Where the sets overlap, both are one common point; of a piece
-    /// inside a solid, a vertex of the piece.
+    /// The witness points, in the world. Where the sets overlap both are one common point; for a piece inside a solid both
+    /// are a vertex of the piece.
     pub r_point: [f64; 3],
     pub s_point: [f64; 3],
     pub witness: cstk_witness,
     pub contact: cstk_contact,
-    /// The version of the environment that was measured, the largest of several; 0 where there is none.
+    /// The version of the environment that the query saw, the largest of several; 0 without an environment.
     pub environment_version: u64,
     pub reserved: [u64; 8],
 }
 
-/// Primitive pairs, nearest first, with their contacts. The arrays belong to the query context and stay valid until its
-/// next call or its release.
+/// Witnesses, nearest first, with their contacts. The arrays belong to the query context and stay valid until its next call
+/// or its release.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness_list {
@@ -176,20 +177,20 @@ pub struct cstk_witness_list {
     pub witness_count: usize,
     pub contacts: *const cstk_contact,
     pub contact_count: usize,
-    /// One row of `nv` doubles per contact (not per witness): by how much its distance grows per unit of each
-    /// velocity. NULL where there is none.
+    /// One row of `nv` doubles per contact (not per witness): the derivative of its distance with respect to each velocity.
+    /// NULL without gradients.
     pub gradients: *const f64,
     pub nv: usize,
     /// There are more witnesses than max_count; these are the nearest.
     pub truncated: bool,
-    /// Not all contacts are listed, by cstk_query_set_contacts: cstk_slide_step and cstk_spring_step refuse such a list.
+    /// cstk_query_set_contacts has left out contacts: cstk_slide_step and cstk_spring_step refuse the list.
     pub contacts_left_out: bool,
     pub reserved_bytes: [u8; 6],
     pub environment_version: u64,
     pub reserved: [u64; 8],
 }
 
-/// A pair of primitives that meet, and the shortest translation that takes the two apart.
+/// A pair of primitives that meet, and the shortest translation that separates them.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_penetration {
@@ -198,25 +199,26 @@ pub struct cstk_penetration {
     pub s_primitive: u32,
     pub r_tag: u64,
     pub s_tag: u64,
-    /// How far; 0 for primitives that only touch, or have no inside in common.
+    /// The length of the translation; 0 for primitives that only touch, or whose interiors do not meet.
     pub depth: f64,
-    /// Which way body a has to go: a unit vector in the world, from body b to body a.
+    /// The direction in which body a must move: a unit vector in the world, from body b to body a.
     pub direction: [f64; 3],
-    /// A point of each, in the world, that the translation brings together: s_point = r_point + depth * direction.
+    /// A point of each primitive, in the world, that the translation brings together: s_point = r_point + depth *
+    /// direction.
     pub r_point: [f64; 3],
     pub s_point: [f64; 3],
     pub reserved: [u64; 6],
 }
 
-/// Primitive pairs that meet, the deepest first. The array belongs to the query context and stays valid until its next
-/// call or its release.
+/// Primitive pairs that meet, deepest first. The array belongs to the query context and stays valid until its next call or
+/// its release.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_penetration_list {
     pub penetrations: *const cstk_penetration,
     pub count: usize,
-    /// Each body is one convex primitive: the first entry takes the bodies apart. Else an entry takes apart its two
-    /// primitives only.
+    /// Each body is a single convex primitive, so that the first entry separates the bodies. Otherwise an entry separates
+    /// its two primitives only.
     pub of_whole_bodies: bool,
     /// More pairs meet than max_count; these are the deepest.
     pub truncated: bool,
@@ -225,17 +227,17 @@ pub struct cstk_penetration_list {
 }
 
 impl From<&PrimitivePenetration> for cstk_penetration {
-    fn from(given: &PrimitivePenetration) -> Self {
-        let found = &given.penetration;
+    fn from(pair: &PrimitivePenetration) -> Self {
+        let penetration = &pair.penetration;
         Self {
-            r_primitive: given.primitives[0],
-            s_primitive: given.primitives[1],
-            r_tag: given.tags[0],
-            s_tag: given.tags[1],
-            depth: found.depth,
-            direction: found.direction.into(),
-            r_point: found.points[0].into(),
-            s_point: found.points[1].into(),
+            r_primitive: pair.primitives[0],
+            s_primitive: pair.primitives[1],
+            r_tag: pair.tags[0],
+            s_tag: pair.tags[1],
+            depth: penetration.depth,
+            direction: penetration.direction.into(),
+            r_point: penetration.points[0].into(),
+            s_point: penetration.points[1].into(),
             reserved: [0; 6],
         }
     }

@@ -1,4 +1,4 @@
-//! Why a configuration has its class.
+//! Explains the class of a configuration.
 
 use std::ffi::c_void;
 
@@ -13,22 +13,22 @@ use crate::capi::user_data::address;
 use crate::cobject::CObject;
 use crate::query::{Configuration, Verdict};
 
-/// What one leaf of a C-object's tree says of a configuration.
+/// The class of one leaf of a C-object's tree, and its part in the class of the whole.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_verdict {
-    /// The leaf, as cstk_cobject_get_data numbers it, and its data.
+    /// The leaf, by its number (cstk_cobject_get_data), and its data.
     pub cobject: u64,
     pub data: *mut c_void,
     /// The class with respect to the leaf itself.
     pub leaf_class: cstk_class,
-    /// The tree takes the leaf's complement.
+    /// Whether the tree takes the leaf's complement.
     pub complemented: bool,
-    /// The class of the whole rests on this leaf (and on the other decisive ones): on the way down to it the part's class was
-    /// that of each union and intersection.
+    /// Whether the class of the whole rests on this leaf (and on the other decisive ones): from the root to the leaf, each
+    /// part has the class of the union or intersection that holds it.
     pub decisive: bool,
     pub reserved_bytes: [u8; 2],
-    /// The pairs of primitives that made the leaf's class, if it is decisive: `witness_count` entries of the list.
+    /// The witnesses of the leaf's class, if it is decisive: `witness_count` entries of the list from `first_witness` on.
     pub first_witness: u32,
     pub witness_count: u32,
     pub reserved: [u64; 2],
@@ -37,17 +37,19 @@ pub struct cstk_verdict {
 // SAFETY: the caller's address is only handed back, never followed.
 unsafe impl Send for cstk_verdict {}
 
-/// A class with its reasons. The arrays belong to the query context and stay valid until its next call or its release.
+/// A class and the leaves and witnesses that decide it. The arrays belong to the query context and stay valid until its
+/// next call or its release.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_explanation {
     pub point_class: cstk_class,
     pub reserved_word: u32,
-    /// Every leaf; one that is meant both as it is and by its complement stands twice.
+    /// Every leaf; twice if both it and its complement are used.
     pub leaves: *const cstk_verdict,
     pub leaf_count: usize,
-    /// Pairs that meet where the leaf's class is CSTK_CLASS_INSIDE, or are within its contact epsilon where it is CSTK_CLASS_CONTACT: as
-    /// for classes, doubt within rounding counts as within, so that `distance` may be above the epsilon by that.
+    /// Pairs that meet where the leaf's class is CSTK_CLASS_INSIDE, or are within its contact epsilon where it is
+    /// CSTK_CLASS_CONTACT. As for classes, doubt within rounding counts as within, so that `distance` may exceed the
+    /// epsilon by rounding.
     pub list: cstk_witness_list,
     pub reserved: [u64; 4],
 }
@@ -68,8 +70,9 @@ impl From<&Verdict> for cstk_verdict {
     }
 }
 
-/// Writes the class of q as cstk_classify does, and what made it: which leaves of the C-object, and which pairs of primitives
-/// (§2.2.4, operations 4 and 5). Every leaf is asked, so it takes longer. At most `max_count` pairs are listed.
+/// Writes the class of q as cstk_classify does, and what decides it: the leaves of the C-object, and at most `max_count`
+/// primitive pairs (§2.2.4, operations 4 and 5). Slower than cstk_classify, since every leaf is tested. `q` has `nq`
+/// doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_explain(
     query: *mut cstk_query,

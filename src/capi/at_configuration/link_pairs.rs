@@ -1,4 +1,4 @@
-//! Which pairs of links a self-collision set should test.
+//! Finds the link pairs that a self-collision set should test.
 
 use std::ffi::c_void;
 
@@ -12,25 +12,24 @@ use crate::capi::status::status::cstk_status;
 use crate::query::{LinkPair, LinkPairOptions, PairVerdict};
 use crate::space::Space;
 
-/// How pairs of links are judged. Write it with cstk_link_pair_options_default first.
+/// Options of cstk_find_link_pairs. Write it with cstk_link_pair_options_default first.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_link_pair_options {
     pub size: u32,
     pub cookie: u32,
-    /// How many configurations are drawn from the space; default 1000.
+    /// The number of configurations sampled; default 1000.
     pub samples: u64,
-    /// Decides which; default 0. Equal seeds give equal answers.
+    /// The seed of the sampling; default 0. Equal seeds give equal answers.
     pub seed: u64,
-    /// The configuration at rest, as many doubles as the space has coordinates; NULL, the default, for all at 0, clamped to
-    /// their ranges. Coordinates without bounds stay as at rest.
+    /// The configuration at rest, nq doubles of the space; NULL, the default, for all coordinates 0, clamped to their
+    /// ranges. Coordinates without bounds are not sampled: they stay at rest.
     pub rest: *const f64,
-    /// Links at most this far apart count as touching; default 0.
+    /// Links within this distance count as touching; default 0.
     pub margin: f64,
-    /// Pairs that touch in this share of the samples, or more, always touch; default 0.95.
+    /// Pairs that touch in at least this fraction of the samples count as always touching; default 0.95.
     pub always: f64,
-    /// Nonzero: pairs that touched in no sample are left out of the pairs to test, too. No sampling proves that they
-    /// cannot touch. Default 0.
+    /// Nonzero: leaves out pairs that touched in no sample. Sampling does not prove that they cannot touch. Default 0.
     pub skip_never: u32,
     pub reserved: u32,
 }
@@ -55,45 +54,45 @@ unsafe impl OptionsStruct for cstk_link_pair_options {
     }
 }
 
-/// What was found out about a pair of links.
+/// The verdict on a pair of links.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_pair_verdict {
-    /// To be tested: the two touched in some samples, or are of different robots.
+    /// The pair should be tested: it touched in some samples, or belongs to different robots.
     CSTK_PAIR_TEST = 0,
-    /// The two are joined, with no link that has a body in between, or fixed to each other.
+    /// The links are joined, with no body in between, or fixed to each other.
     CSTK_PAIR_ADJACENT = 1,
-    /// They touch at rest.
+    /// The links touch at rest.
     CSTK_PAIR_AT_REST = 2,
-    /// They touch in all samples, or nearly.
+    /// The links touch in all samples, or almost all.
     CSTK_PAIR_ALWAYS = 3,
-    /// They touched in no sample; tested all the same unless skip_never.
+    /// The links touched in no sample; still tested unless skip_never is set.
     CSTK_PAIR_NEVER = 4,
 }
 
-/// A pair of links that have bodies, the lower number first.
+/// A pair of links with bodies, the lower number first.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_link_pair {
     pub r_link: u32,
     pub s_link: u32,
     pub verdict: cstk_pair_verdict,
-    /// The robots that the two are of, in the order of the space's.
+    /// The robots of the two links, in the order of the space.
     pub r_robot: u32,
     pub s_robot: u32,
     pub reserved: u32,
-    /// The share of the samples in which they touch; 0 where the verdict needed none.
+    /// The fraction of the samples in which the links touch; 0 where the verdict needed no samples.
     pub share: f64,
 }
 
-/// All pairs of links that have bodies. The arrays belong to the query context and stay valid until its next call or its
+/// All pairs of links with bodies. The arrays belong to the query context and stay valid until its next call or its
 /// release.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_link_pair_list {
     pub pairs: *const cstk_link_pair,
     pub count: usize,
-    /// The pairs to test, two numbers each, as cstk_cobject_induced_links takes them; NULL where there is none.
+    /// The pairs to test, two link numbers each, as cstk_cobject_induced_links takes them; NULL if there are none.
     pub tested: *const u32,
     pub tested_count: usize,
     pub reserved: [u64; 4],
@@ -109,12 +108,11 @@ pub unsafe extern "C" fn cstk_link_pair_options_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Writes which pairs of links of the space to test for self-collision, and why not the others: those joined, those that
-/// touch at rest, and those that touch in at least `always` of the sampled configurations are left out. Links of different
-/// robots are always tested. Give `tested` to cstk_cobject_induced_links (it may be empty); to
-/// allow further pairs, leave them out. Two links may count as touching by `margin`: take no less than the margin of that set
-/// together with its contact epsilon, else pairs are tested that are always in contact. `options`
-/// may be NULL for the defaults; `progress` may be NULL, `user` is passed to it.
+/// Writes which pairs of links of the space to test for self-collision, and why the others are left out: links that are
+/// joined, that touch at rest, or that touch in at least `always` of the sampled configurations. Links of different robots
+/// are always tested. Pass `tested` to cstk_cobject_induced_links (it may be empty); to allow further pairs, leave them
+/// out. Set `margin` to at least the margin plus the contact epsilon of that set; otherwise pairs that are always in
+/// contact are tested. `options` may be NULL for the defaults; `progress` may be NULL; `user` is passed to it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_find_link_pairs(
     query: *mut cstk_query,

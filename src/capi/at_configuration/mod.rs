@@ -1,7 +1,7 @@
 //! Queries at a configuration.
 //!
-//! Operations 4 to 8 of §2.2.4 for a C-object: is q free, how far from contact, between what, which way is out, and why. Callers with
-//! kinematics of their own ask at link poses instead of q.
+//! Operations 4 to 8 of §2.2.4 for a C-object: is q free, how far is it from contact, between what, which way is out, and
+//! why. Callers with their own kinematics pass link poses instead of q.
 //!
 //! ```c
 //! cstk_class place;

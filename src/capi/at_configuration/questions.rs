@@ -1,4 +1,4 @@
-//! The queries of a C-object at a configuration, or at link poses.
+//! Queries on a C-object at a configuration, or at link poses.
 
 use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, cstk_witness_list};
 use crate::capi::boundary::{Failure, guard};
@@ -13,7 +13,7 @@ use crate::pose::Pose;
 use crate::query::{Configuration, Shell};
 use crate::space::Space;
 
-/// Where the robot is, as C gave it: `count` numbers or poses.
+/// The robot's state as the caller passed it: coordinates or link poses, and their number.
 #[derive(Clone, Copy)]
 enum StateInput {
     Coordinates(*const f64, usize),
@@ -21,7 +21,7 @@ enum StateInput {
 }
 
 impl StateInput {
-    /// What is given, checked; poses in memory that is used again.
+    /// The checked state; poses are stored in memory that is reused.
     unsafe fn read<'a>(
         self,
         space: &Space,
@@ -41,43 +41,43 @@ impl StateInput {
     }
 }
 
-/// Checks the arguments all queries share, and runs one; `at` reads where the robot is.
+/// Checks the arguments that all queries share, and runs one; `at` reads the robot's state.
 fn run<At, T>(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
     at: impl FnOnce() -> Result<At, Failure>,
     out: *mut T,
-    ask: impl FnOnce(&mut State, &CObject, &At) -> Result<T, Failure>,
+    action: impl FnOnce(&mut State, &CObject, &At) -> Result<T, Failure>,
 ) -> cstk_status {
     guard(|| {
         with_query(query, |state| {
-            // A share: functions of the caller may release the handle meanwhile.
+            // Shared ownership: a callback may release the handle during the call.
             let cobject = handle::share::<CObject>(cobject, "cobject")?;
             let out = Output::checked(out, "out")?;
             let at = at()?;
-            out.write(ask(state, &cobject, &at)?);
+            out.write(action(state, &cobject, &at)?);
             Ok(())
         })
     })
 }
 
-/// The same for queries that take link poses too.
+/// The same for queries that also take link poses.
 unsafe fn run_at<T>(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
     given: StateInput,
     out: *mut T,
-    ask: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
+    action: impl FnOnce(&mut State, &CObject, Configuration) -> Result<T, Failure>,
 ) -> cstk_status {
-    let ask = |state: &mut State, cobject: &CObject, (): &()| {
+    let action = |state: &mut State, cobject: &CObject, (): &()| {
         let mut memory = std::mem::take(&mut state.poses);
         // SAFETY: the caller states the lengths.
         let at = unsafe { given.read(cobject.space(), &mut memory)? };
-        let answer = ask(state, cobject, at);
+        let answer = action(state, cobject, at);
         state.poses = memory;
         answer
     };
-    run(query, cobject, || Ok(()), out, ask)
+    run(query, cobject, || Ok(()), out, action)
 }
 
 fn classify(
@@ -88,7 +88,7 @@ fn classify(
     Ok(state.context.classify(cobject, at)?.into())
 }
 
-/// Writes whether configuration q is inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
+/// Writes the class of configuration q: inside the C-object, in contact with it, or outside (§2.2.4, operation 4). `q` has
 /// `nq` doubles, as many as the space has coordinates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_classify(
@@ -110,9 +110,9 @@ pub unsafe extern "C" fn cstk_classify(
     }
 }
 
-/// cstk_classify for callers with kinematics of their own: `link_poses` holds the pose of every link of the space in the
-/// world, `link_count` runs of 12 doubles. Such callers get a contact's gradient as n^T (J_r - J_s), with their Jacobians of
-/// the links' points r_point and s_point.
+/// cstk_classify for callers with their own kinematics. `link_poses` holds the pose of every link of the space in the
+/// world, 12 doubles each, `link_count` poses in all. Such callers compute a contact's gradient as n^T (J_r - J_s), with
+/// their own Jacobians of the points r_point and s_point of the links.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_classify_at_link_poses(
     query: *mut cstk_query,
@@ -133,11 +133,11 @@ pub unsafe extern "C" fn cstk_classify_at_link_poses(
     }
 }
 
-/// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts
-/// as within. Of unions of induced sets and closed pure sets it is true with threshold 0 where cstk_classify says
-/// CSTK_CLASS_INSIDE. At the boundary of an open set (at a joint limit, say), and where of an intersection or a complement only a
-/// lower bound of the distance is known, it is true where the class is less: ask cstk_classify whether a configuration is
-/// allowed. Cheaper than a distance.
+/// Writes whether the distance at q is at most `threshold` (not negative; may be INFINITY). Doubt within rounding counts as
+/// within. For unions of induced sets and closed pure sets, threshold 0 gives true where cstk_classify gives
+/// CSTK_CLASS_INSIDE. It is also true on the boundary of an open set (at a joint limit, say), and where only a lower bound
+/// of the distance from an intersection or a complement is known, although the class is lower there: use cstk_classify to
+/// decide whether a configuration is allowed. Cheaper than cstk_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_within(
     query: *mut cstk_query,
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn cstk_within(
     }
 }
 
-/// cstk_within with the pose of every link, as in cstk_classify_at_link_poses.
+/// cstk_within with link poses instead of q; see cstk_classify_at_link_poses.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_within_at_link_poses(
     query: *mut cstk_query,
@@ -181,8 +181,9 @@ pub unsafe extern "C" fn cstk_within_at_link_poses(
     }
 }
 
-/// Writes the distance at q from contact, and the nearest pair of primitives (§2.2.4, operation 6). Distances beyond
-/// `max_distance` (INFINITY to have them all) are not computed, which saves time; the answer is then CSTK_DISTANCE_BEYOND_MAX.
+/// Writes the distance from contact at q, and the nearest primitive pair (§2.2.4, operation 6). Distances above
+/// `max_distance` are not computed, which saves time: the result is then CSTK_DISTANCE_BEYOND_MAX. Pass INFINITY for no
+/// maximum.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_distance(
     query: *mut cstk_query,
@@ -204,7 +205,7 @@ pub unsafe extern "C" fn cstk_distance(
     }
 }
 
-/// cstk_distance with the pose of every link, as in cstk_classify_at_link_poses.
+/// cstk_distance with link poses instead of q; see cstk_classify_at_link_poses.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_distance_at_link_poses(
     query: *mut cstk_query,
@@ -226,11 +227,11 @@ pub unsafe extern "C" fn cstk_distance_at_link_poses(
     }
 }
 
-/// Writes all pairs of primitives at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
-/// contacts. Within rounding of epsilon, cstk_within may hold where no witness is given. Of more than `max_count` pairs, the
-/// nearest are given and `truncated` is set. Neighbouring faces of a mesh share edges and vertices, so that one physical
-/// contact may have several witnesses. Each piece of a body that lies inside another, a solid, is a witness too, at distance
-/// 0 (see `contained`). The arrays stay valid until the next call with this query context.
+/// Writes all primitive pairs at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their
+/// contacts. Within rounding of epsilon, cstk_within may be true where no witness is listed. If there are more than
+/// `max_count` pairs, the nearest are listed and `truncated` is set. Neighbouring faces of a mesh share edges and vertices,
+/// so that one physical contact may have several witnesses. A piece of a body that lies inside another, a solid, is a
+/// witness at distance 0 (see `contained`). The arrays stay valid until the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_witnesses(
     query: *mut cstk_query,
@@ -256,7 +257,7 @@ pub unsafe extern "C" fn cstk_witnesses(
     }
 }
 
-/// cstk_witnesses with the pose of every link, as in cstk_classify_at_link_poses.
+/// cstk_witnesses with link poses instead of q; see cstk_classify_at_link_poses.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_witnesses_at_link_poses(
     query: *mut cstk_query,
@@ -282,11 +283,11 @@ pub unsafe extern "C" fn cstk_witnesses_at_link_poses(
     }
 }
 
-/// cstk_witnesses, and for each contact the gradient of its distance (§2.2.4, operation 8; §4.4): by how much it grows
-/// per unit of each velocity of cstk_space_step, the way out in joint space. For the nearest pair alone ask cstk_distance
-/// first and give its `upper` as epsilon where that is finite: a large epsilon visits every pair, whatever max_count. Row
-/// i, at gradients + i * nv, is that of contacts[i]; overlapping witnesses have no contact and no row. The arrays stay
-/// valid until the next call with this query context.
+/// cstk_witnesses, with the gradient of each contact's distance (§2.2.4, operation 8; §4.4): its derivative with respect to
+/// the velocities of cstk_space_step, the way out in joint space. Row i, at gradients + i * nv, belongs to contacts[i];
+/// overlapping witnesses have neither contact nor row. A large epsilon visits every pair, whatever max_count: for the
+/// nearest pair alone, call cstk_distance first and pass its `upper`, if finite, as epsilon. The arrays stay valid until
+/// the next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_gradients(
     query: *mut cstk_query,
@@ -310,7 +311,7 @@ pub unsafe extern "C" fn cstk_gradients(
     )
 }
 
-/// Everything about one configuration: Appendix A's cstk-pseudo-normal.
+/// Class, distance, witnesses and gradients at one configuration: Appendix A's cstk-pseudo-normal.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_pseudo_normal_result {
@@ -321,8 +322,9 @@ pub struct cstk_pseudo_normal_result {
     pub list: cstk_witness_list,
 }
 
-/// Writes class, distance, and the witnesses and gradients within `max_shell` at q. With `normalize`, gradients have
-/// length 1 (those of length 0 stay). The list's arrays stay valid until the next call with this query context.
+/// Writes the class and the distance at q, and the witnesses and gradients within `max_shell`, at most `max_count`
+/// witnesses. `normalize` scales gradients to length 1, except those of length 0. The list's arrays stay valid until the
+/// next call with this query context.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_pseudo_normal(
     query: *mut cstk_query,

@@ -25,7 +25,7 @@ impl Noun for Body {
     const NAME: &'static str = "cstk_body";
 }
 
-/// What became of a body's input, and what was built.
+/// Statistics of a body and of the input it was built from.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_body_statistics {
@@ -33,17 +33,17 @@ pub struct cstk_body_statistics {
     pub primitive_count: u64,
     /// Mesh faces that were not convex or not planar, and were split into triangles.
     pub faces_split: u64,
-    /// Mesh faces without area, left out.
+    /// Mesh faces without area, which were left out.
     pub faces_dropped: u64,
-    /// Nodes of the hierarchy, and its levels.
+    /// Nodes of the hierarchy, and the number of its levels.
     pub node_count: u64,
     pub depth: u64,
-    /// The box of all vertices, in the frame in which the body was given.
+    /// The axis-aligned bounding box of all vertices, in the frame in which the body was given.
     pub low: [f64; 3],
     pub high: [f64; 3],
-    /// What of the body hangs together: polygons that share vertices, and each polyhedron.
+    /// Connected pieces of the body: polygons that share vertices, and each polyhedron.
     pub piece_count: u64,
-    /// It was declared solid (cstk_body_builder_set_solid).
+    /// Whether it was declared solid (cstk_body_builder_set_solid).
     pub solid: bool,
     pub reserved_bytes: [u8; 7],
     pub reserved: [u64; 6],
@@ -58,8 +58,8 @@ pub enum cstk_feature_kind {
     CSTK_FEATURE_FACE = 2,
     /// The inside of a solid.
     CSTK_FEATURE_INTERIOR = 3,
-    /// The surface of a cylinder, cone, ellipsoid or set by a support function; it has no vertices. What has a radius holds
-    /// its points by the features of its core.
+    /// The surface of a cylinder, cone, ellipsoid or support function; it has no vertices. Rounded primitives use the
+    /// features of their core.
     CSTK_FEATURE_SURFACE = 4,
 }
 
@@ -95,16 +95,16 @@ pub unsafe extern "C" fn cstk_body_retain(body: *mut cstk_body) -> cstk_status {
     guard(|| handle::retain::<Body>(body, "body"))
 }
 
-/// Drops a reference. NULL is a no-op. Robots and environments keep the bodies they use.
+/// Drops a reference. NULL is a no-op. Robots and environments hold references to their bodies.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_release(body: *mut cstk_body) -> cstk_status {
     guard(|| handle::release::<Body>(body, "body"))
 }
 
-/// Attaches data of the caller's to a body, however it was made (§2.2.3): witnesses hand them back, as `r_data` for a link's
-/// body, and as `s_data` for a link's or for that of an s-object without data of its own. Once for each body: the second call
-/// is CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by whichever thread drops the last reference to the
-/// body, and not when this call fails. Other threads may ask about the body meanwhile.
+/// Attaches user data to a body, however it was created (§2.2.3). Witnesses return it: as `r_data` for a link's body, and
+/// as `s_data` for the body of a link or of an s-object without its own data. A second call for the same body is
+/// CSTK_ERROR_INVALID_ARGUMENT. `destroy` may be NULL; it is called once, by the thread that drops the last reference to
+/// the body, and not if this call fails. Other threads may query the body meanwhile.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_set_data(
     body: *mut cstk_body,
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn cstk_body_set_data(
     })
 }
 
-/// Writes the data attached to a body, or NULL.
+/// Writes the user data attached to a body, or NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_data(
     body: *const cstk_body,
@@ -163,7 +163,7 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
     })
 }
 
-/// The primitive of a body with this index, which witnesses name.
+/// The primitive of a body with this index.
 pub(crate) fn primitive_of(body: &Body, primitive: u32) -> Result<Primitive<'_>, Error> {
     let count = body.primitives().len();
     body.primitives()
@@ -174,10 +174,10 @@ pub(crate) fn primitive_of(body: &Body, primitive: u32) -> Result<Primitive<'_>,
         })
 }
 
-/// The vertices of a feature of a primitive, in the frame in which the body was given: a polygon has one face (0), its
-/// edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a cstk_feature_kind.
-/// At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to
-/// `count`.
+/// Writes the vertices of a feature of a primitive, in the frame in which the body was given. A polygon has one face (0),
+/// and its edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a
+/// cstk_feature_kind. At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and
+/// their full number to `count`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_feature_vertices(
     body: *const cstk_body,
@@ -218,9 +218,9 @@ pub unsafe extern "C" fn cstk_body_get_feature_vertices(
     })
 }
 
-/// Writes the body with its hierarchy to a file; a file of that name is replaced when all is written, or left as it is.
-/// docs/body-file.md describes the format. CSTK_ERROR_IO if it cannot be written, CSTK_ERROR_UNSUPPORTED for a body with a support
-/// function, which no file can hold.
+/// Saves the body with its hierarchy to a file. An existing file is replaced only once everything is written. The format is
+/// described in docs/body-file.md. CSTK_ERROR_IO if the file cannot be written, CSTK_ERROR_UNSUPPORTED for a body with a
+/// support function, which cannot be saved.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_save(
     body: *const cstk_body,
@@ -234,9 +234,10 @@ pub unsafe extern "C" fn cstk_body_save(
     })
 }
 
-/// Reads a body that cstk_body_save wrote; nothing is built, and it answers as the saved one does, bit for bit. CSTK_ERROR_IO if
-/// the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or no body file, CSTK_ERROR_UNSUPPORTED if it is of another
-/// version of the format. The checksum finds damage; it is no protection against forgery.
+/// Loads a body that cstk_body_save wrote. Nothing is rebuilt, and queries give the same answers as for the saved body, bit
+/// for bit. CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or not a body file,
+/// CSTK_ERROR_UNSUPPORTED for another version of the format. The checksum detects damage; it does not protect against
+/// forgery.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_load(
     file: *const c_char,

@@ -15,7 +15,7 @@ use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::pose::{Pose, Vec3};
 
-/// Collects the primitives of a body.
+/// Collects the primitives of a body. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.
 pub struct cstk_body_builder {
     _opaque: [u8; 0],
 }
@@ -34,12 +34,13 @@ pub(crate) fn with_builder(
 ) -> Result<(), Failure> {
     // A callback may release the caller's last reference meanwhile.
     let builder = handle::share::<Builder>(builder, "builder")?;
-    // Additions are made whole or not at all, so that a fault leaves the builder sound.
+    // Additions are made whole or not at all, so a panic leaves the builder sound.
     exclusively(&builder.0, "the builder", |_| {}, action)
 }
 
-/// Makes an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
-/// surfaces, unless cstk_body_builder_set_solid says otherwise). Release it with cstk_body_builder_release.
+/// Creates an empty builder for bodies of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3 (polygons are
+/// surfaces, unless cstk_body_builder_set_solid declares them the boundary of a solid). Release it with
+/// cstk_body_builder_release.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_create(
     dimension: u32,
@@ -65,11 +66,11 @@ pub unsafe extern "C" fn cstk_body_builder_release(builder: *mut cstk_body_build
     guard(|| handle::release::<Builder>(builder, "builder"))
 }
 
-/// Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, either way round. In space it is a
-/// surface, in the plane it is solid. `tag` is any number of yours; witnesses carry it.
+/// Adds a convex planar polygon: `point_count` vertices of three doubles in cyclic order, clockwise or counter-clockwise.
+/// In 3-D it is a surface, in the plane it is solid. `tag` is any number of yours; witnesses return it.
 ///
-/// CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_CONVEX or CSTK_ERROR_NOT_PLANAR with a message that names the vertex. Vertices may leave the plane
-/// by 1e-12 of the polygon's diameter; use cstk_body_builder_add_mesh to have other polygons split.
+/// CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_CONVEX or CSTK_ERROR_NOT_PLANAR, with a message that names the vertex. Vertices
+/// may leave the plane by 1e-12 of the polygon's diameter. cstk_body_builder_add_mesh splits other polygons.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_polygon(
     builder: *mut cstk_body_builder,
@@ -89,8 +90,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_polygon(
     })
 }
 
-/// Adds the convex hull of `point_count` points of three doubles: a solid; or a point, a segment or a flat polygon where the
-/// points are no more than that. Points inside the hull are ignored.
+/// Adds the convex hull of `point_count` points of three doubles: a solid, or a point, a segment or a flat polygon if the
+/// points span no more. Points inside the hull are ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
     builder: *mut cstk_body_builder,
@@ -110,17 +111,19 @@ pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
     })
 }
 
-/// Adds the faces of a mesh as polygons: `vertex_count` vertices of three doubles; `face_count` faces, face f having
-/// `face_sizes[f]` vertices; and all their vertex indices, `index_count` in total, face after face. `face_sizes` may be
-/// NULL for triangles. Faces are tagged with their index in this call; triangles of a split face carry its tag.
+/// Adds the faces of a mesh as polygons. `vertices` holds `vertex_count` vertices of three doubles. Face f has
+/// `face_sizes[f]` vertices; `face_sizes` has `face_count` entries, or is NULL for triangles. `indices` holds the vertex
+/// indices of all faces, face after face, `index_count` in all. Faces are tagged with their index in this call; triangles
+/// of a split face keep its tag.
 ///
-/// The mesh is scaled along its own x, y and z by the three factors of `scale`, NULL for 1, then moved by `pose`, NULL for the
-/// identity. Factors below 0 mirror; faces of what is mirrored are turned round, so that they face outwards as before.
-/// CSTK_ERROR_INVALID_ARGUMENT for a factor nearer to 0 than 1e-50 or larger than 1e50.
+/// The mesh is scaled along its own x, y and z by the three factors of `scale` (NULL for 1), then moved by `pose` (NULL for
+/// the identity). Negative factors mirror; the faces of a mirrored mesh are reversed, so that they still face outwards.
+/// CSTK_ERROR_INVALID_ARGUMENT for a factor of magnitude below 1e-50 or above 1e50.
 ///
 /// Faces that are not convex or not planar are split into triangles; faces without area are left out and counted (see
-/// cstk_body_get_statistics). CSTK_ERROR_NOT_FOUND for an index beyond the vertices, CSTK_ERROR_WRONG_SIZE for counts that do not
-/// match, CSTK_ERROR_NOT_CONVEX for an outline that crosses itself; the message names the face, and nothing is added.
+/// cstk_body_get_statistics). CSTK_ERROR_NOT_FOUND for an index beyond the vertices, CSTK_ERROR_WRONG_SIZE for counts that
+/// do not match, CSTK_ERROR_NOT_CONVEX for an outline that crosses itself. The message names the face, and nothing is
+/// added.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh(
     builder: *mut cstk_body_builder,
@@ -143,7 +146,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
                 )
             };
             let face_sizes = if face_sizes.is_null() {
-                // One more than there are indices for is enough to name the face that lacks them.
+                // One face more than the indices suffice for is enough to name the face that lacks them.
                 vec![3; face_count.min(index_count / 3 + 1)]
             } else {
                 // SAFETY: as above.
@@ -179,9 +182,10 @@ unsafe fn scale_or_one(values: *const f64) -> Result<Vec3, Failure> {
     Ok(Vec3::from(*unsafe { array::<3>(values, "scale")? }))
 }
 
-/// Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name ends in .obj, .stl (ASCII or binary) or .dae
-/// (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as the tools of ROS have it).
-/// CSTK_ERROR_IO if it cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED for another ending.
+/// Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
+/// .obj, .stl (ASCII or binary) or .dae (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as in the ROS
+/// tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
+/// for another ending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
     builder: *mut cstk_body_builder,
@@ -204,16 +208,17 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
     })
 }
 
-/// Declares that the polygons and mesh faces, all together, are the closed boundary of a solid (true), or surfaces (false,
-/// the default). In a solid the inside counts: a body wholly inside it meets it, at distance 0. Polyhedra are solid by
-/// themselves and take no part; in the plane polygons are solid anyway, and this changes nothing.
+/// Declares that all polygons and mesh faces together are the closed boundary of a solid (true), or surfaces (false, the
+/// default). The inside of a solid counts: a body wholly inside it meets it, at distance 0. Polyhedra (flat ones too) are
+/// not part of the boundary: they are solid by themselves. In the plane polygons are always solid, so this changes nothing.
 ///
-/// It is cstk_body_build that checks whether the boundary is closed, of all that was added till then. Edges join where
-/// their ends have the same coordinates, to the last bit, and as many faces must run along each one way as the other;
-/// faces without area that were left out count where others need them to join. Faces that alone share an edge are turned
-/// round where they have to be: the larger part by area of what so hangs together stays as it was given. A point is
-/// inside where the boundary's winding number is not 0. So shells that face the same way may overlap; a cavity is a shell
-/// that faces the other way than the one around it; and a boundary that faces inwards all over bounds the same solid.
+/// cstk_body_build checks that the boundary of everything added by then is closed. Edges join where their ends have the
+/// same coordinates, to the last bit; along each edge as many faces must run one way as the other. Faces without area,
+/// which are otherwise left out, count where others need them to join. Where exactly two faces share an edge and disagree,
+/// faces are reversed; of each group of faces connected in this way, the orientation that covers the larger area is kept. A
+/// point is inside where the boundary's winding number is not 0. Hence shells with the same orientation may overlap; a
+/// cavity is a shell with the opposite orientation of the shell around it; and a boundary that faces inwards everywhere
+/// bounds the same solid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_set_solid(
     builder: *mut cstk_body_builder,
@@ -227,14 +232,14 @@ pub unsafe extern "C" fn cstk_body_builder_set_solid(
     })
 }
 
-/// Builds a body from what the builder holds; the builder is unchanged and may go on. `options` may be NULL for the
-/// defaults; `progress` may be NULL, `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared solid,
-/// CSTK_ERROR_NOT_CLOSED if its boundary has open edges, or one side only, with a message that names edges and primitives;
-/// CSTK_ERROR_DEGENERATE if it bounds nothing, as each face has a copy that faces the other way.
+/// Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
+/// the defaults; `progress` may be NULL; `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared
+/// solid: CSTK_ERROR_NOT_CLOSED if the boundary has open edges, or is one-sided (not orientable), with a message that names
+/// edges and primitives; CSTK_ERROR_DEGENERATE if it bounds nothing, because each face has a copy that faces the other way.
 ///
-/// The hierarchy of a body decides how fast it is asked, never what it answers. It takes about 5 microseconds a polygon, and
-/// 1 to 2 a point where there is nothing else (cstk_body_builder_add_points); build once and share, or keep the body in a
-/// file (cstk_body_save).
+/// The hierarchy affects the speed of queries, never their answers. Building takes about 5 microseconds a polygon, and 1 to
+/// 2 a point for bodies of points only (cstk_body_builder_add_points). Build once and share, or save the body
+/// (cstk_body_save).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_build(
     builder: *mut cstk_body_builder,

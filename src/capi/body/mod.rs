@@ -1,7 +1,7 @@
 //! Bodies.
 //!
-//! A body is a rigid union of convex primitives: polygons, polyhedra, ready-made shapes, points. A builder collects them, from
-//! arrays or mesh files; what is built never changes, and serves any number of links, obstacles and threads.
+//! A body is a rigid union of convex primitives: polygons, polyhedra, predefined shapes, points. A builder collects them,
+//! from arrays or mesh files. A body never changes once built, and serves any number of links, obstacles and threads.
 //!
 //! ```c
 //! const double half_extents[3] = {0.2, 0.1, 0.3};

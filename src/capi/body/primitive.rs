@@ -1,4 +1,4 @@
-//! What a body's primitives are.
+//! Describes the primitives of a body.
 
 use crate::body::Body;
 use crate::capi::body::body::{cstk_body, primitive_of};
@@ -46,25 +46,27 @@ impl From<PrimitiveKind> for cstk_primitive_kind {
     }
 }
 
-/// What a primitive is. A sphere is a point with a radius, a capsule a segment with one: its features are those of this core.
+/// A primitive of a body. A sphere is a point with a radius, a capsule a segment with one: their features are those of this
+/// core.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_primitive {
     pub kind: cstk_primitive_kind,
-    /// Features of the primitive, or of its core; 0 for cylinders, cones, ellipsoids and support functions.
+    /// Numbers of features of the primitive, or of its core; 0 for cylinders, cones, ellipsoids and support functions.
     pub vertex_count: u32,
     pub edge_count: u32,
     pub face_count: u32,
-    /// Around the core: of spheres, capsules, and rounded polygons and polyhedra. 0 for others.
+    /// The radius around the core of spheres, capsules, rounded polygons and rounded polyhedra; 0 for others.
     pub radius: f64,
-    /// As it was given; of a mesh's face its index, of a point of a cloud its own.
+    /// The caller's tag; for a mesh face its index, for a point of a cloud the point's index.
     pub tag: u64,
     pub reserved: [u64; 8],
 }
 
-/// Writes what a primitive of the body is. Primitives are numbered from 0 in the order in which they were added, triangles of
-/// a split face side by side; cstk_body_get_statistics tells how many there are, and cstk_body_get_feature_vertices where the
-/// vertices are: CSTK_FEATURE_VERTEX for one, CSTK_FEATURE_INTERIOR for all. CSTK_ERROR_NOT_FOUND for an index beyond the last.
+/// Describes a primitive of the body. Primitives are numbered from 0 in the order in which they were added; the triangles
+/// of a split face have consecutive numbers. cstk_body_get_statistics gives their number, and
+/// cstk_body_get_feature_vertices their vertices: CSTK_FEATURE_VERTEX for one, CSTK_FEATURE_INTERIOR for all.
+/// CSTK_ERROR_NOT_FOUND for an index beyond the last.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_primitive(
     body: *const cstk_body,

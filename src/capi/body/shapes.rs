@@ -1,4 +1,4 @@
-//! Ready-made shapes, point clouds, height fields and support functions for bodies.
+//! Predefined shapes, point clouds, height fields and support functions.
 
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -14,12 +14,12 @@ use crate::error::{Error, ErrorKind};
 use crate::pose::Vec3;
 use crate::primitive::SupportFunction;
 
-/// Writes to `point` (three doubles) a point of a bounded convex set that is farthest along the unit vector `direction`.
-/// Returns CSTK_OK, or anything else when it fails.
+/// Writes to `point` (three doubles) a support point of a bounded convex set: one that is farthest along the unit vector
+/// `direction` (three doubles). Returns CSTK_OK, or anything else for failure.
 pub type cstk_support_fn =
     Option<unsafe extern "C" fn(direction: *const f64, point: *mut f64, user: *mut c_void) -> i32>;
 
-/// Adds one primitive; errors name it by what it is and its index.
+/// Adds one primitive; error messages name its kind and its index.
 fn run<A: FnOnce(&mut BodyBuilder) -> Result<(), Failure>>(
     builder: *mut cstk_body_builder,
     what: &str,
@@ -42,8 +42,8 @@ unsafe fn point(xyz: *const f64, argument: &str) -> Result<Vec3, Failure> {
     Ok(Vec3::from(*unsafe { array::<3>(xyz, argument)? }))
 }
 
-/// Adds a ball around `center` (three doubles); in the plane a disc. As exact as a point: 1e-12 of the largest coordinate.
-/// A radius of 0 leaves the point.
+/// Adds a ball around `center` (three doubles); in the plane a disc. Exact to 1e-12 of the largest coordinate, as points
+/// are. A radius of 0 gives a point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_sphere(
     builder: *mut cstk_body_builder,
@@ -58,8 +58,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_sphere(
     })
 }
 
-/// Adds all points within `radius` of the segment from `a` to `b` (three doubles each). As exact as a segment: 1e-12 of the
-/// largest coordinate. Along a face or another capsule it has the contacts that span both.
+/// Adds all points within `radius` of the segment from `a` to `b` (three doubles each). Exact to 1e-12 of the largest
+/// coordinate, as segments are. Along a face or another capsule it has several contacts, which span the common part.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_capsule(
     builder: *mut cstk_body_builder,
@@ -76,7 +76,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_capsule(
 }
 
 /// Adds the solid box with `half_extents` (three doubles, positive) around the origin of the frame at `pose`, along its
-/// axes. It is a polyhedron, with a polyhedron's features and exactness. Not in the plane: there it is a polygon.
+/// axes. It is a polyhedron, with the features and the exactness of one. Refused in the plane: use a polygon there.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_box(
     builder: *mut cstk_body_builder,
@@ -96,11 +96,11 @@ pub unsafe extern "C" fn cstk_body_builder_add_box(
     })
 }
 
-/// Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is smooth:
-/// distances are iterated until a lower and an upper bound agree, to 1e-11 of its diameter at worst and about 1e-15 of the
-/// largest coordinate as a rule; where they would not, `lower` and `upper` of an answer tell. Its contacts have
-/// CSTK_FEATURE_SURFACE for a feature, which counts as a point in their modes, and there is one only, even where it stands or lies
-/// on a face. cstk_pair_penetration refuses it.
+/// Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is
+/// smooth: distances are iterated until the lower and the upper bound agree to 1e-11 of its diameter at worst, and usually
+/// about 1e-15 of the largest coordinate. Where they do not, `lower` and `upper` of the result show it. The feature of its
+/// contacts is CSTK_FEATURE_SURFACE, which counts as a point in contact modes, and there is only one contact, even where it
+/// stands or lies on a face. cstk_pair_penetration refuses it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_cylinder(
     builder: *mut cstk_body_builder,
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_cylinder(
 }
 
 /// Adds the solid cone around the z axis of the frame at `pose`: the base at z = -height / 2, the apex at z = height / 2.
-/// Smooth, with what that means for cstk_body_builder_add_cylinder.
+/// Smooth: see cstk_body_builder_add_cylinder.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_cone(
     builder: *mut cstk_body_builder,
@@ -133,8 +133,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_cone(
     })
 }
 
-/// Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth, with
-/// what that means for cstk_body_builder_add_cylinder.
+/// Adds the solid ellipsoid with `semi_axes` (three doubles, positive) around the origin of the frame at `pose`. Smooth:
+/// see cstk_body_builder_add_cylinder.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_ellipsoid(
     builder: *mut cstk_body_builder,
@@ -149,8 +149,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_ellipsoid(
     })
 }
 
-/// Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon;
-/// the features of contacts are the polygon's.
+/// Adds all points within `radius` of a convex polygon given as for cstk_body_builder_add_polygon. As exact as the polygon,
+/// whose features its contacts have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_rounded_polygon(
     builder: *mut cstk_body_builder,
@@ -166,7 +166,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polygon(
     })
 }
 
-/// Adds all points within `radius` of the convex hull of points. As exact as the hull; the features of contacts are its.
+/// Adds all points within `radius` of the convex hull of `point_count` points. As exact as the hull, whose features its
+/// contacts have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
     builder: *mut cstk_body_builder,
@@ -182,14 +183,14 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
     })
 }
 
-/// Adds balls of one radius around `point_count` points of three doubles, tagged with their indices: a point cloud. A radius
-/// of 0 leaves the points. Exact to 1e-12 of the largest coordinate. The message of a failure names the point; nothing is
-/// added then.
+/// Adds a point cloud: balls of one radius around `point_count` points of three doubles, tagged with their indices. A
+/// radius of 0 gives points. Exact to 1e-12 of the largest coordinate. On failure the message names the point, and nothing
+/// is added.
 ///
-/// A body of nothing but points is built in 1 to 2 microseconds a point, and holds less than 100 bytes of each: points are
-/// split from the top whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are made when nodes of its
-/// hierarchy are first looked at, which takes 10 to 30 microseconds and about 1 kB a point; queries do without. Beside other
-/// primitives points are built as those are, at up to 60 microseconds each: keep clouds in bodies of their own.
+/// A body of points only builds in 1 to 2 microseconds a point, and takes less than 100 bytes a point: its points are split
+/// top-down whatever the grouping, unless that is CSTK_GROUPING_BASIC. Its wrappers are computed when nodes of its
+/// hierarchy are first inspected, which takes 10 to 30 microseconds and about 1 kB a point; queries do not need them. Mixed
+/// with other primitives, points are built as those are, at up to 60 microseconds each: keep clouds in their own bodies.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_points(
     builder: *mut cstk_body_builder,
@@ -206,10 +207,10 @@ pub unsafe extern "C" fn cstk_body_builder_add_points(
     })
 }
 
-/// Adds a grid of heights over the plane of x and y: `nx` by `ny` nodes, two at least each way, `cell_x` and `cell_y` apart,
-/// the first at the origin; `heights[j * nx + i]` is the z of node (i, j). Every cell is two triangles, split along the
-/// diagonal from (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. With `base` NaN the field is a surface; else it
-/// is solid ground down to z = base, which must be below all heights: each triangle becomes a prism. Exact to 1e-12 of the
+/// Adds a height field over the xy-plane: `nx` by `ny` nodes, at least two each way, `cell_x` and `cell_y` apart, the first
+/// at the origin; `heights[j * nx + i]` is the z of node (i, j). Each cell is two triangles, split along the diagonal from
+/// (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. If `base` is NaN the field is a surface; otherwise it is
+/// solid ground down to z = base, which must be below all heights, and each triangle becomes a prism. Exact to 1e-12 of the
 /// largest coordinate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_height_field(
@@ -235,17 +236,17 @@ pub unsafe extern "C" fn cstk_body_builder_add_height_field(
     })
 }
 
-/// Adds the bounded convex set that `support` describes, in the frame in which the body is given. Smooth, with what that
-/// means for cstk_body_builder_add_cylinder: its distances are as exact as the function's points.
+/// Adds the bounded convex set that the function `support` describes, in the frame in which the body is given. Smooth: see
+/// cstk_body_builder_add_cylinder; its distances are as exact as the function's points.
 ///
-/// The function is called by any thread that asks about the body, several at once, also within queries; it must be pure, must
-/// not throw, and must not call back into the query that asks. It is tried here along the axes and 300 other directions:
-/// CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it answers (or leaves unwritten) what is not finite,
-/// CSTK_ERROR_NOT_CONVEX if two answers show that it is no support function. A query cannot end with its failure: where it fails
-/// then, the set counts as the box that was found here, so that what is called free is free.
+/// The function is called from any thread that queries the body, concurrently, and from within queries. It must be pure,
+/// must not throw, and must not call back into the running query. It is tested here along the axes and 300 other
+/// directions: CSTK_ERROR_CALLBACK_FAILED if it fails, CSTK_ERROR_NOT_FINITE if it writes numbers that are not finite, or
+/// none, CSTK_ERROR_NOT_CONVEX if two points contradict each other. A later failure does not fail the query: the set then
+/// counts as the bounding box found here, so that an answer of "free" stays safe.
 ///
-/// `destroy` may be NULL. It is called once with `user`, by whichever thread drops the last reference to what uses the
-/// function; not when this call fails. Such a body cannot be saved.
+/// `destroy` may be NULL. It is called once with `user`, by the thread that drops the last reference to whatever uses the
+/// function, and not if this call fails. Such a body cannot be saved.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_support(
     builder: *mut cstk_body_builder,
@@ -264,13 +265,13 @@ pub unsafe extern "C" fn cstk_body_builder_add_support(
             owned: AtomicBool::new(false),
         });
         builder.add_support(function.clone(), tag)?;
-        // From now on the data are given back when nothing refers to them.
+        // From now on the data are released when nothing refers to them.
         function.owned.store(true, Ordering::Release);
         Ok(())
     })
 }
 
-/// The caller's function with the data it is called with.
+/// The caller's function and its user data.
 struct Function {
     support: unsafe extern "C" fn(*const f64, *mut f64, *mut c_void) -> i32,
     user: *mut c_void,

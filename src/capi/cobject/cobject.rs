@@ -16,8 +16,9 @@ use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
 use crate::space::Space;
 
-/// A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or made of
-/// others. Immutable (but for the environments it refers to); threads may share it. It keeps its space and environments.
+/// A set in C-space: induced by contact or interference of links with s-objects or links, given by coordinates, or combined
+/// from others. Immutable (except for the environments it refers to); threads may share it. It keeps references to its
+/// space and environments.
 pub struct cstk_cobject {
     _opaque: [u8; 0],
 }
@@ -28,7 +29,7 @@ impl Noun for CObject {
     const NAME: &'static str = "cstk_cobject";
 }
 
-/// How an induced C-object measures. Write it with cstk_induced_options_default first.
+/// Options of an induced C-object. Write it with cstk_induced_options_default first.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_induced_options {
@@ -36,25 +37,26 @@ pub struct cstk_induced_options {
     pub cookie: u32,
     /// Distances above 0 and up to this classify as CSTK_CLASS_CONTACT. Default 0.
     pub contact_epsilon: f64,
-    /// Grows the s-objects by this length: it is taken off every distance of the C-object, so that configurations nearer
-    /// than the margin are inside. Points and normals stay those of the real surfaces. Default 0.
+    /// Grows the s-objects by this length: it is subtracted from every distance, so that configurations nearer than the
+    /// margin are inside. Points and normals remain those of the real surfaces. Default 0.
     pub margin: f64,
-    /// Pairs that are left out of a set of links against s-objects: `allowed_count` of them; NULL, the default, for none. Ids
-    /// are not checked: an object may come later. Sets are made in no time; who allows other pairs makes another one.
+    /// Pairs that may meet, left out of a set of links against s-objects: `allowed_count` entries; NULL, the default, for
+    /// none. Ids are not checked: an object may be added later. Sets are cheap to create; to allow other pairs, create
+    /// another one.
     pub allowed: *const cstk_allowed_pair,
     pub allowed_count: usize,
 }
 
-/// A pair that may meet: a link, and an s-object.
+/// A pair that may meet: a link, or an s-object attached to it, and an s-object.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_allowed_pair {
-    /// A link of the space.
+    /// A link, by number in the space.
     pub link: u32,
     pub reserved: u32,
-    /// An s-object that is attached to the link and stands in its place, or 0 for the link's own body.
+    /// The s-object attached to the link that may meet `object`, or 0 for the link's own body.
     pub attached: u64,
-    /// The s-object it may meet.
+    /// The s-object that it may meet.
     pub object: u64,
 }
 
@@ -105,16 +107,15 @@ pub unsafe extern "C" fn cstk_induced_options_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Makes the set of configurations at which a link meets an s-object.
+/// Creates the set of configurations at which a link meets an s-object.
 ///
-/// `links` holds `link_count` numbers of links of the space; with `link_count` 0 all are meant (CSTK_ERROR_EMPTY if none has a
-/// body), those too that no joint moves, such as a base: their gradients are 0, and they may always be nearest. What a
-/// link of these holds is tested with it (see CSTK_CHANGE_ATTACH): a frame without a body, such as a tool's, counts for
-/// what it holds, and must be among `links` for that. Links 0 to i - 1 give the set of the first i links. The robot with
-/// itself is not meant; see cstk_cobject_induced_links. `ids` holds `id_count` ids of objects of the environment; with
-/// `id_count` 0 all its objects are meant, those added later too. An object that is deleted later contributes nothing;
-/// one of another dimension than the robots is refused by the queries that meet it. `options` may be NULL for the
-/// defaults.
+/// `links` holds `link_count` link numbers of the space; `link_count` 0 means all links (CSTK_ERROR_EMPTY if none has a
+/// body). That includes links that no joint moves, such as a base: their gradients are 0, and they may always be the
+/// nearest. Objects attached to these links are tested with them (see CSTK_CHANGE_ATTACH): a frame without a body, such as
+/// a tool frame, must be among `links` for that. The robot is not tested against itself; see cstk_cobject_induced_links.
+/// `ids` holds `id_count` ids of objects of the environment; `id_count` 0 means all its objects, including those added
+/// later. An object that is deleted later contributes nothing. An object of another dimension than the robots makes queries
+/// fail. `options` may be NULL for the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced(
     space: *const cstk_space,
@@ -155,9 +156,9 @@ pub unsafe extern "C" fn cstk_cobject_induced(
     })
 }
 
-/// Makes the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
-/// other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Links that are
-/// joined touch at every configuration; leave such pairs out. Without any pair the set is empty.
+/// Creates the set of configurations at which the two links of some pair meet: one robot with itself, or robots with each
+/// other. `pairs` holds 2 * `pair_count` link numbers; the second of a pair is the nominal s-object. Joined links touch at
+/// every configuration: leave such pairs out (see cstk_find_link_pairs). Without any pair the set is empty.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_induced_links(
     space: *const cstk_space,

@@ -1,7 +1,7 @@
 //! C-objects.
 //!
-//! A C-object is a set in a space (§2.1.3). Induced sets are all q at which links meet obstacles or each other; pure sets are
-//! given by coordinates or by functions of the caller; unions, intersections, complements and differences are made of others.
+//! A C-object is a set in a space (§2.1.3). Induced sets hold all q at which links meet obstacles or each other; pure sets
+//! are given by coordinates or by callbacks; unions, intersections, complements and differences combine other sets.
 //!
 //! ```c
 //! cstk_cobject *obstacles, *limits, *forbidden;

@@ -1,4 +1,4 @@
-//! Sets by functions of the caller.
+//! Pure sets defined by callbacks.
 
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -12,17 +12,17 @@ use crate::capi::user_data::CallerData;
 use crate::cobject::{Class, Predicate};
 use crate::error::{Error, ErrorKind, Result};
 
-/// Writes where configuration q (`nq` doubles) stands: a cstk_class. Returns CSTK_OK, or anything else to make the query
+/// Writes the class of configuration q (`nq` doubles), a cstk_class. Returns CSTK_OK, or anything else to make the query
 /// fail with CSTK_ERROR_CALLBACK_FAILED.
 pub type cstk_predicate_class_fn =
     Option<unsafe extern "C" fn(q: *const f64, nq: usize, out: *mut i32, user: *mut c_void) -> i32>;
 
-/// Writes how far q is from the set, in units of C-space: positive where the class is not CSTK_CLASS_INSIDE, and there 0, or minus
-/// the depth.
+/// Writes the signed distance of q from the set, in C-space units: positive where the class is not CSTK_CLASS_INSIDE,
+/// otherwise 0 or minus the depth.
 pub type cstk_predicate_distance_fn =
     Option<unsafe extern "C" fn(q: *const f64, nq: usize, out: *mut f64, user: *mut c_void) -> i32>;
 
-/// Writes the derivative of that distance, `nv` doubles, one a velocity of cstk_space_step.
+/// Writes the derivative of that distance to `row`: `nv` doubles, one per velocity of cstk_space_step.
 pub type cstk_predicate_gradient_fn = Option<
     unsafe extern "C" fn(
         q: *const f64,
@@ -33,30 +33,31 @@ pub type cstk_predicate_gradient_fn = Option<
     ) -> i32,
 >;
 
-/// A set by functions of the caller. Write it with cstk_predicate_default first. The functions are called by any thread
-/// that asks about the set, several at once, also within queries; they must be pure, must not throw, and must not call
-/// back into the query that asks. Slides take no sets with predicates. What they write is checked: numbers that are none,
-/// a class that is none, and a distance that does not fit the class are answered with CSTK_ERROR_CALLBACK_FAILED.
+/// A set defined by callbacks. Write it with cstk_predicate_default first. The functions are called from any thread that
+/// queries the set, concurrently, and from within queries; they must be pure, must not throw, and must not call back into
+/// the running query. Slides refuse sets with predicates. Results are checked: a number that is not finite, an unknown
+/// class, or a distance that contradicts the class is CSTK_ERROR_CALLBACK_FAILED.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_predicate {
     pub size: u32,
     pub cookie: u32,
-    /// Must be set. It alone says what is in contact; the options' contact_epsilon is not looked at.
+    /// Must be set. It alone decides what is in contact; contact_epsilon of the options is ignored.
     pub classify: cstk_predicate_class_fn,
-    /// May be NULL: then distances are not known outside the set (CSTK_DISTANCE_LOWER_BOUND, from 0), nor those from its complement
-    /// where the class is not CSTK_CLASS_OUTSIDE, and it has witnesses only where it holds q. Distances are at most 1e50.
+    /// May be NULL: then distances are unknown outside the set (CSTK_DISTANCE_LOWER_BOUND, from 0), as are distances from
+    /// its complement where the class is not CSTK_CLASS_OUTSIDE, and the set has witnesses only where it holds q. Distances
+    /// are at most 1e50.
     pub distance: cstk_predicate_distance_fn,
-    /// May be NULL: then cstk_gradients and cstk_pseudo_normal are refused within epsilon of the set (CSTK_ERROR_UNSUPPORTED).
-    /// Without a distance function either, the set has no gradients: no witness outside, one without a contact inside.
+    /// May be NULL: then cstk_gradients and cstk_pseudo_normal are CSTK_ERROR_UNSUPPORTED within epsilon of the set. If
+    /// `distance` is NULL too, the set has no gradients: no witness outside, one without a contact inside.
     pub gradient: cstk_predicate_gradient_fn,
-    /// Handed to the functions.
+    /// Passed to the functions.
     pub user: *mut c_void,
-    /// May be NULL. Called once, by whichever thread drops the last reference to what uses the functions.
+    /// May be NULL. Called once, by the thread that drops the last reference to whatever uses the functions.
     pub destroy: cstk_destroy_fn,
-    /// The distance function gives lower bounds outside: the truth may be more. Default 0.
+    /// 1 if the distance function gives lower bounds outside the set, 0 (the default) if it gives distances.
     pub distance_is_bound: u32,
-    /// The distance function gives minus the depth inside: the distance from the complement, exactly. Default 0.
+    /// 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0.
     pub knows_depth: u32,
 }
 
@@ -89,7 +90,7 @@ pub unsafe extern "C" fn cstk_predicate_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// The caller's functions with the data they are called with.
+/// The caller's functions and their user data.
 pub(crate) struct Functions {
     given: cstk_predicate,
     kept: Arc<CallerData>,
@@ -124,7 +125,7 @@ impl Functions {
         })
     }
 
-    /// From now on the data are given back when nothing refers to them.
+    /// From now on the data are released when nothing refers to them.
     pub fn take_ownership(&self) {
         self.kept.take_ownership();
     }

@@ -1,4 +1,4 @@
-//! Pure sets: C-objects given by coordinates, or by functions of the caller.
+//! Pure sets: C-objects given by coordinates, or by callbacks.
 
 use std::sync::Arc;
 
@@ -15,17 +15,18 @@ use crate::cobject::{CObject, PureOptions, PureShape};
 use crate::pose::Vec3;
 use crate::space::Space;
 
-/// How a pure set measures. Write it with cstk_pure_options_default first.
+/// Options of a pure set. Write it with cstk_pure_options_default first.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_pure_options {
     pub size: u32,
     pub cookie: u32,
-    /// Distances above 0 and up to this classify as CSTK_CLASS_CONTACT; in units of C-space, for floors and the world box in
+    /// Distances above 0 and up to this classify as CSTK_CLASS_CONTACT; in C-space units, for floors and the world box in
     /// lengths. Default 0.
     pub contact_epsilon: f64,
-    /// The length that a unit of C-space stands for. Distances of the set are multiplied by it, and so can be compared with
-    /// those of induced sets; 0, the default: they are not, and queries of distance of both together are refused.
+    /// The length that a C-space unit stands for. Distances of the set are multiplied by it, which makes them comparable
+    /// with those of induced sets. With 0, the default, they are not comparable, and distance queries on a set that mixes
+    /// both are refused.
     pub scale: f64,
 }
 
@@ -68,12 +69,12 @@ unsafe fn make(
         scale: (given.scale != 0.0).then_some(given.scale),
     };
     let shape = shape(&space)?;
-    let made = CObject::pure(space, shape, options)?;
-    out.write(handle::create(Arc::new(made)));
+    let cobject = CObject::pure(space, shape, options)?;
+    out.write(handle::create(Arc::new(cobject)));
     Ok(())
 }
 
-/// One number a coordinate. Their count is checked before they are read.
+/// One number per coordinate; the count is checked before they are read.
 unsafe fn coordinates(
     space: &Space,
     values: *const f64,
@@ -91,8 +92,8 @@ unsafe fn coordinates(
     Ok(unsafe { slice(values, nq, name)? }.to_vec())
 }
 
-/// Makes the set of configurations with a coordinate beyond its range in the space: the joint limits as an obstacle. At a
-/// limit the configuration is not inside yet (the set is open). Distances are those from the nearest limit, in units of the
+/// Creates the set of configurations with a coordinate outside its range in the space: the joint limits as an obstacle. The
+/// set is open: a configuration at a limit is not inside. Distances are measured to the nearest limit, in units of the
 /// coordinates. `options` may be NULL for the defaults, here and below. A space without limits gives an empty set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_beyond_limits(
@@ -104,8 +105,8 @@ pub unsafe extern "C" fn cstk_cobject_beyond_limits(
     guard(|| unsafe { make(space, options, out, |_| Ok(PureShape::BeyondLimits)) })
 }
 
-/// Makes the set of configurations at which the origin of some link is outside the world box of the space. It measures in
-/// lengths, whatever the scale, and answers at link poses too. Open, as cstk_cobject_beyond_limits.
+/// Creates the set of configurations at which the origin of some link is outside the world box of the space. It measures in
+/// lengths, whatever the scale, and can be queried at link poses. Open, as cstk_cobject_beyond_limits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_beyond_world(
     space: *const cstk_space,
@@ -120,15 +121,15 @@ pub unsafe extern "C" fn cstk_cobject_beyond_world(
     })
 }
 
-/// Makes the set of configurations at which the body of a link reaches the half-space normal . x <= offset of the world
-/// (`normal`: three doubles of any length; in the plane its z is 0): a floor, a wall or a ceiling without end. `links` holds
-/// `link_count` numbers of links; with `link_count` 0 all that have a body are meant. Leave out a base that stands on the
-/// floor. A margin is had by a larger offset. What links hold is not tested: where they carry something, a large box in the
-/// environment sees that.
+/// Creates the set of configurations at which the body of a link meets the half-space normal . x <= offset of the world: an
+/// unbounded floor, wall or ceiling. `normal` has three doubles and any length above 0; in the plane its z is 0. `links`
+/// holds `link_count` link numbers; `link_count` 0 means all links with a body. Leave out a base that stands on the floor.
+/// For a margin, increase the offset. Objects attached to links are not tested; a large box in the environment can test
+/// them.
 ///
-/// Exact, and asked in logarithmic time: it measures in lengths, whatever the scale, to the lowest point of all, and answers
-/// at link poses too. Contacts are at that point (see CSTK_MODE_PURE_SET), and have a gradient where it is inside as well. The
-/// distance from its complement is not known where it is not 0.
+/// Queries are exact and take logarithmic time. The set measures in lengths, whatever the scale, to the lowest point of
+/// all, and can be queried at link poses. Contacts are at that point (see CSTK_MODE_PURE_SET), and have a gradient inside
+/// as well. The distance from the complement is unknown where it is not 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_below_floor(
     space: *const cstk_space,
@@ -151,10 +152,10 @@ pub unsafe extern "C" fn cstk_cobject_below_floor(
     })
 }
 
-/// Makes the set of configurations whose every coordinate i is from low[i] to high[i] (`nq` doubles each; -INFINITY and
-/// INFINITY leave a coordinate free, and must do so for quaternions). On a circle the interval is the arc from low[i]
-/// upwards to high[i], which is no less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root of
-/// the sum of the squares, angles the shorter way round.
+/// Creates the set of configurations with every coordinate i in [low[i], high[i]] (`nq` doubles each). -INFINITY and
+/// INFINITY leave a coordinate free; for quaternions both are required. On a circle the interval is the arc from low[i]
+/// upwards to high[i], which must not be less: from 3 to 4, say, past pi; it has two ends or none. The distance is the root
+/// of the sum of squares, with angles the shorter way round.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_box(
     space: *const cstk_space,
@@ -175,8 +176,8 @@ pub unsafe extern "C" fn cstk_cobject_box(
     })
 }
 
-/// Makes the set of configurations with normal . q <= offset (`nq` doubles). Entries for coordinates on circles and of
-/// quaternions must be 0.
+/// Creates the set of configurations with normal . q <= offset (`normal` has `nq` doubles). Entries for coordinates on
+/// circles and of quaternions must be 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_halfspace(
     space: *const cstk_space,
@@ -195,8 +196,9 @@ pub unsafe extern "C" fn cstk_cobject_halfspace(
     })
 }
 
-/// Makes the set of configurations at most `radius` from `center` (`nq` doubles): by the root of the sum of the squares of
-/// differences, angles the shorter way round, quaternions by the angle of the turn, free joints by shift and turn.
+/// Creates the set of configurations within `radius` of `center` (`nq` doubles). The distance is the root of the sum of
+/// squared differences: angles the shorter way round, quaternions by the angle of rotation, free joints by translation and
+/// rotation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_ball(
     space: *const cstk_space,
@@ -215,8 +217,8 @@ pub unsafe extern "C" fn cstk_cobject_ball(
     })
 }
 
-/// Makes a set that functions of the caller define. `predicate` is copied; its data are given back when nothing refers to the
-/// set any more, and not when this call fails.
+/// Creates a set defined by callbacks. `predicate` is copied; its user data are released by `destroy` when nothing refers
+/// to the set any more, and not if this call fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_predicate(
     space: *const cstk_space,

@@ -1,4 +1,4 @@
-//! C-objects made of others, and data attached to them.
+//! Compound C-objects, and user data of C-objects.
 
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -32,22 +32,23 @@ fn combine(
     Ok(())
 }
 
-/// Makes the union of `count` C-objects of one space: its class is the largest of theirs. It keeps its parts. A
-/// body pair that several induced parts hold in one state counts once, with the largest margin.
+/// Creates the union of `count` C-objects of one space: its class is the largest of theirs. It keeps references to its
+/// parts. A body pair that several induced parts share counts once, with the largest margin.
 ///
-/// Sets of any kind may be combined, to a depth of 256 (unions in unions count as one). A union may be grown one part at a
-/// time: a call takes time in proportion to `count`, the first query of the whole in proportion to all parts. Of a union of induced sets every
-/// query is exact; of other compounds cstk_distance says what it knows:
+/// Sets of any kind may be combined, to a depth of 256 (a union in a union adds no level). A union may be grown one part at
+/// a time: each call takes time in proportion to `count`, the first query of the result in proportion to all parts. All
+/// queries on a union of induced sets are exact; for other compounds cstk_distance reports what is known:
 /// - a union is as near as its nearest part;
-/// - an intersection is no nearer than its farthest part: CSTK_DISTANCE_LOWER_BOUND, but for 0 where all parts are 0;
-/// - a complement is taken of the leaves, by De Morgan's laws. From the complement of a pure set (no predicate) the distance
-///   is exact; from that of an induced set it is 0 where nothing meets, and not known inside: CSTK_DISTANCE_LOWER_BOUND, from 0.
+/// - an intersection is no nearer than its farthest part: CSTK_DISTANCE_LOWER_BOUND, except for 0 where all parts are 0;
+/// - a complement is moved down to the leaves, by De Morgan's laws. The distance from the complement of a pure set (other
+///   than a predicate) is exact; from that of an induced set it is 0 where nothing meets, otherwise unknown:
+///   CSTK_DISTANCE_LOWER_BOUND, from 0.
 ///
-/// cstk_within(t) holds where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
-/// induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree makes of them; rows are the
+/// cstk_within(t) is true where the lower bound is at most t. cstk_witnesses and cstk_gradients list every pair of every
+/// induced leaf within epsilon, and every pure leaf (or its complement), whatever the tree combines them to; rows are the
 /// derivatives of those distances. Complements and the sets beyond limits are open: on their boundary the distance is 0,
-/// but the class is not CSTK_CLASS_INSIDE. Lengths and units of C-space are not compared: CSTK_ERROR_UNSUPPORTED for distances where
-/// a pure set without a scale meets an induced one.
+/// but the class is not CSTK_CLASS_INSIDE. Lengths and C-space units are not compared: CSTK_ERROR_UNSUPPORTED for distances
+/// where a pure set without a scale is combined with an induced one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_union(
     parts: *const *const cstk_cobject,
@@ -57,7 +58,7 @@ pub unsafe extern "C" fn cstk_cobject_union(
     guard(|| combine(parts, count, out, CObject::union))
 }
 
-/// Makes the intersection of `count` C-objects of one space: its class is the smallest of theirs. See cstk_cobject_union.
+/// Creates the intersection of `count` C-objects of one space: its class is the smallest of theirs. See cstk_cobject_union.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_intersection(
     parts: *const *const cstk_cobject,
@@ -67,7 +68,7 @@ pub unsafe extern "C" fn cstk_cobject_intersection(
     guard(|| combine(parts, count, out, CObject::intersection))
 }
 
-/// Makes the complement of a C-object: CSTK_CLASS_INSIDE where that is CSTK_CLASS_OUTSIDE, and the other way round; contact stays. See
+/// Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. See
 /// cstk_cobject_union.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_complement(
@@ -82,7 +83,8 @@ pub unsafe extern "C" fn cstk_cobject_complement(
     })
 }
 
-/// Makes the set of what is in `of` and not in `without`: the intersection with the complement. See cstk_cobject_union.
+/// Creates the difference `of` without `without`: the intersection of `of` with the complement of `without`. See
+/// cstk_cobject_union.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_difference(
     of: *const cstk_cobject,
@@ -93,15 +95,15 @@ pub unsafe extern "C" fn cstk_cobject_difference(
         let of = handle::share::<CObject>(of, "of")?;
         let without = handle::share::<CObject>(without, "without")?;
         let out = Output::checked(out, "out")?;
-        let made = CObject::difference(&of, &without)?;
-        out.write(handle::create(Arc::new(made)));
+        let cobject = CObject::difference(&of, &without)?;
+        out.write(handle::create(Arc::new(cobject)));
         Ok(())
     })
 }
 
-/// Makes the same set with data of the caller's attached (§2.2.3). Witnesses, distances and explanations of every C-object
-/// that has the new one as a leaf hand `data` back. `destroy` may be NULL; it is called once, by whichever thread drops the
-/// last reference to what carries the data, and not when this call fails.
+/// Creates a copy of a set with user data attached (§2.2.3), under a new number. Witnesses, distances and explanations of
+/// every C-object that has the copy as a leaf return `data`. `destroy` may be NULL; it is called once, by the thread that
+/// drops the last reference to whatever carries the data, and not if this call fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_with_data(
     cobject: *const cstk_cobject,
@@ -123,13 +125,13 @@ pub unsafe extern "C" fn cstk_cobject_with_data(
     })
 }
 
-/// Makes the same induced or pure set with a shell of its own for cstk_slide: its contacts constrain a step up to that distance,
-/// instead of `max_shell` of the slide's options, and it is kept at the same part of it: with a desired distance of a tenth of
-/// max_shell, at a tenth of `shell`. Links of a robot are mostly near each other: a self-collision set with a shell of one or
-/// two steps' motion, in a union with obstacles that are looked for from afar, makes steps several times faster. `shell` is a
-/// length, for a pure set in the unit of its distances, larger than 0. Other queries do not look at it. The set keeps its data
-/// and takes a number of its own (cstk_cobject_get_data). A union, an intersection or a complement is refused:
-/// CSTK_ERROR_UNSUPPORTED; its parts take shells before they are combined.
+/// Creates a copy of an induced or pure set with its own shell for cstk_slide: its contacts constrain a step within `shell`
+/// instead of `max_shell` of the slide's options, and the desired distance scales with it: one of a tenth of max_shell
+/// becomes a tenth of `shell`. The links of a robot are mostly near each other, so a self-collision set with a shell of one
+/// or two steps' motion, in a union with obstacles that have a larger one, makes steps several times faster. `shell` is a
+/// length above 0, for a pure set in the unit of its distances. Other queries ignore it. The copy keeps the data and gets a
+/// new number (cstk_cobject_get_data). CSTK_ERROR_UNSUPPORTED for a union, an intersection or a complement: give shells to
+/// the parts before combining them.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_with_shell(
     cobject: *const cstk_cobject,
@@ -144,9 +146,9 @@ pub unsafe extern "C" fn cstk_cobject_with_shell(
     })
 }
 
-/// Writes the data attached to a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
-/// either may be NULL. No two sets of a process have one number; the
-/// complement of a complement is the set itself, and so has its number.
+/// Writes the user data of a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
+/// either output may be NULL. No two sets of a process share a number; the complement of a complement is the original set,
+/// with its number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_get_data(
     cobject: *const cstk_cobject,

@@ -20,8 +20,8 @@ use crate::error::Error;
 use crate::pose::Pose;
 use crate::space::Space;
 
-/// The set of s-objects. It may be changed while other threads query it: each query sees one state, whole. It keeps the
-/// bodies of its objects.
+/// A set of s-objects. It may be changed while other threads query it: each query sees one consistent state. It keeps
+/// references to the bodies of its objects.
 pub struct cstk_environment {
     _opaque: [u8; 0],
 }
@@ -32,24 +32,24 @@ impl Noun for Environment {
     const NAME: &'static str = "cstk_environment";
 }
 
-/// What a change does.
+/// The kinds of changes.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_change_kind {
     /// Adds `body` at `pose`; the new object's id is an output of cstk_environment_apply.
     CSTK_CHANGE_ADD = 0,
-    /// Moves object `id` to `pose`; one that is attached to a link is let go there.
+    /// Moves object `id` to `pose`; an attached object is detached.
     CSTK_CHANGE_MOVE = 1,
     /// Deletes object `id`.
     CSTK_CHANGE_DELETE = 2,
-    /// Fixes object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is built anew. To take an
-    /// object from where it stands, `pose` is the inverse of the link's pose composed with the object's; to set it down
-    /// there again, CSTK_CHANGE_MOVE to the link's pose composed with that. Attached once more, it gets another pose or
-    /// other touch links.
+    /// Attaches object `id` to `link` of `space` at `pose`, in the link's frame: a grasp. Nothing is rebuilt. To grasp an
+    /// object where it is, pass the inverse of the link's pose composed with the object's pose. To release it in place, use
+    /// CSTK_CHANGE_MOVE with the link's pose composed with `pose`. Attaching an attached object changes its pose or its
+    /// touch links.
     CSTK_CHANGE_ATTACH = 3,
 }
 
-/// One change. Write it with cstk_environment_change_default first: an addition at the world's origin.
+/// A change of an environment. Write it with cstk_environment_change_default first: an addition at the world's origin.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_environment_change {
@@ -58,24 +58,24 @@ pub struct cstk_environment_change {
     /// A cstk_change_kind.
     pub kind: i32,
     pub reserved: u32,
-    /// The object to move or delete.
+    /// The object to move, delete or attach.
     pub id: u64,
     /// The body to add.
     pub body: *const cstk_body,
-    /// Where it stands: the body's frame in the world, 12 doubles; for CSTK_CHANGE_ATTACH in the link's frame.
+    /// The body's frame, 12 doubles: in the world, for CSTK_CHANGE_ATTACH in the link's frame.
     pub pose: [f64; 12],
-    /// For CSTK_CHANGE_ATTACH the space, and the number of its link that holds the object. In other spaces sets that the
-    /// object belongs to are refused with CSTK_ERROR_UNSUPPORTED: where it is is not known there. The object moves with the
-    /// link. In a set of links against s-objects it is tested against the other s-objects as the link itself is (r_object
-    /// of a witness names it), and as an s-object against the links, but for the one that holds it and `touch_count`
-    /// others, `touch_links` (the fingers, say). These may touch it only while it is held: for approach and retreat make
-    /// a second set with `allowed` of cstk_induced_options.
+    /// For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link.
+    /// Queries in other spaces on sets that include the object fail with CSTK_ERROR_UNSUPPORTED, since its pose is unknown
+    /// there. In a set of links against s-objects, it is tested against the other s-objects as the link itself is
+    /// (`r_object` of a witness names it); and as an s-object against the links, except the link that holds it and the
+    /// `touch_count` links in `touch_links` (the fingers, say). Those may touch it only while it is attached: for approach
+    /// and retreat create a second set with `allowed` of cstk_induced_options.
     pub space: *const cstk_space,
     pub touch_links: *const u32,
     pub link: u32,
     pub touch_count: u32,
-    /// For CSTK_CHANGE_ADD data of the caller's, handed back with witnesses; `destroy` may be NULL, and is called once, by
-    /// whichever thread drops the last state that holds the object, not when the change fails.
+    /// For CSTK_CHANGE_ADD: user data, returned with witnesses. `destroy` may be NULL; it is called once, by the thread
+    /// that drops the last state that holds the object, and not if the change fails.
     pub data: *mut c_void,
     pub destroy: cstk_destroy_fn,
 }
@@ -104,7 +104,7 @@ unsafe impl OptionsStruct for cstk_environment_change {
     }
 }
 
-/// Makes an empty environment.
+/// Creates an empty environment.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_create(out: *mut *mut cstk_environment) -> cstk_status {
     guard(|| {
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn cstk_environment_retain(
     guard(|| handle::retain::<Environment>(environment, "environment"))
 }
 
-/// Drops a reference. NULL is a no-op. C-objects keep the environments they refer to.
+/// Drops a reference. NULL is a no-op. C-objects hold references to their environments.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_release(
     environment: *mut cstk_environment,
@@ -140,17 +140,17 @@ pub unsafe extern "C" fn cstk_environment_change_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Applies `count` changes as one: all of them or, on failure, none. `ids` receives the id of the object each change is
-/// about (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never used again, and
-/// are unique in the process. All changes have the size of the first.
+/// Applies `count` changes together: all of them or, on failure, none. `ids` receives the id of the object of each change
+/// (`count` entries, or NULL); `version` the environment's new version (or NULL). Ids are never reused, and are unique in
+/// the process. All changes have the size of the first.
 ///
-/// A change takes some microseconds, whatever the number of objects, and many changes in one call much less each: boxes above
-/// objects that stay near are refitted in one pass. At times the tree over all objects is built anew (some microseconds an
-/// object): after changes of a sixteenth of the objects at the earliest. Other threads that change wait meanwhile; those that
-/// query never do. The environment keeps the memory of the state before the last change for the next one; a call that finds
-/// that state held by a query or a snapshot copies the parts it changes.
+/// A change takes some microseconds, whatever the number of objects, and much less when many are applied in one call: the
+/// bounding volumes above objects that stay near are refitted in one pass. After changes of at least a sixteenth of the
+/// objects the tree over all objects may be rebuilt (some microseconds an object). Meanwhile other threads that apply
+/// changes wait; queries never do. The environment keeps the memory of the state before the last change for the next
+/// change; if a query or a snapshot still holds that state, the changed parts are copied.
 ///
-/// CSTK_ERROR_NOT_FOUND for an id that is not there (any more), CSTK_ERROR_UNSUPPORTED for a snapshot.
+/// CSTK_ERROR_NOT_FOUND for an unknown or deleted id, CSTK_ERROR_UNSUPPORTED for a snapshot.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_apply(
     environment: *mut cstk_environment,
@@ -230,7 +230,8 @@ unsafe fn change_from(
     }
 }
 
-/// Makes an environment that stays as this one is now. It serves wherever an environment does, but cannot be changed.
+/// Creates a snapshot: an environment that stays as this one is now. It can be used wherever an environment can, but not
+/// changed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_snapshot(
     environment: *const cstk_environment,
@@ -244,8 +245,8 @@ pub unsafe extern "C" fn cstk_environment_snapshot(
     })
 }
 
-/// Writes the number of objects and the version, which counts the calls of cstk_environment_apply that succeeded; either
-/// may be NULL.
+/// Writes the number of objects and the version, which counts the successful calls of cstk_environment_apply; either may be
+/// NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_get_state(
     environment: *const cstk_environment,

@@ -1,7 +1,7 @@
 //! Environments.
 //!
-//! An environment holds s-objects, the obstacles: bodies at poses. Changes are applied together or not at all, while others
-//! query; a query sees the state before or after, never between. Objects can be attached to links.
+//! An environment holds s-objects, the obstacles: bodies at poses. Changes are applied together or not at all, while other
+//! threads query: a query sees the state before or after, never between. Objects can be attached to links.
 //!
 //! ```c
 //! cstk_environment_change table;

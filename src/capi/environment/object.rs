@@ -1,4 +1,4 @@
-//! What an environment holds.
+//! The objects of an environment.
 
 use std::ffi::c_void;
 
@@ -12,18 +12,18 @@ use crate::capi::user_data::address;
 use crate::environment::{Environment, SObject, Snapshot};
 use crate::error::{Error, ErrorKind};
 
-/// An s-object, as it is in one state of its environment.
+/// The state of an s-object.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_object_info {
     pub id: u64,
-    /// In the world, or, where the object is attached to a link, in that link's frame.
+    /// In the world, or, for an attached object, in the link's frame.
     pub pose: [f64; 12],
-    /// The link that it is attached to, numbered through the space it was attached with; CSTK_NONE if it is let go.
+    /// The link that it is attached to, by number in the space it was attached with; CSTK_NONE if it is not attached.
     pub link: u32,
-    /// How many other links may touch it meanwhile.
+    /// The number of other links that may touch it while it is attached.
     pub touch_count: u32,
-    /// Its data, or its body's where it has none of its own, or NULL.
+    /// Its user data, or its body's if it has none, or NULL.
     pub data: *mut c_void,
     pub reserved: [u64; 8],
 }
@@ -35,8 +35,8 @@ fn find(now: &Snapshot, id: u64) -> Result<&SObject, Failure> {
     })
 }
 
-/// Writes the ids of the objects in the order in which they came: at most `max_count` to `ids` (NULL if that is 0), and their
-/// full number to `count`.
+/// Writes the ids of the objects in the order in which they were added: at most `max_count` to `ids` (NULL if `max_count`
+/// is 0), and their full number to `count`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_get_objects(
     environment: *const cstk_environment,
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn cstk_environment_get_objects(
     })
 }
 
-/// Writes where an s-object is and what holds it. CSTK_ERROR_NOT_FOUND if there is none with this id (any more).
+/// Writes the pose, the attachment and the data of an s-object. CSTK_ERROR_NOT_FOUND for an unknown or deleted id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_get_object_info(
     environment: *const cstk_environment,
@@ -86,7 +86,7 @@ pub unsafe extern "C" fn cstk_environment_get_object_info(
 }
 
 /// Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to (see
-/// cstk_environment_get_object_info). CSTK_ERROR_NOT_FOUND if there is none with this id.
+/// cstk_environment_get_object_info). CSTK_ERROR_NOT_FOUND for an unknown or deleted id.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_environment_get_object_pose(
     environment: *const cstk_environment,

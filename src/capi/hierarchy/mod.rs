@@ -1,7 +1,7 @@
 //! Hierarchies.
 //!
-//! Every body carries a binary tree of bounding volumes over its primitives (§3.2). It decides how fast the body is asked, never what
-//! is answered. Options choose how it is built; its nodes can be measured, listed and drawn.
+//! Every body has a binary tree of bounding volumes over its primitives (§3.2). It affects the speed of queries, never
+//! their answers. Options choose how it is built; its nodes can be measured, listed and drawn.
 //!
 //! ```c
 //! cstk_hierarchy_options options;

@@ -1,4 +1,4 @@
-//! The hierarchies of bodies as users see them: statistics, levels, covers, nodes and their meshes.
+//! The hierarchies of bodies, for inspection: statistics, levels, covers, nodes and their meshes.
 
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::error::{Error, ErrorKind};
 use crate::hierarchy::Node;
 use crate::show::{node_surfaces, show_nodes};
 
-/// Polygons in space, for looking at. Immutable; threads may share it.
+/// A mesh of polygons, for display. Immutable; threads may share it.
 pub struct cstk_mesh {
     _opaque: [u8; 0],
 }
@@ -33,46 +33,46 @@ impl Noun for Mesh {
     const NAME: &'static str = "cstk_mesh";
 }
 
-/// What a body's hierarchy is like.
+/// Statistics of a body's hierarchy.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_hierarchy_statistics {
     /// A cstk_wrapper_kind.
     pub wrapper: cstk_wrapper_kind,
     pub reserved_0: u32,
-    /// Nodes; the leaves among them; the nodes that hold a maximal convex piece.
+    /// The number of nodes, of leaves among them, and of nodes that hold a maximal convex piece.
     pub node_count: u64,
     pub leaf_count: u64,
     pub piece_count: u64,
-    /// Levels, and the mean level of a leaf; the root's is 0.
+    /// The number of levels, and the mean level of a leaf; the root's level is 0.
     pub depth: u64,
     pub mean_leaf_level: f64,
-    /// Means over interior nodes: the greater ratio of the children's diameters (1 is perfect spatial balance), and the
-    /// diameter over the sum of the children's (1/2: they overlap wholly; above 1: they are apart).
+    /// Means over interior nodes. `balance`: the larger ratio of the children's diameters (1 is perfect spatial balance).
+    /// `fill`: the diameter over the sum of the children's (1/2: they overlap completely; above 1: they are apart).
     pub balance: f64,
     pub fill: f64,
-    /// The mean number of tests that a random line through the body's box makes, a primitive counting as four nodes: for
-    /// comparing hierarchies of one body.
+    /// The mean number of tests for a random line through the body's box, a primitive counting as four nodes: compares
+    /// hierarchies of one body.
     pub expected_cost: f64,
-    /// Seconds the phases took on the machine that built it: convex pieces and slender primitives, the tree of sets, the
-    /// boxes that queries walk with the wrappers that they are fitted to.
+    /// Build times in seconds, on the machine that built it: convex pieces and slender primitives; the tree of sets; the
+    /// boxes that queries traverse and the wrappers they are fitted to.
     pub preparation_seconds: f64,
     pub grouping_seconds: f64,
     pub construction_seconds: f64,
-    /// Memory of the hierarchy and of what queries read of the primitives. Of hulls and of a body of nothing but points,
-    /// whose wrappers are made when nodes are first looked at, it is several times more afterwards.
+    /// Memory of the hierarchy and of the primitive data that queries read. It grows several times once the wrappers are
+    /// computed, for hulls and for bodies of points only, whose wrappers are computed when nodes are first inspected.
     pub memory_bytes: u64,
     pub reserved: [u64; 8],
 }
 
-/// A level of a hierarchy.
+/// Statistics of a level of a hierarchy.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_level_statistics {
-    /// Nodes of the level; leaves of the levels above it. Together they cover the body.
+    /// The number of nodes of the level, and of leaves above it. Together they cover the body.
     pub node_count: u64,
     pub leaves_above: u64,
-    /// Sums of the volumes and surfaces of all these nodes' wrappers; flat wrappers have two sides.
+    /// The total volume and surface area of the wrappers of all these nodes; flat wrappers count both sides.
     pub volume: f64,
     pub surface: f64,
     pub reserved: [u64; 4],
@@ -82,7 +82,7 @@ pub struct cstk_level_statistics {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_hierarchy_node {
-    /// The children; UINT32_MAX both for a leaf.
+    /// The children; both UINT32_MAX for a leaf.
     pub children: [u32; 2],
     /// A leaf's primitive; UINT32_MAX otherwise. A slender primitive may have several leaves.
     pub primitive: u32,
@@ -92,32 +92,32 @@ pub struct cstk_hierarchy_node {
     /// corner, its centre, and `excess` is its radius.
     pub corner_count: u64,
     pub excess: f64,
-    /// A sphere around the primitives below, in the frame in which the body was given.
+    /// A sphere around the primitives below the node, in the frame in which the body was given.
     pub center: [f64; 3],
     pub radius: f64,
     pub reserved: [u64; 4],
 }
 
-/// What a mesh holds: pointers that live as long as the mesh.
+/// The arrays of a mesh; they are valid as long as the mesh.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_mesh_view {
     /// `vertex_count` vertices of three doubles.
     pub vertices: *const f64,
     pub vertex_count: usize,
-    /// Per face, its number of vertices, and the node it stands for.
+    /// For each face, its number of vertices, and the node it stands for.
     pub face_sizes: *const u32,
     pub face_nodes: *const u32,
     pub face_count: usize,
-    /// The vertices of the faces, face after face, counter-clockwise seen from outside.
+    /// The vertex indices of the faces, face after face, counter-clockwise seen from outside.
     pub indices: *const u32,
     pub index_count: usize,
     pub reserved: [u64; 4],
 }
 
-/// Describes the body's hierarchy. Takes time in proportion to its nodes. Where wrappers are made when they are first looked
-/// at (hulls without an aspect_limit that cuts, and nothing but points) it is described by the boxes around the
-/// primitives, along the axes of coordinates.
+/// Writes statistics of the body's hierarchy; takes time in proportion to its nodes. Where wrappers are computed on first
+/// inspection (hulls without an aspect_limit that cuts, and bodies of points only), axis-aligned boxes around the
+/// primitives are measured instead.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_hierarchy_statistics(
     body: *const cstk_body,
@@ -149,8 +149,8 @@ pub unsafe extern "C" fn cstk_body_get_hierarchy_statistics(
     })
 }
 
-/// Measures a level of the hierarchy; the root's is 0. CSTK_ERROR_NOT_FOUND for a level it does not have. The wrappers' hulls are
-/// computed for it: some tens of microseconds a node.
+/// Writes statistics of a level of the hierarchy; the root's is 0. CSTK_ERROR_NOT_FOUND for a level it does not have.
+/// Computes the wrappers' hulls: some tens of microseconds a node.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_level_statistics(
     body: *const cstk_body,
@@ -173,8 +173,9 @@ pub unsafe extern "C" fn cstk_body_get_level_statistics(
     })
 }
 
-/// The nodes of a level and the leaves above it, which together cover the body. At most `max_count` are written to `nodes`
-/// (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a level the hierarchy does not have.
+/// Writes the nodes of a level and the leaves above it, which together cover the body. At most `max_count` are written to
+/// `nodes` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a level that the
+/// hierarchy does not have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_level_nodes(
     body: *const cstk_body,
@@ -195,9 +196,9 @@ pub unsafe extern "C" fn cstk_body_get_level_nodes(
     })
 }
 
-/// At most `max_count` nodes that cover the body as tightly as opening the largest wrapper again and again gets: for
-/// broad-phase structures of limited size. They are written to `nodes`, their number to `count`. CSTK_ERROR_INVALID_ARGUMENT
-/// if `max_count` is 0.
+/// Writes at most `max_count` nodes that cover the body, found by repeatedly replacing the node with the largest wrapper by
+/// its children: for broad-phase structures of limited size. They are written to `nodes`, their number to `count`.
+/// CSTK_ERROR_INVALID_ARGUMENT if `max_count` is 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_cover_nodes(
     body: *const cstk_body,
@@ -219,7 +220,7 @@ pub unsafe extern "C" fn cstk_body_get_cover_nodes(
     })
 }
 
-/// Describes a node. CSTK_ERROR_NOT_FOUND for one the hierarchy does not have.
+/// Describes a node. CSTK_ERROR_NOT_FOUND for a node that the hierarchy does not have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_node(
     body: *const cstk_body,
@@ -249,9 +250,9 @@ pub unsafe extern "C" fn cstk_body_get_node(
     })
 }
 
-/// The corners of a node's wrapper, in the frame in which the body was given. At most `max_count` points of three doubles
-/// are written to `xyz` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a node the
-/// hierarchy does not have.
+/// Writes the corners of a node's wrapper, in the frame in which the body was given. At most `max_count` points of three
+/// doubles are written to `xyz` (NULL if `max_count` is 0), and their full number to `count`. CSTK_ERROR_NOT_FOUND for a
+/// node that the hierarchy does not have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_get_node_corners(
     body: *const cstk_body,
@@ -277,8 +278,8 @@ pub unsafe extern "C" fn cstk_body_get_node_corners(
     })
 }
 
-/// The wrappers of nodes as one mesh, in the frame in which the body was given; leaves as their primitives. Release it with
-/// cstk_mesh_release. CSTK_ERROR_NOT_FOUND for a node the hierarchy does not have.
+/// Creates a mesh of the wrappers of nodes, leaves as their primitives, in the frame in which the body was given. Release
+/// it with cstk_mesh_release. CSTK_ERROR_NOT_FOUND for a node that the hierarchy does not have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_mesh_create_from_nodes(
     body: *const cstk_body,
@@ -319,9 +320,9 @@ pub unsafe extern "C" fn cstk_mesh_create_from_nodes(
     })
 }
 
-/// Writes a picture of nodes, of which there must be at least one, to a .glb file that glTF viewers open, neighbours in
-/// different colours, leaves as their primitives. The name must end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is
-/// written whole or not at all; CSTK_ERROR_IO if that fails.
+/// Writes a picture of at least one node to a .glb file (glTF), neighbours in different colours, leaves as their
+/// primitives. The name must end in .glb (CSTK_ERROR_UNSUPPORTED otherwise). The file is written whole or not at all;
+/// CSTK_ERROR_IO if that fails.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_show_nodes(
     body: *const cstk_body,
@@ -349,7 +350,7 @@ pub unsafe extern "C" fn cstk_mesh_release(mesh: *mut cstk_mesh) -> cstk_status 
     guard(|| handle::release::<Mesh>(mesh, "mesh"))
 }
 
-/// Shows what the mesh holds; the pointers live as long as the mesh.
+/// Writes the arrays of the mesh; they are valid as long as the mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_mesh_get_view(
     mesh: *const cstk_mesh,

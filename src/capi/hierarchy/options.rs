@@ -11,13 +11,13 @@ use crate::hierarchy::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_grouping {
-    /// Clustering of edge-adjacent primitives, then of what is near (the report's Simple Hybrid). The default. More than
-    /// 16,384 parts without pieces are first cut into regions of no more, from the top. Bodies of nothing but points
-    /// (cstk_body_builder_add_points), which have no edges, are split from the top altogether.
+    /// Clusters edge-adjacent primitives, then near ones (the report's Simple Hybrid). The default. More than 16,384 parts
+    /// without pieces are first cut top-down into regions of at most that size. Bodies of points only
+    /// (cstk_body_builder_add_points), which have no edges, are split top-down altogether.
     CSTK_GROUPING_HYBRID = 0,
-    /// Clustering of what is near, in such regions; needs no adjacency (the report's Basic Clustering).
+    /// Clusters near primitives, in such regions; needs no adjacency (the report's Basic Clustering).
     CSTK_GROUPING_BASIC = 1,
-    /// Top-down splits by the surface-area heuristic; the fastest to build.
+    /// Splits top-down by the surface-area heuristic; the fastest to build.
     CSTK_GROUPING_TOP_DOWN = 2,
 }
 
@@ -25,39 +25,40 @@ pub enum cstk_grouping {
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_wrapper_kind {
-    /// Convex hulls, oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Where
-    /// no primitive is cut into slabs they are made when nodes are first looked at, on as many threads as the build, and
-    /// the boxes that queries walk are fitted to the primitives themselves.
+    /// Convex hulls, or oriented boxes where a hull has more than hull_vertex_limit vertices. The default. Unless a
+    /// primitive is cut into slabs, they are computed when nodes are first inspected, on as many threads as the build, and
+    /// the boxes that queries traverse are fitted to the primitives themselves.
     CSTK_WRAPPER_HULL = 0,
     CSTK_WRAPPER_ORIENTED_BOX = 1,
     CSTK_WRAPPER_ALIGNED_BOX = 2,
-    /// Spheres around the vertices below.
+    /// Spheres around the vertices below the node.
     CSTK_WRAPPER_TIGHT_SPHERE = 3,
     /// Spheres around the children's spheres; the fastest to build, and loose.
     CSTK_WRAPPER_MERGED_SPHERE = 4,
 }
 
-/// Whether primitives that form a convex piece of the body get a node of their own, bounded exactly.
+/// Whether primitives that form a convex piece of the body get their own node, bounded exactly.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_pieces {
     CSTK_PIECES_OFF = 0,
     /// Coplanar neighbours whose union is a convex polygon.
     CSTK_PIECES_COPLANAR = 1,
-    /// These, and edge-adjacent polygons that bound a convex part of a closed body.
+    /// Also edge-adjacent polygons that bound a convex part of a closed body.
     CSTK_PIECES_PATCHES = 2,
 }
 
-/// How a body's hierarchy is built. Write it with cstk_hierarchy_options_default first. Answers do not depend on it, only
-/// their speed does.
+/// Options of a body's hierarchy. Write it with cstk_hierarchy_options_default first. They affect the speed of queries,
+/// never their answers.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_hierarchy_options {
     pub size: u32,
     pub cookie: u32,
-    /// Wrappers are convex hulls of at most so many vertices; larger ones become oriented boxes. At least 8; default 32.
+    /// The most vertices of a convex hull; larger ones become oriented boxes. At least 8; default 32.
     pub hull_vertex_limit: u32,
-    /// Threads to build on; 0 for as many as the machine runs at once. Default 1. The hierarchy does not depend on it.
+    /// The number of threads to build on; 0 for as many as the machine runs at once. Default 1. The hierarchy does not
+    /// depend on it.
     pub threads: u32,
     /// A cstk_grouping.
     pub grouping: i32,
@@ -66,17 +67,17 @@ pub struct cstk_hierarchy_options {
     /// A cstk_pieces.
     pub pieces: i32,
     pub reserved: u32,
-    /// The cost of merging two bodies is diameter^A (B Fill + C Balance): Fill is the merged diameter over the sum of the
-    /// two, Balance the greater ratio of the two. These are A (at most 16), B and C; not negative.
+    /// A (at most 16), B and C of the cost of merging two clusters, diameter^A (B Fill + C Balance): Fill is the merged
+    /// diameter over the sum of the two, Balance the larger ratio of the two. Not negative.
     pub cost_diameter: f64,
     pub cost_fill: f64,
     pub cost_balance: f64,
-    /// The largest diameter of bodies merged in the first round, and the largest gap between them; both double from round
+    /// The largest diameter of clusters merged in the first round, and the largest gap between them; both double from round
     /// to round. 0, the default, for limits that suit the primitives.
     pub diameter_limit: f64,
     pub gap_limit: f64,
-    /// Primitives longer than this many times their width get several leaves, each bounding a part; witnesses name the
-    /// primitive as ever. At least 1.5, or 0, the default, for one leaf each.
+    /// Primitives longer than this many times their width get several leaves, each bounding a part; witnesses still name
+    /// the primitive. At least 1.5, or 0, the default, for one leaf each.
     pub aspect_limit: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Robot builders: links and joints, on their way to a robot.
+//! Robot builders, which collect links and joints.
 
 use std::ffi::c_char;
 use std::sync::{Arc, Mutex};
@@ -19,14 +19,14 @@ use crate::pose::{Pose, Vec3};
 use crate::robot::{JointKind, LinkDefinition, RobotBuilder};
 use crate::urdf::UrdfReport;
 
-/// Collects the links of a robot.
+/// Collects the links of a robot. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.
 pub struct cstk_robot_builder {
     _opaque: [u8; 0],
 }
 
 pub(crate) struct Builder(Mutex<State>);
 
-/// The links so far, and what became of the last URDF file.
+/// The links so far, and the report on the last URDF file.
 pub(crate) struct State {
     pub robot: RobotBuilder,
     pub urdf: Option<UrdfReport>,
@@ -38,37 +38,38 @@ impl Noun for Builder {
     const NAME: &'static str = "cstk_robot_builder";
 }
 
-/// A link to be added. Write it with cstk_link_def_default first: a fixed link without name or body at the world's origin.
+/// The definition of a link and its joint. Write it with cstk_link_def_default first: a fixed link without name or body at
+/// the world's origin.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_link_def {
     pub size: u32,
     pub cookie: u32,
-    /// A name of its own within the robot, UTF-8; NULL for "link<number>". It is copied.
+    /// Unique within the robot, UTF-8; NULL for "link<number>". It is copied.
     pub name: *const c_char,
     /// The link's geometry, or NULL for a frame without any. The robot keeps a reference.
     pub body: *const cstk_body,
-    /// The number of the link it is attached to, or -1 for the world.
+    /// The number of the parent link, or -1 for the world.
     pub parent: i32,
     /// A cstk_joint_kind.
     pub joint: i32,
-    /// The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body stands, is
+    /// The joint's frame in the parent's frame: a pose of 12 doubles. The link's frame, in which its body is given, is
     /// pose(link) = pose(parent) at motion(coordinate), and coincides with the joint's frame at coordinate 0. For the
     /// report's (x, y, z, yaw, pitch, roll) see cstk_pose_from_euler.
     pub at: [f64; 12],
     /// The axis of a revolute or prismatic joint in the joint's frame, of any length; default z.
     pub axis: [f64; 3],
-    /// The first of the coordinates that move the joint, or -1 for the next unused ones. Revolute and prismatic joints may
-    /// follow a single coordinate of any earlier joint, and so mimic it; other joints have coordinates of their own.
+    /// The joint's first coordinate, or -1 for the next unused ones. A revolute or prismatic joint may use a single
+    /// coordinate of an earlier joint, and so mimic it; other joints have their own coordinates.
     pub coordinate: i32,
     pub reserved: u32,
-    /// A name of the joint's own within the robot, UTF-8, or NULL for none. It is copied.
+    /// The joint's name, unique within the robot, UTF-8; NULL for none. It is copied.
     pub joint_name: *const c_char,
-    /// A revolute or prismatic joint follows multiplier * coordinate + offset; default 1 and 0.
+    /// A revolute or prismatic joint moves by multiplier * coordinate + offset; default 1 and 0.
     pub multiplier: f64,
     pub offset: f64,
-    /// The range of a revolute or prismatic joint's coordinate, unless the space says otherwise; the default is infinite:
-    /// revolute joints then turn on the circle. Ignored where the joint shares an earlier one's coordinate.
+    /// The range of a revolute or prismatic joint's coordinate, which a space may override; radians or lengths. The default
+    /// is infinite: a revolute joint then turns on a circle. Ignored where the joint shares an earlier joint's coordinate.
     pub lower: f64,
     pub upper: f64,
     /// For CSTK_JOINT_CUSTOM, else NULL. It is copied.
@@ -106,13 +107,14 @@ pub(crate) fn with_builder(
     builder: *mut cstk_robot_builder,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    // Held for the time of the call, whatever other threads release.
+    // Shared ownership: another thread may release the handle during the call.
     let builder = handle::share::<Builder>(builder, "builder")?;
-    // Additions are made whole or not at all, so that a fault leaves the builder sound.
+    // Additions are made whole or not at all, so a panic leaves the builder sound.
     exclusively(&builder.0, "the builder", |_| {}, action)
 }
 
-/// Makes an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3.
+/// Creates an empty builder for robots of dimension 2 (planar: joints turn about z or shift along x and y) or 3. Release it
+/// with cstk_robot_builder_release.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_create(
     dimension: u32,
@@ -155,8 +157,8 @@ pub unsafe extern "C" fn cstk_link_def_default(
     guard(|| unsafe { write_defaults(out, size) })
 }
 
-/// Adds a link; parents before children. Links are numbered from 0 as they are added; the number is written to `out`,
-/// which may be NULL.
+/// Adds a link; parents before children. Links are numbered from 0 in the order in which they are added; the number is
+/// written to `out`, which may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_add_link(
     builder: *mut cstk_robot_builder,
@@ -217,7 +219,7 @@ unsafe fn text_or_empty<'a>(string: *const c_char, argument: &str) -> Result<&'a
     unsafe { text(string, argument) }
 }
 
-/// The caller's joint, if the definition asks for one.
+/// The caller's joint, if the definition is of that kind.
 unsafe fn custom_joint(def: &cstk_link_def) -> Result<Option<Arc<Functions>>, Failure> {
     let is_custom = def.joint == cstk_joint_kind::CSTK_JOINT_CUSTOM as i32;
     if !is_custom && !def.custom.is_null() {

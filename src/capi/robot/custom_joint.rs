@@ -1,4 +1,4 @@
-//! Joints by functions of the caller.
+//! Joints defined by callbacks.
 
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,41 +13,41 @@ type Result<T, E = Error> = std::result::Result<T, E>;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{CustomJoint, Speeds, Twist};
 
-/// Writes the pose of the link in the joint's frame, 12 doubles, at the joint's own `n` coordinates. Returns CSTK_OK, or
-/// anything else to make the call that asked fail with CSTK_ERROR_CALLBACK_FAILED.
+/// Writes the pose of the link in the joint's frame, 12 doubles, at the joint's `n` coordinates. Returns CSTK_OK, or
+/// anything else to make the calling function fail with CSTK_ERROR_CALLBACK_FAILED.
 pub type cstk_joint_pose_fn =
     Option<unsafe extern "C" fn(q: *const f64, n: usize, pose: *mut f64, user: *mut c_void) -> i32>;
 
-/// Writes the derivative of that pose, 6 rows of `n` doubles, row-major: velocity of the link's origin, then angular
-/// velocity of the link, both in the joint's frame.
+/// Writes the derivative of that pose: 6 rows of `n` doubles, row-major, three of the velocity of the link's origin, then
+/// three of the angular velocity of the link, both in the joint's frame.
 pub type cstk_joint_jacobian_fn = Option<
     unsafe extern "C" fn(q: *const f64, n: usize, jacobian: *mut f64, user: *mut c_void) -> i32,
 >;
 
-/// A joint by functions of the caller: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default
-/// first. Both functions are called by any thread that asks about the robot, several at once, also within queries; they
-/// must be pure, must not throw, and must not call back into the query that asks. Numbers that are NaN or infinite (or
-/// left unwritten in a Jacobian) are answered with CSTK_ERROR_NOT_FINITE, a pose that is none (or left unwritten) with
-/// CSTK_ERROR_NOT_A_ROTATION, one that leaves the plane of a planar robot and numbers beyond 1e50 with CSTK_ERROR_INVALID_ARGUMENT.
+/// A joint defined by callbacks: the report's arbitrary kinematics (§4). Write it with cstk_custom_joint_default first.
+/// Both functions are called from any thread that uses the robot, concurrently, and from within queries; they must be pure,
+/// must not throw, and must not call back into the running query. Numbers that are NaN or infinite (or left unwritten in a
+/// Jacobian) are CSTK_ERROR_NOT_FINITE, a pose that is not rigid (or left unwritten) is CSTK_ERROR_NOT_A_ROTATION, and a
+/// pose that leaves the plane of a planar robot or a number beyond 1e50 is CSTK_ERROR_INVALID_ARGUMENT.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_custom_joint {
     pub size: u32,
     pub cookie: u32,
-    /// How many coordinates it has, 1 to 64; as many velocities, their rates.
+    /// The number of coordinates, 1 to 64; as many velocities, their rates.
     pub coordinates: u32,
     pub reserved: u32,
     /// Both must be set.
     pub pose: cstk_joint_pose_fn,
     pub jacobian: cstk_joint_jacobian_fn,
-    /// Handed to the functions.
+    /// Passed to the functions.
     pub user: *mut c_void,
-    /// May be NULL. Called once for each link that was added with it, by whichever thread drops the last reference to what
-    /// uses the link's joint; not called when adding the link fails.
+    /// May be NULL. Called once for each link added with it, by the thread that drops the last reference to whatever uses
+    /// the link's joint; not called if adding the link fails.
     pub destroy: cstk_destroy_fn,
-    /// Bounds of the speed of the link's origin and of its turning, in radians, per unit of any one coordinate, wherever it
-    /// stands. Negative, the default: not known; then slides that move this joint are refused, as their way cannot be proved
-    /// free.
+    /// Upper bounds of the speed of the link's origin and of its angular speed (radians), per unit rate of any one
+    /// coordinate, at all coordinates. Negative, the default, means unknown: slides that move this joint are then refused,
+    /// since their motion cannot be proved free.
     pub linear_speed: f64,
     pub angular_speed: f64,
 }
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn cstk_custom_joint_default(
 
 type Map = unsafe extern "C" fn(*const f64, usize, *mut f64, *mut c_void) -> i32;
 
-/// The caller's functions with the data they are called with.
+/// The caller's functions and their user data.
 pub(crate) struct Functions {
     coordinates: usize,
     pose: Map,
@@ -92,7 +92,7 @@ pub(crate) struct Functions {
     user: *mut c_void,
     destroy: cstk_destroy_fn,
     speeds: Option<Speeds>,
-    /// Whether the data are the library's to give back.
+    /// Whether the library must release the user data.
     owned: AtomicBool,
 }
 
@@ -137,7 +137,7 @@ impl Functions {
         })
     }
 
-    /// From now on the data are given back when nothing refers to them.
+    /// From now on the data are released when nothing refers to them.
     pub fn take_ownership(&self) {
         self.owned.store(true, Ordering::Release);
     }
@@ -172,7 +172,7 @@ impl CustomJoint for Functions {
     }
 
     fn pose(&self, q: &[f64]) -> Result<Pose> {
-        // What the function leaves unwritten is no rotation, and refused.
+        // A pose that the function leaves unwritten is not a rotation, and refused.
         let mut values = [0.0; 12];
         self.call(self.pose, "pose", q, &mut values)?;
         Pose::from_row_major(&values).map_err(|e| e.within("the joint's pose function"))

@@ -2,28 +2,28 @@
 
 use crate::robot::JointKind;
 
-/// How a joint moves its link, and by which coordinates. Velocities (and so steps and gradients) are the coordinates' rates,
-/// one each, but where the coordinates hold a unit quaternion x, y, z, w: there they are as said.
+/// How a joint moves its link, and its coordinates. Velocities (and so steps and gradients) are the coordinates' rates, one
+/// each, except for joints with a unit quaternion x, y, z, w, which state theirs.
 #[repr(i32)]
 #[derive(Clone, Copy)]
 pub enum cstk_joint_kind {
-    /// Not at all.
+    /// Does not move.
     CSTK_JOINT_FIXED = 0,
-    /// Turns it about the axis; the coordinate is an angle in radians.
+    /// Rotates about the axis; the coordinate is an angle in radians.
     CSTK_JOINT_REVOLUTE = 1,
-    /// Shifts it along the axis; the coordinate is a length.
+    /// Translates along the axis; the coordinate is a length.
     CSTK_JOINT_PRISMATIC = 2,
-    /// Moves it in the xy-plane of the joint's frame: x, y, and an angle about z.
+    /// Moves in the xy-plane of the joint's frame: x, y, and an angle about z.
     CSTK_JOINT_PLANAR = 3,
-    /// Turns it about its origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
+    /// Rotates about the origin. Four coordinates, a quaternion; three velocities, angular, in the link's frame.
     CSTK_JOINT_SPHERICAL = 4,
-    /// Moves it freely. Seven coordinates, x, y, z and a quaternion; six velocities, linear then angular, in the link's
+    /// Moves freely. Seven coordinates: x, y, z and a quaternion; six velocities: linear, then angular, in the link's
     /// frame.
     CSTK_JOINT_FREE = 5,
-    /// Moves it freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Where cos(pitch) = 0 they cannot
-    /// turn it about every axis.
+    /// Moves freely, by the report's x, y, z, yaw, pitch, roll (§4.1): six coordinates. Singular at cos(pitch) = 0: there
+    /// no velocity turns the link about some axis.
     CSTK_JOINT_FREE_EULER = 6,
-    /// By functions of the caller; see cstk_custom_joint.
+    /// Moves by callbacks; see cstk_custom_joint.
     CSTK_JOINT_CUSTOM = 7,
 }
 

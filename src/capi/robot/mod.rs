@@ -1,7 +1,7 @@
 //! Robots.
 //!
-//! A robot is a tree of links, each with a joint to its parent and perhaps a body (§4.2). A builder collects the links; forward
-//! kinematics and Jacobians come with the robot.
+//! A robot is a tree of links, each with a joint to its parent and perhaps a body (§4.2). A builder collects the links. The
+//! robot computes forward kinematics and Jacobians.
 //!
 //! ```c
 //! cstk_link_def upper_arm;

@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{Link, Robot, RobotState, check_configuration};
 
-/// A tree of links. Immutable; threads may share it. It keeps the bodies of its links.
+/// A tree of links. Immutable; threads may share it. It keeps references to the bodies of its links.
 pub struct cstk_robot {
     _opaque: [u8; 0],
 }
@@ -30,13 +30,14 @@ pub unsafe extern "C" fn cstk_robot_retain(robot: *mut cstk_robot) -> cstk_statu
     guard(|| handle::retain::<Robot>(robot, "robot"))
 }
 
-/// Drops a reference. NULL is a no-op. Spaces keep the robots they use.
+/// Drops a reference. NULL is a no-op. Spaces hold references to their robots.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_release(robot: *mut cstk_robot) -> cstk_status {
     guard(|| handle::release::<Robot>(robot, "robot"))
 }
 
-/// Writes the number of coordinates (nq), of velocities (nv; less by one for each quaternion) and of links; each may be NULL.
+/// Writes the number of coordinates (nq), of velocities (nv; one fewer for each quaternion) and of links; each output may
+/// be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_get_size(
     robot: *const cstk_robot,
@@ -97,14 +98,15 @@ unsafe fn find(
     Ok(())
 }
 
-/// What a robot knows of a link and the joint that moves it.
+/// A link of a robot and the joint that moves it.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_link_info {
-    /// The link it is attached to, or -1 for the world.
+    /// The parent link, or -1 for the world.
     pub parent: i32,
     pub joint: cstk_joint_kind,
-    /// The joint's coordinates are `nq` from `coordinate`, its velocities `nv` from `velocity`; both counted in the robot.
+    /// The joint has `nq` coordinates from `coordinate` on and `nv` velocities from `velocity` on, by their index in the
+    /// robot.
     pub coordinate: u32,
     pub nq: u32,
     pub velocity: u32,
@@ -119,7 +121,7 @@ pub struct cstk_link_info {
     pub reserved: [u64; 8],
 }
 
-/// Writes what the robot knows of a link.
+/// Describes a link and its joint. CSTK_ERROR_NOT_FOUND for a link that the robot does not have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_get_link_info(
     robot: *const cstk_robot,
@@ -150,7 +152,7 @@ pub unsafe extern "C" fn cstk_robot_get_link_info(
     })
 }
 
-/// Gives the body of a link, with a reference for the caller to release. CSTK_ERROR_EMPTY if it has none.
+/// Writes the body of a link, with a reference that the caller must release. CSTK_ERROR_EMPTY if the link has none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_get_body(
     robot: *const cstk_robot,
@@ -170,9 +172,9 @@ pub unsafe extern "C" fn cstk_robot_get_body(
     })
 }
 
-/// Writes a link's name, terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
-/// `length`, which may be NULL. A NULL buffer of capacity 0 asks for the length alone; CSTK_ERROR_WRONG_SIZE if the name does not
-/// fit.
+/// Writes a link's name, NUL-terminated, into a buffer of `capacity` bytes, and the name's length without the terminator to
+/// `length`, which may be NULL. With a NULL buffer of capacity 0 only the length is written. CSTK_ERROR_WRONG_SIZE if the
+/// name does not fit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_get_link_name(
     robot: *const cstk_robot,
@@ -187,7 +189,7 @@ pub unsafe extern "C" fn cstk_robot_get_link_name(
     })
 }
 
-/// The same for the name of the joint that moves the link; "" if it has none.
+/// Writes the name of the joint that moves a link, "" if it has none; arguments as for cstk_robot_get_link_name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_get_joint_name(
     robot: *const cstk_robot,
@@ -251,7 +253,7 @@ fn poses_at(robot: &Robot, q: &[f64], link: u32) -> Result<Vec<Pose>, Failure> {
     Ok(poses)
 }
 
-/// The pose of a link in the world at configuration q (forward kinematics, §4.2), as 12 doubles.
+/// Writes the pose of a link in the world at configuration q (`nq` doubles; forward kinematics, §4.2), as 12 doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_link_pose(
     robot: *const cstk_robot,
@@ -271,8 +273,9 @@ pub unsafe extern "C" fn cstk_robot_link_pose(
     })
 }
 
-/// The basic Jacobian (§4.3, eq. 33) at q of a point fixed to a link, given in the link's frame: 6 rows of nv doubles,
-/// row-major; three rows of linear velocity of the point, then three of angular velocity of the link, both in the world.
+/// Writes the basic Jacobian (§4.3, eq. 33) at q of a point fixed to a link; `point` is given in the link's frame. 6 rows
+/// of nv doubles, row-major: three rows of linear velocity of the point, then three of angular velocity of the link, both
+/// in the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_jacobian(
     robot: *const cstk_robot,
@@ -296,7 +299,7 @@ pub unsafe extern "C" fn cstk_robot_jacobian(
     })
 }
 
-/// Reads `count` poses, of 12 doubles each, into memory that is used again.
+/// Reads `count` poses of 12 doubles each, into memory that is reused.
 pub(crate) unsafe fn read_poses(
     values: *const f64,
     count: usize,

@@ -1,4 +1,4 @@
-//! What planners do with configurations of a space: steps and differences, samples, limits, link poses.
+//! Operations on configurations of a space: steps and differences, samples, limits, link poses.
 
 use crate::capi::at_configuration::answers::CSTK_NONE;
 use crate::capi::boundary::{Failure, guard};
@@ -52,8 +52,8 @@ pub unsafe extern "C" fn cstk_space_within_limits(
     })
 }
 
-/// Writes whether the origin of every link's frame is in the world box at q, and to `link`, which may be NULL, the first that
-/// is not (CSTK_NONE if all are).
+/// Writes whether the origin of every link is in the world box at q, and to `link`, which may be NULL, the first that is
+/// not (CSTK_NONE if all are).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_within_world(
     space: *const cstk_space,
@@ -99,7 +99,8 @@ pub unsafe extern "C" fn cstk_space_link_poses(
     })
 }
 
-/// The basic Jacobian (eq. 33) at q of a point fixed to a link of the space; as cstk_robot_jacobian, with the space's nv.
+/// Writes the basic Jacobian (eq. 33) at q of a point fixed to a link of the space; as cstk_robot_jacobian, with the
+/// space's nv.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_jacobian(
     space: *const cstk_space,
@@ -131,7 +132,8 @@ pub unsafe extern "C" fn cstk_space_jacobian(
     })
 }
 
-/// Writes the configuration of no shift and no turn: zeros, and quaternions 0, 0, 0, 1. It may be out of range.
+/// Writes the neutral configuration, nq doubles: all coordinates 0, and identity quaternions 0, 0, 0, 1. It may be out of
+/// range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_get_neutral(
     space: *const cstk_space,
@@ -145,9 +147,9 @@ pub unsafe extern "C" fn cstk_space_get_neutral(
     })
 }
 
-/// The configuration that velocity `v` of `nv` doubles leads to from `q` in a unit of time: straight for intervals and
-/// circles (which are not wrapped), at constant angular velocity for quaternions, along a screw for free joints. `out` has
-/// `nq` doubles and may be `q`.
+/// Writes the configuration reached from `q` with velocity `v` (`nv` doubles) after a unit of time: straight for intervals
+/// and circles (which are not wrapped), at constant angular velocity for quaternions, along a screw for free joints. `out`
+/// has `nq` doubles and may be `q`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_step(
     space: *const cstk_space,
@@ -168,8 +170,8 @@ pub unsafe extern "C" fn cstk_space_step(
     })
 }
 
-/// The smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way round (the
-/// negative one of two that are equal), quaternions turn by at most half a turn.
+/// Writes the smallest velocity that leads from `q0` to `q1` in a unit of time, nv doubles: circles go the shorter way
+/// round (opposite angles by -pi), quaternions turn by at most half a turn.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_difference(
     space: *const cstk_space,
@@ -188,9 +190,9 @@ pub unsafe extern "C" fn cstk_space_difference(
     })
 }
 
-/// The configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
-/// cstk_space_difference; `t` may lie beyond. `out` has `nq` doubles and may be one of the two. On free joints this way is a
-/// screw: the origin does not go straight. See cstk_space_distance.
+/// Writes the configuration at parameter `t` of the way from `q0` (t = 0) to `q1` (t = 1) at the constant velocity of
+/// cstk_space_difference; `t` may lie outside [0, 1]. `out` has `nq` doubles and may be `q0` or `q1`. Free joints follow a
+/// screw: their origin does not move straight. See cstk_space_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_interpolate(
     space: *const cstk_space,
@@ -211,10 +213,10 @@ pub unsafe extern "C" fn cstk_space_interpolate(
     })
 }
 
-/// The length of the difference of two configurations, each velocity times its weight: `weights` has nv doubles, none
-/// negative, or is NULL for 1 each. A metric, but with free joints, or unequal weights of a
-/// spherical one: there the triangle inequality fails. For planning
-/// trees use a chain of prismatic x, y, z and a spherical joint instead, which goes straight and turns apart.
+/// Writes the length of the difference of two configurations, each velocity multiplied by its weight: `weights` has nv
+/// doubles, none negative, or is NULL for 1 each. It is a metric, except with free joints, or with unequal weights of a
+/// spherical joint: there the triangle inequality fails. For planning trees use a chain of prismatic x, y, z and a
+/// spherical joint instead, which translates straight and rotates separately.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_distance(
     space: *const cstk_space,
@@ -245,9 +247,9 @@ pub unsafe extern "C" fn cstk_space_distance(
     })
 }
 
-/// Draws a configuration uniformly from the coordinates' ranges; quaternions uniformly from the rotations. `state` is that of
-/// the stream of random numbers: any number to begin with; each call advances it. Equal states give equal configurations, on
-/// every machine. CSTK_ERROR_UNSUPPORTED, naming the coordinate, where a range is unbounded.
+/// Writes a configuration drawn uniformly from the coordinates' ranges, and uniformly from the rotations for quaternions.
+/// `state` is the state of the random number generator: any number to begin with; each call advances it. Equal states give
+/// equal configurations, on every machine. CSTK_ERROR_UNSUPPORTED, naming the coordinate, where a range is unbounded.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_sample(
     space: *const cstk_space,
@@ -267,8 +269,8 @@ pub unsafe extern "C" fn cstk_space_sample(
     })
 }
 
-/// The nearest configuration whose coordinates are all in range; quaternions are made unit. `out` has `nq` doubles and may be
-/// `q`.
+/// Writes the nearest configuration with all coordinates in range; quaternions are normalized. `out` has `nq` doubles and
+/// may be `q`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_clamp(
     space: *const cstk_space,
@@ -280,7 +282,7 @@ pub unsafe extern "C" fn cstk_space_clamp(
     guard(|| unsafe { change(space, q, nq, out, Space::clamp) })
 }
 
-/// The same configuration with circles in [0, 2 pi), as §4.4 has them, and quaternions unit with w >= 0. `out` has `nq`
+/// Writes the same configuration with circles in [0, 2 pi), as in §4.4, and unit quaternions with w >= 0. `out` has `nq`
 /// doubles and may be `q`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_wrap(
@@ -308,7 +310,7 @@ unsafe fn change(
     Ok(())
 }
 
-/// What a step led to, unless that is too far.
+/// The configuration reached, refused if it is too far away.
 fn reached(space: &Space, q: Vec<f64>) -> Result<Vec<f64>, Failure> {
     space
         .check_configuration(&q)

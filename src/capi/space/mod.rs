@@ -1,7 +1,7 @@
 //! Spaces.
 //!
-//! A space is the C-space of one robot or several: its coordinates, their ranges, and the world box. It offers what planners do
-//! with configurations: samples, differences, steps, interpolation, limits, link poses.
+//! A space is the C-space of one or more robots: their coordinates, the coordinates' ranges, and the world box. It offers
+//! what planners need: samples, differences, steps, interpolation, limits, link poses.
 //!
 //! ```c
 //! uint64_t random = 1;

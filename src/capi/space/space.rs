@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind};
 use crate::robot::Robot;
 use crate::space::{Coordinate, Space, WorldBox};
 
-/// The C-space of one or more robots. Immutable; threads may share it. It keeps its robots.
+/// The C-space of one or more robots. Immutable; threads may share it. It keeps references to its robots.
 pub struct cstk_space {
     _opaque: [u8; 0],
 }
@@ -32,9 +32,9 @@ pub enum cstk_range_kind {
     CSTK_RANGE_CIRCLE = 0,
     /// The closed interval from lower to upper; either may be infinite.
     CSTK_RANGE_INTERVAL = 1,
-    /// What the joint says: its limits; without any, a circle for angles and the whole line for lengths.
+    /// The joint's default: its limits; without any, a circle for angles and the whole line for lengths.
     CSTK_RANGE_DEFAULT = 2,
-    /// One of the four entries of a unit quaternion: what joints with quaternions say, and nothing else may be said of them.
+    /// One of the four entries of a unit quaternion: the only range of the coordinates of such joints.
     CSTK_RANGE_QUATERNION = 3,
 }
 
@@ -50,7 +50,7 @@ pub struct cstk_range {
 }
 
 impl cstk_range {
-    /// `None` for a number that is no kind, `Some(None)` for the default.
+    /// `None` for an unknown kind, `Some(None)` for the default.
     fn decode(&self) -> Option<Option<Coordinate>> {
         let interval = Coordinate::Interval {
             lower: self.lower,
@@ -86,13 +86,12 @@ impl cstk_range {
     }
 }
 
-/// Makes the C-space of `robot_count` robots, whose links and coordinates are numbered through in the order given.
+/// Creates the C-space of `robot_count` robots. Links and coordinates are numbered through all robots, in the order given.
 ///
-/// `ranges` holds one range per coordinate, or is NULL with `range_count` 0 where each has its default; see
-/// cstk_range_kind. A range of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: where the
-/// links' origins may be; NULL for everywhere. Ranges and box limit slides and cstk_space_contains; other queries answer
-/// anywhere. Robots of dimension 2 make a planar world, of dimension 3 a spatial one (the report's
-/// make-c-space-planar-world and make-c-space-3d-world).
+/// `ranges` holds one range per coordinate, or is NULL with `range_count` 0 for all defaults; see cstk_range_kind. A range
+/// of one value freezes its coordinate. `world_box` holds low x, y, z, high x, y, z: bounds for the links' origins; NULL
+/// for none. Ranges and box limit slides and cstk_space_contains; other queries answer anywhere. Robots of dimension 2 make
+/// a planar world, of dimension 3 a spatial one (the report's make-c-space-planar-world and make-c-space-3d-world).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_create(
     robots: *const *const cstk_robot,
@@ -148,13 +147,14 @@ pub unsafe extern "C" fn cstk_space_retain(space: *mut cstk_space) -> cstk_statu
     guard(|| handle::retain::<Space>(space, "space"))
 }
 
-/// Drops a reference. NULL is a no-op. C-objects keep their space.
+/// Drops a reference. NULL is a no-op. C-objects hold a reference to their space.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_release(space: *mut cstk_space) -> cstk_status {
     guard(|| handle::release::<Space>(space, "space"))
 }
 
-/// Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each may be NULL.
+/// Writes the number of entries of a configuration (nq), of a velocity or gradient (nv), and of links; each output may be
+/// NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_get_size(
     space: *const cstk_space,
@@ -174,7 +174,7 @@ pub unsafe extern "C" fn cstk_space_get_size(
     })
 }
 
-/// Writes the name of a link, numbered through the space; see cstk_robot_get_link_name.
+/// Writes the name of a link, by number in the space; see cstk_robot_get_link_name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_get_link_name(
     space: *const cstk_space,
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn cstk_space_get_link_name(
     })
 }
 
-/// Where a robot's numbers begin in a space.
+/// The first link, coordinate and velocity of a robot in a space.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_space_offset {
@@ -202,7 +202,8 @@ pub struct cstk_space_offset {
     pub reserved: u32,
 }
 
-/// Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own.
+/// Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own
+/// numbers. Robots are counted from 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_space_get_offset(
     space: *const cstk_space,

@@ -1,17 +1,17 @@
-//! The functions of the caller's that several sections take.
+//! The callbacks that several sections take.
 
 use std::ffi::c_void;
 
 use crate::error::{Error, ErrorKind};
 
-/// Gives user data back to the caller, once, when nothing refers to it any more. It may call the library.
+/// Releases user data: called once, when nothing refers to them any more. It may call the library.
 pub type cstk_destroy_fn = Option<unsafe extern "C" fn(user: *mut c_void)>;
 
-/// Hears how far a long call has come, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_ERROR_CANCELLED. It is
-/// called on the thread that made the call; it must not throw.
+/// Receives the progress of a long call, from 0 to 1. Anything but 0 (CSTK_OK) ends the call with CSTK_ERROR_CANCELLED. It
+/// is called on the thread that made the call; it must not throw.
 pub type cstk_progress_fn = Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>;
 
-/// Tells the caller's progress function, if there is one, how far a build is.
+/// Wraps the caller's progress function, if there is one.
 pub(crate) fn reporter(
     progress: cstk_progress_fn,
     user: *mut c_void,

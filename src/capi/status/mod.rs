@@ -1,8 +1,8 @@
 //! Versions, statuses, callbacks.
 //!
-//! Calls that can fail return a status, and leave a message that names the culprit. Long calls report how far they are, and
-//! user data are given back, by functions of the caller. In the examples of the sections below, check() stands for what a
-//! program does about a status; this is how it may begin.
+//! Calls that can fail return a status, and leave a message that names the culprit. Callbacks report the progress of long
+//! calls and release user data. In the examples of the sections below, check() stands for a program's own handling of a
+//! status, which may begin like this:
 //!
 //! ```c
 //! cstk_status status = cstk_query_create(&query);

@@ -1,16 +1,16 @@
-//! Status codes: numbers that never change meaning.
+//! Status codes, whose numbers never change meaning.
 
 use std::ffi::c_char;
 
 use crate::capi::boundary::last_message;
 use crate::error::ErrorKind;
 
-/// How a call ended. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
+/// The status of a call. Every call that can fail returns one; after any but CSTK_OK, cstk_last_error_message() says which
 /// argument, which polygon, which line. A failed call has changed nothing and written no output.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cstk_status {
-    /// The call did what was asked.
+    /// The call succeeded.
     CSTK_OK = 0,
     /// A pointer that must not be NULL is.
     CSTK_ERROR_NULL_ARGUMENT = 1,
@@ -24,7 +24,7 @@ pub enum cstk_status {
     CSTK_ERROR_NOT_FINITE = 5,
     /// An array or structure has the wrong size.
     CSTK_ERROR_WRONG_SIZE = 6,
-    /// Nothing was given where at least one item is needed: a body without primitives, a robot without links.
+    /// No item was given where at least one is needed: a body without primitives, a robot without links.
     CSTK_ERROR_EMPTY = 7,
     /// Geometry without extent: a repeated vertex, a polygon without area, an axis of length 0.
     CSTK_ERROR_DEGENERATE = 8,
@@ -36,7 +36,7 @@ pub enum cstk_status {
     CSTK_ERROR_NOT_A_ROTATION = 11,
     /// An id, index or name that does not exist.
     CSTK_ERROR_NOT_FOUND = 12,
-    /// Something the library does not do: an unknown file format, a change to a snapshot.
+    /// Something that the library does not support: an unknown file format, a change to a snapshot.
     CSTK_ERROR_UNSUPPORTED = 13,
     /// The operating system could not read or write a file.
     CSTK_ERROR_IO = 14,
@@ -44,19 +44,19 @@ pub enum cstk_status {
     CSTK_ERROR_PARSE = 15,
     /// A result could not be certified.
     CSTK_ERROR_NOT_CONVERGED = 16,
-    /// The caller's progress function asked to stop.
+    /// The caller's progress function stopped the call.
     CSTK_ERROR_CANCELLED = 17,
     /// The object is in use by another thread, or by the call whose callback makes this one.
     CSTK_ERROR_BUSY = 18,
-    /// A fault of the library itself. It was contained; please report it with the message.
+    /// An internal fault of the library, which was contained; please report it with the message.
     CSTK_ERROR_INTERNAL = 19,
-    /// A function of the caller's failed; the message names it and what it returned.
+    /// A callback failed; the message names it and what it returned.
     CSTK_ERROR_CALLBACK_FAILED = 20,
     /// A body was declared solid whose surface is not closed; the message names open edges.
     CSTK_ERROR_NOT_CLOSED = 21,
     /// The query needs more work than cstk_query_set_limit allows.
     CSTK_ERROR_LIMIT = 22,
-    /// There is not enough memory for what the input asks for.
+    /// There is not enough memory for the input.
     CSTK_ERROR_OUT_OF_MEMORY = 23,
 }
 
@@ -86,7 +86,8 @@ impl From<ErrorKind> for cstk_status {
     }
 }
 
-/// The name of a status, such as "CSTK_ERROR_NOT_FINITE"; "unknown status" for a number that is none. Never NULL; static.
+/// Returns the name of a status, such as "CSTK_ERROR_NOT_FINITE"; "unknown status" for an unknown number. Never NULL;
+/// static.
 #[unsafe(no_mangle)]
 pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
     let name = match status {
@@ -119,8 +120,8 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
     name.as_ptr()
 }
 
-/// The message of this thread's last failed call; empty if none has failed. Valid until the next failure on this thread.
-/// Never NULL; UTF-8.
+/// Returns the message of this thread's last failed call; empty if none has failed. Valid until the next failure on this
+/// thread. Never NULL; UTF-8.
 #[unsafe(no_mangle)]
 pub extern "C" fn cstk_last_error_message() -> *const c_char {
     last_message()
