@@ -2424,7 +2424,7 @@ cstk_status cstk_cobject_release(cstk_cobject *cobject);
 
 /**
  * Creates the union of `count` C-objects of one space: its class is the largest of theirs. It keeps references to its
- * parts. A body pair that several induced parts share counts once, with the largest margin.
+ * parts. A body pair that several induced parts hold in the same state counts once, with the largest margin.
  *
  * Sets of any kind may be combined, to a depth of 256 (a union in a union adds no level). A union may be grown one part at
  * a time: each call takes time in proportion to `count`, the first query of the result in proportion to all parts. All
