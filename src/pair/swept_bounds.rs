@@ -76,8 +76,7 @@ pub fn swept_gaps<I: Instructions>(
         }
         gaps.offer(lanes, gap, moved);
     }
-    for j in 0..3 {
-        let axis = &one.axes[j];
+    for (j, axis) in one.axes.iter().enumerate() {
         let along = [products[0][j], products[1][j], products[2][j]];
         let place = lanes.abs(lanes.along(&apart, axis));
         let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
