@@ -67,7 +67,7 @@ fn scene(random: &mut Random) -> CObject {
     let length = 1 + random.below(4);
     let links = (0..length).map(|i| LinkDefinition {
         at: random.pose(0.8),
-        body: (random.below(5) > 0).then(|| body(random)),
+        body: (i == 0 || random.below(5) > 0).then(|| body(random)),
         ..link(
             i.checked_sub(1),
             KINDS[random.below(KINDS.len())].clone(),
