@@ -253,6 +253,14 @@ static void queries() {
     const cstk_slide_result slide =
         query.slide(obstacles, moving, std::vector<double>{0.1, 0}, cstk::slide_options(0.5));
     REQUIRE(slide.outcome == CSTK_SLIDE_MOVED && std::fabs(moving[0] - 0.6) < 1e-15);
+    std::vector<double> reached;
+    const cstk_motion_result rests = query.motion(obstacles, q, q);
+    REQUIRE(rests.outcome == CSTK_MOTION_FREE);
+    const std::vector<double> far = {q[0] + 100, q[1]};
+    const cstk_motion_result hits =
+        query.motion(obstacles, q, far, cstk::motion_options(), &reached);
+    REQUIRE(hits.outcome == CSTK_MOTION_HIT && hits.distance.distance == 0.0);
+    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);

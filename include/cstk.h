@@ -19,6 +19,7 @@
  *   @ref query              Query contexts
  *   @ref at_configuration   Queries at a configuration
  *   @ref pair               Pair queries
+ *   @ref motion             Motions
  *   @ref slide              Slides
  *   @ref show               Pictures
  *
@@ -3457,6 +3458,125 @@ cstk_status cstk_pair_penetration(cstk_query *query,
                                   const double *pose_b,
                                   size_t max_count,
                                   cstk_penetration_list *out);
+
+/** @} */
+
+/**
+ * @defgroup motion Motions
+ *
+ * A whole motion between two configurations, proved free or followed to its first contact. Nothing is sampled: bounds over
+ * intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows what sampling misses).
+ *
+ * @code
+     cstk_motion_result found;
+     double contact[6];
+     check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
+     if (found.outcome == CSTK_MOTION_HIT) {
+         printf("contact at %g of the way\n", found.times[1]);
+     }
+ * @endcode
+ * @{
+ */
+
+/**
+ * How a motion ends.
+ */
+enum cstk_motion_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Proved: at every time from 0 to 1 the distance is larger than the threshold.
+   */
+  CSTK_MOTION_FREE = 0,
+  /**
+   * There is contact at times[1]. All before times[0] is proved free, and the two differ by at most the tolerance, unless
+   * any_contact was set.
+   */
+  CSTK_MOTION_HIT = 1,
+  /**
+   * All before times[0] is proved free; up to times[1], at most the tolerance later, the motion comes so near the threshold that
+   * rounding decides. What comes after is not looked at.
+   */
+  CSTK_MOTION_NEAR = 2,
+  /**
+   * The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free.
+   */
+  CSTK_MOTION_UNDECIDED = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_motion_outcome cstk_motion_outcome;
+#else
+typedef int32_t cstk_motion_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Options of a motion. Write it with cstk_motion_options_default first.
+ */
+typedef struct cstk_motion_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A distance of at most this counts as contact: a length, finite, at least 0. 0, the default, asks for configurations
+   * that cstk_classify calls CSTK_CLASS_INSIDE.
+   */
+  double threshold;
+  /**
+   * How exactly the time of the first contact is found, as a part of the motion: 1e-12 to 1. Default 1e-6.
+   */
+  double tolerance;
+  /**
+   * Nonzero: any contact on the motion will do, found in less time than the first. Default 0.
+   */
+  uint32_t any_contact;
+  uint32_t reserved;
+} cstk_motion_options;
+
+/**
+ * What was found of a motion.
+ */
+typedef struct cstk_motion_result {
+  cstk_motion_outcome outcome;
+  /**
+   * `distance` holds the distance at times[1], with witness and contact: for hits and near motions.
+   */
+  bool has_distance;
+  uint8_t reserved_bytes[3];
+  /**
+   * See cstk_motion_outcome; 1 and 1 for a free motion.
+   */
+  double times[2];
+  cstk_distance_result distance;
+  uint64_t reserved[8];
+} cstk_motion_result;
+
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_motion_options).
+ */
+cstk_status cstk_motion_options_default(cstk_motion_options *out, size_t size);
+
+/**
+ * Proves that the motion from q0 to q1 keeps clear of a C-object, or finds its first contact. The motion is that of
+ * cstk_space_interpolate, as time goes from 0 to 1; the environments are those at the call. `q0` and `q1` have `nq` doubles;
+ * `options` may be NULL for the defaults; `reached` may be NULL, or receives the configuration at times[1], `nq` doubles, and
+ * may be q0 or q1.
+ *
+ * The C-object must be an induced set, a pure set other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise,
+ * and where a custom joint moves. A solid that the motion starts outside of is not entered without contact. A motion along contact
+ * at a distance of 0 is a hit at its start; one that grazes ends near.
+ */
+cstk_status cstk_motion(cstk_query *query,
+                        const cstk_cobject *cobject,
+                        const double *q0,
+                        const double *q1,
+                        size_t nq,
+                        const cstk_motion_options *options,
+                        double *reached,
+                        cstk_motion_result *out);
 
 /** @} */
 

@@ -228,6 +228,14 @@ inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale =
     return options;
 }
 
+/// The default options of a motion.
+inline cstk_motion_options motion_options(double threshold = 0) {
+    cstk_motion_options options;
+    check(cstk_motion_options_default(&options, sizeof options));
+    options.threshold = threshold;
+    return options;
+}
+
 inline cstk_slide_options slide_options(double max_shell) {
     cstk_slide_options options;
     check(cstk_slide_options_default(&options, sizeof options));
@@ -1374,6 +1382,20 @@ public:
         cstk_witness_list out;
         check(cstk_witnesses_at_link_poses(get(), cobject.get(), flat(links), links.size(), epsilon, max_count,
                                 &out));
+        return out;
+    }
+
+    /// Proves the motion from q0 to q1 free, or finds its first contact; `reached`, if given, receives the configuration there.
+    cstk_motion_result motion(const CObject &cobject, Span<double> q0, Span<double> q1,
+                              const cstk_motion_options &options = motion_options(),
+                              std::vector<double> *reached = nullptr) const {
+        cstk_motion_result out;
+        std::vector<double> found(detail::same_size(q0, q1));
+        check(cstk_motion(get(), cobject.get(), q0.data(), q1.data(), q0.size(), &options,
+                          found.data(), &out));
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
         return out;
     }
 

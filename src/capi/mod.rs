@@ -37,6 +37,8 @@ pub mod at_configuration;
 
 pub mod pair;
 
+pub mod motion;
+
 pub mod slide;
 
 pub mod show;

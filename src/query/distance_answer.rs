@@ -16,6 +16,11 @@ pub(super) struct NearestPair<'a> {
 }
 
 impl Distance {
+    /// That of nothing measured.
+    pub(crate) fn unknown() -> Self {
+        Self::empty(0)
+    }
+
     pub(super) fn empty(version: u64) -> Self {
         Self {
             kind: DistanceKind::Empty,

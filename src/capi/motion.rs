@@ -1,0 +1,159 @@
+//! Motions.
+//!
+//! A whole motion between two configurations, proved free or followed to its first contact. Nothing is sampled: bounds over
+//! intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows what sampling misses).
+//!
+//! ```c
+//! cstk_motion_result found;
+//! double contact[6];
+//! check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
+//! if (found.outcome == CSTK_MOTION_HIT) {
+//!     printf("contact at %g of the way\n", found.times[1]);
+//! }
+//! ```
+
+use super::boundary::guard;
+use super::handle;
+use super::input::{OptionsStruct, Output, OutputSlice, options_or_default, slice, write_defaults};
+use super::query::{cstk_query, with_query};
+use crate::capi::at_configuration::answers::cstk_distance_result;
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::status::status::cstk_status;
+use crate::cobject::CObject;
+use crate::motion::{MotionOptions, MotionOutcome};
+use crate::query::Distance;
+
+/// Options of a motion. Write it with cstk_motion_options_default first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_motion_options {
+    pub size: u32,
+    pub cookie: u32,
+    /// A distance of at most this counts as contact: a length, finite, at least 0. 0, the default, asks for configurations
+    /// that cstk_classify calls CSTK_CLASS_INSIDE.
+    pub threshold: f64,
+    /// How exactly the time of the first contact is found, as a part of the motion: 1e-12 to 1. Default 1e-6.
+    pub tolerance: f64,
+    /// Nonzero: any contact on the motion will do, found in less time than the first. Default 0.
+    pub any_contact: u32,
+    pub reserved: u32,
+}
+
+// SAFETY: repr(C), two u32, two doubles, two u32: no padding.
+unsafe impl OptionsStruct for cstk_motion_options {
+    const COOKIE: u32 = 0x4353_0502;
+    const NAME: &'static str = "cstk_motion_options";
+    fn defaults() -> Self {
+        let defaults = MotionOptions::default();
+        Self {
+            size: 0,
+            cookie: 0,
+            threshold: defaults.threshold,
+            tolerance: defaults.tolerance,
+            any_contact: u32::from(defaults.any_contact),
+            reserved: 0,
+        }
+    }
+}
+
+/// How a motion ends.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_motion_outcome {
+    /// Proved: at every time from 0 to 1 the distance is larger than the threshold.
+    CSTK_MOTION_FREE = 0,
+    /// There is contact at times[1]. All before times[0] is proved free, and the two differ by at most the tolerance, unless
+    /// any_contact was set.
+    CSTK_MOTION_HIT = 1,
+    /// All before times[0] is proved free; up to times[1], at most the tolerance later, the motion comes so near the threshold that
+    /// rounding decides. What comes after is not looked at.
+    CSTK_MOTION_NEAR = 2,
+    /// The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free.
+    CSTK_MOTION_UNDECIDED = 3,
+}
+
+/// What was found of a motion.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_motion_result {
+    pub outcome: cstk_motion_outcome,
+    /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions.
+    pub has_distance: bool,
+    pub reserved_bytes: [u8; 3],
+    /// See cstk_motion_outcome; 1 and 1 for a free motion.
+    pub times: [f64; 2],
+    pub distance: cstk_distance_result,
+    pub reserved: [u64; 8],
+}
+
+/// Writes the default options. `size` is sizeof(cstk_motion_options).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_motion_options_default(
+    out: *mut cstk_motion_options,
+    size: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the size.
+    guard(|| unsafe { write_defaults(out, size) })
+}
+
+/// Proves that the motion from q0 to q1 keeps clear of a C-object, or finds its first contact. The motion is that of
+/// cstk_space_interpolate, as time goes from 0 to 1; the environments are those at the call. `q0` and `q1` have `nq` doubles;
+/// `options` may be NULL for the defaults; `reached` may be NULL, or receives the configuration at times[1], `nq` doubles, and
+/// may be q0 or q1.
+///
+/// The C-object must be an induced set, a pure set other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise,
+/// and where a custom joint moves. A solid that the motion starts outside of is not entered without contact. A motion along contact
+/// at a distance of 0 is a hit at its start; one that grazes ends near.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_motion(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q0: *const f64,
+    q1: *const f64,
+    nq: usize,
+    options: *const cstk_motion_options,
+    reached: *mut f64,
+    out: *mut cstk_motion_result,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let out = Output::checked(out, "out")?;
+            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+            let (q0, q1, given) = unsafe {
+                (
+                    slice(q0, nq, "q0")?,
+                    slice(q1, nq, "q1")?,
+                    options_or_default(options, "options")?,
+                )
+            };
+            let options = MotionOptions {
+                threshold: given.threshold,
+                tolerance: given.tolerance,
+                any_contact: given.any_contact != 0,
+            };
+            let reached = (!reached.is_null())
+                .then(|| OutputSlice::checked(reached, nq, "reached"))
+                .transpose()?;
+            let answer = state.context.motion(&cobject, q0, q1, &options)?;
+            if let Some(reached) = reached {
+                reached.write(&answer.configuration);
+            }
+            let nothing = Distance::unknown();
+            out.write(cstk_motion_result {
+                outcome: match answer.outcome {
+                    MotionOutcome::Free => cstk_motion_outcome::CSTK_MOTION_FREE,
+                    MotionOutcome::Hit => cstk_motion_outcome::CSTK_MOTION_HIT,
+                    MotionOutcome::Near => cstk_motion_outcome::CSTK_MOTION_NEAR,
+                    MotionOutcome::Undecided => cstk_motion_outcome::CSTK_MOTION_UNDECIDED,
+                },
+                has_distance: answer.distance.is_some(),
+                reserved_bytes: [0; 3],
+                times: answer.times,
+                distance: answer.distance.as_ref().unwrap_or(&nothing).into(),
+                reserved: [0; 8],
+            });
+            Ok(())
+        })
+    })
+}
