@@ -1,5 +1,5 @@
-//! The exact distance of two primitives: GJK finds the candidate features, closed forms give their distance, a supporting
-//! direction certifies it.
+//! The exact distance of two primitives: GJK finds the candidate features, closed forms give their distance, and a
+//! supporting direction certifies it; where none does, all features are compared.
 
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;

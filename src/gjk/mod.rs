@@ -26,7 +26,8 @@ pub trait Support {
 }
 
 /// The support point along a direction, and its name within the set: the index of a vertex, or the number of a part of a smooth
-/// surface.
+/// surface, 0 where there is one part alone. Two support points of the same name lie on one smooth part (see
+/// `convex/surface_part.rs`, which alone reads names of smooth sets).
 #[derive(Clone, Copy, Debug)]
 pub struct Extreme {
     pub point: Vec3,

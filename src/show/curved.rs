@@ -18,11 +18,9 @@ pub fn curved_surface(primitive: &Convex) -> Surface {
             PI * ring as f64 / RINGS as f64,
             TAU * sector as f64 / SECTORS as f64,
         );
-        let direction = Vec3::new(
-            polar.sin() * azimuth.cos(),
-            polar.sin() * azimuth.sin(),
-            polar.cos(),
-        );
+        // The sine of pi is not 0 in floating point: the support point of a flat bottom would be on its rim, and leave it open.
+        let sine = if ring == RINGS { 0.0 } else { polar.sin() };
+        let direction = Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), polar.cos());
         primitive.farthest(&direction)
     };
     if primitive.curve.as_ref().is_some_and(|curve| curve.planar) {
@@ -45,4 +43,39 @@ pub fn curved_surface(primitive: &Convex) -> Surface {
         }
     }
     Surface { vertices, faces }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pose::Pose;
+    use crate::primitive::{cone, cylinder, ellipsoid};
+    use std::collections::HashMap;
+
+    /// Every edge of the mesh is used as often one way as the other.
+    #[test]
+    fn meshes_are_closed() {
+        let pose = Pose::identity();
+        let shapes = [
+            cylinder(&pose, 1.0, 1.0).unwrap(),
+            cone(&pose, 1.0, 2.0).unwrap(),
+            ellipsoid(&pose, &Vec3::new(1.0, 2.0, 3.0)).unwrap(),
+        ];
+        for shape in shapes {
+            let surface = curved_surface(&shape);
+            let key = |i: u32| surface.vertices[i as usize].map(|x| (x * 1e9).round() as i64);
+            let mut uses: HashMap<_, i32> = HashMap::new();
+            for face in &surface.faces {
+                for (i, &from) in face.iter().enumerate() {
+                    let to = face[(i + 1) % face.len()];
+                    let [from, to] = [key(from), key(to)].map(|p| [p.x, p.y, p.z]);
+                    if from != to {
+                        *uses.entry((from.min(to), from.max(to))).or_default() +=
+                            if from < to { 1 } else { -1 };
+                    }
+                }
+            }
+            assert!(uses.values().all(|count| *count == 0));
+        }
+    }
 }
