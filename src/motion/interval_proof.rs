@@ -15,6 +15,9 @@ const OPEN_NODES_BELOW: f32 = 0.08;
 /// The same for pairs of primitives.
 const MEASURE_LEAVES_BELOW: f32 = 0.04;
 
+/// Intervals no longer than this, a part of the motion, are not halved: over them hardly anything moves by more than rounding.
+const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
+
 /// Some children of a node against a unit of the other body.
 #[derive(Clone, Copy)]
 struct Group {
@@ -73,7 +76,7 @@ pub(super) enum Verdict {
 /// How an interval proof is to end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProofLimits {
-    /// Intervals no longer than this are not halved.
+    /// The time of contact is to be known to this.
     pub tolerance: f64,
     /// Any contact ends the proof; else the first is looked for.
     pub any_contact: bool,
@@ -203,11 +206,15 @@ impl<C: Condition> Work for Prover<'_, C> {
             } else if !is_undecided {
                 continue;
             }
-            if end - start <= limits.tolerance {
-                return Ok(match contact {
-                    Some(contact) if contact <= end => Proof::Contact([start, contact]),
-                    _ => Proof::Undecided(times),
-                });
+            if let Some(contact) = contact
+                && contact <= end
+                && end - start <= limits.tolerance
+            {
+                return Ok(Proof::Contact([start, contact]));
+            }
+            // The first such interval ends the proof, so that a graze costs one descent.
+            if end - start <= SHORTEST_INTERVAL {
+                return Ok(Proof::Undecided(times));
             }
             if !meets {
                 todo.push(Interval {
