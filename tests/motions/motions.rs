@@ -15,8 +15,8 @@ use cstk::space::Space;
 
 use helpers::pure::pure;
 use helpers::random::Random;
-use helpers::robots::{against, against_with, environment, link, robot, space};
-use helpers::shapes::{box_corners, cube_surface, cuboid, hull};
+use helpers::robots::{against, against_with, environment, free_planar_body, link, robot, space};
+use helpers::shapes::{box_corners, cube_surface, cuboid, hull, planar};
 
 fn built(add: impl FnOnce(&mut BodyBuilder)) -> Arc<Body> {
     let mut builder = BodyBuilder::new(3).unwrap();
@@ -193,6 +193,46 @@ fn free_motions_are_free_at_every_sample_and_hits_are_hits() {
     );
     assert!(
         outcomes[2] <= count / 50 && outcomes[3] == 0,
+        "{outcomes:?}"
+    );
+}
+
+/// The same in the plane, where polygons are solid.
+#[test]
+fn motions_of_the_plane_are_proved_too() {
+    let mut random = Random::new(193);
+    let mut outcomes = [0usize; 4];
+    let context = &mut QueryContext::new();
+    for _ in 0..60 {
+        let polygon = |random: &mut Random| planar(&[random.polygon(5, 0.5)]).body;
+        let space = space(vec![free_planar_body(&polygon(&mut random))]);
+        let objects: Vec<_> = (0..6)
+            .map(|_| (polygon(&mut random), random.planar_pose(3.0)))
+            .collect();
+        let objects: Vec<_> = objects.iter().map(|(body, pose)| (body, *pose)).collect();
+        let cobject = against(&space, &environment(&objects).0);
+        for _ in 0..20 {
+            let drawn = |random: &mut Random| [(); 3].map(|_| random.within(-3.0, 3.0));
+            let (q0, q1) = (drawn(&mut random), drawn(&mut random));
+            let options = MotionOptions::default();
+            let answer = context.motion(&cobject, &q0, &q1, &options).unwrap();
+            outcomes[answer.outcome as usize] += 1;
+            let v = space.difference(&q0, &q1);
+            for i in 0..200 {
+                let t = f64::from(i) / 200.0;
+                if answer.outcome == MotionOutcome::Free || t < answer.times[0] {
+                    let found = class(context, &cobject, &at(&space, &q0, &v, t));
+                    assert_ne!(found, Class::Inside, "at {t} of {answer:?}");
+                }
+            }
+            if answer.outcome == MotionOutcome::Hit {
+                let found = class(context, &cobject, &answer.configuration);
+                assert_eq!(found, Class::Inside);
+            }
+        }
+    }
+    assert!(
+        outcomes[0] > 200 && outcomes[1] > 200 && outcomes[3] == 0,
         "{outcomes:?}"
     );
 }
