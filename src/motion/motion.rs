@@ -242,13 +242,14 @@ impl QueryContext {
                 self.scratch.meter_mut().start_call();
                 self.answer(way, MotionOutcome::Undecided, [time, time])
             }
-            Proof::Undecided(times) => {
-                let outcome = if self.has_contact(way, times[1], options)? {
-                    MotionOutcome::Hit
-                } else {
-                    MotionOutcome::Near
-                };
-                self.answer(way, outcome, times)
+            Proof::Undecided([start, end]) => {
+                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
+                for end in [end, (start + options.tolerance).min(1.0)] {
+                    if self.has_contact(way, end, options)? {
+                        return self.answer(way, MotionOutcome::Hit, [start, end]);
+                    }
+                }
+                self.answer(way, MotionOutcome::Near, [start, end])
             }
         }
     }

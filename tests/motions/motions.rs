@@ -10,8 +10,8 @@ use cstk::hierarchy::HierarchyOptions;
 use cstk::motion::{MotionAnswer, MotionOptions, MotionOutcome};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
-use cstk::robot::{JointKind, LinkDefinition};
-use cstk::space::Space;
+use cstk::robot::{Coordinate, JointKind, LinkDefinition};
+use cstk::space::{Space, WorldBox};
 
 use helpers::pure::pure;
 use helpers::random::Random;
@@ -276,6 +276,77 @@ fn a_thin_plate_is_not_jumped_over() {
     let answer = first_contact(&cell, -0.5, 0.5);
     assert_eq!(answer.outcome, MotionOutcome::Hit);
     assert!((answer.times[1] - 0.52).abs() < 2e-6, "{:?}", answer.times);
+}
+
+/// Closed forms: a slider from 0 on, with a range to 1, a world to 2, and sets around 3.
+#[test]
+fn motions_meet_pure_sets_when_they_should() {
+    let cube = cuboid([1.0; 3]).body;
+    let links = vec![LinkDefinition {
+        body: Some(cube),
+        ..link(None, JointKind::Prismatic, Vec3::x())
+    }];
+    let range = Coordinate::Interval {
+        lower: -1.0,
+        upper: 1.0,
+    };
+    let world = WorldBox {
+        low: [-2.0; 3],
+        high: [2.0; 3],
+    };
+    let robots = vec![robot(3, links)];
+    let space = Arc::new(Space::new(robots, &[Some(range)], world).unwrap());
+    let floor = PureShape::Floor {
+        links: vec![0],
+        normal: -Vec3::x(),
+        offset: -3.0,
+    };
+    // The time at which a motion from 0 to 4 meets each.
+    let cases = [
+        (PureShape::BeyondLimits, 1.0 / 4.0),
+        (PureShape::BeyondWorld { links: vec![0] }, 2.0 / 4.0),
+        (floor, 2.5 / 4.0),
+        (
+            PureShape::Box {
+                low: vec![2.5],
+                high: vec![2.75],
+            },
+            2.5 / 4.0,
+        ),
+        (
+            PureShape::HalfSpace {
+                normal: vec![-1.0],
+                offset: -3.0,
+            },
+            3.0 / 4.0,
+        ),
+        (
+            PureShape::Ball {
+                center: vec![3.0],
+                radius: 1e-3,
+            },
+            2.999 / 4.0,
+        ),
+    ];
+    for (shape, time) in cases {
+        let set = pure(&space, shape, Some(1.0));
+        let name = format!("{:?}", set.set());
+        let answer = first_contact(&set, 0.0, 4.0);
+        assert_eq!(answer.outcome, MotionOutcome::Hit, "{name}");
+        assert!(
+            (answer.times[1] - time).abs() < 2e-6,
+            "{name}: {:?}",
+            answer.times
+        );
+        let before = first_contact(&set, 0.0, 4.0 * time - 1e-3);
+        assert_eq!(before.outcome, MotionOutcome::Free, "{name}");
+    }
+    // To the end of the range, which is open.
+    let limits = pure(&space, PureShape::BeyondLimits, Some(1.0));
+    assert_eq!(
+        first_contact(&limits, -1.0, 1.0).outcome,
+        MotionOutcome::Free
+    );
 }
 
 /// Two walls 3 mm apart and a plate of 2.9 mm between them.
