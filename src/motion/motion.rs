@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::interval_proof::{Condition, Proof, ProofLimits, ProofScratch, Verdict, prove};
 use super::moving_pair::MovingPair;
-use super::segment::LinearMotion;
+use super::segment::{LinearMotion, STEP_FRACTION};
 use crate::cobject::{CObject, Class, Induced, PureSet, PureShape, Set};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
@@ -216,8 +216,14 @@ impl QueryContext {
             let wanted = CandidateFilter::within(options.threshold + fastest);
             let meter = self.scratch.meter_mut();
             let found = scene.candidates(checked, wanted, &mut self.candidates, meter)?;
+            // Of the motion at most half lies between the middle and any other time.
+            let may_meet = |target: &&Target| {
+                let needed = 0.5 * way.rate(scene, target);
+                STEP_FRACTION * (target.bound - options.threshold) <= needed
+            };
             let threshold = |target: &Target| options.threshold + target.options.margin;
-            targets.extend(found.iter().map(|target| (*target, threshold(target))));
+            let near = found.iter().filter(may_meet);
+            targets.extend(near.map(|target| (*target, threshold(target))));
         }
         let mut pairs = Vec::with_capacity(targets.len());
         for (target, threshold) in &targets {

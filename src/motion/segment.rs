@@ -21,7 +21,7 @@ use crate::space::Space;
 const MAX_DISTANCES: usize = 400;
 
 /// The fraction of a distance that a step of the proof uses; the rest covers rounding of kinematics and motion bounds.
-const STEP_FRACTION: f64 = 0.99;
+pub(super) const STEP_FRACTION: f64 = 0.99;
 
 /// The motion from q with velocity v for a unit of time, in one state of the world. Both ends are within the coordinates'
 /// ranges.
@@ -424,7 +424,7 @@ impl<'a> LinearMotion<'a> {
     }
 
     /// Bounds the change of a pair's distance, by the relative motion of its bodies.
-    fn rate(&self, scene: &Scene, target: &Target) -> f64 {
+    pub(super) fn rate(&self, scene: &Scene, target: &Target) -> f64 {
         let &Self { q, v, .. } = self;
         let space = self.cobject.space();
         let (r_link, s_link) = target.links();
