@@ -3501,7 +3501,8 @@ enum cstk_motion_outcome
    */
   CSTK_MOTION_NEAR = 2,
   /**
-   * The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free.
+   * The limit of cstk_query_set_limit ended the proof; all before times[0] is proved free. (Where the class at the start or
+   * the distance at a contact already needs more, the call ends with CSTK_ERROR_LIMIT.)
    */
   CSTK_MOTION_UNDECIDED = 3,
 };

@@ -9,8 +9,8 @@ use crate::lanes::{Instructions, Work, with_widest};
 use crate::pair::{Scratch, SweptLeaves, swept_gaps};
 
 /// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the interval, others
-/// are opened. Larger values open boxes that a shorter interval would part; smaller ones look at the same boxes again. Chosen on
-/// segments of a Puma 560 of 0.05 to 3 rad, where 0.5 is up to 400 times slower.
+/// are opened. Larger values open boxes that a shorter interval would part; smaller ones look at the same boxes again. Not tuned by
+/// a benchmark yet.
 const OPEN_NODES_BELOW: f32 = 0.08;
 /// The same for pairs of primitives.
 const MEASURE_LEAVES_BELOW: f32 = 0.04;
@@ -191,6 +191,9 @@ impl<C: Condition> Work for Prover<'_, C> {
                 step.open(lanes, group, open);
             }
             let meets = step.meets;
+            if scratch.meter().is_exceeded() {
+                return Ok(Proof::Exceeded(start));
+            }
             let left = Front {
                 groups: [front.groups[1], groups.len()],
                 leaves: [front.leaves[1], leaves.len()],

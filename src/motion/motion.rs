@@ -244,10 +244,7 @@ impl QueryContext {
         match proof {
             Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0]),
             Proof::Contact(times) => self.answer(way, MotionOutcome::Hit, times),
-            Proof::Exceeded(time) => {
-                self.scratch.meter_mut().start_call();
-                self.answer(way, MotionOutcome::Undecided, [time, time])
-            }
+            Proof::Exceeded(time) => self.answer(way, MotionOutcome::Undecided, [time, time]),
             Proof::Undecided([start, end]) => {
                 // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
                 for end in [end, (start + options.tolerance).min(1.0)] {

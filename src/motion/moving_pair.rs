@@ -9,7 +9,8 @@ use crate::pose::Pose;
 use crate::robot::{MotionChain, MotionRates};
 use crate::tolerance::EPSILON;
 
-/// Kinematics is right to this part of the lengths that it adds up: some operations a joint, of some tens of joints.
+/// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
+/// them: some operations a joint, of some tens of joints.
 const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
 
 /// A body pair on a motion, from t = 0 to 1.
@@ -71,6 +72,7 @@ impl<'a> MovingPair<'a> {
             turn: s,
             origin: [p1, p2, p3],
             size: length,
+            angle,
         } = self.rates;
         let radius = self.a.radius();
         let rho = radius + self.threshold + half * p1.min(v.norm() + half * p2);
@@ -107,7 +109,8 @@ impl<'a> MovingPair<'a> {
         // Velocities times half the interval are lengths like others: what they are rounded to, gaps lose too.
         let moved = linear.norm() + angular.norm() * size;
         let larger = 1.0 + moved / size;
-        let slack = (pairing.slack() + KINEMATICS_ERROR * length) * larger;
+        let kinematics = KINEMATICS_ERROR * (length + radius) * (1.0 + angle);
+        let slack = (pairing.slack() + kinematics) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
         let lowered = slack + ROUNDING * (size + moved) + cores;
         OverInterval {

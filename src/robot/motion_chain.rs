@@ -52,6 +52,8 @@ pub struct MotionRates {
     pub origin: [f64; 3],
     /// The sum of the lengths of all that the origin's place is a sum of: what its rounding is relative to.
     pub size: f64,
+    /// The largest angle of a turn, in radians: an angle is rounded relative to itself.
+    pub angle: f64,
 }
 
 impl MotionState {
@@ -196,9 +198,10 @@ impl MotionChain {
                     rates.carry(&pose.translation, 0.0, last);
                     last = last.map(|(axis, before)| (pose.rotation.tr_mul(&axis), before));
                 }
-                Element::Turn { axis, rate, .. } => {
+                Element::Turn { axis, start, rate } => {
                     last = Some((*axis, rates.turn));
                     rates.turn += rate.abs();
+                    rates.angle = rates.angle.max(start.abs() + rate.abs());
                 }
                 Element::Shift { axis, start, rate } => {
                     let farthest = start.abs().max((start + rate).abs());

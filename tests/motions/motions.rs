@@ -278,6 +278,42 @@ fn a_thin_plate_is_not_jumped_over() {
     assert!((answer.times[1] - 0.52).abs() < 2e-6, "{:?}", answer.times);
 }
 
+/// Angles of a thousand million radians are rounded to 1e-7: what is called free is so for the angles that queries compute.
+#[test]
+fn large_angles_are_proved_with_their_rounding() {
+    let mut random = Random::new(197);
+    let arm = built(|b| {
+        let middle = Pose::from_translation(Vec3::new(1.0, 0.0, 0.0));
+        b.add_box(&middle, &Vec3::new(1.0, 0.05, 0.05), 0).unwrap();
+    });
+    let links = vec![LinkDefinition {
+        body: Some(arm),
+        ..link(None, JointKind::Revolute, Vec3::z())
+    }];
+    let plate = cuboid([0.4, 0.001, 0.4]).body;
+    let pose = Pose::from_translation(Vec3::new(1.9, 0.7, 0.0));
+    let space = space(vec![robot(3, links)]);
+    let cobject = against(&space, &environment(&[(&plate, pose)]).0);
+    let context = &mut QueryContext::new();
+    let mut free = 0;
+    for _ in 0..300 {
+        let q = [random.within(-1e9, 1e9).round() * std::f64::consts::TAU];
+        let v = [random.within(-0.5, 0.5)];
+        let options = MotionOptions::default();
+        let answer = context.motion_along(&cobject, &q, &v, &options).unwrap();
+        let until = answer.times[0];
+        free += usize::from(answer.outcome == MotionOutcome::Free);
+        for i in 0..100 {
+            let t = f64::from(i) / 100.0;
+            if answer.outcome == MotionOutcome::Free || t < until {
+                let found = class(context, &cobject, &at(&space, &q, &v, t));
+                assert_ne!(found, Class::Inside, "at {t} of {answer:?}");
+            }
+        }
+    }
+    assert!(free > 50, "{free}");
+}
+
 /// Closed forms: a slider from 0 on, with a range to 1, a world to 2, and sets around 3.
 #[test]
 fn motions_meet_pure_sets_when_they_should() {
