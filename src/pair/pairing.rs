@@ -1,7 +1,7 @@
 //! Two bodies at two poses, brought into one frame.
 
 use super::hit::Hit;
-use super::traversal::PrimitivePair;
+use super::visitor::PrimitivePair;
 use crate::body::Body;
 use crate::convex::{
     Closest, Contact, DistanceScratch, MAX_CORNERS, Nearest, Outline, Penetration, PlacedBuffer,

@@ -4,68 +4,17 @@
 use std::ops::ControlFlow;
 
 use super::box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gap_along, sharper_bounds};
-use super::hit::{Hit, HitKey};
 use super::nearest_first::{Entry, PendingPairs};
-use super::pairing::{BeyondCutoff, EMPTY, MovedOutline, PairClearance, Pairing, PrimitiveScratch};
+use super::pair_visits::{PairVisits, SinglePair, State};
+use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::visitor::Visitor;
 use super::winding::RayScratch;
 use crate::boxes::{PackedBox, SIZE_STEPS};
-use crate::convex::{Nearest, Outline, PrimitiveDistance};
 use crate::error::Result;
-use crate::gjk::DistanceLimits;
 use crate::hierarchy::packed::{NodeRef, PackedTree, power_of_two};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
-
-/// A query, as the traversal sees it: its pruning bound and its action per primitive pair.
-pub trait Visitor {
-    /// Whether to sharpen bounds: it pays where distances are compared with a bound of about their size.
-    const REFINES: bool;
-
-    /// Pairs farther apart than this are skipped; pairs at exactly this distance are not.
-    fn bound(&self) -> f64;
-
-    /// Distances up to this need not be computed more accurately.
-    fn enough(&self) -> f64 {
-        f64::NEG_INFINITY
-    }
-
-    /// Primitive pairs from this one on cannot change the result, however near they are.
-    fn settled_from(&self) -> Option<[u32; 2]> {
-        None
-    }
-
-    /// Visits a primitive pair. Further work on it is counted by the meter.
-    fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()>;
-}
-
-/// A primitive pair that the traversal visits.
-#[derive(Clone, Copy, Debug)]
-pub struct PrimitivePair<'m> {
-    pub primitives: [u32; 2],
-    /// The indices of the two in the bodies' packed trees.
-    pub places: [u32; 2],
-    /// Their distance, known to `error`.
-    pub apart: f64,
-    pub error: f64,
-    /// The full result of the distance, where it was computed.
-    pub measured: Option<&'m PrimitiveDistance>,
-}
-
-impl PrimitivePair<'_> {
-    pub fn hit(&self, pair: u32, distance: f64) -> Hit {
-        Hit {
-            distance,
-            apart: self.apart,
-            key: HitKey {
-                pair,
-                primitives: self.primitives,
-            },
-            places: self.places,
-            contained: None,
-        }
-    }
-}
 
 /// Scratch memory of the traversal, reused from query to query.
 pub struct Scratch {
@@ -125,28 +74,6 @@ impl Scratch {
     }
 }
 
-#[derive(Default)]
-struct State {
-    primitives: PrimitiveScratch,
-    /// The unit direction from B to A, in A's frame, at the nearest pair so far, or zero; and that pair's distance.
-    direction: Vec3,
-    direction_at: f64,
-    /// The same direction for the pair that was measured last, near or not.
-    last_direction: Vec3,
-    /// The primitive of B whose outline is in the buffer.
-    moved: Option<MovedPlane>,
-    meter: WorkMeter,
-}
-
-/// A transformed outline without its corners, which are in the buffer.
-#[derive(Clone, Copy)]
-struct MovedPlane {
-    place: u32,
-    corners: usize,
-    normal: Vec3,
-    offset: f64,
-}
-
 /// Visits the primitives at two places.
 pub fn visit_pair(
     pairing: &Pairing,
@@ -185,186 +112,6 @@ pub fn traverse(
         first,
         stack,
     })
-}
-
-/// Shows the visitor primitive pairs of two bodies.
-struct PairVisits<'a, V> {
-    pairing: &'a Pairing<'a>,
-    buffer: &'a mut MovedOutline,
-    state: &'a mut State,
-    visitor: &'a mut V,
-}
-
-impl<'a, V: Visitor> PairVisits<'a, V> {
-    fn new(
-        pairing: &'a Pairing<'a>,
-        buffer: &'a mut MovedOutline,
-        state: &'a mut State,
-        visitor: &'a mut V,
-    ) -> Self {
-        state.direction = Vec3::zeros();
-        state.direction_at = f64::INFINITY;
-        state.last_direction = Vec3::zeros();
-        state.moved = None;
-        Self {
-            pairing,
-            buffer,
-            state,
-            visitor,
-        }
-    }
-
-    /// Visits the primitives at two places, unless they are beyond the bound. With `aims`, the direction between the nearest
-    /// pair so far becomes the separating direction tried on later pairs.
-    #[inline(always)]
-    fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
-        let cutoff = self.visitor.bound() + self.pairing.slack();
-        self.state.meter.count_primitives(1);
-        let outline = moved_outline(self.pairing, places[1], self.buffer, &mut self.state.moved);
-        let outlines = self.pairing.outline_a(places[0]).zip(outline);
-        if let Some((a, b)) = &outlines {
-            for direction in [&self.state.direction, &self.state.last_direction] {
-                let direction: [f64; 3] = (*direction).into();
-                if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
-                    return ControlFlow::Continue(());
-                }
-            }
-        }
-        self.state.meter.done.primitive_distances += 1;
-        let primitives = &mut self.state.primitives;
-        let limits = DistanceLimits {
-            enough: self.visitor.enough(),
-            cutoff,
-        };
-        let direction = self.state.direction;
-        let found = self
-            .pairing
-            .distance_to(places, &outline, &direction, limits, primitives);
-        let apart = match found {
-            Ok(apart) => apart,
-            Err(BeyondCutoff { nearest }) => {
-                if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
-                    self.state.last_direction = unit_across(&nearest, a, b);
-                }
-                return ControlFlow::Continue(());
-            }
-        };
-        show(
-            self.pairing,
-            places,
-            &apart,
-            self.visitor,
-            &mut self.state.meter,
-        )?;
-        if aims && apart.distance < self.state.direction_at {
-            self.state.direction_at = apart.distance;
-            self.state.direction = if apart.distance > 0.0 {
-                let across = match (&outlines, apart.nearest, &apart.measured) {
-                    (Some((a, b)), Some(nearest), _) => unit_across(&nearest, a, b),
-                    (_, _, Some(measured)) => {
-                        let [on_a, on_b] = measured.closest.points;
-                        on_a - on_b
-                    }
-                    _ => Vec3::zeros(),
-                };
-                across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
-            } else {
-                Vec3::zeros()
-            };
-        }
-        ControlFlow::Continue(())
-    }
-}
-
-impl<V: Visitor> PairVisits<'_, V> {
-    /// The same as `visit` for primitives of which at least one has no outline.
-    fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
-        let limits = DistanceLimits {
-            enough: self.visitor.enough(),
-            cutoff: self.visitor.bound() + self.pairing.slack(),
-        };
-        self.state.meter.count_primitives(1);
-        self.state.meter.done.primitive_distances += 1;
-        let primitives = &mut self.state.primitives;
-        let nowhere = Vec3::zeros();
-        match self
-            .pairing
-            .measured_apart(places, &nowhere, limits, primitives)
-        {
-            Some(apart) => {
-                let meter = &mut self.state.meter;
-                show(self.pairing, places, &apart, self.visitor, meter)
-            }
-            None => ControlFlow::Continue(()),
-        }
-    }
-}
-
-/// The outline of a primitive of B in A's frame, if it has one. Reuses the buffer if the last call was for the same primitive.
-#[inline(always)]
-fn moved_outline<'b>(
-    pairing: &Pairing,
-    place: u32,
-    buffer: &'b mut MovedOutline,
-    moved: &mut Option<MovedPlane>,
-) -> Option<Outline<'b>> {
-    if let Some(plane) = moved
-        && plane.place == place
-    {
-        return Some(Outline {
-            blocks: &buffer[..plane.corners.div_ceil(4)],
-            corners: plane.corners,
-            normal: plane.normal,
-            offset: plane.offset,
-        });
-    }
-    let outline = pairing.outline_b(place, buffer);
-    *moved = outline.map(|outline| MovedPlane {
-        place,
-        corners: outline.corners,
-        normal: outline.normal,
-        offset: outline.offset,
-    });
-    outline
-}
-
-/// The unit vector between the closest points of two polygons, from the second to the first; zero where they touch.
-#[inline(always)]
-fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
-    let across = nearest.across(a, b);
-    across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
-}
-
-/// Visits a pair whose distance is known.
-#[inline(always)]
-fn show(
-    pairing: &Pairing,
-    places: [u32; 2],
-    apart: &PairClearance,
-    visitor: &mut impl Visitor,
-    meter: &mut WorkMeter,
-) -> ControlFlow<()> {
-    let met = pairing.met(places, apart.distance);
-    let met = PrimitivePair {
-        error: met.error + apart.doubt,
-        measured: apart.measured.as_ref(),
-        ..met
-    };
-    visitor.visit(&met, meter)
-}
-
-struct SinglePair<'a, V> {
-    visits: PairVisits<'a, V>,
-    places: [u32; 2],
-}
-
-impl<V: Visitor> Work for SinglePair<'_, V> {
-    type Output = ControlFlow<()>;
-
-    #[inline(always)]
-    fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
-        self.visits.visit(self.places, false)
-    }
 }
 
 struct Traversal<'a, V> {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::hit::Hit;
 use super::shortlist::{Ranked, Shortlist};
-use super::traversal::{PrimitivePair, Visitor};
+use super::visitor::{PrimitivePair, Visitor};
 use crate::convex::PrimitiveDistance;
 use crate::work_meter::WorkMeter;
 

@@ -1,0 +1,214 @@
+//! Pairs of primitives as the traversal comes upon them: measured if they may matter, and shown to the visitor.
+
+use std::ops::ControlFlow;
+
+use super::pairing::{BeyondCutoff, MovedOutline, PairClearance, Pairing, PrimitiveScratch};
+use super::visitor::{PrimitivePair, Visitor};
+use crate::convex::{Nearest, Outline};
+use crate::gjk::DistanceLimits;
+use crate::lanes::{Instructions, Work};
+use crate::pose::Vec3;
+use crate::work_meter::WorkMeter;
+
+/// What visits leave to the next ones: memory, directions that parted pairs, the work done.
+#[derive(Default)]
+pub(super) struct State {
+    pub(super) primitives: PrimitiveScratch,
+    /// The unit direction from B to A, in A's frame, at the nearest pair so far, or zero; and that pair's distance.
+    pub(super) direction: Vec3,
+    pub(super) direction_at: f64,
+    /// The same direction for the pair that was measured last, near or not.
+    pub(super) last_direction: Vec3,
+    /// The primitive of B whose outline is in the buffer.
+    pub(super) moved: Option<MovedPlane>,
+    pub(super) meter: WorkMeter,
+}
+
+/// A transformed outline without its corners, which are in the buffer.
+#[derive(Clone, Copy)]
+pub(super) struct MovedPlane {
+    place: u32,
+    corners: usize,
+    normal: Vec3,
+    offset: f64,
+}
+
+/// Shows the visitor primitive pairs of two bodies.
+pub(super) struct PairVisits<'a, V> {
+    pub(super) pairing: &'a Pairing<'a>,
+    pub(super) buffer: &'a mut MovedOutline,
+    pub(super) state: &'a mut State,
+    pub(super) visitor: &'a mut V,
+}
+
+impl<'a, V: Visitor> PairVisits<'a, V> {
+    pub(super) fn new(
+        pairing: &'a Pairing<'a>,
+        buffer: &'a mut MovedOutline,
+        state: &'a mut State,
+        visitor: &'a mut V,
+    ) -> Self {
+        state.direction = Vec3::zeros();
+        state.direction_at = f64::INFINITY;
+        state.last_direction = Vec3::zeros();
+        state.moved = None;
+        Self {
+            pairing,
+            buffer,
+            state,
+            visitor,
+        }
+    }
+
+    /// Visits the primitives at two places, unless they are beyond the bound. With `aims`, the direction between the nearest
+    /// pair so far becomes the separating direction tried on later pairs.
+    #[inline(always)]
+    pub(super) fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
+        let cutoff = self.visitor.bound() + self.pairing.slack();
+        self.state.meter.count_primitives(1);
+        let outline = moved_outline(self.pairing, places[1], self.buffer, &mut self.state.moved);
+        let outlines = self.pairing.outline_a(places[0]).zip(outline);
+        if let Some((a, b)) = &outlines {
+            for direction in [&self.state.direction, &self.state.last_direction] {
+                let direction: [f64; 3] = (*direction).into();
+                if a.extent_along(&direction).0 - b.extent_along(&direction).1 > cutoff {
+                    return ControlFlow::Continue(());
+                }
+            }
+        }
+        self.state.meter.done.primitive_distances += 1;
+        let primitives = &mut self.state.primitives;
+        let limits = DistanceLimits {
+            enough: self.visitor.enough(),
+            cutoff,
+        };
+        let direction = self.state.direction;
+        let found = self
+            .pairing
+            .distance_to(places, &outline, &direction, limits, primitives);
+        let apart = match found {
+            Ok(apart) => apart,
+            Err(BeyondCutoff { nearest }) => {
+                if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
+                    self.state.last_direction = unit_across(&nearest, a, b);
+                }
+                return ControlFlow::Continue(());
+            }
+        };
+        show(
+            self.pairing,
+            places,
+            &apart,
+            self.visitor,
+            &mut self.state.meter,
+        )?;
+        if aims && apart.distance < self.state.direction_at {
+            self.state.direction_at = apart.distance;
+            self.state.direction = if apart.distance > 0.0 {
+                let across = match (&outlines, apart.nearest, &apart.measured) {
+                    (Some((a, b)), Some(nearest), _) => unit_across(&nearest, a, b),
+                    (_, _, Some(measured)) => {
+                        let [on_a, on_b] = measured.closest.points;
+                        on_a - on_b
+                    }
+                    _ => Vec3::zeros(),
+                };
+                across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+            } else {
+                Vec3::zeros()
+            };
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<V: Visitor> PairVisits<'_, V> {
+    /// The same as `visit` for primitives of which at least one has no outline.
+    pub(super) fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
+        let limits = DistanceLimits {
+            enough: self.visitor.enough(),
+            cutoff: self.visitor.bound() + self.pairing.slack(),
+        };
+        self.state.meter.count_primitives(1);
+        self.state.meter.done.primitive_distances += 1;
+        let primitives = &mut self.state.primitives;
+        let nowhere = Vec3::zeros();
+        match self
+            .pairing
+            .measured_apart(places, &nowhere, limits, primitives)
+        {
+            Some(apart) => {
+                let meter = &mut self.state.meter;
+                show(self.pairing, places, &apart, self.visitor, meter)
+            }
+            None => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// The outline of a primitive of B in A's frame, if it has one. Reuses the buffer if the last call was for the same primitive.
+#[inline(always)]
+fn moved_outline<'b>(
+    pairing: &Pairing,
+    place: u32,
+    buffer: &'b mut MovedOutline,
+    moved: &mut Option<MovedPlane>,
+) -> Option<Outline<'b>> {
+    if let Some(plane) = moved
+        && plane.place == place
+    {
+        return Some(Outline {
+            blocks: &buffer[..plane.corners.div_ceil(4)],
+            corners: plane.corners,
+            normal: plane.normal,
+            offset: plane.offset,
+        });
+    }
+    let outline = pairing.outline_b(place, buffer);
+    *moved = outline.map(|outline| MovedPlane {
+        place,
+        corners: outline.corners,
+        normal: outline.normal,
+        offset: outline.offset,
+    });
+    outline
+}
+
+/// The unit vector between the closest points of two polygons, from the second to the first; zero where they touch.
+#[inline(always)]
+fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
+    let across = nearest.across(a, b);
+    across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+}
+
+/// Visits a pair whose distance is known.
+#[inline(always)]
+fn show(
+    pairing: &Pairing,
+    places: [u32; 2],
+    apart: &PairClearance,
+    visitor: &mut impl Visitor,
+    meter: &mut WorkMeter,
+) -> ControlFlow<()> {
+    let met = pairing.met(places, apart.distance);
+    let met = PrimitivePair {
+        error: met.error + apart.doubt,
+        measured: apart.measured.as_ref(),
+        ..met
+    };
+    visitor.visit(&met, meter)
+}
+
+pub(super) struct SinglePair<'a, V> {
+    pub(super) visits: PairVisits<'a, V>,
+    pub(super) places: [u32; 2],
+}
+
+impl<V: Visitor> Work for SinglePair<'_, V> {
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
+        self.visits.visit(self.places, false)
+    }
+}
