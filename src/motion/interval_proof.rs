@@ -1,77 +1,17 @@
-//! The proof that moving pairs stay apart: intervals of the motion are halved until bounds over the interval part all boxes and
-//! primitives. A pair of boxes that an interval decides is never looked at again in its halves: each interval begins with what the one
-//! above it left undecided, its front.
+//! The proof that a motion keeps out of a set: intervals of time are halved until bounds over the interval part all boxes and
+//! primitives, and all pure sets.
 
-use super::moving_pair::{MovingPair, OverInterval};
+use super::front::{Front, LeafLook, Look, OverPairs, Part};
+use super::moving_pair::{Kinematics, MovingPair};
+use super::moving_pure::{Moment, MovingPure};
+use super::set_tree::{Known, SetTree};
+use super::way::Way;
 use crate::error::Result;
-use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pair::{Scratch, SweptLeaves, swept_gaps};
-
-/// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the interval, others
-/// are opened. Larger values open boxes that a shorter interval would part; smaller ones look at the same boxes again. Not tuned by
-/// a benchmark yet.
-const OPEN_NODES_BELOW: f32 = 0.08;
-/// The same for pairs of primitives.
-const MEASURE_LEAVES_BELOW: f32 = 0.04;
+use crate::query::QueryContext;
 
 /// Intervals no longer than this, a part of the motion, are not halved: over them hardly anything moves by more than rounding.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
-
-/// Some children of a node against a unit of the other body.
-#[derive(Clone, Copy)]
-struct Group {
-    pair: u32,
-    node: u32,
-    other: NodeRef,
-    /// Which body's node it is, 0 or 1.
-    opened: u8,
-    /// The children, as bits.
-    lanes: u8,
-}
-
-/// Two primitives, and what parted them last: see [`SweptLeaves::Undecided`].
-#[derive(Clone, Copy)]
-struct Leaves {
-    pair: u32,
-    places: [u32; 2],
-    direction: [f32; 3],
-}
-
-/// A part of the front: groups and leaves between two places of their lists each.
-#[derive(Clone, Copy)]
-struct Front {
-    groups: [usize; 2],
-    leaves: [usize; 2],
-}
-
-struct Interval {
-    times: [f64; 2],
-    front: Front,
-}
-
-/// Memory of a proof.
-#[derive(Default)]
-pub(super) struct ProofScratch {
-    groups: Vec<Group>,
-    leaves: Vec<Leaves>,
-    open: Vec<Group>,
-}
-
-/// What else must hold at each time beside that pairs stay apart.
-pub(super) trait Condition {
-    /// What is known over an interval, of which the middle and the half length are given.
-    fn over(&mut self, middle: f64, half: f64) -> Result<Verdict>;
-}
-
-/// What is known of an interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Free,
-    /// At its middle there is contact.
-    Meets,
-    Undecided,
-}
 
 /// How an interval proof is to end.
 #[derive(Clone, Copy, Debug)]
@@ -94,120 +34,134 @@ pub(super) enum Proof {
     Exceeded(f64),
 }
 
-/// Looks for the first contact of moving pairs, or proves that there is none at any time from 0 to 1.
+/// A leaf of the set tree on the motion.
+pub(super) enum MovingLeaf {
+    /// An induced set, whose pairs have the leaf's number.
+    Pairs {
+        /// The leaf stands for the complement.
+        complement: bool,
+    },
+    Pure(MovingPure),
+    /// Every configuration counts as in it.
+    Everything,
+}
+
+/// A set on a motion.
+pub(super) struct MovingSet<'a> {
+    pub way: &'a Way<'a>,
+    pub tree: &'a SetTree<'a>,
+    /// In the order of the tree's leaves.
+    pub leaves: Vec<MovingLeaf>,
+    /// In the order of their leaves.
+    pub pairs: Vec<MovingPair<'a>>,
+}
+
+/// An interval of time, with what is undecided in it.
+struct Interval {
+    times: [f64; 2],
+    part: Part,
+}
+
+/// What is asked of a compound set at a time: whether it is certainly met there.
+pub(super) type Confirm<'c> = dyn FnMut(&mut QueryContext, f64) -> Result<bool> + 'c;
+
+/// Looks for the first contact, or proves that there is none at any time from 0 to 1. `confirm` is asked of sets that are no plain
+/// unions.
 pub(super) fn prove(
-    pairs: &[MovingPair],
-    condition: &mut impl Condition,
+    set: &MovingSet,
+    kinematics: &mut Kinematics,
     limits: ProofLimits,
-    memory: &mut ProofScratch,
-    scratch: &mut Scratch,
+    context: &mut QueryContext,
+    confirm: &mut Confirm,
 ) -> Result<Proof> {
     with_widest(Prover {
-        pairs,
-        condition,
+        set,
+        kinematics,
         limits,
-        memory,
-        scratch,
+        context,
+        confirm,
     })
 }
 
-struct Prover<'a, C> {
-    pairs: &'a [MovingPair<'a>],
-    condition: &'a mut C,
+struct Prover<'a, 'k, 'c, 'd> {
+    set: &'a MovingSet<'a>,
+    kinematics: &'a mut Kinematics<'k>,
     limits: ProofLimits,
-    memory: &'a mut ProofScratch,
-    scratch: &'a mut Scratch,
+    context: &'a mut QueryContext,
+    confirm: &'c mut Confirm<'d>,
 }
 
-impl<C: Condition> Work for Prover<'_, C> {
+impl Work for Prover<'_, '_, '_, '_> {
     type Output = Result<Proof>;
 
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Result<Proof> {
         let Self {
-            pairs,
-            condition,
+            set,
+            kinematics,
             limits,
-            memory,
-            scratch,
+            context,
+            confirm,
         } = self;
-        let ProofScratch {
-            groups,
-            leaves,
-            open,
-        } = memory;
-        groups.clear();
-        leaves.clear();
-        open.clear();
-        for (number, pair) in (0..).zip(pairs) {
-            groups.push(Group {
-                pair: number,
-                node: 0,
-                other: pair.b.packed().root(),
-                opened: 0,
-                lanes: 1,
-            });
-        }
+        let front = &mut Front::default();
+        let over = &mut OverPairs::new(set.pairs.len());
+        let memory = &mut Vec::new();
+        let is_plain = set.tree.is_plain_union();
+        let mut known = vec![Known::Nothing; set.leaves.len()];
         let mut todo = vec![Interval {
             times: [0.0, 1.0],
-            front: Front {
-                groups: [0, groups.len()],
-                leaves: [0, 0],
-            },
+            part: front.start(&set.pairs, !is_plain),
         }];
         let mut contact: Option<f64> = None;
-        let mut over: Vec<Option<OverInterval>> = Vec::new();
-        while let Some(Interval { times, front }) = todo.pop() {
+        while let Some(Interval { times, part }) = todo.pop() {
             let [start, end] = times;
             if contact.is_some_and(|contact| start >= contact) {
                 continue;
             }
-            if scratch.meter().is_exceeded() {
+            if context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            groups.truncate(front.groups[1]);
-            leaves.truncate(front.leaves[1]);
             let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-            over.clear();
-            over.resize_with(pairs.len(), || None);
-            let verdict = condition.over(middle, half)?;
-            let mut step = Step {
-                pairs,
-                over: &mut over,
-                times: [middle, half],
-                groups,
-                leaves,
-                scratch,
-                meets: verdict == Verdict::Meets,
-                first_leaf: front.leaves[1],
+            known.fill(Known::Nothing);
+            kinematics.start(middle)?;
+            let mut look = Look {
+                pairs: &set.pairs,
+                over,
+                kinematics,
+                half,
+                front,
+                scratch: &mut context.scratch,
+                known: &mut known,
+                leaf: LeafLook::default(),
             };
-            // Primitives first: they decide contacts.
-            for i in front.leaves[0]..front.leaves[1] {
-                let pair = step.leaves[i];
-                step.visit(pair);
+            look.start(&part);
+            set.look_at_pure(&mut look, middle)?;
+            let mut whole = set.tree.known(look.known, memory);
+            let mut cursor = part;
+            for (number, leaf) in set.leaves.iter().enumerate() {
+                let MovingLeaf::Pairs { complement } = leaf else {
+                    continue;
+                };
+                if whole == Known::Free {
+                    break;
+                }
+                let is_passed = whole == Known::Meets && is_plain;
+                look.look_at(lanes, number, [*complement, is_passed], &part, &mut cursor);
+                whole = set.tree.known(look.known, memory);
             }
-            open.extend_from_slice(&step.groups[front.groups[0]..front.groups[1]]);
-            while let Some(group) = open.pop() {
-                step.open(lanes, group, open);
-            }
-            let meets = step.meets;
-            if scratch.meter().is_exceeded() {
+            let left = look.left(&part);
+            if context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            let left = Front {
-                groups: [front.groups[1], groups.len()],
-                leaves: [front.leaves[1], leaves.len()],
-            };
-            let is_left = |[first, end]: [usize; 2]| first < end;
-            let is_undecided =
-                is_left(left.groups) || is_left(left.leaves) || verdict != Verdict::Free;
+            if whole == Known::Free {
+                continue;
+            }
+            let meets = whole == Known::Meets && (is_plain || confirm(context, middle)?);
             if meets {
                 contact = Some(middle);
                 if limits.any_contact {
                     return Ok(Proof::Contact([start, middle]));
                 }
-            } else if !is_undecided {
-                continue;
             }
             if let Some(contact) = contact
                 && contact <= end
@@ -222,12 +176,12 @@ impl<C: Condition> Work for Prover<'_, C> {
             if !meets {
                 todo.push(Interval {
                     times: [middle, end],
-                    front: left,
+                    part: left,
                 });
             }
             todo.push(Interval {
                 times: [start, middle],
-                front: left,
+                part: left,
             });
         }
         Ok(match contact {
@@ -237,133 +191,37 @@ impl<C: Condition> Work for Prover<'_, C> {
     }
 }
 
-/// One interval's share of the proof.
-struct Step<'s, 'p> {
-    pairs: &'p [MovingPair<'p>],
-    /// The pairs over the interval, made when they are first asked for.
-    over: &'s mut Vec<Option<OverInterval<'p>>>,
-    /// The interval's middle and half its length.
-    times: [f64; 2],
-    groups: &'s mut Vec<Group>,
-    leaves: &'s mut Vec<Leaves>,
-    scratch: &'s mut Scratch,
-    /// Something meets at the middle: all else is left to the half before it.
-    meets: bool,
-    /// Where the leaves that the interval leaves undecided begin.
-    first_leaf: usize,
-}
-
-impl Step<'_, '_> {
-    /// Decides a pair of primitives, or leaves it to the halves.
-    fn visit(&mut self, mut pair: Leaves) {
-        if self.meets {
-            self.leaves.push(pair);
-            return;
-        }
-        let number = pair.pair as usize;
-        let [middle, half] = self.times;
-        let over = self.over[number].get_or_insert_with(|| self.pairs[number].over(middle, half));
-        self.scratch.count_primitive_pair();
-        let found = over.pairing.swept_leaves(
-            pair.places,
-            &pair.direction,
-            &over.sweep,
-            &over.limits,
-            self.scratch.for_primitives(),
-        );
-        match found {
-            SweptLeaves::Free => return,
-            SweptLeaves::Undecided(direction) => pair.direction = direction,
-            SweptLeaves::Meet => self.meets = true,
-        }
-        self.leaves.push(pair);
-        if self.meets {
-            // The half before it asks first what met.
-            let last = self.leaves.len() - 1;
-            self.leaves.swap(self.first_leaf, last);
-        }
-    }
-
-    /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.
-    #[inline(always)]
-    fn open<I: Instructions>(&mut self, lanes: I, mut group: Group, open: &mut Vec<Group>) {
-        if self.meets || self.scratch.meter().is_exceeded() {
-            self.groups.push(group);
-            return;
-        }
-        let number = group.pair as usize;
-        let pair = &self.pairs[number];
-        let [middle, half] = self.times;
-        let over = self.over[number].get_or_insert_with(|| pair.over(middle, half));
-        let trees: [&PackedTree; 2] = [pair.a.packed(), pair.b.packed()];
-        let opened = usize::from(group.opened);
-        let (tree, other_tree) = (trees[opened], trees[1 - opened]);
-        let index = group.node as usize;
-        let node = tree.node(index);
-        let unit = over.motions[1 - opened].factor;
-        let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
-        let eight = node.boxes(lanes, unit);
-        let bends = [over.bends[opened], over.bends[1 - opened]];
-        let gaps = swept_gaps(lanes, &eight, &one, &over.twists[opened], bends);
-        self.scratch
-            .meter_mut()
-            .count_nodes(u64::from(group.lanes.count_ones()));
-        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(group.lanes);
-        if near == 0 {
-            return;
-        }
-        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
-        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
-        let [x, y, z] = one.half;
-        let other_size = (x * x + y * y + z * z).sqrt();
-        let children = tree.children(index);
-        let mut left = 0u8;
-        while near != 0 {
-            let lane = near.trailing_zeros() as usize & 7;
-            near &= near - 1;
-            let child = children.units[lane];
-            let are_leaves = child.is_leaf() && group.other.is_leaf();
-            let limit = if are_leaves {
-                MEASURE_LEAVES_BELOW
-            } else {
-                OPEN_NODES_BELOW
-            };
-            let size = halves[lane];
-            if taken_off[lane] > limit * (size + other_size) {
-                left |= 1 << lane;
-                continue;
+impl MovingSet<'_> {
+    /// Asks the pure leaves of which nothing is known from a longer interval.
+    fn look_at_pure(&self, look: &mut Look, middle: f64) -> Result<()> {
+        let mut is_asked = false;
+        for (leaf, known) in self.leaves.iter().zip(look.known.iter_mut()) {
+            match leaf {
+                MovingLeaf::Pairs { .. } => {}
+                MovingLeaf::Everything => *known = Known::Meets,
+                MovingLeaf::Pure(_) => is_asked |= *known == Known::Nothing,
             }
-            let units = if opened == 0 {
-                [child, group.other]
-            } else {
-                [group.other, child]
-            };
-            if are_leaves {
-                self.visit(Leaves {
-                    pair: group.pair,
-                    places: [trees[0].place(units[0]), trees[1].place(units[1])],
-                    direction: [0.0; 3],
-                });
-                continue;
+        }
+        if !is_asked {
+            return Ok(());
+        }
+        let q = self.way.at(middle);
+        let scene = &self.way.scene(&q)?;
+        let moment = &Moment {
+            way: self.way,
+            scene,
+            half: look.half,
+        };
+        for (number, leaf) in self.leaves.iter().enumerate() {
+            if let MovingLeaf::Pure(pure) = leaf
+                && look.known[number] == Known::Nothing
+            {
+                match pure.over(moment)? {
+                    Known::Free => look.settle(number, Known::Free),
+                    known => look.known[number] = known,
+                }
             }
-            let opens_b = if units[0].is_leaf() || units[1].is_leaf() {
-                units[0].is_leaf()
-            } else {
-                (opened == 0) == (other_size > size)
-            };
-            let side = usize::from(opens_b);
-            let node = trees[side].index(units[side]);
-            open.push(Group {
-                pair: group.pair,
-                node: node as u32,
-                other: units[1 - side],
-                opened: side as u8,
-                lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
-            });
         }
-        if left != 0 {
-            group.lanes = left;
-            self.groups.push(group);
-        }
+        Ok(())
     }
 }

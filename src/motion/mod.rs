@@ -1,15 +1,19 @@
 //! Motions: proofs that a segment of C-space is free, and the sliding step (Appendix A).
 
+mod front;
 mod half_spaces;
 mod interval_proof;
 #[allow(clippy::module_inception)]
 mod motion;
 mod moving_pair;
+mod moving_pure;
 mod segment;
+mod set_tree;
 mod slide;
 mod slide_contacts;
 mod slide_step;
 mod step_limits;
+mod way;
 
 pub use half_spaces::HalfSpace;
 pub use motion::{MotionAnswer, MotionOptions, MotionOutcome};

@@ -1,18 +1,18 @@
 //! Whole motions: a proof that a segment of C-space is free, or its first contact (§2.3.1 asks for it; Figure 1 shows what sampling
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
-use std::sync::Arc;
-
-use super::interval_proof::{Condition, Proof, ProofLimits, ProofScratch, Verdict, prove};
-use super::moving_pair::MovingPair;
+use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
+use super::moving_pair::{Carried, Kinematics, MovingPair, RatesInWorld};
+use super::moving_pure::MovingPure;
 use super::segment::{LinearMotion, STEP_FRACTION};
-use crate::cobject::{CObject, Class, Induced, PureSet, PureShape, Set};
+use super::set_tree::{LeafContent, SetLeaf, SetTree};
+use super::way::Way;
+use crate::cobject::{CObject, Class, Induced};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
 use crate::query::{
-    CandidateFilter, Configuration, Distance, PureAt, QueryContext, Scene, Target, check_threshold,
+    CandidateFilter, Configuration, Distance, Group, QueryContext, Scene, World, check_threshold,
 };
-use crate::robot::MotionChain;
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -63,83 +63,6 @@ pub struct MotionAnswer {
     pub distance: Option<Distance>,
 }
 
-/// A pure set on the motion.
-struct MovingSet {
-    set: PureSet,
-    /// Its distance falls by no more than this in the whole time.
-    rate: f64,
-}
-
-/// The pure sets of a union on a motion.
-struct PureSets<'a> {
-    way: LinearMotion<'a>,
-    sets: Vec<MovingSet>,
-    threshold: f64,
-}
-
-impl Condition for PureSets<'_> {
-    fn over(&mut self, middle: f64, half: f64) -> Result<Verdict> {
-        if self.sets.is_empty() {
-            return Ok(Verdict::Free);
-        }
-        let q = self.way.at(middle);
-        let scene = &self.way.scene(&q)?;
-        let mut verdict = Verdict::Free;
-        for MovingSet { set, rate } in &self.sets {
-            let pure = PureAt {
-                set,
-                complement: false,
-                scene,
-            };
-            // At the boundary of an open set, such as that beyond the joint limits, a configuration is outside.
-            let lower = pure.bounded_distance()?.lower;
-            let is_inside = pure.class()? == Class::Inside;
-            if is_inside || (self.threshold > 0.0 && lower <= self.threshold) {
-                return Ok(Verdict::Meets);
-            }
-            if lower - self.threshold <= rate * half * (1.0 + 1e-9) && *rate > 0.0 {
-                verdict = Verdict::Undecided;
-            }
-        }
-        Ok(verdict)
-    }
-}
-
-/// What a union holds: its induced sets and its pure sets.
-#[derive(Default)]
-struct Parts<'a> {
-    induced: Vec<&'a Arc<Induced>>,
-    pure: Vec<&'a PureSet>,
-}
-
-impl<'a> Parts<'a> {
-    fn of(cobject: &'a CObject) -> Result<Self> {
-        let mut parts = Self::default();
-        parts.take(cobject)?;
-        Ok(parts)
-    }
-
-    fn take(&mut self, cobject: &'a CObject) -> Result<()> {
-        match cobject.set() {
-            Set::Pure(set) => self.pure.push(set),
-            Set::Union { induced, others } => {
-                self.induced.extend(induced);
-                others.iter().try_for_each(|part| self.take(part))?;
-            }
-            Set::Intersection(_) | Set::Complement(_) => {
-                return Err(Error::new(
-                    ErrorKind::Unsupported,
-                    format!(
-                        "C-object {} is an intersection or a complement: motions are proved for unions",
-                        cobject.serial()
-                    ),
-                ));
-            }
-        }
-        Ok(())
-    }
-}
-
 impl MotionOptions {
     fn check(&self) -> Result<()> {
         check_threshold(self.threshold, "threshold")?;
@@ -184,64 +107,68 @@ impl QueryContext {
         v: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        options.check()?;
         cobject.space().check_configuration(q)?;
         cobject.space().check_velocity(v, "velocity")?;
-        cobject.require_one_metric()?;
-        let world = &self.look(cobject);
-        let way = &LinearMotion {
+        let world = &self.begin_motion(cobject, options)?;
+        let line = LinearMotion {
             world,
             cobject,
             q,
             v,
         };
-        let parts = Parts::of(cobject)?;
+        let way = &Way {
+            line,
+            controls: None,
+        };
+        self.motion_on(way, options)
+    }
+
+    /// Checks what all motions need; takes the world.
+    pub(super) fn begin_motion(
+        &mut self,
+        cobject: &CObject,
+        options: &MotionOptions,
+    ) -> Result<World> {
+        options.check()?;
+        cobject.require_one_metric()?;
+        Ok(self.look(cobject))
+    }
+
+    /// Proves a motion free, or finds its contact.
+    pub(super) fn motion_on(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
         if self.has_contact(way, 0.0, options)? {
             return self.answer(way, MotionOutcome::Hit, [0.0, 0.0]);
         }
-        let mut condition = way.moving_sets(&parts, options.threshold)?;
+        let motions = &way.link_motions();
+        let tree = &SetTree::new(way.line.cobject);
         let q_middle = &way.at(0.5);
         let scene = &way.scene(q_middle)?;
-        let mut targets: Vec<(Target, f64)> = Vec::new();
-        for term in &parts.induced {
-            let term = std::slice::from_ref(*term);
-            let Some(fastest) = way.fastest_pair(&term[0]) else {
-                continue;
-            };
-            if fastest.is_infinite() {
-                return Err(unstated_speeds());
-            }
-            let checked = scene.checked(term)?;
-            // No distance at another time is less than that at the middle by more than what the whole motion changes.
-            let wanted = CandidateFilter::within(options.threshold + fastest);
-            let meter = self.scratch.meter_mut();
-            let found = scene.candidates(checked, wanted, &mut self.candidates, meter)?;
-            // Of the motion at most half lies between the middle and any other time.
-            let may_meet = |target: &&Target| {
-                let needed = 0.5 * way.rate(scene, target);
-                STEP_FRACTION * (target.bound - options.threshold) <= needed
-            };
-            let threshold = |target: &Target| options.threshold + target.options.margin;
-            let near = found.iter().filter(may_meet);
-            targets.extend(near.map(|target| (*target, threshold(target))));
+        let mut gathering = Gathering {
+            way,
+            rates: RatesInWorld::new(motions),
+            threshold: options.threshold,
+            is_plain: tree.is_plain_union(),
+            leaves: Vec::with_capacity(tree.leaves.len()),
+            pairs: Vec::new(),
+        };
+        for leaf in &tree.leaves {
+            gathering.add(leaf, scene, self)?;
         }
-        let mut pairs = Vec::with_capacity(targets.len());
-        for (target, threshold) in &targets {
-            let chain = way
-                .relative_motion(scene, target)
-                .ok_or_else(unstated_speeds)?;
-            if !chain.rests() {
-                let [(a, _), (b, _)] = target.sides;
-                pairs.push(MovingPair::new(a, b, chain, *threshold));
-            }
-        }
+        let Gathering { leaves, pairs, .. } = gathering;
+        let set = &MovingSet {
+            way,
+            tree,
+            leaves,
+            pairs,
+        };
         let limits = ProofLimits {
             tolerance: options.tolerance,
             any_contact: options.any_contact,
         };
-        let memory = &mut ProofScratch::default();
-        let proof = prove(&pairs, &mut condition, limits, memory, &mut self.scratch)?;
-        match proof {
+        let kinematics = &mut Kinematics::new(way, motions);
+        kinematics.needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
+        let confirm = &mut |context: &mut Self, t: f64| context.has_contact(way, t, options);
+        match prove(set, kinematics, limits, self, confirm)? {
             Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0]),
             Proof::Contact(times) => self.answer(way, MotionOutcome::Hit, times),
             Proof::Exceeded(time) => self.answer(way, MotionOutcome::Undecided, [time, time]),
@@ -258,18 +185,18 @@ impl QueryContext {
     }
 
     /// Whether there is contact at a time of the motion.
-    fn has_contact(&mut self, way: &LinearMotion, t: f64, options: &MotionOptions) -> Result<bool> {
+    fn has_contact(&mut self, way: &Way, t: f64, options: &MotionOptions) -> Result<bool> {
         let q = way.at(t);
         if options.threshold == 0.0 {
-            return Ok(self.classify_in(way.world, way.cobject, &q)? == Class::Inside);
+            return Ok(self.classify_in(way.line.world, way.line.cobject, &q)? == Class::Inside);
         }
         let scene = &way.scene(&q)?;
-        self.set_within(way.cobject, scene, options.threshold)
+        self.set_within(way.line.cobject, scene, options.threshold)
     }
 
     fn answer(
         &mut self,
-        way: &LinearMotion,
+        way: &Way,
         outcome: MotionOutcome,
         times: [f64; 2],
     ) -> Result<MotionAnswer> {
@@ -277,7 +204,7 @@ impl QueryContext {
         let distance = match outcome {
             MotionOutcome::Hit | MotionOutcome::Near => {
                 let at = Configuration::Coordinates(&configuration);
-                Some(self.distance_in(way.world, way.cobject, at, f64::INFINITY)?)
+                Some(self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY)?)
             }
             MotionOutcome::Free | MotionOutcome::Undecided => None,
         };
@@ -290,81 +217,119 @@ impl QueryContext {
     }
 }
 
-fn unstated_speeds() -> Error {
+fn unstated_speeds(term: &Induced) -> Error {
     Error::new(
         ErrorKind::Unsupported,
-        "a custom joint moves on the way: of these no motion is proved",
+        format!(
+            "C-object {}: a custom joint that does not state its speeds moves on the way",
+            term.leaf.serial
+        ),
     )
 }
 
-impl<'a> LinearMotion<'a> {
-    /// The pure sets with how fast their distances may fall.
-    fn moving_sets(&self, parts: &Parts, threshold: f64) -> Result<PureSets<'a>> {
-        let space = self.cobject.space();
-        let is_in_range = space.beyond_limits(&self.at(1.0)).is_none();
-        let mut sets = Vec::new();
-        for set in &parts.pure {
-            let is_limits = matches!(set.shape, PureShape::BeyondLimits);
-            // Between two configurations in range, coordinates that move alone are in range.
-            if is_limits && (threshold > 0.0 || !is_in_range) {
-                let speed = self.v.iter().map(|x| x * x).sum::<f64>().sqrt();
-                sets.push(MovingSet {
-                    set: (*set).clone(),
-                    rate: set.scale() * speed,
-                });
-                continue;
+/// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
+struct Gathering<'a> {
+    way: &'a Way<'a>,
+    rates: RatesInWorld<'a>,
+    threshold: f64,
+    is_plain: bool,
+    leaves: Vec<MovingLeaf>,
+    pairs: Vec<MovingPair<'a>>,
+}
+
+impl<'a> Gathering<'a> {
+    fn add(
+        &mut self,
+        leaf: &SetLeaf<'a>,
+        scene: &'a Scene,
+        context: &mut QueryContext,
+    ) -> Result<()> {
+        let complement = leaf.complement;
+        let moving = match leaf.content {
+            LeafContent::Pure(set) => {
+                let pure = MovingPure::new(self.way, set, complement, self.threshold)?;
+                MovingLeaf::Pure(pure)
             }
-            for part in set.parts_on_way(space) {
-                let rate = part.motion_bound(space, self.q, self.v);
-                if rate.is_infinite() {
-                    return Err(Error::new(
-                        ErrorKind::Unsupported,
-                        format!(
-                            "of pure set {} no speed is known: a predicate, or a custom joint without speeds",
-                            set.leaf.serial
-                        ),
-                    ));
+            // The distance from the complement of an induced set is 0 or unknown.
+            LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
+            LeafContent::Induced(group) => {
+                for term in 0..group.len() {
+                    self.add_pairs(&group[term..=term], complement, scene, context)?;
                 }
-                sets.push(MovingSet { set: part, rate });
+                MovingLeaf::Pairs { complement }
             }
-        }
-        Ok(PureSets {
-            way: *self,
-            sets,
-            threshold,
-        })
+        };
+        self.leaves.push(moving);
+        Ok(())
     }
 
-    /// How the r-side of a pair moves as the s-side sees it, in the bodies' frames; `scene` is at any time of the motion. `None` where
-    /// a custom joint in between moves.
-    fn relative_motion(&self, scene: &Scene, target: &Target) -> Option<MotionChain> {
-        let (r_link, s_link) = target.links();
-        let [(_, pose_r), (_, pose_s)] = target.sides;
-        let fixed_to = |link: usize, pose: &Pose| {
-            let link = &scene.poses()[link];
-            if link == pose {
-                Pose::identity()
-            } else {
-                link.inverse().compose(pose)
-            }
+    /// Adds the pairs of one induced set. A complement begins where distances exceed the contact epsilon.
+    fn add_pairs(
+        &mut self,
+        term: &'a Group,
+        complement: bool,
+        scene: &'a Scene,
+        context: &mut QueryContext,
+    ) -> Result<()> {
+        let line = &self.way.line;
+        let fastest = line.fastest_pair(&term[0]).unwrap_or(0.0);
+        if fastest.is_infinite() {
+            return Err(unstated_speeds(&term[0]));
+        }
+        if fastest == 0.0 && self.is_plain {
+            return Ok(());
+        }
+        let threshold = if complement {
+            term[0].options.contact_epsilon
+        } else {
+            self.threshold
         };
-        let mut chain = MotionChain::default();
-        let base = match s_link {
-            None => {
-                chain.push_fixed(pose_s.inverse());
-                None
-            }
-            Some(s) => {
-                chain.push_fixed(fixed_to(s, pose_s).inverse());
-                Some(s)
-            }
+        let checked = scene.checked(term)?;
+        // No distance at another time is less than that at the middle by more than what the whole motion changes.
+        let wanted = CandidateFilter::within(threshold + fastest);
+        let meter = context.scratch.meter_mut();
+        let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
+        // Of a straight motion at most half lies between the middle and any other time.
+        let share = if self.way.controls.is_some() {
+            1.0
+        } else {
+            0.5
         };
-        let between = self
-            .cobject
-            .space()
-            .relative_motion(r_link, base, self.q, self.v)?;
-        chain = chain.followed_by(&between);
-        chain.push_fixed(fixed_to(r_link, pose_r));
-        Some(chain)
+        for target in &found {
+            let speed = line.rate(scene, target);
+            if STEP_FRACTION * (target.bound - threshold) > share * speed {
+                continue;
+            }
+            let (r_link, s_link) = target.links();
+            let [(body, r_pose), (other, s_pose)] = target.sides;
+            let a = Carried {
+                body,
+                link: r_link,
+                pose: pose_on(scene, Some(r_link), r_pose),
+            };
+            let b = Carried {
+                body: other,
+                link: s_link,
+                pose: pose_on(scene, s_link, s_pose),
+            };
+            let limit = threshold + target.options.margin;
+            let leaf = self.leaves.len() as u32;
+            let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, || speed);
+            let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+            // What rests has no contact on the way that it has not at the start.
+            if !self.is_plain || !pair.rests() {
+                self.pairs.push(pair);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A pose of the world in the frame of a link, if one carries it.
+fn pose_on(scene: &Scene, link: Option<usize>, pose: &Pose) -> Pose {
+    match link.map(|link| &scene.poses()[link]) {
+        None => *pose,
+        Some(link) if link == pose => Pose::identity(),
+        Some(link) => link.inverse().compose(pose),
     }
 }

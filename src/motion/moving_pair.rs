@@ -1,28 +1,47 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use super::way::Way;
 use crate::body::Body;
 use crate::convex::Sweep;
+use crate::error::Result;
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32};
-use crate::pose::Pose;
-use crate::robot::{MotionChain, MotionRates};
+use crate::pose::{Pose, Vec3};
+use crate::robot::{ChainRates, LinkMotions, LinkStates, MotionRates, MotionState};
 use crate::tolerance::EPSILON;
 
 /// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
 /// them: some operations a joint, of some tens of joints.
 const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
 
+/// A body, and what carries it: a link, or for `None` the world.
+#[derive(Clone, Copy)]
+pub(super) struct Carried<'a, Link> {
+    pub body: &'a Body,
+    pub link: Link,
+    /// Its pose in the frame of what carries it.
+    pub pose: Pose,
+}
+
 /// A body pair on a motion, from t = 0 to 1.
 pub(super) struct MovingPair<'a> {
-    pub a: &'a Body,
-    pub b: &'a Body,
-    /// A's frame in B's.
-    pub chain: MotionChain,
-    /// Those of A's centre.
-    rates: MotionRates,
+    a: Carried<'a, usize>,
+    b: Carried<'a, Option<usize>>,
+    bounds: Bounds,
     /// The two count as meeting up to this distance: the threshold with the margin of the pair's set.
     pub threshold: f64,
+    /// The leaf of the set tree that the pair belongs to.
+    pub leaf: u32,
+}
+
+/// What is known of a pair's relative motion.
+#[derive(Clone, Copy, Debug)]
+enum Bounds {
+    /// The derivatives of A's centre as B sees it.
+    Derivatives(MotionRates),
+    /// No point of A moves faster than this as B sees it; no velocities are known.
+    Speed(f64),
 }
 
 /// A pair over an interval.
@@ -40,91 +59,267 @@ pub(super) struct OverInterval<'a> {
     pub cutoff: f32,
 }
 
-impl<'a> MovingPair<'a> {
-    pub fn new(a: &'a Body, b: &'a Body, chain: MotionChain, threshold: f64) -> Self {
-        let mut to_center = chain.clone();
-        to_center.push_fixed(Pose::from_translation(*a.center()));
+/// The bounds of links' derivatives in the world, each computed when it is first asked for.
+pub(super) struct RatesInWorld<'a> {
+    motions: &'a LinkMotions,
+    rates: Vec<Option<ChainRates>>,
+}
+
+impl<'a> RatesInWorld<'a> {
+    pub fn new(motions: &'a LinkMotions) -> Self {
         Self {
-            a,
-            b,
-            rates: to_center.rates(),
-            chain,
-            threshold,
+            motions,
+            rates: vec![None; motions.len()],
         }
     }
 
-    /// The pair over an interval of given middle and half length.
+    fn of(&mut self, link: usize) -> &ChainRates {
+        self.rates[link].get_or_insert_with(|| self.motions.rates(link))
+    }
+
+    /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
+    fn between(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Option<MotionRates> {
+        let mut chain = match b.link {
+            None if self.motions.is_known(a.link) => *self.of(a.link),
+            None => return None,
+            Some(from) => {
+                let mut start = ChainRates::default();
+                start.push_fixed(&b.pose.inverse());
+                self.motions.rates_between(start, from, a.link)?
+            }
+        };
+        chain.push_fixed(&a.pose);
+        chain.push_fixed(&Pose::from_translation(*a.body.center()));
+        let mut rates = chain.rates;
+        // Poses are computed in the world, and rounded relative to where they are there.
+        rates.size += b.pose.translation.norm();
+        if let Some(from) = b.link {
+            for link in [from, a.link] {
+                let in_world = self.of(link).rates;
+                rates.size += in_world.size;
+                rates.angle = rates.angle.max(in_world.angle);
+            }
+        }
+        Some(rates)
+    }
+}
+
+/// Where the links are at one time, and how they move.
+pub(super) struct Kinematics<'a> {
+    way: &'a Way<'a>,
+    motions: &'a LinkMotions,
+    states: LinkStates,
+    /// Poses alone, where no velocities are known.
+    poses: Option<Vec<Pose>>,
+    /// Whether some pair needs them.
+    pub needs_poses: bool,
+}
+
+impl<'a> Kinematics<'a> {
+    pub fn new(way: &'a Way<'a>, motions: &'a LinkMotions) -> Self {
+        Self {
+            way,
+            motions,
+            states: LinkStates::default(),
+            poses: None,
+            needs_poses: false,
+        }
+    }
+
+    /// Begins a new time.
+    pub fn start(&mut self, time: f64) -> Result<()> {
+        self.states.start(self.motions, time);
+        if self.needs_poses {
+            self.poses = Some(self.way.link_poses(time)?);
+        }
+        Ok(())
+    }
+
+    /// The state of what a link carries at a pose.
+    fn of(&mut self, link: Option<usize>, pose: &Pose) -> MotionState {
+        match link {
+            None => MotionState::at_rest(*pose),
+            Some(link) => self.states.of(self.motions, link).fixed(pose),
+        }
+    }
+
+    /// The same where only poses are known.
+    fn at_rest(&self, link: Option<usize>, pose: &Pose) -> MotionState {
+        let carrier = link.and_then(|link| Some(self.poses.as_ref()?[link]));
+        let in_world = carrier.map_or(*pose, |carrier| carrier.compose(pose));
+        MotionState::at_rest(in_world)
+    }
+}
+
+/// How A moves as B sees it, with the components in the world's frame.
+struct Relative {
+    /// Of both bodies, in the world.
+    poses: [Pose; 2],
+    /// The velocity of A's centre, and its derivative.
+    velocity: Vec3,
+    acceleration: Vec3,
+    angular: Vec3,
+    angular_acceleration: Vec3,
+}
+
+impl Relative {
+    fn new(a: &MotionState, b: &MotionState, center: &Vec3) -> Self {
+        let arm = a.pose.rotation * center;
+        let from_b = a.pose.translation + arm - b.pose.translation;
+        let velocity = a.velocity(&arm) - b.velocity(&from_b);
+        let angular = a.angular - b.angular;
+        Self {
+            poses: [a.pose, b.pose],
+            velocity,
+            // B's frame turns, so the derivatives of components in it differ from those in the world.
+            acceleration: a.acceleration(&arm)
+                - b.acceleration(&from_b)
+                - 2.0 * b.angular.cross(&velocity),
+            angular,
+            angular_acceleration: a.angular_acceleration
+                - b.angular_acceleration
+                - b.angular.cross(&angular),
+        }
+    }
+}
+
+impl<'a> MovingPair<'a> {
+    /// `speed` gives the largest speed of A's points as B sees it where the derivatives are unknown; the pair is `None` where that
+    /// is infinite.
+    pub fn new(
+        a: Carried<'a, usize>,
+        b: Carried<'a, Option<usize>>,
+        threshold: f64,
+        leaf: u32,
+        rates: &mut RatesInWorld,
+        speed: impl FnOnce() -> f64,
+    ) -> Option<Self> {
+        let bounds = match rates.between(&a, &b) {
+            Some(rates) => Bounds::Derivatives(rates),
+            None => Bounds::Speed(Some(speed()).filter(|speed| speed.is_finite())?),
+        };
+        Some(Self {
+            a,
+            b,
+            bounds,
+            threshold,
+            leaf,
+        })
+    }
+
+    pub fn bodies(&self) -> [&'a Body; 2] {
+        [self.a.body, self.b.body]
+    }
+
+    /// Whether one of the bodies is a solid, so that the other could be inside.
+    pub fn has_solid(&self) -> bool {
+        self.bodies().iter().any(|body| body.solid().is_some())
+    }
+
+    /// Whether neither moves as the other sees it.
+    pub fn rests(&self) -> bool {
+        match &self.bounds {
+            Bounds::Derivatives(rates) => rates.turn[0] == 0.0 && rates.origin[0] == 0.0,
+            Bounds::Speed(speed) => *speed == 0.0,
+        }
+    }
+
+    pub fn needs_poses(&self) -> bool {
+        matches!(self.bounds, Bounds::Speed(_))
+    }
+
+    /// The pair over an interval of given middle and half length; `None` if the balls around the bodies stay apart.
     ///
     /// Let R be A's radius, h the half length, and w, v, alpha, a the angular velocity of A and the velocity of its centre at the
-    /// middle with their derivatives; S and P_k the bounds of [`MotionRates`]. A's points leave the straight lines that their
-    /// velocities at the middle make by at most h^2 / 2 times the largest acceleration, which is at most S^2 R + P_2, and at
-    /// most |a| + (|alpha| + |w|^2) R + h J / 3 with the third derivative J <= S^3 R + P_3. Seen from A, only points of B count
-    /// that come within the threshold of A at some time; these are never farther than rho = R + threshold + h |centre's velocity|
-    /// from A's centre meanwhile, and by the product rule accelerate by at most S^2 rho + 2 S P_1 + P_2, or
-    /// |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with J' <= S^3 rho + 3 S^2 P_1 + 3 S P_2 + P_3.
-    pub fn over(&self, middle: f64, half: f64) -> OverInterval<'a> {
-        let state = self.chain.at(middle);
-        let pairing = Pairing::new(self.a, &state.pose, self.b, &Pose::identity());
-        let arm = state.pose.rotation * self.a.center();
-        let (v, a) = (state.velocity(&arm), state.acceleration(&arm));
-        let (w, alpha) = (state.angular, state.angular_acceleration);
-        let MotionRates {
-            turn: s,
-            origin: [p1, p2, p3],
-            size: length,
-            angle,
-        } = self.rates;
-        let radius = self.a.radius();
-        let rho = radius + self.threshold + half * p1.min(v.norm() + half * p2);
-        let turning = alpha.norm() + w.norm_squared();
-        let (square, cube) = (s * s, s * s * s);
-        let jerk_of_a = cube * radius + p3;
-        let jerk_of_b = cube * rho + 3.0 * square * p1 + 3.0 * s * p2 + p3;
-        let of_a = a.norm() + turning * radius + half * jerk_of_a / 3.0;
-        let of_b = (a - 2.0 * w.cross(&v)).norm() + turning * rho + half * jerk_of_b / 3.0;
-        let accelerations = [
-            of_b.min(square * rho + 2.0 * s * p1 + p2),
-            of_a.min(square * radius + p2),
-        ];
+    /// middle with their derivatives; T_k and P_k the bounds of [`MotionRates`] for a turned unit vector and for A's centre. A's
+    /// points leave the straight lines that their velocities at the middle make by at most h^2 / 2 times the largest
+    /// acceleration, which is at most T_2 R + P_2, and at most |a| + (|alpha| + |w|^2) R + h J / 3 with the third derivative
+    /// J <= T_3 R + P_3. Seen from A, only points of B count that come within the threshold of A at some time; these are never
+    /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
+    /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
+    /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
+    pub fn over(&self, kinematics: &mut Kinematics, half: f64) -> Option<OverInterval<'a>> {
+        let [a, b] = self.bodies();
+        let radius = a.radius();
+        let (relative, rates, accelerations) = match &self.bounds {
+            Bounds::Derivatives(rates) => {
+                let states = [
+                    kinematics.of(Some(self.a.link), &self.a.pose),
+                    kinematics.of(self.b.link, &self.b.pose),
+                ];
+                let relative = Relative::new(&states[0], &states[1], a.center());
+                let bounds = self.accelerations(&relative, rates, half);
+                (relative, *rates, bounds)
+            }
+            Bounds::Speed(_) => {
+                let states = [
+                    kinematics.at_rest(Some(self.a.link), &self.a.pose),
+                    kinematics.at_rest(self.b.link, &self.b.pose),
+                ];
+                let size = states.map(|state| state.pose.translation.norm());
+                let rates = MotionRates {
+                    size: size[0] + size[1],
+                    ..MotionRates::default()
+                };
+                (
+                    Relative::new(&states[0], &states[1], a.center()),
+                    rates,
+                    [0.0; 2],
+                )
+            }
+        };
         // More than the rounding of these sums.
-        let bends = accelerations.map(|x| 0.5 * half * half * x * (1.0 + 1e-9));
+        let mut bends = accelerations.map(|x| 0.5 * half * half * x * (1.0 + 1e-9));
+        if let Bounds::Speed(speed) = self.bounds {
+            bends = [half * speed * (1.0 + 1e-9); 2];
+        }
+        let [v, w] = [relative.velocity, relative.angular];
+        let kinematics_error = KINEMATICS_ERROR * (rates.size + radius) * (1.0 + rates.angle);
 
+        let [pose_a, pose_b] = &relative.poses;
+        let displacement = half * (v.norm() + w.norm() * radius) + bends[1];
+        let apart = pose_a.transform_point(a.center()) - pose_b.transform_point(b.center());
+        let reach = radius + b.radius();
+        let needed = reach + self.threshold + (displacement + kinematics_error) * (1.0 + 1e-9);
+        let doubt = 1e-9 * reach + a.deviation() + b.deviation();
+        if apart.norm() > (needed + doubt) * (1.0 + 1e-12) {
+            return None;
+        }
+
+        let pairing = Pairing::new(a, pose_a, b, pose_b);
         let size = pairing.precision.size;
         let scale = power_of_two(size);
         let inverse = 1.0 / scale;
-        let [tree_a, tree_b] = [self.a.packed(), self.b.packed()];
-        let relative = &pairing.relative;
-        let in_a = [v, w].map(|x| state.pose.rotation.tr_mul(&x) * half);
-        let [linear, angular] = in_a;
+        let [tree_a, tree_b] = [a.packed(), b.packed()];
+        let to_b = &pairing.relative;
+        let [linear, angular] = [v, w].map(|x| pose_a.rotation.tr_mul(&x) * half);
         let in_b = [
-            relative
-                .rotation
-                .tr_mul(&(linear + angular.cross(&relative.translation))),
-            relative.rotation.tr_mul(&angular),
+            to_b.rotation
+                .tr_mul(&(linear + angular.cross(&to_b.translation))),
+            to_b.rotation.tr_mul(&angular),
         ];
-        let twist = |[linear, angular]: [crate::pose::Vec3; 2]| Twist32 {
+        let twist = |[linear, angular]: [Vec3; 2]| Twist32 {
             angular: each3(|k| angular[k] as f32),
             linear: each3(|k| (linear[k] * inverse) as f32),
         };
         // Velocities times half the interval are lengths like others: what they are rounded to, gaps lose too.
         let moved = linear.norm() + angular.norm() * size;
         let larger = 1.0 + moved / size;
-        let kinematics = KINEMATICS_ERROR * (length + radius) * (1.0 + angle);
-        let slack = (pairing.slack() + kinematics) * larger;
+        let slack = (pairing.slack() + kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
         let lowered = slack + ROUNDING * (size + moved) + cores;
-        OverInterval {
+        Some(OverInterval {
             motions: [
-                Motion32::new(relative, tree_b.scale(), scale),
-                Motion32::new(&relative.inverse(), tree_a.scale(), scale),
+                Motion32::new(to_b, tree_b.scale(), scale),
+                Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
             ],
-            twists: [twist(in_a), twist(in_b)],
+            twists: [twist([linear, angular]), twist(in_b)],
             bends: bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
             cutoff: (((self.threshold + lowered) * inverse) as f32).next_up(),
             limits: SweptLimits {
                 threshold: self.threshold,
                 slack,
-                displacement: linear.norm() + angular.norm() * radius + bends[1],
+                displacement,
             },
             sweep: Sweep {
                 linear,
@@ -132,6 +327,32 @@ impl<'a> MovingPair<'a> {
                 bends,
             },
             pairing,
-        }
+        })
+    }
+
+    /// Bounds of the accelerations through the interval: of B's points as A sees them, and of A's as B sees them.
+    fn accelerations(&self, relative: &Relative, rates: &MotionRates, half: f64) -> [f64; 2] {
+        let Relative {
+            velocity: v,
+            acceleration: a,
+            angular: w,
+            ..
+        } = relative;
+        let MotionRates {
+            turn: [t1, t2, t3],
+            origin: [p1, p2, p3],
+            ..
+        } = *rates;
+        let radius = self.a.body.radius();
+        let rho = radius + self.threshold + half * p1.min(v.norm() + half * p2);
+        let turning = relative.angular_acceleration.norm() + w.norm_squared();
+        let jerk_of_a = t3 * radius + p3;
+        let jerk_of_b = t3 * rho + 3.0 * t2 * p1 + 3.0 * t1 * p2 + p3;
+        let of_a = a.norm() + turning * radius + half * jerk_of_a / 3.0;
+        let of_b = (a - 2.0 * w.cross(v)).norm() + turning * rho + half * jerk_of_b / 3.0;
+        [
+            of_b.min(t2 * rho + 2.0 * t1 * p1 + p2),
+            of_a.min(t2 * radius + p2),
+        ]
     }
 }

@@ -58,7 +58,24 @@ pub fn swept_gaps<I: Instructions>(
         each3(|k| turned[k] * one.half[j])
     });
     let axes = &eight.axes;
-    let products: [Triple<I>; 3] = each3(|k| each3(|j| lanes.along(&axes[k], &one.axes[j])));
+    let [first, second, third] = &one.axes;
+    let products: [Triple<I>; 3] = [
+        [
+            lanes.along(&axes[0], first),
+            lanes.along(&axes[0], second),
+            lanes.along(&axes[0], third),
+        ],
+        [
+            lanes.along(&axes[1], first),
+            lanes.along(&axes[1], second),
+            lanes.along(&axes[1], third),
+        ],
+        [
+            lanes.along(&axes[2], first),
+            lanes.along(&axes[2], second),
+            lanes.along(&axes[2], third),
+        ],
+    ];
     let mut gaps = SweptGaps {
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
@@ -86,7 +103,11 @@ pub fn swept_gaps<I: Instructions>(
         let first = lanes.mul_add(center[0], ax, origin);
         let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
         let moved = lanes.add(lanes.abs(at_center), lanes.splat(bends[1]));
-        let turned = each3(|k| lanes.along(&axes[k], &arm));
+        let turned = [
+            lanes.along(&axes[0], &arm),
+            lanes.along(&axes[1], &arm),
+            lanes.along(&axes[2], &arm),
+        ];
         let moved = extent_along(lanes, &turned, &eight.half, moved);
         gaps.offer(lanes, lanes.sub(place, extent), moved);
     }

@@ -1,5 +1,6 @@
 //! Two primitives over an interval of time: whether they stay apart, or meet at its middle.
 
+use super::Scratch;
 use super::pairing::{BeyondCutoff, EMPTY, PairClearance, Pairing, PrimitiveScratch};
 use crate::convex::{PlacedPrimitive, Sweep, swept_gap};
 use crate::gjk::DistanceLimits;
@@ -89,6 +90,35 @@ impl Pairing<'_> {
         }
         let in_b = self.relative.rotation.tr_mul(&direction);
         SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+    }
+
+    /// Whether the primitives are certain to stay within the threshold of each other through the interval: they are nearer at its
+    /// middle, or overlap more deeply, than the motion can change. Where every direction of A's and B's supports overlaps by more
+    /// than their points move, no direction parts them.
+    pub fn stays_within(
+        &self,
+        places: [u32; 2],
+        limits: &SweptLimits,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let taken_off = limits.displacement + limits.slack;
+        let Some(primitives) = scratch.for_one_pair().ok() else {
+            return false;
+        };
+        let found = self.distance(places, limits.threshold, primitives);
+        let nearest = match found {
+            None => return false,
+            Some(distance) if distance > 0.0 => distance + self.precision.error,
+            Some(_) => {
+                let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
+                let entries = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
+                let primitives = entries.map(|entry| entry.primitive);
+                let depth = self.world_penetration(primitives, scratch.meter_mut());
+                // Of smooth primitives no depth is known.
+                self.precision.error - depth.map_or(0.0, |found| found.depth)
+            }
+        };
+        !scratch.meter().is_exceeded() && nearest + taken_off <= limits.threshold
     }
 
     /// Whether a direction of A's frame, of about unit length, parts two primitives by more than `needed` through the interval.

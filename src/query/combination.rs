@@ -31,7 +31,7 @@ pub(super) fn emptied<T>(mut memo: Memo<T>) -> Memo<T> {
 }
 
 /// A set as a union or an intersection of its parts, or of their complements.
-pub(super) enum Composition<'a> {
+pub(crate) enum Composition<'a> {
     /// A union of the induced sets and the parts.
     Any(Option<&'a Group>, &'a [Arc<CObject>]),
     /// An intersection.
@@ -39,7 +39,7 @@ pub(super) enum Composition<'a> {
 }
 
 /// A set, or its complement by De Morgan's laws, which move complements down to the leaves.
-pub(super) fn composition(set: &Set, complement: bool) -> Composition<'_> {
+pub(crate) fn composition(set: &Set, complement: bool) -> Composition<'_> {
     match set {
         Set::Union { induced, others } => {
             let group = (!induced.is_empty()).then_some(&induced[..]);

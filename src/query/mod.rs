@@ -27,6 +27,7 @@ pub use answer::{
     PurePlace, SSide, Witness, WitnessList,
 };
 pub(crate) use candidates::CandidateFilter;
+pub(crate) use combination::{Composition, composition};
 pub use context::QueryContext;
 pub(crate) use context::check_threshold;
 pub use explain::{Explanation, Verdict};

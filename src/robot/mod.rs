@@ -2,20 +2,24 @@
 
 mod builder;
 mod coordinate;
+mod course;
 mod custom_joint;
 mod forward;
 mod jacobian;
 mod joint;
+mod link_motions;
 mod motion_bound;
-mod motion_chain;
+mod motion_rates;
 mod names;
 #[allow(clippy::module_inception)]
 mod robot;
 
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
+pub use course::{MAX_DEGREE, bezier};
 pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};
-pub use motion_chain::{MotionChain, MotionRates, MotionState};
+pub use link_motions::{CoordinateCourses, LinkMotions, LinkStates, MotionState};
+pub use motion_rates::{ChainRates, MotionRates};
 pub use robot::{Link, Robot, check_configuration};

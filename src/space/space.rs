@@ -7,7 +7,8 @@ use super::WorldBox;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
-    Block, Column, Coordinate, Link, MotionChain, Robot, RobotState, check_configuration,
+    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState,
+    check_configuration,
 };
 
 /// The first link, coordinate and velocity of a robot in the space.
@@ -300,34 +301,33 @@ impl Space {
         sides.map(in_shared).iter().sum()
     }
 
-    /// The motion of a link as another one sees it, or the world, while the space goes from q with constant velocity v for a unit
-    /// of time. `None` where a custom joint in between moves.
-    pub fn relative_motion(
-        &self,
-        link: usize,
-        seen_from: Option<usize>,
-        q: &[f64],
-        v: &[f64],
-    ) -> Option<MotionChain> {
-        let chain = |frame: Option<usize>, link: usize| {
-            let robot = self.robot_of(link);
-            let offset = self.offsets[robot];
-            let own = &self.robots[robot];
-            let v = &v[offset.velocity..offset.velocity + own.nv()];
-            let q = &q[self.coordinates_of(robot)];
-            own.motion_chain(frame, link - offset.link, q, v)
-        };
-        let Some(base) = seen_from else {
-            return chain(None, link);
-        };
-        let robot = self.robot_of(link);
-        let shared = (robot == self.robot_of(base)).then(|| {
-            let first = self.offsets[robot].link;
-            self.robots[robot].common_carrier([link, base].map(|link| link - first))
-        });
-        let shared = shared.flatten();
-        let from_shared = chain(shared, base)?.inverse();
-        Some(from_shared.followed_by(&chain(shared, link)?))
+    /// All links while the space goes from q with constant velocity v for a unit of time.
+    pub fn link_motions(&self, q: &[f64], v: &[f64]) -> LinkMotions {
+        let mut motions = LinkMotions::default();
+        for (index, robot) in self.robots.iter().enumerate() {
+            let first = self.offsets[index].velocity;
+            let courses = CoordinateCourses::Line {
+                q: &q[self.coordinates_of(index)],
+                v: &v[first..first + robot.nv()],
+            };
+            robot.append_motions(&mut motions, &courses);
+        }
+        motions
+    }
+
+    /// All links on a Bezier curve, given by its control points: one configuration after another, of which no coordinates of
+    /// quaternions or custom joints differ.
+    pub fn link_motions_on_curve(&self, controls: &[f64]) -> LinkMotions {
+        let mut motions = LinkMotions::default();
+        for (index, robot) in self.robots.iter().enumerate() {
+            let courses = CoordinateCourses::Curve {
+                controls,
+                nq: self.nq(),
+                first: self.coordinates_of(index).start,
+            };
+            robot.append_motions(&mut motions, &courses);
+        }
+        motions
     }
 
     /// The parent of a link; `None` for the world.

@@ -1,8 +1,8 @@
 //! Robots, spaces, URDF.
 
 mod kinematics;
+mod link_motions;
 mod link_pairs;
 mod motion_bound;
-mod motion_chain;
 mod spaces;
 mod urdf;

@@ -1,0 +1,447 @@
+//! The front of a proof: the pairs of boxes and primitives that an interval of the motion left undecided. A pair that an interval
+//! decides is never looked at again in its halves.
+
+use super::moving_pair::{Kinematics, MovingPair, OverInterval};
+use super::set_tree::Known;
+use crate::hierarchy::packed::{NodeRef, PackedTree};
+use crate::lanes::Instructions;
+use crate::pair::{Scratch, SweptLeaves, swept_gaps};
+
+/// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the interval, others
+/// are opened. Larger values open boxes that a shorter interval would part; smaller ones look at the same boxes again. Not tuned by
+/// a benchmark yet.
+const OPEN_NODES_BELOW: f32 = 0.08;
+/// The same for pairs of primitives.
+const MEASURE_LEAVES_BELOW: f32 = 0.04;
+
+/// The most primitive pairs of a complement whose depth is computed in one interval.
+const MAX_DEPTHS: u32 = 16;
+
+/// Some children of a node against a unit of the other body.
+#[derive(Clone, Copy)]
+struct Group {
+    pair: u32,
+    node: u32,
+    other: NodeRef,
+    /// Which body's node it is, 0 or 1.
+    opened: u8,
+    /// The children, as bits.
+    lanes: u8,
+}
+
+/// Two primitives, and what parted them last: see [`SweptLeaves::Undecided`].
+#[derive(Clone, Copy)]
+struct Leaves {
+    pair: u32,
+    places: [u32; 2],
+    direction: [f32; 3],
+}
+
+/// A part of the front: what stands between two places of each list.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    groups: [usize; 2],
+    leaves: [usize; 2],
+    solids: [usize; 2],
+    settled: [usize; 2],
+}
+
+/// The lists of all parts of the front. Each is in order of the set tree's leaves within a part.
+#[derive(Default)]
+pub(super) struct Front {
+    groups: Vec<Group>,
+    leaves: Vec<Leaves>,
+    /// Pairs with a solid of which it is not known whether one body is inside the other.
+    solids: Vec<u32>,
+    /// Leaves of the set tree of which something is known through the whole interval.
+    settled: Vec<(u32, Known)>,
+    open: Vec<Group>,
+}
+
+impl Front {
+    /// Begins with all pairs; `solids` where containment is to be followed.
+    pub fn start(&mut self, pairs: &[MovingPair], solids: bool) -> Part {
+        self.groups.clear();
+        self.leaves.clear();
+        self.solids.clear();
+        self.settled.clear();
+        self.open.clear();
+        for (number, pair) in (0..).zip(pairs) {
+            let [_, b] = pair.bodies();
+            self.groups.push(Group {
+                pair: number,
+                node: 0,
+                other: b.packed().root(),
+                opened: 0,
+                lanes: 1,
+            });
+            if solids && pair.has_solid() {
+                self.solids.push(number);
+            }
+        }
+        self.part_after(&Part::default())
+    }
+
+    /// What stands behind a part.
+    fn part_after(&self, part: &Part) -> Part {
+        Part {
+            groups: [part.groups[1], self.groups.len()],
+            leaves: [part.leaves[1], self.leaves.len()],
+            solids: [part.solids[1], self.solids.len()],
+            settled: [part.settled[1], self.settled.len()],
+        }
+    }
+
+    /// Forgets what stands behind a part.
+    fn truncate(&mut self, part: &Part) {
+        self.groups.truncate(part.groups[1]);
+        self.leaves.truncate(part.leaves[1]);
+        self.solids.truncate(part.solids[1]);
+        self.settled.truncate(part.settled[1]);
+    }
+}
+
+/// Pairs over one interval, made when they are first asked for.
+#[derive(Default)]
+pub(super) struct OverPairs<'a> {
+    /// `None` for pairs whose balls stay apart.
+    made: Vec<Option<OverInterval<'a>>>,
+    /// The place of each pair in `made`, and the interval for which it was made.
+    places: Vec<(u32, u32)>,
+    interval: u32,
+}
+
+impl<'a> OverPairs<'a> {
+    pub fn new(count: usize) -> Self {
+        Self {
+            made: Vec::new(),
+            places: vec![(0, 0); count],
+            interval: 0,
+        }
+    }
+
+    fn start(&mut self) {
+        self.interval += 1;
+        self.made.clear();
+    }
+
+    fn of(
+        &mut self,
+        number: usize,
+        pairs: &[MovingPair<'a>],
+        kinematics: &mut Kinematics,
+        half: f64,
+    ) -> Option<&OverInterval<'a>> {
+        let (place, interval) = &mut self.places[number];
+        if *interval != self.interval {
+            (*place, *interval) = (self.made.len() as u32, self.interval);
+            self.made.push(pairs[number].over(kinematics, half));
+        }
+        self.made[*place as usize].as_ref()
+    }
+}
+
+/// One interval's look at its part of the front.
+pub(super) struct Look<'l, 'p, 'k> {
+    pub pairs: &'p [MovingPair<'p>],
+    pub over: &'l mut OverPairs<'p>,
+    pub kinematics: &'l mut Kinematics<'k>,
+    /// Half the length of the interval.
+    pub half: f64,
+    pub front: &'l mut Front,
+    pub scratch: &'l mut Scratch,
+    /// What is known of the set tree's leaves.
+    pub known: &'l mut [Known],
+    /// The leaf that is looked at.
+    pub leaf: LeafLook,
+}
+
+/// A leaf that is looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LeafLook {
+    complement: bool,
+    /// It meets, or its complement is proved: what is left of it is not looked at.
+    is_decided: bool,
+    meets: bool,
+    /// Primitive pairs whose depth was computed.
+    depths: u32,
+    /// Where its undecided groups and leaves begin.
+    first: [usize; 2],
+}
+
+impl Look<'_, '_, '_> {
+    /// Prepares for a part of the front; fills in what was known before.
+    pub fn start(&mut self, part: &Part) {
+        self.front.truncate(part);
+        self.over.start();
+        for i in part.settled[0]..part.settled[1] {
+            let (leaf, known) = self.front.settled[i];
+            self.known[leaf as usize] = known;
+            self.front.settled.push((leaf, known));
+        }
+    }
+
+    /// Notes what holds of a leaf through the whole interval.
+    pub fn settle(&mut self, leaf: usize, known: Known) {
+        self.known[leaf] = known;
+        self.front.settled.push((leaf as u32, known));
+    }
+
+    /// What is left for the halves.
+    pub fn left(&self, part: &Part) -> Part {
+        self.front.part_after(part)
+    }
+
+    /// Looks at one leaf's share of a part, which begins at `cursor`; moves the cursor behind it. A leaf that is passed is left to
+    /// the halves as it is.
+    #[inline(always)]
+    pub fn look_at<I: Instructions>(
+        &mut self,
+        lanes: I,
+        leaf: usize,
+        [complement, is_passed]: [bool; 2],
+        part: &Part,
+        cursor: &mut Part,
+    ) {
+        let is_settled = self.known[leaf] != Known::Nothing;
+        self.leaf = LeafLook {
+            complement,
+            is_decided: is_passed,
+            first: [self.front.groups.len(), self.front.leaves.len()],
+            ..LeafLook::default()
+        };
+        // Primitives first: they decide contacts.
+        while cursor.leaves[0] < part.leaves[1] {
+            let pair = self.front.leaves[cursor.leaves[0]];
+            if self.pairs[pair.pair as usize].leaf as usize != leaf {
+                break;
+            }
+            cursor.leaves[0] += 1;
+            if !is_settled {
+                self.visit(pair);
+            }
+        }
+        let first = cursor.groups[0];
+        while cursor.groups[0] < part.groups[1]
+            && self.pairs[self.front.groups[cursor.groups[0]].pair as usize].leaf as usize == leaf
+        {
+            cursor.groups[0] += 1;
+        }
+        if !is_settled {
+            let Front { groups, open, .. } = &mut *self.front;
+            open.extend_from_slice(&groups[first..cursor.groups[0]]);
+            while let Some(group) = self.front.open.pop() {
+                self.open(lanes, group);
+            }
+        }
+        let solids = cursor.solids[0];
+        while cursor.solids[0] < part.solids[1]
+            && self.pairs[self.front.solids[cursor.solids[0]] as usize].leaf as usize == leaf
+        {
+            cursor.solids[0] += 1;
+        }
+        if is_settled {
+            return;
+        }
+        self.look_at_solids([solids, cursor.solids[0]]);
+        if !is_passed {
+            self.conclude(leaf);
+        }
+    }
+
+    /// Notes what the look has shown of the leaf.
+    fn conclude(&mut self, leaf: usize) {
+        let LeafLook {
+            complement,
+            is_decided,
+            meets,
+            first,
+            ..
+        } = self.leaf;
+        let front = &mut *self.front;
+        let is_left = front.groups.len() > first[0] || front.leaves.len() > first[1];
+        self.known[leaf] = if complement {
+            if is_decided {
+                // It stays in the set: nothing of the leaf is looked at again.
+                front.groups.truncate(first[0]);
+                front.leaves.truncate(first[1]);
+                front.settled.push((leaf as u32, Known::Free));
+                Known::Free
+            } else if is_left || meets {
+                Known::Nothing
+            } else {
+                Known::Meets
+            }
+        } else if meets {
+            Known::Meets
+        } else if is_left {
+            Known::Nothing
+        } else {
+            Known::Free
+        };
+    }
+
+    /// Where the surfaces of a pair stay apart, a body that is inside the other at the middle is so through the interval.
+    fn look_at_solids(&mut self, solids: [usize; 2]) {
+        for i in solids[0]..solids[1] {
+            let number = self.front.solids[i];
+            let first = self.leaf.first;
+            let is_left = self.front.groups[first[0]..]
+                .iter()
+                .any(|g| g.pair == number)
+                || self.front.leaves[first[1]..]
+                    .iter()
+                    .any(|l| l.pair == number);
+            if is_left || self.leaf.is_decided {
+                self.front.solids.push(number);
+                continue;
+            }
+            let over = self
+                .over
+                .of(number as usize, self.pairs, self.kinematics, self.half);
+            // Balls that stay apart hold nothing of each other.
+            let Some(over) = over else {
+                continue;
+            };
+            if over.pairing.is_one_inside(self.scratch) {
+                self.leaf.meets = true;
+                self.leaf.is_decided = true;
+                self.front.solids.push(number);
+            }
+        }
+    }
+
+    /// Whether nothing more is to be looked at of the leaf.
+    fn is_over(&self) -> bool {
+        self.leaf.is_decided || self.scratch.meter().is_exceeded()
+    }
+
+    /// Decides a pair of primitives, or leaves it to the halves.
+    fn visit(&mut self, mut pair: Leaves) {
+        if self.is_over() {
+            self.front.leaves.push(pair);
+            return;
+        }
+        let number = pair.pair as usize;
+        let over = self.over.of(number, self.pairs, self.kinematics, self.half);
+        let Some(over) = over else {
+            return;
+        };
+        self.scratch.count_primitive_pair();
+        let found = over.pairing.swept_leaves(
+            pair.places,
+            &pair.direction,
+            &over.sweep,
+            &over.limits,
+            self.scratch.for_primitives(),
+        );
+        if self.leaf.complement && found != SweptLeaves::Free && self.leaf.depths < MAX_DEPTHS {
+            self.leaf.depths += 1;
+            if over
+                .pairing
+                .stays_within(pair.places, &over.limits, self.scratch)
+            {
+                self.leaf.is_decided = true;
+                return;
+            }
+        }
+        match found {
+            SweptLeaves::Free => return,
+            SweptLeaves::Undecided(direction) => pair.direction = direction,
+            SweptLeaves::Meet => self.leaf.meets = true,
+        }
+        let meets = found == SweptLeaves::Meet;
+        self.front.leaves.push(pair);
+        if meets && !self.leaf.complement {
+            self.leaf.is_decided = true;
+            // The half before it asks first what met.
+            let last = self.front.leaves.len() - 1;
+            self.front.leaves.swap(self.leaf.first[1], last);
+        }
+    }
+
+    /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.
+    #[inline(always)]
+    fn open<I: Instructions>(&mut self, lanes: I, mut group: Group) {
+        if self.is_over() {
+            self.front.groups.push(group);
+            return;
+        }
+        let number = group.pair as usize;
+        let [a, b] = self.pairs[number].bodies();
+        let over = self.over.of(number, self.pairs, self.kinematics, self.half);
+        let Some(over) = over else {
+            return;
+        };
+        let trees: [&PackedTree; 2] = [a.packed(), b.packed()];
+        let opened = usize::from(group.opened);
+        let (tree, other_tree) = (trees[opened], trees[1 - opened]);
+        let index = group.node as usize;
+        let node = tree.node(index);
+        let unit = over.motions[1 - opened].factor;
+        let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
+        let eight = node.boxes(lanes, unit);
+        let bends = [over.bends[opened], over.bends[1 - opened]];
+        let gaps = swept_gaps(lanes, &eight, &one, &over.twists[opened], bends);
+        self.scratch
+            .meter_mut()
+            .count_nodes(u64::from(group.lanes.count_ones()));
+        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(group.lanes);
+        if near == 0 {
+            return;
+        }
+        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
+        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        let [x, y, z] = one.half;
+        let other_size = (x * x + y * y + z * z).sqrt();
+        let children = tree.children(index);
+        let mut left = 0u8;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize & 7;
+            near &= near - 1;
+            let child = children.units[lane];
+            let are_leaves = child.is_leaf() && group.other.is_leaf();
+            let limit = if are_leaves {
+                MEASURE_LEAVES_BELOW
+            } else {
+                OPEN_NODES_BELOW
+            };
+            let size = halves[lane];
+            if taken_off[lane] > limit * (size + other_size) {
+                left |= 1 << lane;
+                continue;
+            }
+            let units = if opened == 0 {
+                [child, group.other]
+            } else {
+                [group.other, child]
+            };
+            if are_leaves {
+                self.visit(Leaves {
+                    pair: group.pair,
+                    places: [trees[0].place(units[0]), trees[1].place(units[1])],
+                    direction: [0.0; 3],
+                });
+                continue;
+            }
+            let opens_b = if units[0].is_leaf() || units[1].is_leaf() {
+                units[0].is_leaf()
+            } else {
+                (opened == 0) == (other_size > size)
+            };
+            let side = usize::from(opens_b);
+            let node = trees[side].index(units[side]);
+            self.front.open.push(Group {
+                pair: group.pair,
+                node: node as u32,
+                other: units[1 - side],
+                opened: side as u8,
+                lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
+            });
+        }
+        if left != 0 {
+            group.lanes = left;
+            self.front.groups.push(group);
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! A pure set over an interval of a motion: its measure at the middle, and how much the motion may change it.
+
+use super::set_tree::Known;
+use super::way::Way;
+use crate::cobject::{Class, PureSet, PureShape};
+use crate::error::{Error, ErrorKind, Result};
+use crate::query::{PureAt, Scene};
+
+/// More than the rounding of products of rates and times.
+const RATE_SLACK: f64 = 1.0 + 1e-9;
+
+/// A pure set, or its complement, on a motion.
+pub(super) struct MovingPure {
+    /// Sets whose union it is.
+    parts: Vec<MovingPart>,
+    complement: bool,
+    /// What comes at most this near counts as contact.
+    threshold: f64,
+}
+
+/// A set with bounds of how its signed distance changes in the whole time.
+struct MovingPart {
+    set: PureSet,
+    falls: f64,
+    rises: f64,
+}
+
+/// A motion at the middle of an interval.
+pub(super) struct Moment<'a> {
+    pub way: &'a Way<'a>,
+    pub scene: &'a Scene<'a>,
+    /// Half the length of the interval.
+    pub half: f64,
+}
+
+impl MovingPure {
+    /// Fails for sets of which no speed is known.
+    pub fn new(way: &Way, set: &PureSet, complement: bool, threshold: f64) -> Result<Self> {
+        let mut parts = Vec::new();
+        for part in parts_of(way, set, complement || threshold > 0.0) {
+            let [falls, rises] = rates(way, &part);
+            if !falls.is_finite() || !rises.is_finite() {
+                return Err(Error::new(
+                    ErrorKind::Unsupported,
+                    format!(
+                        "of pure set {} no speed is known: a predicate that does not measure, or a custom joint without speeds",
+                        set.leaf.serial
+                    ),
+                ));
+            }
+            parts.push(MovingPart {
+                set: part,
+                falls,
+                rises,
+            });
+        }
+        Ok(Self {
+            parts,
+            complement,
+            threshold,
+        })
+    }
+
+    /// What is known over an interval.
+    pub fn over(&self, moment: &Moment) -> Result<Known> {
+        if self.complement {
+            return self.complement_over(moment);
+        }
+        let mut all = Known::Free;
+        for part in &self.parts {
+            match part.over(moment, self.threshold)? {
+                Known::Meets => return Ok(Known::Meets),
+                Known::Nothing => all = Known::Nothing,
+                Known::Free => {}
+            }
+        }
+        Ok(all)
+    }
+
+    /// The motion keeps out of the complement where it stays in one of the parts.
+    fn complement_over(&self, moment: &Moment) -> Result<Known> {
+        let mut all = Known::Meets;
+        for part in &self.parts {
+            match part.complement_over(moment, self.threshold)? {
+                Known::Free => return Ok(Known::Free),
+                Known::Nothing => all = Known::Nothing,
+                Known::Meets => {}
+            }
+        }
+        Ok(all)
+    }
+}
+
+impl MovingPart {
+    fn over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
+        let pure = self.at(moment, false);
+        let lower = pure.bounded_distance()?.lower;
+        // At the boundary of an open set, such as that beyond the joint limits, a configuration is outside.
+        let is_inside = pure.class()? == Class::Inside;
+        if is_inside || (threshold > 0.0 && lower <= threshold) {
+            return Ok(Known::Meets);
+        }
+        let falls = self.falls * moment.half * RATE_SLACK;
+        if falls == 0.0 || lower - threshold > falls {
+            return Ok(Known::Free);
+        }
+        let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
+        Ok(if lower - threshold > along {
+            Known::Free
+        } else {
+            Known::Nothing
+        })
+    }
+
+    fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
+        let rises = self.rises * moment.half * RATE_SLACK;
+        let pure = self.at(moment, true);
+        if threshold > 0.0 {
+            let lower = pure.bounded_distance()?.lower;
+            return Ok(if lower <= threshold {
+                Known::Meets
+            } else if rises == 0.0 || lower - threshold > rises {
+                Known::Free
+            } else {
+                Known::Nothing
+            });
+        }
+        if pure.class()? == Class::Inside {
+            return Ok(Known::Meets);
+        }
+        let stays = match self.set.measure(&moment.scene.space_state())? {
+            Some(measure) if !measure.is_bound => {
+                let highest = measure.signed + measure.error + rises;
+                let epsilon = self.set.epsilon();
+                highest < epsilon || (highest == epsilon && !self.set.shape.is_open())
+            }
+            _ => false,
+        };
+        Ok(if stays || rises == 0.0 {
+            Known::Free
+        } else {
+            Known::Nothing
+        })
+    }
+
+    fn at<'a>(&'a self, moment: &Moment<'a>, complement: bool) -> PureAt<'a> {
+        PureAt {
+            set: &self.set,
+            complement,
+            scene: moment.scene,
+        }
+    }
+
+    /// How far the link over a floor may come down from the middle of the interval on, by its motion along the normal alone:
+    /// nothing for a base that slides. Of straight motions.
+    fn along_normal(&self, moment: &Moment) -> Option<f64> {
+        let PureShape::Floor { links, normal, .. } = &self.set.shape else {
+            return None;
+        };
+        let &[link] = &links[..] else {
+            return None;
+        };
+        if moment.way.controls.is_some() {
+            return None;
+        }
+        let extent = moment.scene.link(link)?.0.radius_from_origin();
+        let space = moment.scene.space();
+        let state = moment.scene.state()?;
+        let toward = |sign: f64| {
+            let v = moment.way.line.v.iter();
+            let v: Vec<f64> = v.map(|rate| sign * moment.half * rate).collect();
+            space.directed_motion_bound(link, extent, normal, state, &v)
+        };
+        Some(toward(1.0).max(toward(-1.0)) * RATE_SLACK)
+    }
+}
+
+/// The sets that are followed one by one.
+fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
+    let space = way.line.cobject.space();
+    if matches!(set.shape, PureShape::BeyondLimits) {
+        // Between configurations in range, coordinates that move alone are in range.
+        let is_in_range = |q: &[f64]| space.beyond_limits(q).is_none();
+        let stays = match way.controls {
+            None => is_in_range(way.line.q) && is_in_range(&way.at(1.0)),
+            Some(controls) => controls.chunks_exact(way.line.q.len()).all(is_in_range),
+        };
+        if is_whole || !stays {
+            return vec![set.clone()];
+        }
+    }
+    set.parts_on_way(space)
+}
+
+/// Bounds of how much the signed distance falls and rises in the whole time.
+fn rates(way: &Way, set: &PureSet) -> [f64; 2] {
+    let space = way.line.cobject.space();
+    let (q, v) = (way.line.q, way.line.v);
+    let speed = || v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match &set.shape {
+        // Distances in the metric of C-space change no faster than the configuration.
+        PureShape::Predicate(predicate) if predicate.measures() => [set.scale() * speed(); 2],
+        PureShape::BeyondLimits => [set.scale() * speed(); 2],
+        PureShape::HalfSpace { .. } if way.controls.is_none() => {
+            let back: Vec<f64> = v.iter().map(|rate| -rate).collect();
+            [v, &back].map(|v| set.motion_bound(space, q, v))
+        }
+        PureShape::HalfSpace { .. } => [set.scale() * speed(); 2],
+        _ => [set.motion_bound(space, q, v); 2],
+    }
+}

@@ -1,0 +1,179 @@
+//! A C-object as a tree of unions and intersections over its leaves, with complements moved down to the leaves, and what is known of
+//! it over an interval of a motion.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use foldhash::fast::RandomState;
+
+use crate::cobject::{CObject, PureSet, Set};
+use crate::query::{Composition, Group, composition};
+
+/// What is known of a set over an interval of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    /// Through the interval the motion stays out of it.
+    Free,
+    /// At the middle of the interval the motion is in it.
+    Meets,
+    /// Neither is known.
+    Nothing,
+}
+
+/// A leaf of the tree.
+#[derive(Clone, Copy)]
+pub(super) struct SetLeaf<'a> {
+    pub content: LeafContent<'a>,
+    /// Stands for the complement.
+    pub complement: bool,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum LeafContent<'a> {
+    /// A union of induced sets.
+    Induced(&'a Group),
+    Pure(&'a PureSet),
+}
+
+#[derive(Debug)]
+enum Node {
+    Leaf(u32),
+    /// The union of nodes, at these places in the list of children.
+    Any(Range<usize>),
+    /// The intersection.
+    All(Range<usize>),
+}
+
+/// A C-object as a tree over leaves. What several sets share stands once.
+#[derive(Default)]
+pub(super) struct SetTree<'a> {
+    /// Children before parents; the root is the last.
+    nodes: Vec<Node>,
+    children: Vec<u32>,
+    pub leaves: Vec<SetLeaf<'a>>,
+}
+
+/// The nodes of sets by serial and whether the complement is meant.
+type Memo = HashMap<(u64, bool), u32, RandomState>;
+
+impl<'a> SetTree<'a> {
+    pub fn new(cobject: &'a CObject) -> Self {
+        let mut tree = Self::default();
+        tree.add(cobject, false, &mut Memo::default());
+        tree
+    }
+
+    /// Whether the set is a union of leaves that are no complements: what meets one of them meets the set.
+    pub fn is_plain_union(&self) -> bool {
+        let is_union = |node: &Node| !matches!(node, Node::All(_));
+        self.nodes.iter().all(is_union) && self.leaves.iter().all(|leaf| !leaf.complement)
+    }
+
+    /// What is known of the set, given what is known of its leaves.
+    pub fn known(&self, leaves: &[Known], memory: &mut Vec<Known>) -> Known {
+        memory.clear();
+        for node in &self.nodes {
+            let known = match node {
+                Node::Leaf(leaf) => leaves[*leaf as usize],
+                Node::Any(children) => decide(
+                    &self.children[children.clone()],
+                    memory,
+                    [Known::Meets, Known::Free],
+                ),
+                Node::All(children) => decide(
+                    &self.children[children.clone()],
+                    memory,
+                    [Known::Free, Known::Meets],
+                ),
+            };
+            memory.push(known);
+        }
+        *memory.last().expect("a set has a node")
+    }
+
+    fn add(&mut self, cobject: &'a CObject, complement: bool, memo: &mut Memo) -> u32 {
+        let key = (cobject.serial(), complement);
+        if let Some(node) = memo.get(&key) {
+            return *node;
+        }
+        let node = match cobject.set() {
+            Set::Pure(set) => self.add_leaf(LeafContent::Pure(set), complement),
+            Set::Complement(part) => self.add(part, !complement, memo),
+            set => {
+                let (is_any, group, parts) = match composition(set, complement) {
+                    Composition::Any(group, parts) => (true, group, parts),
+                    Composition::All(group, parts) => (false, group, parts),
+                };
+                let mut children: Vec<u32> = Vec::with_capacity(parts.len() + 1);
+                if let Some(group) = group {
+                    children.push(self.add_leaf(LeafContent::Induced(group), complement));
+                }
+                for part in parts {
+                    children.push(self.add(part, complement, memo));
+                }
+                let first = self.children.len();
+                self.children.extend(children);
+                let children = first..self.children.len();
+                self.push(if is_any {
+                    Node::Any(children)
+                } else {
+                    Node::All(children)
+                })
+            }
+        };
+        memo.insert(key, node);
+        node
+    }
+
+    fn add_leaf(&mut self, content: LeafContent<'a>, complement: bool) -> u32 {
+        self.leaves.push(SetLeaf {
+            content,
+            complement,
+        });
+        self.push(Node::Leaf(self.leaves.len() as u32 - 1))
+    }
+
+    fn push(&mut self, node: Node) -> u32 {
+        self.nodes.push(node);
+        self.nodes.len() as u32 - 1
+    }
+}
+
+/// `one` if it is known of some child, `all` if it is known of every child.
+fn decide(children: &[u32], known: &[Known], [one, all]: [Known; 2]) -> Known {
+    let mut is_all = true;
+    for child in children {
+        let child = known[*child as usize];
+        if child == one {
+            return one;
+        }
+        is_all &= child == all;
+    }
+    if is_all { all } else { Known::Nothing }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The truth table of a difference, and of its complement.
+    #[test]
+    fn parts_decide_the_whole() {
+        use Known::{Free, Meets, Nothing};
+        for (states, any, all) in [
+            ([Free, Free], Free, Free),
+            ([Free, Meets], Meets, Free),
+            ([Free, Nothing], Nothing, Free),
+            ([Meets, Meets], Meets, Meets),
+            ([Meets, Nothing], Meets, Nothing),
+            ([Nothing, Nothing], Nothing, Nothing),
+        ] {
+            for states in [states, [states[1], states[0]]] {
+                assert_eq!(decide(&[0, 1], &states, [Meets, Free]), any);
+                assert_eq!(decide(&[0, 1], &states, [Free, Meets]), all);
+            }
+        }
+        assert_eq!(decide(&[], &[], [Meets, Free]), Free);
+        assert_eq!(decide(&[], &[], [Free, Meets]), Meets);
+    }
+}

@@ -1,0 +1,116 @@
+//! A coordinate as a function of time.
+
+use smallvec::SmallVec;
+
+/// The highest degree of a curve.
+pub const MAX_DEGREE: usize = 16;
+
+/// A coordinate as a function of time, from 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Course {
+    /// `start + rate t`.
+    Line { start: f64, rate: f64 },
+    /// A Bezier curve, by the place and the number of its control points in a list.
+    Curve { first: u32, count: u32 },
+}
+
+/// A value with its first two derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CourseState {
+    pub value: f64,
+    pub rate: f64,
+    pub acceleration: f64,
+}
+
+/// Bounds from time 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CourseBounds {
+    /// Of the absolute value.
+    pub farthest: f64,
+    /// Of the first three derivatives' absolute values.
+    pub derivatives: [f64; 3],
+}
+
+impl Course {
+    /// The value and its derivatives at time t.
+    #[inline]
+    pub fn at(&self, t: f64, controls: &[f64]) -> CourseState {
+        match *self {
+            Self::Line { start, rate } => CourseState {
+                value: start + rate * t,
+                rate,
+                acceleration: 0.0,
+            },
+            Self::Curve { first, count } => {
+                let (first, count) = (first as usize, count as usize);
+                bezier_at(&controls[first..first + count], t)
+            }
+        }
+    }
+
+    /// The value is a mean of the control points, and each derivative one of multiples of their differences.
+    pub fn bounds(&self, controls: &[f64]) -> CourseBounds {
+        match *self {
+            Self::Line { start, rate } => CourseBounds {
+                farthest: start.abs().max((start + rate).abs()),
+                derivatives: [rate.abs(), 0.0, 0.0],
+            },
+            Self::Curve { first, count } => {
+                let (first, count) = (first as usize, count as usize);
+                let mut points: SmallVec<[f64; MAX_DEGREE + 1]> =
+                    controls[first..first + count].into();
+                let farthest = largest(&points);
+                let derivatives = [(); 3].map(|()| {
+                    differentiate(&mut points);
+                    largest(&points)
+                });
+                CourseBounds {
+                    farthest,
+                    derivatives,
+                }
+            }
+        }
+    }
+}
+
+fn largest(points: &[f64]) -> f64 {
+    points.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Turns the control points of a curve into those of its derivative.
+fn differentiate(points: &mut SmallVec<[f64; MAX_DEGREE + 1]>) {
+    let degree = points.len().saturating_sub(1);
+    for i in 0..degree {
+        points[i] = degree as f64 * (points[i + 1] - points[i]);
+    }
+    points.truncate(degree);
+}
+
+/// By de Casteljau's means: the last three of them give the derivatives.
+fn bezier_at(controls: &[f64], t: f64) -> CourseState {
+    let mut points: SmallVec<[f64; MAX_DEGREE + 1]> = controls.into();
+    let degree = (points.len() - 1) as f64;
+    let mut second = 0.0;
+    let mut first = 0.0;
+    for count in (1..points.len()).rev() {
+        if count == 2 {
+            second = points[2] - 2.0 * points[1] + points[0];
+        } else if count == 1 {
+            first = points[1] - points[0];
+        }
+        for i in 0..count {
+            points[i] += t * (points[i + 1] - points[i]);
+        }
+    }
+    CourseState {
+        value: points[0],
+        rate: degree * first,
+        acceleration: degree * (degree - 1.0) * second,
+    }
+}
+
+/// The value of a Bezier curve at time t.
+pub fn bezier(controls: impl Iterator<Item = f64>, t: f64) -> f64 {
+    let points: SmallVec<[f64; MAX_DEGREE + 1]> = controls.collect();
+    bezier_at(&points, t).value
+}

@@ -1,0 +1,505 @@
+//! All links on a motion through C-space: each link's pose in its parent is a chain of turns and shifts about and along axes that
+//! are fixed in the frame before them. So velocities and accelerations are known at any time, and bounds of the derivatives for the
+//! whole motion.
+
+use smallvec::SmallVec;
+
+use super::course::{Course, CourseState};
+use super::motion_rates::ChainRates;
+use super::{JointKind, Link, Robot};
+use crate::pose::{Mat3, Pose, Vec3};
+
+/// One step of a chain.
+#[derive(Clone, Copy, Debug)]
+enum Element {
+    /// A pose that stays.
+    Fixed(Pose),
+    /// A turn about a unit axis, in radians.
+    Turn { axis: Vec3, angle: Course },
+    /// A shift along a unit axis.
+    Shift { axis: Vec3, length: Course },
+}
+
+/// A link's parent, and its pose in it.
+#[derive(Clone, Debug)]
+struct LinkMotion {
+    parent: Option<usize>,
+    /// The elements' places in the list of all.
+    elements: [usize; 2],
+    /// Not so where a custom joint moves, of which no more than a speed is known.
+    is_known: bool,
+}
+
+/// How the coordinates of a robot go from time 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub enum CoordinateCourses<'a> {
+    /// From q with constant velocity v.
+    Line {
+        /// The configuration at time 0.
+        q: &'a [f64],
+        /// One entry per velocity.
+        v: &'a [f64],
+    },
+    /// On a Bezier curve; coordinates of quaternions and custom joints must rest.
+    Curve {
+        /// The control points, one configuration after another, of the whole space.
+        controls: &'a [f64],
+        /// The number of coordinates of the space.
+        nq: usize,
+        /// The robot's first coordinate in the space.
+        first: usize,
+    },
+}
+
+/// The links of robots on a motion; the time goes from 0 to 1.
+#[derive(Clone, Debug, Default)]
+pub struct LinkMotions {
+    links: Vec<LinkMotion>,
+    elements: Vec<Element>,
+    /// Of all curves.
+    controls: Vec<f64>,
+}
+
+/// Where a frame is at one time, and how it moves in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionState {
+    /// From the moving frame to the world.
+    pub pose: Pose,
+    /// The velocity of the moving frame's origin, a length per unit of time.
+    pub linear: Vec3,
+    /// The angular velocity, in radians per unit of time.
+    pub angular: Vec3,
+    /// The derivative of `linear`.
+    pub linear_acceleration: Vec3,
+    /// The derivative of `angular`.
+    pub angular_acceleration: Vec3,
+}
+
+/// The states of links at one time, each computed when it is first asked for.
+#[derive(Debug, Default)]
+pub struct LinkStates {
+    time: f64,
+    states: Vec<MotionState>,
+    /// Which of them are of this time.
+    is_known: Vec<bool>,
+}
+
+impl MotionState {
+    /// What rests at the origin of the world.
+    pub const REST: Self = Self {
+        pose: Pose {
+            rotation: Mat3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            translation: Vec3::new(0.0, 0.0, 0.0),
+        },
+        linear: Vec3::new(0.0, 0.0, 0.0),
+        angular: Vec3::new(0.0, 0.0, 0.0),
+        linear_acceleration: Vec3::new(0.0, 0.0, 0.0),
+        angular_acceleration: Vec3::new(0.0, 0.0, 0.0),
+    };
+
+    /// What rests at a pose.
+    pub fn at_rest(pose: Pose) -> Self {
+        Self { pose, ..Self::REST }
+    }
+
+    /// The velocity of a point that moves with the frame, `arm` from its origin.
+    #[inline]
+    pub fn velocity(&self, arm: &Vec3) -> Vec3 {
+        self.linear + self.angular.cross(arm)
+    }
+
+    /// The acceleration of such a point.
+    #[inline]
+    pub fn acceleration(&self, arm: &Vec3) -> Vec3 {
+        let swing = self.angular.cross(&self.angular.cross(arm));
+        self.linear_acceleration + self.angular_acceleration.cross(arm) + swing
+    }
+
+    /// A frame that is fixed to this one.
+    #[inline]
+    pub fn fixed(mut self, pose: &Pose) -> Self {
+        self.push_fixed(pose);
+        self
+    }
+
+    fn push_fixed(&mut self, pose: &Pose) {
+        let arm = self.pose.rotation * pose.translation;
+        self.carry(&arm);
+        self.pose.rotation *= pose.rotation;
+    }
+
+    /// Puts the origin `arm` away, where it moves with the frame.
+    #[inline]
+    fn carry(&mut self, arm: &Vec3) {
+        (self.linear, self.linear_acceleration) = (self.velocity(arm), self.acceleration(arm));
+        self.pose.translation += arm;
+    }
+
+    fn turn(&mut self, axis: &Vec3, angle: &CourseState) {
+        let direction = self.pose.rotation * axis;
+        let turn = direction * angle.rate;
+        self.angular_acceleration += self.angular.cross(&turn) + direction * angle.acceleration;
+        self.angular += turn;
+        self.pose = self.pose.turned_about(axis, angle.value);
+    }
+
+    fn shift(&mut self, axis: &Vec3, length: &CourseState) {
+        let direction = self.pose.rotation * axis;
+        self.carry(&(direction * length.value));
+        let velocity = direction * length.rate;
+        self.linear += velocity;
+        self.linear_acceleration +=
+            2.0 * self.angular.cross(&velocity) + direction * length.acceleration;
+    }
+}
+
+impl LinkStates {
+    /// Begins a new time, at which no link's state is known.
+    pub fn start(&mut self, motions: &LinkMotions, time: f64) {
+        self.time = time;
+        self.is_known.clear();
+        self.is_known.resize(motions.links.len(), false);
+        self.states.resize(motions.links.len(), MotionState::REST);
+    }
+
+    /// A link's state. Only of links whose motion is known.
+    pub fn of(&mut self, motions: &LinkMotions, link: usize) -> &MotionState {
+        if !self.is_known[link] {
+            let mut path: SmallVec<[usize; 16]> = SmallVec::new();
+            let mut next = Some(link);
+            while let Some(index) = next.filter(|&index| !self.is_known[index]) {
+                path.push(index);
+                next = motions.links[index].parent;
+            }
+            let mut state = next.map_or(MotionState::REST, |index| self.states[index]);
+            for index in path.into_iter().rev() {
+                motions.advance(&mut state, index, self.time);
+                self.states[index] = state;
+                self.is_known[index] = true;
+            }
+        }
+        &self.states[link]
+    }
+}
+
+impl LinkMotions {
+    /// The number of links.
+    pub fn len(&self) -> usize {
+        self.links.len()
+    }
+
+    /// Whether there are no links.
+    pub fn is_empty(&self) -> bool {
+        self.links.is_empty()
+    }
+
+    /// Adds a body that goes from a pose with a constant twist, linear and angular velocity in its own frame: a screw.
+    pub fn push_screw(&mut self, start: &Pose, linear: &Vec3, angular: &Vec3) {
+        let first = self.elements.len();
+        self.elements.push(Element::Fixed(*start));
+        self.screw(linear, angular);
+        self.links.push(LinkMotion {
+            parent: None,
+            elements: [first, self.elements.len()],
+            is_known: true,
+        });
+    }
+
+    /// From a link's state in the world of its parent to its own.
+    fn advance(&self, state: &mut MotionState, link: usize, t: f64) {
+        let [first, end] = self.links[link].elements;
+        for element in &self.elements[first..end] {
+            match element {
+                Element::Fixed(pose) => state.push_fixed(pose),
+                Element::Turn { axis, angle } => state.turn(axis, &angle.at(t, &self.controls)),
+                Element::Shift { axis, length } => state.shift(axis, &length.at(t, &self.controls)),
+            }
+        }
+    }
+
+    /// The links between a link and one that carries it, or the world: the link first.
+    fn path(&self, from: Option<usize>, link: usize) -> SmallVec<[usize; 16]> {
+        let mut path = SmallVec::new();
+        let mut next = Some(link);
+        while let Some(index) = next.filter(|_| next != from) {
+            path.push(index);
+            next = self.links[index].parent;
+        }
+        path
+    }
+
+    /// Whether the link's motion is known: no custom joint moves that carries it.
+    pub fn is_known(&self, link: usize) -> bool {
+        self.are_known(&self.path(None, link))
+    }
+
+    fn are_known(&self, path: &[usize]) -> bool {
+        path.iter().all(|link| self.links[*link].is_known)
+    }
+
+    /// The nearest link that carries both, or one of them itself; `None` for the world.
+    fn common_carrier(&self, mut links: [usize; 2]) -> Option<usize> {
+        // Parents have smaller numbers.
+        while links[0] != links[1] {
+            let later = usize::from(links[1] > links[0]);
+            links[later] = self.links[links[later]].parent?;
+        }
+        Some(links[0])
+    }
+
+    /// The bounds of a link's derivatives in the world, where all joints that are not known rest.
+    pub fn rates(&self, link: usize) -> ChainRates {
+        let mut rates = ChainRates::default();
+        for link in self.path(None, link).into_iter().rev() {
+            self.push_rates(&mut rates, link);
+        }
+        rates
+    }
+
+    /// Goes on from `rates`, which end in the frame of link `from`, to the frame of another link. Only the joints between the two
+    /// count. `None` where a custom joint between them moves.
+    pub fn rates_between(
+        &self,
+        mut rates: ChainRates,
+        from: usize,
+        link: usize,
+    ) -> Option<ChainRates> {
+        let shared = self.common_carrier([from, link]);
+        let [back, ahead] = [from, link].map(|link| self.path(shared, link));
+        if !self.are_known(&back) || !self.are_known(&ahead) {
+            return None;
+        }
+        for index in back {
+            let [first, end] = self.links[index].elements;
+            for element in self.elements[first..end].iter().rev() {
+                match element {
+                    Element::Fixed(pose) => rates.push_fixed(&pose.inverse()),
+                    other => self.push_element(&mut rates, other),
+                }
+            }
+        }
+        for index in ahead.into_iter().rev() {
+            self.push_rates(&mut rates, index);
+        }
+        Some(rates)
+    }
+
+    fn push_rates(&self, rates: &mut ChainRates, link: usize) {
+        let [first, end] = self.links[link].elements;
+        for element in &self.elements[first..end] {
+            self.push_element(rates, element);
+        }
+    }
+
+    fn push_element(&self, rates: &mut ChainRates, element: &Element) {
+        match element {
+            Element::Fixed(pose) => rates.push_fixed(pose),
+            Element::Turn { axis, angle } => rates.push_turn(axis, &angle.bounds(&self.controls)),
+            Element::Shift { axis, length } => {
+                rates.push_shift(axis, &length.bounds(&self.controls));
+            }
+        }
+    }
+
+    fn turn(&mut self, axis: Vec3, angle: Course) {
+        self.elements.push(Element::Turn { axis, angle });
+    }
+
+    fn shift(&mut self, axis: Vec3, length: Course) {
+        self.elements.push(Element::Shift { axis, length });
+    }
+
+    /// Adds a shift from `start` on at a constant velocity.
+    fn shift_at(&mut self, start: Vec3, velocity: Vec3) {
+        self.elements
+            .push(Element::Fixed(Pose::from_translation(start)));
+        let rate = velocity.norm();
+        if rate > 0.0 {
+            self.shift(velocity / rate, Course::Line { start: 0.0, rate });
+        }
+    }
+
+    /// Adds what a twist makes of the last frame, in the frame that it moves.
+    fn screw(&mut self, linear: &Vec3, angular: &Vec3) {
+        let rate = angular.norm();
+        if rate == 0.0 {
+            self.shift_at(Vec3::zeros(), *linear);
+            return;
+        }
+        let axis = angular / rate;
+        // The screw's axis passes through this point.
+        let center = axis.cross(linear) / rate;
+        let from_zero = |rate: f64| Course::Line { start: 0.0, rate };
+        self.elements
+            .push(Element::Fixed(Pose::from_translation(center)));
+        self.turn(axis, from_zero(rate));
+        self.shift(axis, from_zero(axis.dot(linear)));
+        self.elements
+            .push(Element::Fixed(Pose::from_translation(-center)));
+    }
+
+    /// The course of `multiplier * coordinate + offset`.
+    fn course(&mut self, courses: &CoordinateCourses, at: Place) -> Course {
+        let Place {
+            coordinate,
+            velocity,
+            multiplier,
+            offset,
+        } = at;
+        match courses {
+            CoordinateCourses::Line { q, v } => Course::Line {
+                start: multiplier * q[coordinate] + offset,
+                rate: multiplier * v[velocity],
+            },
+            CoordinateCourses::Curve {
+                controls,
+                nq,
+                first,
+            } => {
+                let own = controls.iter().skip(first + coordinate).step_by(*nq);
+                let begin = self.controls.len();
+                self.controls.extend(own.map(|x| multiplier * x + offset));
+                Course::Curve {
+                    first: begin as u32,
+                    count: (self.controls.len() - begin) as u32,
+                }
+            }
+        }
+    }
+}
+
+/// Where a coordinate and its velocity stand, and what the joint makes of it.
+struct Place {
+    coordinate: usize,
+    velocity: usize,
+    multiplier: f64,
+    offset: f64,
+}
+
+impl CoordinateCourses<'_> {
+    /// Whether none of a joint's coordinates changes.
+    fn rests(&self, link: &Link) -> bool {
+        let joint = &link.joint;
+        match self {
+            Self::Line { v, .. } => {
+                let own = &v[joint.velocity..joint.velocity + joint.kind.nv()];
+                own.iter().all(|rate| *rate == 0.0)
+            }
+            Self::Curve {
+                controls,
+                nq,
+                first,
+            } => {
+                let from = first + joint.coordinate;
+                let own = from..from + joint.kind.nq();
+                let mut points = controls.chunks_exact(*nq);
+                points.all(|point| point[own.clone()] == controls[own.clone()])
+            }
+        }
+    }
+
+    /// The coordinates at time 0, from the robot's first on.
+    fn start(&self) -> &[f64] {
+        match self {
+            Self::Line { q, .. } => q,
+            Self::Curve {
+                controls, first, ..
+            } => &controls[*first..],
+        }
+    }
+}
+
+impl Link {
+    /// Adds what the link's joint does. `false` where that is not known: custom joints that move, and quaternions on a curve.
+    fn push_motion(&self, motions: &mut LinkMotions, courses: &CoordinateCourses) -> bool {
+        let joint = &self.joint;
+        motions.elements.push(Element::Fixed(self.at));
+        let place = |k: usize| Place {
+            coordinate: joint.coordinate + k,
+            velocity: joint.velocity + k,
+            multiplier: 1.0,
+            offset: 0.0,
+        };
+        let of_axis = Place {
+            multiplier: joint.multiplier,
+            offset: joint.offset,
+            ..place(0)
+        };
+        match (&joint.kind, courses) {
+            (JointKind::Fixed, _) => {}
+            (JointKind::Revolute, _) => {
+                let angle = motions.course(courses, of_axis);
+                motions.turn(joint.axis, angle);
+            }
+            (JointKind::Prismatic, _) => {
+                let length = motions.course(courses, of_axis);
+                motions.shift(joint.axis, length);
+            }
+            (JointKind::Planar, _) => {
+                motions.shift_by(courses, [place(0), place(1)]);
+                let angle = motions.course(courses, place(2));
+                motions.turn(Vec3::z(), angle);
+            }
+            (JointKind::FreeEuler, _) => {
+                motions.shift_by(courses, [place(0), place(1), place(2)]);
+                for (axis, k) in [(Vec3::y(), 3), (Vec3::z(), 4), (Vec3::x(), 5)] {
+                    let angle = motions.course(courses, place(k));
+                    motions.turn(axis, angle);
+                }
+            }
+            (kind, _) => {
+                let Ok(start) = joint.motion(courses.start()) else {
+                    return false;
+                };
+                motions.elements.push(Element::Fixed(start));
+                if courses.rests(self) {
+                    return true;
+                }
+                let CoordinateCourses::Line { v, .. } = courses else {
+                    return false;
+                };
+                let vector = |k: usize| Vec3::from_column_slice(&v[joint.velocity + k..][..3]);
+                match kind {
+                    JointKind::Free => motions.screw(&vector(0), &vector(3)),
+                    JointKind::Spherical => motions.screw(&Vec3::zeros(), &vector(0)),
+                    _ => return false,
+                }
+            }
+        }
+        true
+    }
+}
+
+impl LinkMotions {
+    /// Adds a shift by the first coordinates of a joint, along x, y and z.
+    fn shift_by<const N: usize>(&mut self, courses: &CoordinateCourses, places: [Place; N]) {
+        if let CoordinateCourses::Line { q, v } = courses {
+            let (mut start, mut velocity) = (Vec3::zeros(), Vec3::zeros());
+            for (k, place) in places.iter().enumerate() {
+                (start[k], velocity[k]) = (q[place.coordinate], v[place.velocity]);
+            }
+            self.shift_at(start, velocity);
+            return;
+        }
+        for (place, axis) in places.into_iter().zip([Vec3::x(), Vec3::y(), Vec3::z()]) {
+            let length = self.course(courses, place);
+            self.shift(axis, length);
+        }
+    }
+}
+
+impl Robot {
+    /// Adds the robot's links, whose numbers go on from those that are there.
+    pub fn append_motions(&self, motions: &mut LinkMotions, courses: &CoordinateCourses) {
+        let offset = motions.links.len();
+        for link in self.links() {
+            let first = motions.elements.len();
+            let is_known = link.push_motion(motions, courses);
+            motions.links.push(LinkMotion {
+                parent: link.parent.map(|parent| parent + offset),
+                elements: [first, motions.elements.len()],
+                is_known,
+            });
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Bounds of how fast links move on a motion.
+
+use super::course::CourseBounds;
+use crate::pose::{Pose, Vec3};
+
+/// Bounds for a whole motion: the k-th derivative of a point's position is at most `origin[k - 1] + turn[k - 1] r`, for points no
+/// farther than r from the moving frame's origin.
+///
+/// A vector of length d behind turns about axes of the frames before them has a k-th derivative of at most `turn[k - 1] d`, by the
+/// product rule; what lies along the axis of a turn is not moved by it. The origin's place is the sum of such vectors.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MotionRates {
+    /// Of what turns: 1, 2 and 3 derivatives of a unit vector.
+    pub turn: [f64; 3],
+    /// The first three derivatives of the origin.
+    pub origin: [f64; 3],
+    /// The sum of the lengths of all that the origin's place is a sum of: what its rounding is relative to.
+    pub size: f64,
+    /// The largest angle of a turn, in radians: an angle is rounded relative to itself.
+    pub angle: f64,
+}
+
+/// The bounds along a chain of frames, up to one of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ChainRates {
+    /// Of the last frame as the first sees it.
+    pub rates: MotionRates,
+    /// The sums over all turns of the bounds of their angles' derivatives.
+    angles: [f64; 3],
+    /// The axis of the last turn, in the last frame, with [`MotionRates::turn`] of the turns before it.
+    last: Option<(Vec3, [f64; 3])>,
+}
+
+impl ChainRates {
+    /// Goes on to a frame that is fixed to the last one.
+    pub fn push_fixed(&mut self, pose: &Pose) {
+        self.carry(&pose.translation, 1.0, [0.0; 3]);
+        if let Some((axis, _)) = &mut self.last {
+            *axis = pose.rotation.tr_mul(axis);
+        }
+    }
+
+    /// Goes on behind a turn about a unit axis.
+    pub(super) fn push_turn(&mut self, axis: &Vec3, bounds: &CourseBounds) {
+        if bounds.derivatives == [0.0; 3] {
+            // Where it always points is of no use: it may be turned away from the axis before it.
+            self.last = None;
+        } else {
+            self.last = Some((*axis, self.rates.turn));
+        }
+        for (sum, bound) in self.angles.iter_mut().zip(bounds.derivatives) {
+            *sum += bound;
+        }
+        let [s1, s2, s3] = self.angles;
+        self.rates.turn = [s1, s1 * s1 + s2, s1 * s1 * s1 + 3.0 * s1 * s2 + s3];
+        self.rates.angle = self.rates.angle.max(bounds.farthest);
+    }
+
+    /// Goes on behind a shift along a unit axis.
+    pub(super) fn push_shift(&mut self, axis: &Vec3, bounds: &CourseBounds) {
+        self.carry(axis, bounds.farthest, bounds.derivatives);
+    }
+
+    /// Moves the origin along `arm`, times a factor that is at most `length` and has derivatives of at most `derivatives`.
+    fn carry(&mut self, arm: &Vec3, length: f64, derivatives: [f64; 3]) {
+        let whole = arm.norm();
+        self.rates.size += whole * length;
+        let parts = match self.last {
+            // Along the last turn's axis only the turns before it count.
+            Some((axis, before)) => [
+                (axis.dot(arm).abs().min(whole), before),
+                (axis.cross(arm).norm().min(whole), self.rates.turn),
+            ],
+            None => [(whole, self.rates.turn), (0.0, [0.0; 3])],
+        };
+        let [l1, l2, l3] = derivatives;
+        for (part, [t1, t2, t3]) in parts {
+            let derivatives = [
+                t1 * length + l1,
+                t2 * length + 2.0 * t1 * l1 + l2,
+                t3 * length + 3.0 * t2 * l1 + 3.0 * t1 * l2 + l3,
+            ];
+            for (origin, derivative) in self.rates.origin.iter_mut().zip(derivatives) {
+                *origin += part * derivative;
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Where links are on a motion through C-space, how they move, and bounds of how they may: against the poses of the robot.
+
+use std::sync::Arc;
+
+use cstk::pose::{Pose, Vec3};
+use cstk::robot::{
+    ChainRates, JointKind, LinkDefinition, LinkMotions, LinkStates, MotionState, bezier,
+};
+use cstk::space::Space;
+
+use helpers::random::Random;
+use helpers::robots::{link, robot, space};
+
+/// The last two move on straight segments only.
+const KINDS: [JointKind; 7] = [
+    JointKind::Fixed,
+    JointKind::Revolute,
+    JointKind::Prismatic,
+    JointKind::Planar,
+    JointKind::FreeEuler,
+    JointKind::Spherical,
+    JointKind::Free,
+];
+
+/// The links of a random robot on a random motion, and the poses that the robot itself has at a time.
+struct Case {
+    motions: LinkMotions,
+    poses: Box<dyn Fn(f64) -> Vec<Pose>>,
+}
+
+fn random_space(random: &mut Random, kinds: &[JointKind]) -> Arc<Space> {
+    let length = 1 + random.below(5);
+    let links = (0..length).map(|i| {
+        let mut definition = LinkDefinition {
+            at: random.pose(1.0),
+            ..link(
+                i.checked_sub(1 + random.below(2)),
+                kinds[random.below(kinds.len())].clone(),
+                [random.point(1.0), Vec3::z()][random.below(2)],
+            )
+        };
+        if definition.kind.has_axis() {
+            definition.multiplier = random.within(-2.0, 2.0);
+            definition.offset = random.within(-1.0, 1.0);
+        }
+        definition
+    });
+    let links = links.collect();
+    space(vec![
+        robot(3, links),
+        robot(3, vec![link(None, JointKind::Revolute, Vec3::z())]),
+    ])
+}
+
+fn case(random: &mut Random) -> Case {
+    let is_curved = random.below(2) == 0;
+    let space = random_space(random, if is_curved { &KINDS[..5] } else { &KINDS });
+    let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
+        (0..space.nv())
+            .map(|_| random.within(-size, size))
+            .collect()
+    };
+    if is_curved {
+        let count = 1 + random.below(5);
+        let controls: Vec<f64> = (0..count).flat_map(|_| drawn(random, 1.5)).collect();
+        let motions = space.link_motions_on_curve(&controls);
+        let nq = space.nq();
+        let poses = move |t: f64| {
+            let of = |c: usize| bezier(controls.iter().skip(c).step_by(nq).copied(), t);
+            let q: Vec<f64> = (0..nq).map(of).collect();
+            space.link_poses(&q).unwrap()
+        };
+        return Case {
+            motions,
+            poses: Box::new(poses),
+        };
+    }
+    let q = space.step(&space.neutral(), &drawn(random, 1.5));
+    let size = [0.1, 1.0, 3.0][random.below(3)];
+    let mut v = drawn(random, size);
+    // Some coordinates rest, as most do in a planner's last joints.
+    v.iter_mut()
+        .for_each(|rate| *rate *= f64::from(u8::from(random.below(4) > 0)));
+    Case {
+        motions: space.link_motions(&q, &v),
+        poses: Box::new(move |t| {
+            let part: Vec<f64> = v.iter().map(|rate| rate * t).collect();
+            space.link_poses(&space.step(&q, &part)).unwrap()
+        }),
+    }
+}
+
+fn state(motions: &LinkMotions, link: usize, t: f64) -> MotionState {
+    let mut states = LinkStates::default();
+    states.start(motions, t);
+    *states.of(motions, link)
+}
+
+#[test]
+fn poses_are_those_of_the_robot() {
+    let mut random = Random::new(81);
+    let mut states = LinkStates::default();
+    for _ in 0..2000 {
+        let case = case(&mut random);
+        for t in [0.0, random.within(0.0, 1.0), 1.0] {
+            states.start(&case.motions, t);
+            let truth = (case.poses)(t);
+            assert_eq!(truth.len(), case.motions.len());
+            // Asked for in any order.
+            let first = random.below(truth.len());
+            for link in (first..truth.len()).chain(0..first) {
+                let found = states.of(&case.motions, link).pose;
+                assert!((found.rotation - truth[link].rotation).amax() < 1e-12);
+                assert!((found.translation - truth[link].translation).amax() < 1e-11);
+            }
+        }
+    }
+}
+
+/// Central differences of the poses are the oracle of velocities, those of velocities the oracle of accelerations.
+#[test]
+fn velocities_and_accelerations_are_derivatives() {
+    let mut random = Random::new(83);
+    let step = 1e-5;
+    for _ in 0..1000 {
+        let case = case(&mut random);
+        let link = random.below(case.motions.len());
+        let t = random.within(0.1, 0.9);
+        let point = random.point(1.0);
+        let at = |t: f64| (case.poses)(t)[link].transform_point(&point);
+        let velocity = |t: f64| {
+            let state = state(&case.motions, link, t);
+            state.velocity(&(state.pose.rotation * point))
+        };
+        let now = state(&case.motions, link, t);
+        let rates = case.motions.rates(link).rates;
+        let scale = 1.0 + rates.origin[2] + rates.turn[2];
+        let by_poses = (at(t + step) - at(t - step)) / (2.0 * step);
+        assert!((velocity(t) - by_poses).amax() < 1e-8 * scale);
+        let by_velocities = (velocity(t + step) - velocity(t - step)) / (2.0 * step);
+        let acceleration = now.acceleration(&(now.pose.rotation * point));
+        assert!((acceleration - by_velocities).amax() < 1e-7 * scale);
+    }
+}
+
+/// The first three derivatives of a point as another link sees it, or the world, by differences of the robot's poses.
+#[test]
+fn no_derivative_is_above_its_bound() {
+    let mut random = Random::new(84);
+    // The largest part of a bound that a derivative has come to: 1 would be tight.
+    let mut used = [0.0f64; 3];
+    for round in 0..3000 {
+        let case = case(&mut random);
+        let [link, other] = [(); 2].map(|()| random.below(case.motions.len()));
+        let seen_from = (round % 2 == 0).then_some(other);
+        let rates = match seen_from {
+            None => case.motions.rates(link),
+            Some(from) => {
+                let start = ChainRates::default();
+                case.motions.rates_between(start, from, link).unwrap()
+            }
+        };
+        let rates = rates.rates;
+        let point = random.point(0.5);
+        let bound = |k: usize| rates.origin[k] + rates.turn[k] * point.norm();
+        let place = |t: f64| {
+            let poses = (case.poses)(t);
+            let there = poses[link].transform_point(&point);
+            seen_from.map_or(there, |from| poses[from].inverse().transform_point(&there))
+        };
+        for i in 1..10 {
+            let t = f64::from(i) / 10.0;
+            let h = 1e-3;
+            let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| place(t + k * h));
+            let derivatives = [
+                (a - 8.0 * b + 8.0 * d - e) / (12.0 * h),
+                (-a + 16.0 * b - 30.0 * c + 16.0 * d - e) / (12.0 * h * h),
+                (-a + 2.0 * b - 2.0 * d + e) / (2.0 * h * h * h),
+            ];
+            for (k, derivative) in derivatives.into_iter().enumerate() {
+                let derivative = derivative.norm();
+                // The differences' own errors: of rounding, and of the next derivatives.
+                let size = 1.0 + bound(2) * (1.0 + rates.turn[0].powi(2));
+                let slack = [1e-9, 1e-7, 1e-4][k] * size;
+                assert!(
+                    derivative <= bound(k) + slack,
+                    "derivative {}: {derivative} of {}",
+                    k + 1,
+                    bound(k)
+                );
+                if bound(k) > 0.1 {
+                    used[k] = used[k].max(derivative / bound(k));
+                }
+            }
+        }
+    }
+    println!("used of the bounds at most: {used:.3?}");
+    assert!(
+        used[0] > 0.9 && used[1] > 0.8,
+        "bounds of {used:?} of themselves are of no use"
+    );
+}
