@@ -59,7 +59,7 @@ pub struct MotionAnswer {
     pub times: [f64; 2],
     /// The configuration at the second time.
     pub configuration: Vec<f64>,
-    /// The distance there, with its witness: of hits and of what is near.
+    /// The distance there, with its witness: of hits and of what is near, unless lengths and units of C-space mix in the set.
     pub distance: Option<Distance>,
 }
 
@@ -130,7 +130,9 @@ impl QueryContext {
         options: &MotionOptions,
     ) -> Result<World> {
         options.check()?;
-        cobject.require_one_metric()?;
+        if options.threshold > 0.0 {
+            cobject.require_one_metric()?;
+        }
         Ok(self.look(cobject))
     }
 
@@ -202,11 +204,13 @@ impl QueryContext {
     ) -> Result<MotionAnswer> {
         let configuration = way.at(times[1]);
         let distance = match outcome {
-            MotionOutcome::Hit | MotionOutcome::Near => {
+            MotionOutcome::Hit | MotionOutcome::Near
+                if way.line.cobject.require_one_metric().is_ok() =>
+            {
                 let at = Configuration::Coordinates(&configuration);
                 Some(self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY)?)
             }
-            MotionOutcome::Free | MotionOutcome::Undecided => None,
+            _ => None,
         };
         Ok(MotionAnswer {
             outcome,

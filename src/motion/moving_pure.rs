@@ -18,11 +18,10 @@ pub(super) struct MovingPure {
     threshold: f64,
 }
 
-/// A set with bounds of how its signed distance changes in the whole time.
+/// A set with a bound of how its signed distance changes in the whole time.
 struct MovingPart {
     set: PureSet,
-    falls: f64,
-    rises: f64,
+    rate: f64,
 }
 
 /// A motion at the middle of an interval.
@@ -38,8 +37,8 @@ impl MovingPure {
     pub fn new(way: &Way, set: &PureSet, complement: bool, threshold: f64) -> Result<Self> {
         let mut parts = Vec::new();
         for part in parts_of(way, set, complement || threshold > 0.0) {
-            let [falls, rises] = rates(way, &part);
-            if !falls.is_finite() || !rises.is_finite() {
+            let rate = rate(way, &part);
+            if !rate.is_finite() {
                 return Err(Error::new(
                     ErrorKind::Unsupported,
                     format!(
@@ -48,11 +47,7 @@ impl MovingPure {
                     ),
                 ));
             }
-            parts.push(MovingPart {
-                set: part,
-                falls,
-                rises,
-            });
+            parts.push(MovingPart { set: part, rate });
         }
         Ok(Self {
             parts,
@@ -100,8 +95,8 @@ impl MovingPart {
         if is_inside || (threshold > 0.0 && lower <= threshold) {
             return Ok(Known::Meets);
         }
-        let falls = self.falls * moment.half * RATE_SLACK;
-        if falls == 0.0 || lower - threshold > falls {
+        let change = self.rate * moment.half * RATE_SLACK;
+        if change == 0.0 || lower - threshold > change {
             return Ok(Known::Free);
         }
         let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
@@ -113,13 +108,13 @@ impl MovingPart {
     }
 
     fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
-        let rises = self.rises * moment.half * RATE_SLACK;
+        let change = self.rate * moment.half * RATE_SLACK;
         let pure = self.at(moment, true);
         if threshold > 0.0 {
             let lower = pure.bounded_distance()?.lower;
             return Ok(if lower <= threshold {
                 Known::Meets
-            } else if rises == 0.0 || lower - threshold > rises {
+            } else if change == 0.0 || lower - threshold > change {
                 Known::Free
             } else {
                 Known::Nothing
@@ -130,13 +125,19 @@ impl MovingPart {
         }
         let stays = match self.set.measure(&moment.scene.space_state())? {
             Some(measure) if !measure.is_bound => {
-                let highest = measure.signed + measure.error + rises;
-                let epsilon = self.set.epsilon();
+                let highest = measure.signed + measure.error + change;
+                // Predicates decide about contact themselves.
+                let is_predicate = matches!(self.set.shape, PureShape::Predicate(_));
+                let epsilon = if is_predicate {
+                    0.0
+                } else {
+                    self.set.epsilon()
+                };
                 highest < epsilon || (highest == epsilon && !self.set.shape.is_open())
             }
             _ => false,
         };
-        Ok(if stays || rises == 0.0 {
+        Ok(if stays || change == 0.0 {
             Known::Free
         } else {
             Known::Nothing
@@ -192,20 +193,21 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
     set.parts_on_way(space)
 }
 
-/// Bounds of how much the signed distance falls and rises in the whole time.
-fn rates(way: &Way, set: &PureSet) -> [f64; 2] {
+/// Bounds how much the signed distance changes in the whole time.
+fn rate(way: &Way, set: &PureSet) -> f64 {
     let space = way.line.cobject.space();
     let (q, v) = (way.line.q, way.line.v);
     let speed = || v.iter().map(|x| x * x).sum::<f64>().sqrt();
     match &set.shape {
         // Distances in the metric of C-space change no faster than the configuration.
-        PureShape::Predicate(predicate) if predicate.measures() => [set.scale() * speed(); 2],
-        PureShape::BeyondLimits => [set.scale() * speed(); 2],
+        PureShape::Predicate(predicate) if predicate.measures() => set.scale() * speed(),
+        PureShape::BeyondLimits => set.scale() * speed(),
         PureShape::HalfSpace { .. } if way.controls.is_none() => {
             let back: Vec<f64> = v.iter().map(|rate| -rate).collect();
-            [v, &back].map(|v| set.motion_bound(space, q, v))
+            let falls = |v: &[f64]| set.motion_bound(space, q, v);
+            falls(v).max(falls(&back))
         }
-        PureShape::HalfSpace { .. } => [set.scale() * speed(); 2],
-        _ => [set.motion_bound(space, q, v); 2],
+        PureShape::HalfSpace { .. } => set.scale() * speed(),
+        _ => set.motion_bound(space, q, v),
     }
 }

@@ -1,5 +1,6 @@
 //! Motions: slides, their paths and their proofs.
 
+mod compound;
 mod motions;
 mod slide;
 mod slide_paths;
