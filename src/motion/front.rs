@@ -1,7 +1,8 @@
 //! The front of a proof: the pairs of boxes and primitives that an interval of the motion left undecided. A pair that an interval
 //! decides is never looked at again in its halves.
 
-use super::moving_pair::{Kinematics, MovingPair, OverInterval};
+use super::crowd::{Crowd, CrowdOver};
+use super::moving_pair::{Kinematics, MovingPair, PairOver};
 use super::set_tree::Known;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
@@ -29,6 +30,15 @@ struct Group {
     lanes: u8,
 }
 
+/// Some of eight objects of a crowd against the body that moves among them.
+#[derive(Clone, Copy)]
+struct Bundle {
+    crowd: u32,
+    eight: u32,
+    /// The objects, as bits.
+    lanes: u8,
+}
+
 /// Two primitives, and what parted them last: see [`SweptLeaves::Undecided`].
 #[derive(Clone, Copy)]
 struct Leaves {
@@ -40,6 +50,7 @@ struct Leaves {
 /// A part of the front: what stands between two places of each list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part {
+    bundles: [usize; 2],
     groups: [usize; 2],
     leaves: [usize; 2],
     solids: [usize; 2],
@@ -49,6 +60,7 @@ pub(super) struct Part {
 /// The lists of all parts of the front. Each is in order of the set tree's leaves within a part.
 #[derive(Default)]
 pub(super) struct Front {
+    bundles: Vec<Bundle>,
     groups: Vec<Group>,
     leaves: Vec<Leaves>,
     /// Pairs with a solid of which it is not known whether one body is inside the other.
@@ -59,15 +71,32 @@ pub(super) struct Front {
 }
 
 impl Front {
-    /// Begins with all pairs; `solids` where containment is to be followed.
-    pub fn start(&mut self, pairs: &[MovingPair], solids: bool) -> Part {
-        self.groups.clear();
-        self.leaves.clear();
-        self.solids.clear();
-        self.settled.clear();
+    /// Begins with all pairs, those of crowds in bundles; `solids` where containment is to be followed.
+    pub fn start(&mut self, pairs: &[MovingPair], crowds: &[Crowd], solids: bool) -> Part {
+        self.truncate(&Part::default());
         self.open.clear();
-        for (number, pair) in (0..).zip(pairs) {
-            let [_, b] = pair.bodies();
+        let mut number = 0;
+        for (crowd, index) in crowds.iter().zip(0..) {
+            self.add_pairs(pairs, number..crowd.first_pair);
+            number = crowd.first_pair + crowd.count();
+            self.bundles
+                .extend(crowd.lanes().map(|(eight, lanes)| Bundle {
+                    crowd: index,
+                    eight,
+                    lanes,
+                }));
+        }
+        self.add_pairs(pairs, number..pairs.len() as u32);
+        if solids {
+            let with_solid = (0..).zip(pairs).filter(|(_, pair)| pair.has_solid());
+            self.solids.extend(with_solid.map(|(number, _)| number));
+        }
+        self.part_after(&Part::default())
+    }
+
+    fn add_pairs(&mut self, pairs: &[MovingPair], numbers: std::ops::Range<u32>) {
+        for number in numbers {
+            let [_, b] = pairs[number as usize].bodies();
             self.groups.push(Group {
                 pair: number,
                 node: 0,
@@ -75,16 +104,13 @@ impl Front {
                 opened: 0,
                 lanes: 1,
             });
-            if solids && pair.has_solid() {
-                self.solids.push(number);
-            }
         }
-        self.part_after(&Part::default())
     }
 
     /// What stands behind a part.
     fn part_after(&self, part: &Part) -> Part {
         Part {
+            bundles: [part.bundles[1], self.bundles.len()],
             groups: [part.groups[1], self.groups.len()],
             leaves: [part.leaves[1], self.leaves.len()],
             solids: [part.solids[1], self.solids.len()],
@@ -94,6 +120,7 @@ impl Front {
 
     /// Forgets what stands behind a part.
     fn truncate(&mut self, part: &Part) {
+        self.bundles.truncate(part.bundles[1]);
         self.groups.truncate(part.groups[1]);
         self.leaves.truncate(part.leaves[1]);
         self.solids.truncate(part.solids[1]);
@@ -104,16 +131,18 @@ impl Front {
 /// Pairs over one interval, made when they are first asked for.
 #[derive(Default)]
 pub(super) struct OverPairs<'a> {
-    /// `None` for pairs whose balls stay apart.
-    made: Vec<Option<OverInterval<'a>>>,
+    made: Vec<PairOver<'a>>,
     /// The place of each pair in `made`, and the interval for which it was made.
     places: Vec<(u32, u32)>,
     interval: u32,
+    /// The crowd looked at last, in this interval.
+    crowd: Option<(u32, CrowdOver)>,
 }
 
 impl<'a> OverPairs<'a> {
     pub fn new(count: usize) -> Self {
         Self {
+            crowd: None,
             made: Vec::new(),
             places: vec![(0, 0); count],
             interval: 0,
@@ -123,6 +152,7 @@ impl<'a> OverPairs<'a> {
     fn start(&mut self) {
         self.interval += 1;
         self.made.clear();
+        self.crowd = None;
     }
 
     fn of(
@@ -131,19 +161,20 @@ impl<'a> OverPairs<'a> {
         pairs: &[MovingPair<'a>],
         kinematics: &mut Kinematics,
         half: f64,
-    ) -> Option<&OverInterval<'a>> {
+    ) -> &PairOver<'a> {
         let (place, interval) = &mut self.places[number];
         if *interval != self.interval {
             (*place, *interval) = (self.made.len() as u32, self.interval);
             self.made.push(pairs[number].over(kinematics, half));
         }
-        self.made[*place as usize].as_ref()
+        &self.made[*place as usize]
     }
 }
 
 /// One interval's look at its part of the front.
 pub(super) struct Look<'l, 'p, 'k> {
     pub pairs: &'p [MovingPair<'p>],
+    pub crowds: &'p [Crowd],
     pub over: &'l mut OverPairs<'p>,
     pub kinematics: &'l mut Kinematics<'k>,
     /// Half the length of the interval.
@@ -165,8 +196,8 @@ pub(super) struct LeafLook {
     meets: bool,
     /// Primitive pairs whose depth was computed.
     depths: u32,
-    /// Where its undecided groups and leaves begin.
-    first: [usize; 2],
+    /// Where its undecided bundles, groups and leaves begin.
+    first: [usize; 3],
 }
 
 impl Look<'_, '_, '_> {
@@ -207,7 +238,11 @@ impl Look<'_, '_, '_> {
         self.leaf = LeafLook {
             complement,
             is_decided: is_passed,
-            first: [self.front.groups.len(), self.front.leaves.len()],
+            first: [
+                self.front.bundles.len(),
+                self.front.groups.len(),
+                self.front.leaves.len(),
+            ],
             ..LeafLook::default()
         };
         // Primitives first: they decide contacts.
@@ -232,6 +267,22 @@ impl Look<'_, '_, '_> {
             open.extend_from_slice(&groups[first..cursor.groups[0]]);
             while let Some(group) = self.front.open.pop() {
                 self.open(lanes, group);
+            }
+        }
+        let first = cursor.bundles[0];
+        while cursor.bundles[0] < part.bundles[1] {
+            let crowd = &self.crowds[self.front.bundles[cursor.bundles[0]].crowd as usize];
+            if self.pairs[crowd.first_pair as usize].leaf as usize != leaf {
+                break;
+            }
+            cursor.bundles[0] += 1;
+        }
+        if !is_settled {
+            for i in first..cursor.bundles[0] {
+                self.open_bundle(lanes, self.front.bundles[i]);
+                while let Some(group) = self.front.open.pop() {
+                    self.open(lanes, group);
+                }
             }
         }
         let solids = cursor.solids[0];
@@ -259,12 +310,15 @@ impl Look<'_, '_, '_> {
             ..
         } = self.leaf;
         let front = &mut *self.front;
-        let is_left = front.groups.len() > first[0] || front.leaves.len() > first[1];
+        let is_left = front.bundles.len() > first[0]
+            || front.groups.len() > first[1]
+            || front.leaves.len() > first[2];
         self.known[leaf] = if complement {
             if is_decided {
                 // It stays in the set: nothing of the leaf is looked at again.
-                front.groups.truncate(first[0]);
-                front.leaves.truncate(first[1]);
+                front.bundles.truncate(first[0]);
+                front.groups.truncate(first[1]);
+                front.leaves.truncate(first[2]);
                 front.settled.push((leaf as u32, Known::Free));
                 Known::Free
             } else if is_left || meets {
@@ -285,13 +339,7 @@ impl Look<'_, '_, '_> {
     fn look_at_solids(&mut self, solids: [usize; 2]) {
         for i in solids[0]..solids[1] {
             let number = self.front.solids[i];
-            let first = self.leaf.first;
-            let is_left = self.front.groups[first[0]..]
-                .iter()
-                .any(|g| g.pair == number)
-                || self.front.leaves[first[1]..]
-                    .iter()
-                    .any(|l| l.pair == number);
+            let is_left = self.is_left(number);
             if is_left || self.leaf.is_decided {
                 self.front.solids.push(number);
                 continue;
@@ -300,7 +348,7 @@ impl Look<'_, '_, '_> {
                 .over
                 .of(number as usize, self.pairs, self.kinematics, self.half);
             // Balls that stay apart hold nothing of each other.
-            let Some(over) = over else {
+            let PairOver::Near(over) = over else {
                 continue;
             };
             if over.pairing.is_one_inside(self.scratch) {
@@ -309,6 +357,20 @@ impl Look<'_, '_, '_> {
                 self.front.solids.push(number);
             }
         }
+    }
+
+    /// Whether something of a pair is left to the halves.
+    fn is_left(&self, number: u32) -> bool {
+        let first = self.leaf.first;
+        let is_bundled = |bundle: &Bundle| {
+            let start = self.crowds[bundle.crowd as usize].first_pair + 8 * bundle.eight;
+            let lane = number.wrapping_sub(start);
+            lane < 8 && bundle.lanes >> lane & 1 == 1
+        };
+        let front = &*self.front;
+        front.bundles[first[0]..].iter().any(is_bundled)
+            || front.groups[first[1]..].iter().any(|g| g.pair == number)
+            || front.leaves[first[2]..].iter().any(|l| l.pair == number)
     }
 
     /// Whether nothing more is to be looked at of the leaf.
@@ -324,8 +386,13 @@ impl Look<'_, '_, '_> {
         }
         let number = pair.pair as usize;
         let over = self.over.of(number, self.pairs, self.kinematics, self.half);
-        let Some(over) = over else {
-            return;
+        let over = match over {
+            PairOver::Near(over) => over,
+            PairOver::Apart => return,
+            PairOver::TooLong => {
+                self.front.leaves.push(pair);
+                return;
+            }
         };
         self.scratch.count_primitive_pair();
         let found = over.pairing.swept_leaves(
@@ -356,8 +423,103 @@ impl Look<'_, '_, '_> {
             self.leaf.is_decided = true;
             // The half before it asks first what met.
             let last = self.front.leaves.len() - 1;
-            self.front.leaves.swap(self.leaf.first[1], last);
+            self.front.leaves.swap(self.leaf.first[2], last);
         }
+    }
+
+    /// Looks at the boxes of a bundle: those that stay apart fall away, near ones are opened, others left to the halves.
+    #[inline(always)]
+    fn open_bundle<I: Instructions>(&mut self, lanes: I, mut bundle: Bundle) {
+        if self.is_over() {
+            self.front.bundles.push(bundle);
+            return;
+        }
+        let crowd = &self.crowds[bundle.crowd as usize];
+        let known = self.over.crowd.as_ref().map(|(number, _)| *number);
+        if known != Some(bundle.crowd) {
+            let pair = &self.pairs[crowd.first_pair as usize];
+            let made = crowd.over(pair, self.kinematics, self.half);
+            self.over.crowd = Some((bundle.crowd, made));
+        }
+        let Some((_, over)) = &self.over.crowd else {
+            return;
+        };
+        let eight = crowd.boxes(lanes, bundle.eight);
+        let gaps = swept_gaps(lanes, &eight, &over.one, &over.twist, over.bends);
+        self.scratch
+            .meter_mut()
+            .count_nodes(u64::from(bundle.lanes.count_ones()));
+        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(bundle.lanes);
+        if near == 0 {
+            return;
+        }
+        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
+        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        let size = length(&over.one.half);
+        let mut left = 0u8;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize & 7;
+            near &= near - 1;
+            let pair = crowd.first_pair + 8 * bundle.eight + lane as u32;
+            let [a, b] = self.pairs[pair as usize].bodies();
+            let meeting = Meeting {
+                pair,
+                units: [a.packed().root(), b.packed().root()],
+                sizes: [size, halves[lane]],
+                taken_off: taken_off[lane],
+            };
+            if !self.go_on(&meeting) {
+                left |= 1 << lane;
+            }
+        }
+        if left != 0 {
+            bundle.lanes = left;
+            self.front.bundles.push(bundle);
+        }
+    }
+
+    /// Opens a pair of boxes, or visits the primitives in them. Of boxes that the motion moves far nothing is done.
+    fn go_on(&mut self, meeting: &Meeting) -> bool {
+        let Meeting {
+            pair,
+            units,
+            sizes,
+            taken_off,
+        } = *meeting;
+        let are_leaves = units[0].is_leaf() && units[1].is_leaf();
+        let limit = if are_leaves {
+            MEASURE_LEAVES_BELOW
+        } else {
+            OPEN_NODES_BELOW
+        };
+        if taken_off > limit * (sizes[0] + sizes[1]) {
+            return false;
+        }
+        let [a, b] = self.pairs[pair as usize].bodies();
+        let trees: [&PackedTree; 2] = [a.packed(), b.packed()];
+        if are_leaves {
+            self.visit(Leaves {
+                pair,
+                places: [trees[0].place(units[0]), trees[1].place(units[1])],
+                direction: [0.0; 3],
+            });
+            return true;
+        }
+        let opens_b = if units[0].is_leaf() || units[1].is_leaf() {
+            units[0].is_leaf()
+        } else {
+            sizes[1] > sizes[0]
+        };
+        let side = usize::from(opens_b);
+        let node = trees[side].index(units[side]);
+        self.front.open.push(Group {
+            pair,
+            node: node as u32,
+            other: units[1 - side],
+            opened: side as u8,
+            lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
+        });
+        true
     }
 
     /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.
@@ -370,8 +532,13 @@ impl Look<'_, '_, '_> {
         let number = group.pair as usize;
         let [a, b] = self.pairs[number].bodies();
         let over = self.over.of(number, self.pairs, self.kinematics, self.half);
-        let Some(over) = over else {
-            return;
+        let over = match over {
+            PairOver::Near(over) => over,
+            PairOver::Apart => return,
+            PairOver::TooLong => {
+                self.front.groups.push(group);
+                return;
+            }
         };
         let trees: [&PackedTree; 2] = [a.packed(), b.packed()];
         let opened = usize::from(group.opened);
@@ -392,56 +559,48 @@ impl Look<'_, '_, '_> {
         }
         let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
         let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
-        let [x, y, z] = one.half;
-        let other_size = (x * x + y * y + z * z).sqrt();
+        let other_size = length(&one.half);
         let children = tree.children(index);
         let mut left = 0u8;
         while near != 0 {
             let lane = near.trailing_zeros() as usize & 7;
             near &= near - 1;
-            let child = children.units[lane];
-            let are_leaves = child.is_leaf() && group.other.is_leaf();
-            let limit = if are_leaves {
-                MEASURE_LEAVES_BELOW
-            } else {
-                OPEN_NODES_BELOW
-            };
-            let size = halves[lane];
-            if taken_off[lane] > limit * (size + other_size) {
-                left |= 1 << lane;
-                continue;
+            let (mut units, mut sizes) = (
+                [children.units[lane], group.other],
+                [halves[lane], other_size],
+            );
+            if opened == 1 {
+                units.swap(0, 1);
+                sizes.swap(0, 1);
             }
-            let units = if opened == 0 {
-                [child, group.other]
-            } else {
-                [group.other, child]
-            };
-            if are_leaves {
-                self.visit(Leaves {
-                    pair: group.pair,
-                    places: [trees[0].place(units[0]), trees[1].place(units[1])],
-                    direction: [0.0; 3],
-                });
-                continue;
-            }
-            let opens_b = if units[0].is_leaf() || units[1].is_leaf() {
-                units[0].is_leaf()
-            } else {
-                (opened == 0) == (other_size > size)
-            };
-            let side = usize::from(opens_b);
-            let node = trees[side].index(units[side]);
-            self.front.open.push(Group {
+            let meeting = Meeting {
                 pair: group.pair,
-                node: node as u32,
-                other: units[1 - side],
-                opened: side as u8,
-                lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
-            });
+                units,
+                sizes,
+                taken_off: taken_off[lane],
+            };
+            if !self.go_on(&meeting) {
+                left |= 1 << lane;
+            }
         }
         if left != 0 {
             group.lanes = left;
             self.front.groups.push(group);
         }
     }
+}
+
+/// Two boxes that the interval does not part.
+struct Meeting {
+    pair: u32,
+    /// Of A and of B.
+    units: [NodeRef; 2],
+    /// Half the boxes' diagonals.
+    sizes: [f32; 2],
+    /// What the motion takes off their gap.
+    taken_off: f32,
+}
+
+fn length([x, y, z]: &[f32; 3]) -> f32 {
+    (x * x + y * y + z * z).sqrt()
 }

@@ -1,6 +1,7 @@
 //! The proof that a motion keeps out of a set: intervals of time are halved until bounds over the interval part all boxes and
 //! primitives, and all pure sets.
 
+use super::crowd::Crowd;
 use super::front::{Front, LeafLook, Look, OverPairs, Part};
 use super::moving_pair::{Kinematics, MovingPair};
 use super::moving_pure::{Moment, MovingPure};
@@ -54,6 +55,8 @@ pub(super) struct MovingSet<'a> {
     pub leaves: Vec<MovingLeaf>,
     /// In the order of their leaves.
     pub pairs: Vec<MovingPair<'a>>,
+    /// In the order of their pairs.
+    pub crowds: Vec<Crowd>,
 }
 
 /// An interval of time, with what is undecided in it.
@@ -62,11 +65,11 @@ struct Interval {
     part: Part,
 }
 
-/// What is asked of a compound set at a time: whether it is certainly met there.
+/// Asked for a time: whether the set is certainly met there.
 pub(super) type Confirm<'c> = dyn FnMut(&mut QueryContext, f64) -> Result<bool> + 'c;
 
-/// Looks for the first contact, or proves that there is none at any time from 0 to 1. `confirm` is asked of sets that are no plain
-/// unions.
+/// Looks for the first contact, or proves that there is none at any time from 0 to 1. `confirm` is asked for the start, unless the
+/// whole motion is proved at once, and for contacts of sets that are no plain unions.
 pub(super) fn prove(
     set: &MovingSet,
     kinematics: &mut Kinematics,
@@ -110,7 +113,7 @@ impl Work for Prover<'_, '_, '_, '_> {
         let mut known = vec![Known::Nothing; set.leaves.len()];
         let mut todo = vec![Interval {
             times: [0.0, 1.0],
-            part: front.start(&set.pairs, !is_plain),
+            part: front.start(&set.pairs, &set.crowds, !is_plain),
         }];
         let mut contact: Option<f64> = None;
         while let Some(Interval { times, part }) = todo.pop() {
@@ -126,6 +129,7 @@ impl Work for Prover<'_, '_, '_, '_> {
             kinematics.start(middle)?;
             let mut look = Look {
                 pairs: &set.pairs,
+                crowds: &set.crowds,
                 over,
                 kinematics,
                 half,
@@ -155,6 +159,9 @@ impl Work for Prover<'_, '_, '_, '_> {
             }
             if whole == Known::Free {
                 continue;
+            }
+            if half == 0.5 && confirm(context, 0.0)? {
+                return Ok(Proof::Contact([0.0, 0.0]));
             }
             let meets = whole == Known::Meets && (is_plain || confirm(context, middle)?);
             if meets {

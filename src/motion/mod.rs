@@ -1,5 +1,6 @@
 //! Motions: proofs that a segment of C-space is free, and the sliding step (Appendix A).
 
+mod crowd;
 mod front;
 mod half_spaces;
 mod interval_proof;

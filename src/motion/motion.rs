@@ -1,6 +1,7 @@
 //! Whole motions: a proof that a segment of C-space is free, or its first contact (§2.3.1 asks for it; Figure 1 shows what sampling
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
+use super::crowd::Crowd;
 use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
 use super::moving_pair::{Carried, Kinematics, MovingPair, RatesInWorld};
 use super::moving_pure::MovingPure;
@@ -11,7 +12,8 @@ use crate::cobject::{CObject, Class, Induced};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
 use crate::query::{
-    CandidateFilter, Configuration, Distance, Group, QueryContext, Scene, World, check_threshold,
+    CandidateFilter, Configuration, Distance, Group, QueryContext, Scene, Target, World,
+    check_threshold,
 };
 
 /// What is asked of a motion.
@@ -138,9 +140,6 @@ impl QueryContext {
 
     /// Proves a motion free, or finds its contact.
     pub(super) fn motion_on(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
-        if self.has_contact(way, 0.0, options)? {
-            return self.answer(way, MotionOutcome::Hit, [0.0, 0.0]);
-        }
         let motions = &way.link_motions();
         let tree = &SetTree::new(way.line.cobject);
         let q_middle = &way.at(0.5);
@@ -152,16 +151,24 @@ impl QueryContext {
             is_plain: tree.is_plain_union(),
             leaves: Vec::with_capacity(tree.leaves.len()),
             pairs: Vec::new(),
+            needs_start: false,
+            speeds: Vec::new(),
         };
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }
+        let needs_start = gathering.needs_start;
+        if needs_start && self.has_contact(way, 0.0, options)? {
+            return self.answer(way, MotionOutcome::Hit, [0.0, 0.0]);
+        }
+        let crowds = gathering.crowds(scene);
         let Gathering { leaves, pairs, .. } = gathering;
         let set = &MovingSet {
             way,
             tree,
             leaves,
             pairs,
+            crowds,
         };
         let limits = ProofLimits {
             tolerance: options.tolerance,
@@ -239,6 +246,10 @@ struct Gathering<'a> {
     is_plain: bool,
     leaves: Vec<MovingLeaf>,
     pairs: Vec<MovingPair<'a>>,
+    /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
+    needs_start: bool,
+    /// Of links' bodies in the world, where they were asked for.
+    speeds: Vec<Option<f64>>,
 }
 
 impl<'a> Gathering<'a> {
@@ -281,6 +292,7 @@ impl<'a> Gathering<'a> {
             return Err(unstated_speeds(&term[0]));
         }
         if fastest == 0.0 && self.is_plain {
+            self.needs_start = true;
             return Ok(());
         }
         let threshold = if complement {
@@ -300,7 +312,7 @@ impl<'a> Gathering<'a> {
             0.5
         };
         for target in &found {
-            let speed = line.rate(scene, target);
+            let speed = self.speed(scene, target);
             if STEP_FRACTION * (target.bound - threshold) > share * speed {
                 continue;
             }
@@ -320,12 +332,45 @@ impl<'a> Gathering<'a> {
             let leaf = self.leaves.len() as u32;
             let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, || speed);
             let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
-            // What rests has no contact on the way that it has not at the start.
-            if !self.is_plain || !pair.rests() {
-                self.pairs.push(pair);
+            if self.is_plain {
+                // What rests has no contact on the way that it has not at the start.
+                self.needs_start |= pair.rests() || pair.has_solid();
+                if pair.rests() {
+                    continue;
+                }
             }
+            self.pairs.push(pair);
         }
         Ok(())
+    }
+}
+
+impl Gathering<'_> {
+    /// Sorts the pairs so that those of a body among objects that rest stand together.
+    fn crowds(&mut self, scene: &Scene) -> Vec<Crowd> {
+        self.pairs.sort_by_key(MovingPair::crowd_key);
+        let mut crowds = Vec::new();
+        let mut first = 0;
+        for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
+            if run.len() > 1 {
+                let origin = scene.poses()[run[0].link()].translation;
+                crowds.push(Crowd::new(first, run, origin));
+            }
+            first += run.len() as u32;
+        }
+        crowds
+    }
+
+    /// Bounds the change of a pair's distance in the whole time.
+    fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
+        let line = &self.way.line;
+        let (r_link, s_link) = target.links();
+        let (_, r_object, _) = target.parties();
+        if s_link.is_some() || r_object != 0 {
+            return line.rate(scene, target);
+        }
+        self.speeds.resize(scene.poses().len(), None);
+        *self.speeds[r_link].get_or_insert_with(|| line.rate(scene, target))
     }
 }
 

@@ -59,6 +59,31 @@ pub(super) struct OverInterval<'a> {
     pub cutoff: f32,
 }
 
+/// How A moves over an interval, as B sees it, with the components in the world's frame.
+pub(super) struct Moved {
+    pub pose: Pose,
+    /// Of A's centre at the middle.
+    pub velocity: Vec3,
+    pub angular: Vec3,
+    /// As [`Sweep::bends`].
+    pub bends: [f64; 2],
+    pub kinematics_error: f64,
+}
+
+/// What is known of a pair at the beginning of an interval.
+#[allow(clippy::large_enum_variant)]
+pub(super) enum PairOver<'a> {
+    /// The balls around the bodies stay apart.
+    Apart,
+    /// The interval is too long for bounds of boxes to be of use.
+    TooLong,
+    /// Boxes and primitives may be looked at.
+    Near(OverInterval<'a>),
+}
+
+/// Intervals through which bodies may turn by more than this, in radians to either side, are halved before boxes are looked at.
+const MAX_TURN: f64 = 1.0;
+
 /// The bounds of links' derivatives in the world, each computed when it is first asked for.
 pub(super) struct RatesInWorld<'a> {
     motions: &'a LinkMotions,
@@ -224,11 +249,50 @@ impl<'a> MovingPair<'a> {
         }
     }
 
+    /// Where B rests in the world, unless a link carries it.
+    pub fn pose_of_b(&self) -> &Pose {
+        &self.b.pose
+    }
+
+    /// Whether both pairs are of the same body A, with Bs that rest in the world.
+    pub fn is_in_crowd_of(&self, other: &Self) -> bool {
+        let key = |pair: &Self| (pair.a.link, pair.a.body.serial(), pair.leaf);
+        let is_one_of_many =
+            |pair: &Self| pair.b.link.is_none() && matches!(pair.bounds, Bounds::Derivatives(_));
+        key(self) == key(other)
+            && self.a.pose == other.a.pose
+            && self.threshold == other.threshold
+            && is_one_of_many(self)
+            && is_one_of_many(other)
+    }
+
+    /// The link that carries A.
+    pub fn link(&self) -> usize {
+        self.a.link
+    }
+
+    /// What groups pairs that may be in one crowd, for sorting.
+    pub fn crowd_key(&self) -> (u32, usize, u64) {
+        (self.leaf, self.a.link, self.a.body.serial())
+    }
+
+    /// How A moves over an interval of given half length.
+    pub fn moved(&self, kinematics: &mut Kinematics, half: f64) -> Moved {
+        let (relative, rates) = self.relative(kinematics);
+        Moved {
+            pose: relative.poses[0],
+            velocity: relative.velocity,
+            angular: relative.angular,
+            bends: self.bends(&relative, &rates, half),
+            kinematics_error: self.kinematics_error(&rates),
+        }
+    }
+
     pub fn needs_poses(&self) -> bool {
         matches!(self.bounds, Bounds::Speed(_))
     }
 
-    /// The pair over an interval of given middle and half length; `None` if the balls around the bodies stay apart.
+    /// The pair over an interval of given half length.
     ///
     /// Let R be A's radius, h the half length, and w, v, alpha, a the angular velocity of A and the velocity of its centre at the
     /// middle with their derivatives; T_k and P_k the bounds of [`MotionRates`] for a turned unit vector and for A's centre. A's
@@ -238,54 +302,21 @@ impl<'a> MovingPair<'a> {
     /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
-    pub fn over(&self, kinematics: &mut Kinematics, half: f64) -> Option<OverInterval<'a>> {
+    pub fn over(&self, kinematics: &mut Kinematics, half: f64) -> PairOver<'a> {
         let [a, b] = self.bodies();
         let radius = a.radius();
-        let (relative, rates, accelerations) = match &self.bounds {
-            Bounds::Derivatives(rates) => {
-                let states = [
-                    kinematics.of(Some(self.a.link), &self.a.pose),
-                    kinematics.of(self.b.link, &self.b.pose),
-                ];
-                let relative = Relative::new(&states[0], &states[1], a.center());
-                let bounds = self.accelerations(&relative, rates, half);
-                (relative, *rates, bounds)
-            }
-            Bounds::Speed(_) => {
-                let states = [
-                    kinematics.at_rest(Some(self.a.link), &self.a.pose),
-                    kinematics.at_rest(self.b.link, &self.b.pose),
-                ];
-                let size = states.map(|state| state.pose.translation.norm());
-                let rates = MotionRates {
-                    size: size[0] + size[1],
-                    ..MotionRates::default()
-                };
-                (
-                    Relative::new(&states[0], &states[1], a.center()),
-                    rates,
-                    [0.0; 2],
-                )
-            }
-        };
-        // More than the rounding of these sums.
-        let mut bends = accelerations.map(|x| 0.5 * half * half * x * (1.0 + 1e-9));
-        if let Bounds::Speed(speed) = self.bounds {
-            bends = [half * speed * (1.0 + 1e-9); 2];
+        let (relative, rates) = self.relative(kinematics);
+        let kinematics_error = self.kinematics_error(&rates);
+        if self.balls_stay_apart(&relative, &rates, half, kinematics_error) {
+            return PairOver::Apart;
         }
+        if half * rates.turn[0] > MAX_TURN {
+            return PairOver::TooLong;
+        }
+        let bends = self.bends(&relative, &rates, half);
         let [v, w] = [relative.velocity, relative.angular];
-        let kinematics_error = KINEMATICS_ERROR * (rates.size + radius) * (1.0 + rates.angle);
-
         let [pose_a, pose_b] = &relative.poses;
         let displacement = half * (v.norm() + w.norm() * radius) + bends[1];
-        let apart = pose_a.transform_point(a.center()) - pose_b.transform_point(b.center());
-        let reach = radius + b.radius();
-        let needed = reach + self.threshold + (displacement + kinematics_error) * (1.0 + 1e-9);
-        let doubt = 1e-9 * reach + a.deviation() + b.deviation();
-        if apart.norm() > (needed + doubt) * (1.0 + 1e-12) {
-            return None;
-        }
-
         let pairing = Pairing::new(a, pose_a, b, pose_b);
         let size = pairing.precision.size;
         let scale = power_of_two(size);
@@ -308,7 +339,7 @@ impl<'a> MovingPair<'a> {
         let slack = (pairing.slack() + kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
         let lowered = slack + ROUNDING * (size + moved) + cores;
-        Some(OverInterval {
+        PairOver::Near(OverInterval {
             motions: [
                 Motion32::new(to_b, tree_b.scale(), scale),
                 Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
@@ -328,6 +359,76 @@ impl<'a> MovingPair<'a> {
             },
             pairing,
         })
+    }
+
+    fn kinematics_error(&self, rates: &MotionRates) -> f64 {
+        KINEMATICS_ERROR * (rates.size + self.a.body.radius()) * (1.0 + rates.angle)
+    }
+
+    /// As [`Sweep::bends`], with more than the rounding of their sums.
+    fn bends(&self, relative: &Relative, rates: &MotionRates, half: f64) -> [f64; 2] {
+        match self.bounds {
+            Bounds::Derivatives(_) => self
+                .accelerations(relative, rates, half)
+                .map(|x| 0.5 * half * half * x * (1.0 + 1e-9)),
+            Bounds::Speed(speed) => [half * speed * (1.0 + 1e-9); 2],
+        }
+    }
+
+    /// How A moves at the middle as B sees it, with the bounds of derivatives that are known.
+    fn relative(&self, kinematics: &mut Kinematics) -> (Relative, MotionRates) {
+        let (states, rates) = match &self.bounds {
+            Bounds::Derivatives(rates) => {
+                let states = [
+                    kinematics.of(Some(self.a.link), &self.a.pose),
+                    kinematics.of(self.b.link, &self.b.pose),
+                ];
+                (states, *rates)
+            }
+            Bounds::Speed(_) => {
+                let states = [
+                    kinematics.at_rest(Some(self.a.link), &self.a.pose),
+                    kinematics.at_rest(self.b.link, &self.b.pose),
+                ];
+                let rates = MotionRates {
+                    size: states
+                        .map(|state| state.pose.translation.norm())
+                        .iter()
+                        .sum(),
+                    ..MotionRates::default()
+                };
+                (states, rates)
+            }
+        };
+        let [a, b] = &states;
+        (Relative::new(a, b, self.a.body.center()), rates)
+    }
+
+    /// Whether the balls around the bodies stay apart through the interval, along the line between their centres: a ball does not
+    /// turn.
+    fn balls_stay_apart(
+        &self,
+        relative: &Relative,
+        rates: &MotionRates,
+        half: f64,
+        kinematics_error: f64,
+    ) -> bool {
+        let [a, b] = self.bodies();
+        let [pose_a, pose_b] = &relative.poses;
+        let apart = pose_a.transform_point(a.center()) - pose_b.transform_point(b.center());
+        let distance = apart.norm();
+        let moved = match self.bounds {
+            Bounds::Derivatives(_) => {
+                let [_, p2, p3] = rates.origin;
+                let acceleration = p2.min(relative.acceleration.norm() + half * p3 / 3.0);
+                let along = relative.velocity.dot(&apart).abs() / distance.max(f64::MIN_POSITIVE);
+                half * along + 0.5 * half * half * acceleration
+            }
+            Bounds::Speed(speed) => half * speed,
+        };
+        let reach = a.radius() + b.radius();
+        let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
+        distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
     }
 
     /// Bounds of the accelerations through the interval: of B's points as A sees them, and of A's as B sees them.

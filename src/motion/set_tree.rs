@@ -59,7 +59,15 @@ type Memo = HashMap<(u64, bool), u32, RandomState>;
 impl<'a> SetTree<'a> {
     pub fn new(cobject: &'a CObject) -> Self {
         let mut tree = Self::default();
-        tree.add(cobject, false, &mut Memo::default());
+        match cobject.set() {
+            // The common case takes no list of what was seen.
+            Set::Union { induced, others } if others.is_empty() => {
+                tree.add_leaf(LeafContent::Induced(induced), false);
+            }
+            _ => {
+                tree.add(cobject, false, &mut Memo::default());
+            }
+        }
         tree
     }
 

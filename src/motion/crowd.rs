@@ -1,0 +1,153 @@
+//! A body that moves among objects that rest: the boxes around them are looked at eight at a time before any pair is.
+
+use super::moving_pair::{Kinematics, MovingPair};
+use crate::body::Body;
+use crate::boxes::{EightBoxes, PackedBox};
+use crate::lanes::{Instructions, each3};
+use crate::pair::{ROUNDING, Twist32};
+use crate::pose::{Pose, Vec3};
+use crate::tolerance;
+
+/// The pairs of one body that moves with objects that rest in the world.
+pub(super) struct Crowd {
+    /// The numbers of the pairs are consecutive.
+    pub first_pair: u32,
+    eights: Vec<RestingEight>,
+    /// Boxes are given relative to this point of the world: single precision is for nearby places.
+    origin: Vec3,
+    /// No point of an object is farther from the origin.
+    size: f64,
+    /// The largest deviation of an object from its primitives.
+    deviation: f64,
+}
+
+/// Eight boxes relative to the crowd's origin.
+#[derive(Clone, Copy, Default)]
+struct RestingEight {
+    axes: [[[f32; 8]; 3]; 3],
+    center: [[f32; 8]; 3],
+    half: [[f32; 8]; 3],
+    count: usize,
+}
+
+/// The body over an interval.
+pub(super) struct CrowdOver {
+    pub one: PackedBox,
+    pub twist: Twist32,
+    /// What acceleration may take off, along axes that rest with the objects and along those of the body.
+    pub bends: [f32; 2],
+    /// Boxes with a larger gap do not meet.
+    pub cutoff: f32,
+}
+
+impl Crowd {
+    /// Of pairs whose numbers begin at `first_pair`; all have the same body A, and Bs that rest.
+    pub fn new(first_pair: u32, pairs: &[MovingPair], origin: Vec3) -> Self {
+        let mut crowd = Self {
+            first_pair,
+            eights: vec![RestingEight::default(); pairs.len().div_ceil(8)],
+            origin,
+            size: 0.0,
+            deviation: 0.0,
+        };
+        for (i, pair) in pairs.iter().enumerate() {
+            let [_, b] = pair.bodies();
+            let pose = pair.pose_of_b();
+            let center = pose.transform_point(b.center()) - origin;
+            crowd.size = crowd.size.max(center.norm() + b.radius());
+            crowd.deviation = crowd.deviation.max(b.deviation());
+            crowd.eights[i / 8].put(i % 8, &root_box(b, pose, &origin));
+        }
+        crowd
+    }
+
+    /// The number of objects.
+    pub fn count(&self) -> u32 {
+        self.eights.iter().map(|eight| eight.count as u32).sum()
+    }
+
+    /// The numbers of the eights with the bits of the lanes that they use.
+    pub fn lanes(&self) -> impl Iterator<Item = (u32, u8)> {
+        (0..)
+            .zip(&self.eights)
+            .map(|(i, eight)| (i, ((1u32 << eight.count) - 1) as u8))
+    }
+
+    #[inline(always)]
+    pub fn boxes<I: Instructions>(&self, lanes: I, number: u32) -> EightBoxes<I> {
+        let eight = &self.eights[number as usize];
+        let [x, y, z] = &eight.axes;
+        EightBoxes {
+            axes: [
+                [lanes.load(&x[0]), lanes.load(&x[1]), lanes.load(&x[2])],
+                [lanes.load(&y[0]), lanes.load(&y[1]), lanes.load(&y[2])],
+                [lanes.load(&z[0]), lanes.load(&z[1]), lanes.load(&z[2])],
+            ],
+            center: [
+                lanes.load(&eight.center[0]),
+                lanes.load(&eight.center[1]),
+                lanes.load(&eight.center[2]),
+            ],
+            half: [
+                lanes.load(&eight.half[0]),
+                lanes.load(&eight.half[1]),
+                lanes.load(&eight.half[2]),
+            ],
+        }
+    }
+
+    /// The body over an interval of given half length; `pair` is any pair of the crowd.
+    pub fn over(&self, pair: &MovingPair, kinematics: &mut Kinematics, half: f64) -> CrowdOver {
+        let moved = pair.moved(kinematics, half);
+        let [a, _] = pair.bodies();
+        let center = moved.pose.transform_point(a.center()) - self.origin;
+        let [linear, angular] = [moved.velocity * half, moved.angular * half];
+        let at_origin = linear - angular.cross(&center);
+        // What all boxes are near to, and how far their points are taken to move.
+        let size = self.size.max(center.norm() + a.radius());
+        let shift = linear.norm() + angular.norm() * (size + center.norm());
+        let error = tolerance::DISTANCE_ERROR * 2.0 * size + a.deviation() + self.deviation;
+        let slack = tolerance::BOUND_ERROR * 2.0 * size + 2.0 * error + moved.kinematics_error;
+        let lowered = slack * (1.0 + shift / size) + ROUNDING * (size + shift);
+        let [with_a, with_b] = moved.bends.map(|x| (x as f32).next_up() * 1.001);
+        CrowdOver {
+            one: root_box(a, &moved.pose, &self.origin),
+            twist: Twist32 {
+                angular: each3(|k| angular[k] as f32),
+                linear: each3(|k| at_origin[k] as f32),
+            },
+            bends: [with_b, with_a],
+            cutoff: ((pair.threshold + lowered) as f32).next_up(),
+        }
+    }
+}
+
+impl RestingEight {
+    fn put(&mut self, lane: usize, one: &PackedBox) {
+        for k in 0..3 {
+            for (axis, given) in self.axes.iter_mut().zip(&one.axes) {
+                axis[k][lane] = given[k];
+            }
+            self.center[k][lane] = one.center[k];
+            self.half[k][lane] = one.half[k];
+        }
+        self.count += 1;
+    }
+}
+
+/// The box around a body at a pose, relative to an origin.
+fn root_box(body: &Body, pose: &Pose, origin: &Vec3) -> PackedBox {
+    let tree = body.packed();
+    let at_home = tree.bounding_box(tree.root());
+    let vector = |v: &[f32; 3]| Vec3::from(v.map(f64::from));
+    let center = body.center() + vector(&at_home.center) * tree.scale();
+    let center = pose.transform_point(&center) - origin;
+    PackedBox {
+        axes: each3(|k| {
+            let axis = pose.rotation * vector(&at_home.axes[k]);
+            each3(|i| axis[i] as f32)
+        }),
+        center: each3(|k| center[k] as f32),
+        half: each3(|k| ((f64::from(at_home.half[k]) * tree.scale()) as f32).next_up()),
+    }
+}
