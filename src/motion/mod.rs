@@ -1,6 +1,7 @@
 //! Motions: proofs that a segment of C-space is free, and the sliding step (Appendix A).
 
 mod crowd;
+mod curve;
 mod front;
 mod half_spaces;
 mod interval_proof;
@@ -16,6 +17,7 @@ mod slide_step;
 mod step_limits;
 mod way;
 
+pub use curve::{Spline, SplinePiece};
 pub use half_spaces::HalfSpace;
 pub use motion::{MotionAnswer, MotionOptions, MotionOutcome};
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};

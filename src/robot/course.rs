@@ -114,3 +114,10 @@ pub fn bezier(controls: impl Iterator<Item = f64>, t: f64) -> f64 {
     let points: SmallVec<[f64; MAX_DEGREE + 1]> = controls.collect();
     bezier_at(&points, t).value
 }
+
+/// The largest speed of a Bezier curve, or more.
+pub fn bezier_speed(controls: impl Iterator<Item = f64>) -> f64 {
+    let mut points: SmallVec<[f64; MAX_DEGREE + 1]> = controls.collect();
+    differentiate(&mut points);
+    largest(&points)
+}

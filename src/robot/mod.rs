@@ -16,7 +16,7 @@ mod robot;
 
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
-pub use course::{MAX_DEGREE, bezier};
+pub use course::{MAX_DEGREE, bezier, bezier_speed};
 pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};

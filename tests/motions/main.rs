@@ -1,6 +1,7 @@
 //! Motions: slides, their paths and their proofs.
 
 mod compound;
+mod curves;
 mod motions;
 mod slide;
 mod slide_paths;
