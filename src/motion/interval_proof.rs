@@ -49,7 +49,8 @@ pub(super) enum MovingLeaf {
 
 /// A set on a motion.
 pub(super) struct MovingSet<'a> {
-    pub way: &'a Way<'a>,
+    /// `None` for two bodies without a robot.
+    pub way: Option<&'a Way<'a>>,
     pub tree: &'a SetTree<'a>,
     /// In the order of the tree's leaves.
     pub leaves: Vec<MovingLeaf>,
@@ -209,13 +210,13 @@ impl MovingSet<'_> {
                 MovingLeaf::Pure(_) => is_asked |= *known == Known::Nothing,
             }
         }
-        if !is_asked {
+        let (true, Some(way)) = (is_asked, self.way) else {
             return Ok(());
-        }
-        let q = self.way.at(middle);
-        let scene = &self.way.scene(&q)?;
+        };
+        let q = way.at(middle);
+        let scene = &way.scene(&q)?;
         let moment = &Moment {
-            way: self.way,
+            way,
             scene,
             half: look.half,
         };

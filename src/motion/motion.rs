@@ -1,6 +1,8 @@
 //! Whole motions: a proof that a segment of C-space is free, or its first contact (§2.3.1 asks for it; Figure 1 shows what sampling
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
+use std::cmp::Ordering;
+
 use super::crowd::Crowd;
 use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
 use super::moving_pair::{Carried, Kinematics, MovingPair, RatesInWorld};
@@ -66,7 +68,7 @@ pub struct MotionAnswer {
 }
 
 impl MotionOptions {
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         check_threshold(self.threshold, "threshold")?;
         if !self.threshold.is_finite() {
             return Err(Error::invalid("threshold is infinite: nothing is farther"));
@@ -164,7 +166,7 @@ impl QueryContext {
         let crowds = gathering.crowds(scene);
         let Gathering { leaves, pairs, .. } = gathering;
         let set = &MovingSet {
-            way,
+            way: Some(way),
             tree,
             leaves,
             pairs,
@@ -174,8 +176,8 @@ impl QueryContext {
             tolerance: options.tolerance,
             any_contact: options.any_contact,
         };
-        let kinematics = &mut Kinematics::new(way, motions);
-        kinematics.needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
+        let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
+        let kinematics = &mut Kinematics::new(motions, needs_poses.then_some(way));
         let confirm = &mut |context: &mut Self, t: f64| context.has_contact(way, t, options);
         match prove(set, kinematics, limits, self, confirm)? {
             Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0]),
@@ -302,7 +304,10 @@ impl<'a> Gathering<'a> {
         };
         let checked = scene.checked(term)?;
         // No distance at another time is less than that at the middle by more than what the whole motion changes.
-        let wanted = CandidateFilter::within(threshold + fastest);
+        let wanted = CandidateFilter {
+            any_order: true,
+            ..CandidateFilter::within(threshold + fastest)
+        };
         let meter = context.scratch.meter_mut();
         let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
         // Of a straight motion at most half lies between the middle and any other time.
@@ -311,44 +316,82 @@ impl<'a> Gathering<'a> {
         } else {
             0.5
         };
-        for target in &found {
-            let speed = self.speed(scene, target);
-            if STEP_FRACTION * (target.bound - threshold) > share * speed {
-                continue;
+        // Those of one body together, what is near first.
+        let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
+        for (place, target) in found.iter().enumerate() {
+            let needed = share * self.speed(scene, target);
+            if STEP_FRACTION * (target.bound - threshold) <= needed {
+                let (link, object, _) = target.parties();
+                order.push((link, object, OrderedBound(target.bound), place));
             }
-            let (r_link, s_link) = target.links();
-            let [(body, r_pose), (other, s_pose)] = target.sides;
-            let a = Carried {
-                body,
-                link: r_link,
-                pose: pose_on(scene, Some(r_link), r_pose),
-            };
-            let b = Carried {
-                body: other,
-                link: s_link,
-                pose: pose_on(scene, s_link, s_pose),
-            };
-            let limit = threshold + target.options.margin;
-            let leaf = self.leaves.len() as u32;
-            let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, || speed);
-            let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
-            if self.is_plain {
-                // What rests has no contact on the way that it has not at the start.
-                self.needs_start |= pair.rests() || pair.has_solid();
-                if pair.rests() {
-                    continue;
-                }
-            }
-            self.pairs.push(pair);
         }
+        order.sort_unstable();
+        self.pairs.reserve(order.len());
+        for (.., place) in order {
+            self.add_pair(&found[place], threshold, term, scene)?;
+        }
+        context.candidates.keep(found);
+        Ok(())
+    }
+
+    fn add_pair(
+        &mut self,
+        target: &Target<'a>,
+        threshold: f64,
+        term: &Group,
+        scene: &Scene,
+    ) -> Result<()> {
+        let (r_link, s_link) = target.links();
+        let [(body, r_pose), (other, s_pose)] = target.sides;
+        let a = Carried {
+            body,
+            link: r_link,
+            pose: pose_on(scene, Some(r_link), r_pose),
+        };
+        let b = Carried {
+            body: other,
+            link: s_link,
+            pose: pose_on(scene, s_link, s_pose),
+        };
+        let limit = threshold + target.options.margin;
+        let leaf = self.leaves.len() as u32;
+        let line = &self.way.line;
+        let speed = || line.rate(scene, target);
+        let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
+        let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+        if self.is_plain {
+            // What rests has no contact on the way that it has not at the start.
+            self.needs_start |= pair.rests() || pair.has_solid();
+            if pair.rests() {
+                return Ok(());
+            }
+        }
+        self.pairs.push(pair);
         Ok(())
     }
 }
 
+/// A bound in order of size.
+#[derive(Clone, Copy, PartialEq)]
+struct OrderedBound(f64);
+
+impl Eq for OrderedBound {}
+
+impl PartialOrd for OrderedBound {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for OrderedBound {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
 impl Gathering<'_> {
-    /// Sorts the pairs so that those of a body among objects that rest stand together.
-    fn crowds(&mut self, scene: &Scene) -> Vec<Crowd> {
-        self.pairs.sort_by_key(MovingPair::crowd_key);
+    /// The pairs of a body among objects that rest, which stand together.
+    fn crowds(&self, scene: &Scene) -> Vec<Crowd> {
         let mut crowds = Vec::new();
         let mut first = 0;
         for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {

@@ -88,6 +88,8 @@ const MAX_TURN: f64 = 1.0;
 pub(super) struct RatesInWorld<'a> {
     motions: &'a LinkMotions,
     rates: Vec<Option<ChainRates>>,
+    /// Those of the body asked for last: its link, its pose there and its centre.
+    of_body: Option<((usize, Pose, Vec3), Option<MotionRates>)>,
 }
 
 impl<'a> RatesInWorld<'a> {
@@ -95,6 +97,7 @@ impl<'a> RatesInWorld<'a> {
         Self {
             motions,
             rates: vec![None; motions.len()],
+            of_body: None,
         }
     }
 
@@ -102,20 +105,31 @@ impl<'a> RatesInWorld<'a> {
         self.rates[link].get_or_insert_with(|| self.motions.rates(link))
     }
 
+    /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
+    fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
+        let key = (body.link, body.pose, *body.body.center());
+        if let Some((known, rates)) = &self.of_body
+            && *known == key
+        {
+            return *rates;
+        }
+        let is_known = self.motions.is_known(body.link);
+        let rates = is_known.then(|| at_center(*self.of(body.link), body));
+        self.of_body = Some((key, rates));
+        rates
+    }
+
     /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
     fn between(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Option<MotionRates> {
-        let mut chain = match b.link {
-            None if self.motions.is_known(a.link) => *self.of(a.link),
-            None => return None,
+        let mut rates = match b.link {
+            None => self.of_body(a)?,
             Some(from) => {
                 let mut start = ChainRates::default();
                 start.push_fixed(&b.pose.inverse());
-                self.motions.rates_between(start, from, a.link)?
+                let chain = self.motions.rates_between(start, from, a.link)?;
+                at_center(chain, a)
             }
         };
-        chain.push_fixed(&a.pose);
-        chain.push_fixed(&Pose::from_translation(*a.body.center()));
-        let mut rates = chain.rates;
         // Poses are computed in the world, and rounded relative to where they are there.
         rates.size += b.pose.translation.norm();
         if let Some(from) = b.link {
@@ -129,33 +143,37 @@ impl<'a> RatesInWorld<'a> {
     }
 }
 
+/// Goes on from a link's frame to the centre of a body that it carries.
+fn at_center(mut chain: ChainRates, body: &Carried<usize>) -> MotionRates {
+    chain.push_fixed(&body.pose);
+    chain.push_fixed(&Pose::from_translation(*body.body.center()));
+    chain.rates
+}
+
 /// Where the links are at one time, and how they move.
 pub(super) struct Kinematics<'a> {
-    way: &'a Way<'a>,
     motions: &'a LinkMotions,
     states: LinkStates,
-    /// Poses alone, where no velocities are known.
+    /// Where poses alone are needed too, since no velocities are known.
+    way: Option<&'a Way<'a>>,
     poses: Option<Vec<Pose>>,
-    /// Whether some pair needs them.
-    pub needs_poses: bool,
 }
 
 impl<'a> Kinematics<'a> {
-    pub fn new(way: &'a Way<'a>, motions: &'a LinkMotions) -> Self {
+    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>) -> Self {
         Self {
-            way,
             motions,
             states: LinkStates::default(),
+            way,
             poses: None,
-            needs_poses: false,
         }
     }
 
     /// Begins a new time.
     pub fn start(&mut self, time: f64) -> Result<()> {
         self.states.start(self.motions, time);
-        if self.needs_poses {
-            self.poses = Some(self.way.link_poses(time)?);
+        if let Some(way) = self.way {
+            self.poses = Some(way.link_poses(time)?);
         }
         Ok(())
     }
@@ -269,11 +287,6 @@ impl<'a> MovingPair<'a> {
     /// The link that carries A.
     pub fn link(&self) -> usize {
         self.a.link
-    }
-
-    /// What groups pairs that may be in one crowd, for sorting.
-    pub fn crowd_key(&self) -> (u32, usize, u64) {
-        (self.leaf, self.a.link, self.a.body.serial())
     }
 
     /// How A moves over an interval of given half length.

@@ -58,16 +58,21 @@ type Memo = HashMap<(u64, bool), u32, RandomState>;
 
 impl<'a> SetTree<'a> {
     pub fn new(cobject: &'a CObject) -> Self {
-        let mut tree = Self::default();
         match cobject.set() {
             // The common case takes no list of what was seen.
-            Set::Union { induced, others } if others.is_empty() => {
-                tree.add_leaf(LeafContent::Induced(induced), false);
-            }
+            Set::Union { induced, others } if others.is_empty() => Self::of_group(induced),
             _ => {
+                let mut tree = Self::default();
                 tree.add(cobject, false, &mut Memo::default());
+                tree
             }
         }
+    }
+
+    /// A union of one induced set.
+    pub fn of_group(group: &'a Group) -> Self {
+        let mut tree = Self::default();
+        tree.add_leaf(LeafContent::Induced(group), false);
         tree
     }
 

@@ -16,6 +16,8 @@ pub struct CandidateFilter {
     pub in_contact: bool,
     /// Pairs that may be the nearest, if within this distance.
     pub nearest: Option<f64>,
+    /// The pairs of a single term may come in any order, without ranks.
+    pub any_order: bool,
 }
 
 impl CandidateFilter {
@@ -24,6 +26,7 @@ impl CandidateFilter {
             within: threshold,
             in_contact: false,
             nearest: None,
+            any_order: false,
         }
     }
 }
@@ -116,6 +119,9 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.meter.check()?;
         let mut targets = std::mem::take(&mut self.targets);
         targets.retain(|target| target.bound <= self.limit(&target.options));
+        if self.filter.any_order {
+            return Ok(targets);
+        }
         targets.sort_unstable_by_key(|target| (target.parties(), target.term));
         if targets
             .windows(2)

@@ -32,6 +32,7 @@ pub use context::QueryContext;
 pub(crate) use context::check_threshold;
 pub use explain::{Explanation, Verdict};
 pub use link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
+pub(crate) use pairs::check_dimensions;
 pub use pseudo_normal::{PseudoNormal, Shell};
 pub(crate) use pure_answer::PureAt;
 pub use scene::Configuration;

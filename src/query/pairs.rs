@@ -11,7 +11,7 @@ use crate::gjk::DistanceLimits;
 use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles};
 
 /// Refuses bodies of different dimension, and planar bodies that leave the plane.
-fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
+pub(crate) fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
     if a.0.dimension() == 3 && b.0.dimension() == 3 {
         return Ok(());
     }
@@ -64,8 +64,18 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
-        let target = target(a, b)?;
         self.scratch.meter_mut().start_call();
+        self.bodies_distance(a, b, max_distance)
+    }
+
+    /// The same within a call, with a checked maximum.
+    pub(crate) fn bodies_distance(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        let target = target(a, b)?;
         if are_singles(a.0, b.0) {
             return self.singles_distance(&target, max_distance);
         }
@@ -119,7 +129,7 @@ impl QueryContext {
     }
 
     /// The same within a call, with a checked threshold.
-    pub(super) fn bodies_within(
+    pub(crate) fn bodies_within(
         &mut self,
         a: Placement,
         b: Placement,

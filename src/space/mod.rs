@@ -9,6 +9,7 @@ mod tangent;
 mod world_box;
 
 pub use crate::robot::Coordinate;
+pub(crate) use rigid_step::screw_between;
 pub use sampling::Sampler;
 pub use space::{Offset, Space};
 pub use tangent::shorter_way;

@@ -1,9 +1,9 @@
 //! Steps on rotations and rigid placements: the exponential and the logarithm of SO(3) and SE(3) (Murray, Li, Sastry 1994,
 //! ch. 2).
 
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
-use crate::pose::Vec3;
+use crate::pose::{Pose, Vec3};
 
 /// A unit quaternion from its entries x, y, z, w, whose norm may be off 1 by rounding.
 pub fn rotation(xyzw: &[f64]) -> UnitQuaternion<f64> {
@@ -81,6 +81,22 @@ impl Placement {
         let linear = shift - across * 0.5 + angular.cross(&across) * c;
         [linear, angular]
     }
+}
+
+/// The twist that leads from one pose to another in a unit of time, linear and angular velocity in the moved frame, with the
+/// shortest rotation.
+pub fn screw_between(from: &Pose, to: &Pose) -> [Vec3; 2] {
+    let shift = to.translation - from.translation;
+    if from.rotation == to.rotation {
+        return [from.rotation.tr_mul(&shift), Vec3::zeros()];
+    }
+    let placement = |pose: &Pose| Placement {
+        translation: pose.translation,
+        rotation: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(
+            pose.rotation,
+        )),
+    };
+    placement(from).difference(&placement(to))
 }
 
 /// (1 - cos x) / x^2 and (x - sin x) / x^3; for small x, where they cancel, by their series.

@@ -3,6 +3,7 @@
 mod compound;
 mod curves;
 mod motions;
+mod pair_motion;
 mod slide;
 mod slide_paths;
 mod slide_proofs;
