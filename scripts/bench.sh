@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds
+# Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion
 # [--csv FILE] | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points alone; robots, builds
-# and slides [--quick] [--seed N]; kernel, objects and shapes [--quick] [--seed N] [--only TEXT], the last for the scenes whose names
-# hold a text (of objects, for the rows whose scene and name do; of shapes, for the rows whose group, bodies, poses and query do:
-# "shapes box and box random collide"); accuracy [PAIRS [SEED]].
+# and slides [--quick] [--seed N]; kernel, objects, shapes and motion [--quick] [--seed N] [--only TEXT], the last for the scenes whose
+# names hold a text (of objects, for the rows whose scene and name do; of shapes, for the rows whose group, bodies, poses and query
+# do: "shapes box and box random collide"); accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | robots | shapes | builds | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -52,6 +52,17 @@ if [ "$name" = builds ]; then
   cmake -S benches/builds -B build/builds -DCMAKE_PREFIX_PATH="$PWD/local" ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/builds -j2 >/dev/null
   exec build/builds/builds "${arguments[@]}"
+fi
+if [ "$name" = motion ]; then
+  # The program names the scenes that are left out.
+  puma=$(scripts/fetch_puma560.sh) || puma=
+  robots=$(scripts/fetch_pinocchio.sh) || robots=
+  coal=$(scripts/fetch_coal.sh) || coal=
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  cargo run --quiet --locked --release -p cstk-scenes --example write_scenes -- build/motion_models
+  cmake -S benches/motion -B build/motion -DCMAKE_PREFIX_PATH="$PWD/local" ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
+  cmake --build build/motion -j2 >/dev/null
+  exec build/motion/motion --models build/motion_models ${puma:+--puma "$puma"} ${robots:+--robots "$robots"} "${arguments[@]}"
 fi
 if [ "$name" = robots ]; then
   robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: Pinocchio and its robots could not be fetched" >&2; exit 77; }

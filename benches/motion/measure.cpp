@@ -17,6 +17,10 @@ double median_of(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
+template <class Number> double mean_of(const std::vector<Number> &values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 // One variant, as it is measured.
 class Runner {
   public:
@@ -24,12 +28,7 @@ class Runner {
         : variant_(variant), segments_(segments), budget_(budget) {}
 
     void pass(Kind kind, Row &row) {
-        if (pass_ == 0) {
-            variant_.ask(segments_[0]);
-            if (variant_.work) {
-                variant_.work();
-            }
-        } else if (spent_ + spent_ / static_cast<double>(pass_) > budget_) {
+        if (pass_ > 0 && spent_ + spent_ / static_cast<double>(pass_) > budget_) {
             return;
         }
         const std::size_t count = pass_ == 0 ? segments_.size() : times_.size();
@@ -45,7 +44,7 @@ class Runner {
             spent_ += time.count();
             if (pass_ == 0) {
                 times_.emplace_back();
-                row.checks += static_cast<double>(work);
+                row.checks.push_back(work);
                 judge(kind, i, verdict, row);
             }
             times_[i].push_back(1e6 * time.count());
@@ -57,7 +56,6 @@ class Runner {
         for (const std::vector<double> &times : times_) {
             row.microseconds.push_back(median_of(times));
         }
-        row.checks /= static_cast<double>(times_.size());
     }
 
   private:
@@ -82,10 +80,9 @@ class Runner {
 
 double Row::median() const { return median_of(microseconds); }
 
-double Row::mean() const {
-    return std::accumulate(microseconds.begin(), microseconds.end(), 0.0) /
-           static_cast<double>(microseconds.size());
-}
+double Row::mean() const { return mean_of(microseconds); }
+
+double Row::mean_checks() const { return mean_of(checks); }
 
 std::vector<Row> measure(const std::string &scene, double length, Kind kind,
                          const std::vector<Variant> &variants,

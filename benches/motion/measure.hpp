@@ -15,8 +15,8 @@ struct Row {
     std::string library, variant;
     /// Of each motion the median of its times. A slow variant is asked about the first motions only.
     std::vector<double> microseconds;
-    /// The mean of Verdict::checks or Variant::work; 0 where the variant counts nothing.
-    double checks = 0;
+    /// Of each motion Verdict::checks or Variant::work; 0 where the variant counts nothing.
+    std::vector<std::size_t> checks = {};
     /// Answers that differ from the proof's: hits called free, or free motions called hits.
     std::size_t differing = 0;
     /// Hits whose time of contact is off by more than 1 % of the motion, for a variant that looks for the first contact.
@@ -26,6 +26,7 @@ struct Row {
 
     double median() const;
     double mean() const;
+    double mean_checks() const;
 };
 
 /// Asks each variant in turn, in several passes; `budget` is about how many seconds a variant may take.

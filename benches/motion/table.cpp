@@ -78,6 +78,16 @@ Ratio ratio_of(const Row &row, const Row &proof) {
     return ratio;
 }
 
+// Motions that both were asked about, with another number of checks.
+std::size_t differing_checks(const Row &one, const Row &other) {
+    const std::size_t count = std::min(one.checks.size(), other.checks.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        differing += one.checks[i] != other.checks[i];
+    }
+    return differing;
+}
+
 std::string cell(const Row *row) {
     return row ? digits(row->median()) + " (" + digits(row->mean()) + ")" : "-";
 }
@@ -229,17 +239,22 @@ void Table::print_slowest() const {
 
 // Rows without a miss are left out.
 void Table::print_misses() const {
+    const auto is_sampling = [](const char *variant) {
+        return std::string(variant).rfind("sampled", 0) == 0;
+    };
     std::vector<Column> sampling;
     for (const Column &column : all_columns()) {
-        if (std::string(column.variant).find("proof") == std::string::npos) {
+        if (is_sampling(column.variant)) {
             sampling.push_back(column);
         }
     }
-    std::printf("\n### Hits called free, of those asked\n\n");
+    std::printf("\n### Hits that sampling calls free, of those asked\n\n");
     print_head("scene | length", sampling);
     for (const Group &group : groups_) {
-        const bool has_misses = std::any_of(group.rows.begin(), group.rows.end(),
-                                            [](const Row &row) { return row.differing > 0; });
+        const bool has_misses =
+            std::any_of(group.rows.begin(), group.rows.end(), [&](const Row &row) {
+                return row.differing > 0 && is_sampling(row.variant.c_str());
+            });
         if (group.rows[0].kind != Kind::hit || !has_misses) {
             continue;
         }
@@ -255,24 +270,33 @@ void Table::print_misses() const {
 }
 
 void Table::print_disagreements() const {
-    std::printf("\n### Free motions called hits, and first contacts off by more than 1 %% of the motion\n\n"
-                "| variant | called hits | of | off in time | of hits |\n"
-                "| --- | --- | --- | --- | --- |\n");
+    std::printf("\n### Answers that differ, first contacts off by more than 1 %% of the motion, and samplings of peers that end "
+                "at another sample than the library's\n\n"
+                "| variant | free motions | called hits | hits | called free | off in time | another sample |\n"
+                "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (const Column &column : all_columns()) {
-        std::size_t alarms = 0, free = 0, off = 0, hits = 0;
+        std::size_t differing[2] = {}, asked[2] = {}, off = 0, other_samples = 0;
+        const std::string variant = column.variant;
+        const bool is_peers_sampling =
+            std::string(column.library) != "cstk" && variant.rfind("sampled", 0) == 0;
         for (const Group &group : groups_) {
             if (const Row *row = group.find(column.library, column.variant)) {
-                const bool is_free = row->kind == Kind::free;
-                (is_free ? alarms : off) += is_free ? row->differing : row->off_in_time;
-                (is_free ? free : hits) += row->microseconds.size();
+                const std::size_t at = row->kind == Kind::hit;
+                differing[at] += row->differing;
+                asked[at] += row->microseconds.size();
+                off += row->off_in_time;
+                if (is_peers_sampling) {
+                    other_samples += differing_checks(*row, *group.find("cstk", variant));
+                }
             }
         }
-        const std::string variant = column.variant;
-        const bool has_first = variant == "proof" || variant == "advancement" ||
-                               variant == "continuous";
-        if (free + hits > 0) {
-            std::printf("| %s %s | %zu | %zu | %s | %zu |\n", column.library, column.variant,
-                        alarms, free, has_first ? std::to_string(off).c_str() : "-", hits);
+        const bool is_first =
+            variant == "proof" || variant == "advancement" || variant == "continuous";
+        if (asked[0] + asked[1] > 0) {
+            std::printf("| %s %s | %zu | %zu | %zu | %zu | %s | %s |\n", column.library,
+                        column.variant, asked[0], differing[0], asked[1], differing[1],
+                        is_first ? std::to_string(off).c_str() : "-",
+                        is_peers_sampling ? std::to_string(other_samples).c_str() : "-");
         }
     }
 }
@@ -295,7 +319,7 @@ std::string Table::csv() const {
         for (const Row &row : group.rows) {
             text += row.scene + formatted(",%g,", row.length) + name_of(row.kind) + "," +
                     row.library + "," + row.variant + formatted(",%.4f,", row.median());
-            text += (row.checks > 0 ? formatted("%.1f", row.checks) : "") + "\n";
+            text += (row.mean_checks() > 0 ? formatted("%.1f", row.mean_checks()) : "") + "\n";
         }
     }
     return text;
