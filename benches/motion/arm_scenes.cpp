@@ -4,7 +4,7 @@
 
 namespace {
 
-const std::size_t tries = 4000;
+const std::size_t tries = 12000;
 
 // The standard Denavit-Hartenberg parameters of the Puma 560 in metres and radians, and how far each joint goes either way, in degrees:
 // the arm of scenes/src/puma_arm.rs.

@@ -126,9 +126,9 @@ struct Faults {
 };
 
 void show(const Scene &scene, const Options &options, Table &table, Faults &faults) {
-    const DrawOptions drawn = options.quick ? DrawOptions{10, 1000} : DrawOptions{40, 4000};
+    const DrawOptions drawn = options.quick ? DrawOptions{10, 1000} : DrawOptions{80, 4000};
     // Seconds that a variant may take for a row.
-    const double budget = options.quick ? 0.03 : 0.2;
+    const double budget = options.quick ? 0.03 : 0.4;
     Random random(options.seed);
     std::vector<Segments> all;
     std::vector<Segment> trial;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -96,6 +97,10 @@ class Parts {
         return query_.distance_at_link_poses(sets_[part].cobject, poses_, max_distance).distance;
     }
 
+    bool within(std::size_t part, double threshold) const {
+        return query_.within_at_link_poses(sets_[part].cobject, poses_, threshold);
+    }
+
   private:
     struct Set {
         cstk::CObject cobject;
@@ -131,8 +136,13 @@ class Advancement {
                 if (free_until_[part] > t) {
                     continue;
                 }
-                const double distance =
-                    parts_.distance(part, std::numeric_limits<double>::infinity());
+                // A distance beyond what is left of the motion ends it.
+                const double left = parts_.bound(part) * (1 - t);
+                const double distance = parts_.distance(part, left);
+                if (distance > left) {
+                    free_until_[part] = std::numeric_limits<double>::infinity();
+                    continue;
+                }
                 const double step = distance / parts_.bound(part);
                 if (distance <= 0 || step < tolerance) {
                     return {true, checks, t};
@@ -168,12 +178,10 @@ class Bisection {
             ++checks;
             std::vector<std::size_t> left;
             for (const std::size_t part : interval.parts) {
-                const double moved = parts_.bound(part) * interval.half;
-                const double distance = parts_.distance(part, moved);
-                if (distance <= 0) {
-                    return {true, checks, interval.middle};
-                }
-                if (distance <= moved) {
+                if (parts_.within(part, parts_.bound(part) * interval.half)) {
+                    if (parts_.within(part, 0)) {
+                        return {true, checks, interval.middle};
+                    }
                     left.push_back(part);
                 }
             }

@@ -7,7 +7,7 @@
 
 namespace {
 
-const std::size_t tries = 6000;
+const std::size_t tries = 12000;
 
 struct Bounds {
     std::array<double, 3> low, high;
