@@ -8,7 +8,7 @@
 namespace {
 
 // Passes over the motions, and how many motions are measured however long they take.
-const std::size_t passes = 5, least_segments = 3;
+const std::size_t passes = 5, min_segments = 3;
 // Of a motion.
 const double time_allowed = 0.01;
 
@@ -33,7 +33,7 @@ class Runner {
         }
         const std::size_t count = pass_ == 0 ? segments_.size() : times_.size();
         for (std::size_t i = 0; i < count; ++i) {
-            if (pass_ == 0 && i >= least_segments && spent_ > budget_) {
+            if (pass_ == 0 && i >= min_segments && spent_ > budget_) {
                 break;
             }
             using Clock = std::chrono::steady_clock;

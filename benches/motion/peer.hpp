@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a peer is told of a scene.
+/// A scene as triangles: what peers are built from.
 struct PeerScene {
     struct Obstacle {
         Surface surface;

@@ -1,4 +1,4 @@
-// Links against obstacles and each other, by a library that is told in a structure of its types and calls.
+// Links against obstacles and each other, by a library whose types and calls a structure names.
 #pragma once
 
 #include "peer.hpp"
@@ -24,11 +24,11 @@ template <class Library> class PeerPairs final : public Peer {
                 links_[i] = std::make_unique<Object>(Library::mesh(scene.links[i]));
             }
         }
-        for (const PeerScene::Obstacle &given : scene.obstacles) {
-            const bool is_shape = box_shapes && given.half_extents;
+        for (const PeerScene::Obstacle &obstacle : scene.obstacles) {
+            const bool is_shape = box_shapes && obstacle.half_extents;
             obstacles_.push_back(std::make_unique<Object>(
-                is_shape ? Library::box(*given.half_extents) : Library::mesh(given.surface)));
-            Library::place(*obstacles_.back(), given.pose);
+                is_shape ? Library::box(*obstacle.half_extents) : Library::mesh(obstacle.surface)));
+            Library::place(*obstacles_.back(), obstacle.pose);
             manager_.registerObject(obstacles_.back().get());
         }
         manager_.setup();

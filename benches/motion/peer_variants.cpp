@@ -12,7 +12,7 @@
 
 namespace {
 
-PeerScene told(const Scene &scene) {
+PeerScene peer_scene_of(const Scene &scene) {
     PeerScene made;
     for (std::uint32_t link = 0; link < scene.robot.link_count(); ++link) {
         const bool has_body = scene.robot.link_info(link).has_body;
@@ -84,8 +84,8 @@ bool moves_freely(const Scene &scene) {
     return scene.robot.link_count() == 1 && scene.robot.link_info(0).joint == CSTK_JOINT_FREE;
 }
 
-Variant continuous(const Scene &scene, const PeerScene &told) {
-    const auto peer = std::make_shared<const FclContinuous>(told);
+Variant continuous(const Scene &scene, const PeerScene &peer_scene) {
+    const auto peer = std::make_shared<const FclContinuous>(peer_scene);
     const auto ask = [peer, &scene](const Segment &segment) {
         const std::optional<double> contact =
             peer->first_contact(scene.space.link_poses(segment.ends.q0)[0],
@@ -99,11 +99,11 @@ Variant continuous(const Scene &scene, const PeerScene &told) {
 
 std::vector<Variant> peer_variants(const Scene &scene, const std::vector<Segment> &trial) {
     std::vector<Variant> made;
-    const PeerScene given = told(scene);
-    add_fastest("fcl", fcl_ways(given), scene, trial, made);
+    const PeerScene peer_scene = peer_scene_of(scene);
+    add_fastest("fcl", fcl_ways(peer_scene), scene, trial, made);
     if (moves_freely(scene)) {
-        made.push_back(continuous(scene, given));
+        made.push_back(continuous(scene, peer_scene));
     }
-    add_fastest("coal", coal_ways(given), scene, trial, made);
+    add_fastest("coal", coal_ways(peer_scene), scene, trial, made);
     return made;
 }

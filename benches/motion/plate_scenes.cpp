@@ -9,10 +9,10 @@ const std::array<double, 3> plate_center = {0.6, 0, 1};
 const double arm_reach = 1.1;
 // How far motions that meet the plate reach into it, in metres.
 const double depth = 2e-4;
-// How exactly a clearance is met, in metres.
-const double exactly = 1e-5;
+// Of a clearance, in metres.
+const double clearance_tolerance = 1e-5;
 // The first joint is turned by steps of so many radians until the motion is too near.
-const double coarse = 0.04;
+const double coarse_step = 0.04;
 
 // A motion with its first joint turned.
 Ends turned(Ends ends, double angle) {
@@ -42,14 +42,14 @@ Scene::Draw beside(double clearance) {
         if (!is_clear(clear)) {
             return {};
         }
-        while (is_clear(clear + coarse)) {
-            clear += coarse;
+        while (is_clear(clear + coarse_step)) {
+            clear += coarse_step;
             if (clear > 2 * models::pi) {
                 return {};
             }
         }
-        double near = clear + coarse;
-        while ((near - clear) * arm_reach > exactly) {
+        double near = clear + coarse_step;
+        while ((near - clear) * arm_reach > clearance_tolerance) {
             const double middle = 0.5 * (clear + near);
             (is_clear(middle) ? clear : near) = middle;
         }

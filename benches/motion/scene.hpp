@@ -59,5 +59,5 @@ class Scene {
     Draw draw_;
 };
 
-/// A motion of a length from a configuration that is free; `direction` is a velocity.
+/// The motion of a length from a configuration along a velocity.
 Ends along(const cstk::Space &space, const Numbers &from, Numbers direction, double length);

@@ -290,12 +290,12 @@ void Table::print_disagreements() const {
                 }
             }
         }
-        const bool is_first =
+        const bool finds_first =
             variant == "proof" || variant == "advancement" || variant == "continuous";
         if (asked[0] + asked[1] > 0) {
             std::printf("| %s %s | %zu | %zu | %zu | %zu | %s | %s |\n", column.library,
                         column.variant, asked[0], differing[0], asked[1], differing[1],
-                        is_first ? std::to_string(off).c_str() : "-",
+                        finds_first ? std::to_string(off).c_str() : "-",
                         is_peers_sampling ? std::to_string(other_samples).c_str() : "-");
         }
     }
