@@ -97,6 +97,10 @@ impl DistanceLimits {
     }
 }
 
+/// At most 128 steps. If the bounds have not met by then, the caller compares features; a smaller limit would make that happen
+/// more often.
+const MAX_STEPS: usize = 128;
+
 /// Bounds the distance of A and B. Stops as soon as the limits allow. `start` is a guess of the direction from B to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
     with_widest(Search {
@@ -125,15 +129,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
             start,
             limits,
         } = self;
-        let mut found = Gjk {
-            lower: 0.0,
-            direction: Vec3::zeros(),
-            upper: f64::INFINITY,
-            overlap: 0.0,
-            common: Vec3::zeros(),
-            near: None,
-            nearest: None,
-        };
+        let mut found = Gjk::unknown();
         let mut v = if start == Vec3::zeros() {
             Vec3::x()
         } else {
@@ -141,7 +137,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
         };
         let mut simplex = Simplex::empty();
         let mut scale = 0.0f64;
-        for _ in 0..128 {
+        for _ in 0..MAX_STEPS {
             let inverse_length = 1.0 / v.norm();
             let on_a = a.extreme(&-v);
             let on_b = b.extreme(&v);
@@ -163,15 +159,7 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
             simplex.push(corner);
             match simplex.reduce() {
                 Nearest::Inside { margin, at } => {
-                    // If the corners do not combine to the origin, the tetrahedron is flat and its sides were decided by
-                    // rounding.
-                    let off = at.difference.norm();
-                    if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
-                        (found.overlap, found.upper) = (margin, 0.0);
-                        found.common = at.on_a;
-                        found.near = Some([at.on_a; 2]);
-                    }
-                    found.upper = found.upper.min(off);
+                    found.take_inside(margin, &at, scale);
                     return found;
                 }
                 Nearest::Outside(point) => {
@@ -181,14 +169,8 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
                         break;
                     }
                     found.upper = upper;
-                    if upper <= limits.enough {
-                        // On a needle-like triangle, rounding may put the foot nearer to the origin than any point of the
-                        // triangle.
-                        let nearest = simplex.combined(&point);
-                        if nearest.difference.norm() <= limits.enough {
-                            found.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
-                            return found;
-                        }
+                    if upper <= limits.enough && found.take_near(&simplex, &point, limits.enough) {
+                        return found;
                     }
                     if upper <= rounding {
                         break;
@@ -198,6 +180,47 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
         }
         found.nearest = simplex.nearest(&v);
         found
+    }
+}
+
+impl Gjk {
+    /// The bounds before the first step.
+    #[inline(always)]
+    fn unknown() -> Self {
+        Self {
+            lower: 0.0,
+            direction: Vec3::zeros(),
+            upper: f64::INFINITY,
+            overlap: 0.0,
+            common: Vec3::zeros(),
+            near: None,
+            nearest: None,
+        }
+    }
+
+    /// Takes the result of a tetrahedron that contains the origin. If its corners do not combine to the origin, it is flat and
+    /// rounding decided its sides.
+    #[inline(always)]
+    fn take_inside(&mut self, margin: f64, at: &Corner, scale: f64) {
+        let off = at.difference.norm();
+        if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
+            (self.overlap, self.upper) = (margin, 0.0);
+            self.common = at.on_a;
+            self.near = Some([at.on_a; 2]);
+        }
+        self.upper = self.upper.min(off);
+    }
+
+    /// Takes the nearest points if they are within `enough`. On a needle-like triangle they may not be, although the foot is:
+    /// rounding may put it nearer to the origin than any point of the triangle.
+    #[inline(always)]
+    fn take_near(&mut self, simplex: &Simplex, foot: &Vec3, enough: f64) -> bool {
+        let nearest = simplex.combined(foot);
+        let is_near = nearest.difference.norm() <= enough;
+        if is_near {
+            self.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
+        }
+        is_near
     }
 }
 

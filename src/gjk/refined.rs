@@ -3,6 +3,8 @@
 //! The sets count as apart only if the support points along some direction leave a gap above rounding. Otherwise the lower
 //! bound is 0, however far apart the iteration's points are.
 
+use std::ops::ControlFlow;
+
 use super::simplex::{Corner, CornerNames, Nearest, Simplex};
 use super::{DistanceLimits, Support};
 use crate::lanes::{Instructions, Work, with_widest};
@@ -69,7 +71,7 @@ pub fn refined<A: Support, B: Support>(
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
         ..limits
     };
-    let mut found = with_widest(Search {
+    let mut found = with_widest(Refinement {
         a,
         b,
         start,
@@ -106,16 +108,18 @@ impl RefinedBounds {
     }
 }
 
-struct Search<'a, A, B, F> {
+/// The sets whose distance is refined, and when to stop.
+struct Refinement<'a, A, B, F> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
+    /// The bounds have met when they are this close.
     accepted: f64,
     limits: DistanceLimits,
     finish: F,
 }
 
-impl<A, B, F> Work for Search<'_, A, B, F>
+impl<A, B, F> Work for Refinement<'_, A, B, F>
 where
     A: Support,
     B: Support,
@@ -125,129 +129,213 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> RefinedBounds {
-        let Self {
-            a,
-            b,
-            start,
-            accepted,
-            limits,
-            finish,
-        } = self;
-        let mut found = RefinedBounds {
-            lower: 0.0,
-            direction: Vec3::zeros(),
-            upper: f64::INFINITY,
-            depth: 0.0,
-            points: [Vec3::zeros(); 2],
-            names: None,
-            iterations: 0,
-        };
-        let mut v = if start == Vec3::zeros() {
-            Vec3::x()
-        } else {
-            start
-        };
-        let mut simplex = Simplex::empty();
-        let mut scale = 0.0f64;
-        let (mut least, mut idle) = (f64::INFINITY, 0);
-        let mut restarts = 0;
-        let mut is_apart = false;
-        let (mut finishes, mut finish_at) = (0, FIRST_FINISH);
-        while found.iterations < MAX_STEPS {
-            found.iterations += 1;
-            let length = v.norm();
-            let (on_a, on_b) = (a.extreme(&-v), b.extreme(&v));
-            let corner = Corner::between(on_a, on_b);
-            let difference = corner.difference;
-            scale = scale.max(difference.norm());
-            let lower = v.dot(&difference) / length;
-            if lower > found.lower {
-                found.lower = lower;
-                found.direction = v / length;
-            }
-            if difference.norm() < found.upper {
-                found.upper = difference.norm();
-                found.points = [on_a.point, on_b.point];
-            }
-            let is_known = found.upper <= limits.enough || found.lower > limits.cutoff;
-            if is_known || found.upper - found.lower <= accepted {
+        let mut iteration = Iteration::new(self.start);
+        while iteration.found.iterations < MAX_STEPS {
+            if iteration.step(&self).is_break() {
                 break;
             }
-            let rounding = 4.0 * tolerance::EPSILON * scale;
-            let gap = found.upper - found.lower;
-            if found.lower > rounding && gap <= finish_at * found.upper && finishes < MAX_FINISHES {
-                finishes += 1;
-                finish_at = FIRST_FINISH * gap / found.upper;
-                if found.finish(&simplex, &(v / length), &finish) {
-                    break;
-                }
-            }
-            idle = if gap < least { 0 } else { idle + 1 };
-            least = least.min(gap);
-            let next = if idle > MAX_IDLE || simplex.contains(&difference) || simplex.is_full() {
-                None
-            } else {
-                simplex.push(corner);
-                if is_apart || found.lower > rounding {
-                    Some(simplex.nearest_apart())
-                } else {
-                    match simplex.reduce() {
-                        Nearest::Inside { at, margin } if at.difference.norm() <= rounding => {
-                            (found.upper, found.depth) = (0.0, margin);
-                            found.points = [at.on_a; 2];
-                            break;
-                        }
-                        // The four corners are coplanar and have no inside: restart from the point that they combine to.
-                        Nearest::Inside { at, .. } => {
-                            simplex = Simplex::empty();
-                            Some((at, at.difference))
-                        }
-                        // A point of the difference even where rounding spoilt the foot on a needle-like triangle.
-                        Nearest::Outside(point) => Some((simplex.combined(&point), point)),
-                    }
-                }
-            };
-            let Some((nearest, foot)) = next else {
-                let direction = found.direction;
-                if found.lower > rounding && found.finish(&simplex, &direction, &finish) {
-                    break;
-                }
-                // Rounding has spoilt the corners: restart from the best direction known.
-                restarts += 1;
-                let is_known = found.direction != Vec3::zeros();
-                if restarts > MAX_RESTARTS || !is_known && is_apart {
-                    break;
-                }
-                idle = 0;
-                simplex = Simplex::empty();
-                if !is_known {
-                    // The sets are so near that the direction between the points is mostly rounding; a triangle's normal is
-                    // more accurate.
-                    is_apart = true;
-                    v = found.points[0] - found.points[1];
-                    continue;
-                }
-                let between = (found.points[0] - found.points[1]) / found.upper;
-                // Each restart uses another direction: from that between the nearest points to that of the best lower bound,
-                // and as far beyond.
-                let part = f64::from(restarts) / 4.0;
-                v = between + (found.direction - between) * part;
-                continue;
-            };
-            let upper = nearest.difference.norm();
-            if upper < found.upper {
-                found.upper = upper;
-                found.points = [nearest.on_a, nearest.on_a - nearest.difference];
-            }
-            if upper <= rounding {
-                break;
-            }
-            v = if foot == Vec3::zeros() {
-                nearest.difference
-            } else {
-                foot
-            };
         }
-        found
+        iteration.found
+    }
+}
+
+/// What one step leaves to the next.
+struct Iteration {
+    found: RefinedBounds,
+    simplex: Simplex,
+    /// The direction from B to A along which the next support points are taken, of any length.
+    v: Vec3,
+    /// The largest norm of a difference of support points so far.
+    scale: f64,
+    /// The smallest difference of the bounds so far, and the number of steps since it last shrank.
+    least_gap: f64,
+    idle: u32,
+    restarts: u32,
+    /// Whether the sets are taken to be apart even without a direction that proves it.
+    is_apart: bool,
+    finishes: u32,
+    /// The quotient of the bounds' difference and the upper bound at which `finish` is tried next.
+    finish_at: f64,
+}
+
+/// What a new corner does to the simplex.
+enum Extended {
+    /// The point of the simplex nearest to the origin, and the foot, whose direction is more accurate.
+    Nearest(Corner, Vec3),
+    /// The simplex contains the origin: the sets overlap.
+    Overlap,
+    /// The corner is no progress.
+    Stuck,
+}
+
+impl Iteration {
+    #[inline(always)]
+    fn new(start: Vec3) -> Self {
+        Self {
+            found: RefinedBounds {
+                lower: 0.0,
+                direction: Vec3::zeros(),
+                upper: f64::INFINITY,
+                depth: 0.0,
+                points: [Vec3::zeros(); 2],
+                names: None,
+                iterations: 0,
+            },
+            simplex: Simplex::empty(),
+            v: if start == Vec3::zeros() {
+                Vec3::x()
+            } else {
+                start
+            },
+            scale: 0.0,
+            least_gap: f64::INFINITY,
+            idle: 0,
+            restarts: 0,
+            is_apart: false,
+            finishes: 0,
+            finish_at: FIRST_FINISH,
+        }
+    }
+
+    /// One step of GJK; breaks when the bounds are good enough or cannot be improved.
+    #[inline(always)]
+    fn step<A, B, F>(&mut self, sets: &Refinement<'_, A, B, F>) -> ControlFlow<()>
+    where
+        A: Support,
+        B: Support,
+        F: Fn(&CornerNames, &Vec3) -> Option<Nearby>,
+    {
+        self.found.iterations += 1;
+        let length = self.v.norm();
+        let corner = self.support_corner(sets.a, sets.b, length);
+        let gap = self.found.upper - self.found.lower;
+        let limits = &sets.limits;
+        let is_known = self.found.upper <= limits.enough || self.found.lower > limits.cutoff;
+        if is_known || gap <= sets.accepted {
+            return ControlFlow::Break(());
+        }
+        let rounding = 4.0 * tolerance::EPSILON * self.scale;
+        if self.found.lower > rounding
+            && gap <= self.finish_at * self.found.upper
+            && self.finishes < MAX_FINISHES
+        {
+            self.finishes += 1;
+            self.finish_at = FIRST_FINISH * gap / self.found.upper;
+            let direction = self.v / length;
+            if self.found.finish(&self.simplex, &direction, &sets.finish) {
+                return ControlFlow::Break(());
+            }
+        }
+        self.idle = if gap < self.least_gap {
+            0
+        } else {
+            self.idle + 1
+        };
+        self.least_gap = self.least_gap.min(gap);
+        match self.extend(corner, rounding) {
+            Extended::Nearest(nearest, foot) => self.take_nearest(&nearest, foot, rounding),
+            Extended::Overlap => ControlFlow::Break(()),
+            Extended::Stuck => {
+                let direction = self.found.direction;
+                if self.found.lower > rounding
+                    && self.found.finish(&self.simplex, &direction, &sets.finish)
+                {
+                    return ControlFlow::Break(());
+                }
+                self.restart()
+            }
+        }
+    }
+
+    /// Improves the bounds by the support points along `v`, and returns the corner between them.
+    #[inline(always)]
+    fn support_corner(&mut self, a: &impl Support, b: &impl Support, length: f64) -> Corner {
+        let (on_a, on_b) = (a.extreme(&-self.v), b.extreme(&self.v));
+        let corner = Corner::between(on_a, on_b);
+        let difference = corner.difference;
+        self.scale = self.scale.max(difference.norm());
+        let lower = self.v.dot(&difference) / length;
+        if lower > self.found.lower {
+            self.found.lower = lower;
+            self.found.direction = self.v / length;
+        }
+        if difference.norm() < self.found.upper {
+            self.found.upper = difference.norm();
+            self.found.points = [on_a.point, on_b.point];
+        }
+        corner
+    }
+
+    /// Adds a corner to the simplex and reduces it to the face nearest to the origin.
+    #[inline(always)]
+    fn extend(&mut self, corner: Corner, rounding: f64) -> Extended {
+        let simplex = &mut self.simplex;
+        if self.idle > MAX_IDLE || simplex.contains(&corner.difference) || simplex.is_full() {
+            return Extended::Stuck;
+        }
+        simplex.push(corner);
+        if self.is_apart || self.found.lower > rounding {
+            let (nearest, foot) = simplex.nearest_apart();
+            return Extended::Nearest(nearest, foot);
+        }
+        match simplex.reduce() {
+            Nearest::Inside { at, margin } if at.difference.norm() <= rounding => {
+                (self.found.upper, self.found.depth) = (0.0, margin);
+                self.found.points = [at.on_a; 2];
+                Extended::Overlap
+            }
+            // The four corners are coplanar and have no inside: restart from the point that they combine to.
+            Nearest::Inside { at, .. } => {
+                *simplex = Simplex::empty();
+                Extended::Nearest(at, at.difference)
+            }
+            // A point of the difference even where rounding spoilt the foot on a needle-like triangle.
+            Nearest::Outside(point) => Extended::Nearest(simplex.combined(&point), point),
+        }
+    }
+
+    /// Takes the simplex's nearest point as upper bound and the foot as next direction. Breaks where the sets touch.
+    #[inline(always)]
+    fn take_nearest(&mut self, nearest: &Corner, foot: Vec3, rounding: f64) -> ControlFlow<()> {
+        let upper = nearest.difference.norm();
+        if upper < self.found.upper {
+            self.found.upper = upper;
+            self.found.points = [nearest.on_a, nearest.on_a - nearest.difference];
+        }
+        if upper <= rounding {
+            return ControlFlow::Break(());
+        }
+        self.v = if foot == Vec3::zeros() {
+            nearest.difference
+        } else {
+            foot
+        };
+        ControlFlow::Continue(())
+    }
+
+    /// Restarts from the best direction known, after rounding has spoilt the corners. Breaks after too many restarts.
+    #[inline(always)]
+    fn restart(&mut self) -> ControlFlow<()> {
+        let found = &self.found;
+        self.restarts += 1;
+        let is_known = found.direction != Vec3::zeros();
+        if self.restarts > MAX_RESTARTS || !is_known && self.is_apart {
+            return ControlFlow::Break(());
+        }
+        self.idle = 0;
+        self.simplex = Simplex::empty();
+        if !is_known {
+            // The sets are so near that the direction between the points is mostly rounding; a triangle's normal is more
+            // accurate.
+            self.is_apart = true;
+            self.v = found.points[0] - found.points[1];
+            return ControlFlow::Continue(());
+        }
+        let between = (found.points[0] - found.points[1]) / found.upper;
+        // Each restart uses another direction: from that between the nearest points to that of the best lower bound, and as
+        // far beyond.
+        let part = f64::from(self.restarts) / 4.0;
+        self.v = between + (found.direction - between) * part;
+        ControlFlow::Continue(())
     }
 }
