@@ -3,7 +3,7 @@
 use super::bounds::{Bounds, slack};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
-use crate::boxes::{Extent, PackedBox};
+use crate::boxes::{EightBoxes, Extent, PackedBox, WideNode};
 use crate::environment::box_tree::BOX;
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
@@ -101,10 +101,52 @@ impl<'b, B, V> Visit<'_, 'b, B, V>
 where
     V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
 {
+    /// Visits the objects near a batch of bodies.
     #[inline(always)]
     fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
         let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
+        let objects = self.objects;
         let all = u64::MAX >> (BATCH - bodies.len());
+        self.open_root_and_strays(all);
+        while let Some(next) = self.open.pop() {
+            if next.name & BOX != 0 {
+                let place = (next.name & !BOX) as usize;
+                for (named, body) in bodies {
+                    let lower = f64::NEG_INFINITY;
+                    self.limit = (self.visit)(named, body, place, lower);
+                }
+                continue;
+            }
+            let cutoff = descent.cutoff(self.limit);
+            if next.bound > cutoff {
+                continue;
+            }
+            let wide = &objects.tree.node(next.name).wide;
+            let eight = wide.boxes(lanes, descent.unit);
+            if next.bodies == all && bodies.len() > 1 {
+                // Far from the bodies, one test of the box around all of them often prunes the node or leaves one child.
+                match near_all(lanes, wide, &eight, &descent, cutoff) {
+                    NearAll::None => continue,
+                    NearAll::Node { bound, name } => {
+                        self.open.push(QueueEntry {
+                            bound,
+                            name,
+                            ..next
+                        });
+                        continue;
+                    }
+                    NearAll::Several => {}
+                }
+            }
+            let near = self.test_bodies(lanes, wide, &eight, &descent, bodies, next.bodies);
+            self.open_children(wide, &near);
+        }
+        *self.boxes = descent.bodies;
+    }
+
+    /// Puts the root and the strays on the stack, for all bodies.
+    #[inline(always)]
+    fn open_root_and_strays(&mut self, all: u64) {
         let first = |name| QueueEntry {
             bound: f32::NEG_INFINITY,
             name,
@@ -116,88 +158,115 @@ where
         self.open.extend(root.map(first));
         let strays = self.objects.strays.iter();
         self.open.extend(strays.map(|&place| first(place | BOX)));
-        while let Some(next) = self.open.pop() {
-            if next.name & BOX != 0 {
-                let place = (next.name & !BOX) as usize;
-                for (named, body) in bodies {
-                    let lower = f64::NEG_INFINITY;
-                    self.limit = (self.visit)(named, body, place, lower);
-                }
-                continue;
-            }
-            let mut cutoff = descent.cutoff(self.limit);
-            if next.bound > cutoff {
-                continue;
-            }
-            let wide = &self.objects.tree.node(next.name).wide;
-            let eight = wide.boxes(lanes, descent.unit);
-            let children = (1 << wide.count) - 1;
-            if next.bodies == all && bodies.len() > 1 {
-                // Far from the bodies, one test of the box around all of them often prunes the node or leaves one child.
-                let bounds = bounds(lanes, &eight, &descent.around);
-                let near = lanes.at_most(bounds, cutoff) & children;
-                if near == 0 {
-                    continue;
-                }
+    }
+
+    /// Tests the bodies of a mask against a node's children. Visits the objects among the children that are near a body, and
+    /// returns the bodies that are near the nodes among them.
+    #[inline(always)]
+    fn test_bodies<I: Instructions>(
+        &mut self,
+        lanes: I,
+        wide: &WideNode,
+        eight: &EightBoxes<I>,
+        descent: &Descent,
+        bodies: &[(Named<'b>, Bounds)],
+        mask: u64,
+    ) -> NearNodes {
+        let mut cutoff = descent.cutoff(self.limit);
+        let children = (1 << wide.count) - 1;
+        let mut found = NearNodes {
+            nearest: [f32::INFINITY; 8],
+            bodies: [0; 8],
+        };
+        let mut rest = mask;
+        while rest != 0 {
+            let at = rest.trailing_zeros() as usize;
+            let bit = rest & rest.wrapping_neg();
+            rest ^= bit;
+            let bounds = bounds(lanes, eight, &descent.bodies[at]);
+            let mut near = lanes.at_most(bounds, cutoff) & children;
+            let bounds = lanes.array(bounds);
+            while near != 0 {
                 let lane = near.trailing_zeros() as usize & 7;
-                let below = wide.children[lane];
-                if near.is_power_of_two() && below & BOX == 0 {
-                    self.open.push(QueueEntry {
-                        bound: lanes.array(bounds)[lane],
-                        name: below,
-                        ..next
-                    });
-                    continue;
-                }
-            }
-            let mut nearest = [f32::INFINITY; 8];
-            let mut bodies_of_lanes = [0; 8];
-            let mut rest = next.bodies;
-            while rest != 0 {
-                let at = rest.trailing_zeros() as usize;
-                let bit = rest & rest.wrapping_neg();
-                rest ^= bit;
-                let bounds = bounds(lanes, &eight, &descent.bodies[at]);
-                let mut near = lanes.at_most(bounds, cutoff) & children;
-                let bounds = lanes.array(bounds);
-                while near != 0 {
-                    let lane = near.trailing_zeros() as usize & 7;
-                    near &= near - 1;
-                    let child = wide.children[lane];
-                    if child & BOX == 0 {
-                        bodies_of_lanes[lane] |= bit;
-                        nearest[lane] = nearest[lane].min(bounds[lane]);
-                    } else if bounds[lane] <= cutoff {
-                        let (named, body) = &bodies[at];
-                        let place = (child & !BOX) as usize;
-                        let lower = descent.lower(bounds[lane]);
-                        self.limit = (self.visit)(named, body, place, lower);
-                        cutoff = descent.cutoff(self.limit);
-                    }
-                }
-            }
-            let first = self.open.len();
-            for lane in 0..wide.count as usize & 15 {
-                let lane = lane & 7;
-                if bodies_of_lanes[lane] == 0 {
-                    continue;
-                }
-                let bound = nearest[lane];
-                let mut at = self.open.len();
-                self.open.push(QueueEntry {
-                    bound,
-                    name: wide.children[lane],
-                    bodies: bodies_of_lanes[lane],
-                });
-                // The nearest goes on top of the stack.
-                while at > first && self.open[at - 1].bound < bound {
-                    self.open.swap(at - 1, at);
-                    at -= 1;
+                near &= near - 1;
+                let child = wide.children[lane];
+                if child & BOX == 0 {
+                    found.bodies[lane] |= bit;
+                    found.nearest[lane] = found.nearest[lane].min(bounds[lane]);
+                } else if bounds[lane] <= cutoff {
+                    let (named, body) = &bodies[at];
+                    let place = (child & !BOX) as usize;
+                    let lower = descent.lower(bounds[lane]);
+                    self.limit = (self.visit)(named, body, place, lower);
+                    cutoff = descent.cutoff(self.limit);
                 }
             }
         }
-        *self.boxes = descent.bodies;
+        found
     }
+
+    /// Puts the child nodes that are near a body on the stack, the nearest on top.
+    #[inline(always)]
+    fn open_children(&mut self, wide: &WideNode, near: &NearNodes) {
+        let first = self.open.len();
+        for lane in 0..wide.count as usize & 15 {
+            let lane = lane & 7;
+            if near.bodies[lane] == 0 {
+                continue;
+            }
+            let bound = near.nearest[lane];
+            let mut at = self.open.len();
+            self.open.push(QueueEntry {
+                bound,
+                name: wide.children[lane],
+                bodies: near.bodies[lane],
+            });
+            while at > first && self.open[at - 1].bound < bound {
+                self.open.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+    }
+}
+
+/// The bodies near each child node of a node, one bit each, and the least of their bounds.
+struct NearNodes {
+    nearest: [f32; 8],
+    bodies: [u64; 8],
+}
+
+/// The children of a node that are near the box around all bodies.
+enum NearAll {
+    None,
+    /// One child, which is a node.
+    Node {
+        bound: f32,
+        name: u32,
+    },
+    /// One object, or several children.
+    Several,
+}
+
+#[inline(always)]
+fn near_all<I: Instructions>(
+    lanes: I,
+    wide: &WideNode,
+    eight: &EightBoxes<I>,
+    descent: &Descent,
+    cutoff: f32,
+) -> NearAll {
+    let bounds = bounds(lanes, eight, &descent.around);
+    let near = lanes.at_most(bounds, cutoff) & ((1 << wide.count) - 1);
+    if near == 0 {
+        return NearAll::None;
+    }
+    let lane = near.trailing_zeros() as usize & 7;
+    let name = wide.children[lane];
+    if near.is_power_of_two() && name & BOX == 0 {
+        let bound = lanes.array(bounds)[lane];
+        return NearAll::Node { bound, name };
+    }
+    NearAll::Several
 }
 
 /// The bodies and units of one traversal. Lengths in single precision are in units of `scale`, a power of two about as large
