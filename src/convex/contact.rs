@@ -37,6 +37,10 @@ pub struct Contact {
     pub features: [Feature; 2],
 }
 
+/// Contacts whose points on both primitives are nearer to each other than this times L count as one. A larger value drops
+/// contacts of small features, a smaller one lists contacts twice that differ by rounding alone.
+const SAME_POINT: f64 = 1e-9;
+
 /// The contacts of the pair (r, s) with the given closest points; the contact at these points comes first. Empty when the
 /// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
 ///
@@ -127,7 +131,6 @@ pub(super) fn polytope_contacts(
     closest: &Closest,
     precision: &Precision,
 ) -> Vec<Contact> {
-    let (size, planar) = (precision.size, precision.planar);
     let pair = ContactPair {
         r,
         s,
@@ -137,7 +140,8 @@ pub(super) fn polytope_contacts(
     let Some(normal) = pair.normal() else {
         return Vec::new();
     };
-    let slack = tolerance::PARALLEL * size;
+    let planar = precision.planar;
+    let slack = tolerance::PARALLEL * precision.size;
     let mode = mode_of(closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge));
     // Common case: a single corner is nearest, and there is no other contact.
     if let Some(mode) = mode
@@ -147,59 +151,23 @@ pub(super) fn polytope_contacts(
         let (points, features) = (closest.points, closest.features);
         return vec![contact_between(points, features, normal, mode, precision)];
     }
-    let on_r = SupportFeature::new(r, &-normal, slack);
-    let on_s = SupportFeature::new(s, &normal, slack);
-    let mut found: Vec<Contact> = Vec::new();
-    let mut offer = |points: [Vec3; 2], features: [Feature; 2]| {
-        let near = |other: &Contact| {
-            (other.points[0] - points[0]).norm() <= 1e-9 * size
-                && (other.points[1] - points[1]).norm() <= 1e-9 * size
-        };
-        if let (Some(mode), None) = (mode_of(features), found.iter().position(near)) {
-            found.push(contact_between(points, features, normal, mode, precision));
-        }
+    let sides = [
+        SupportFeature::new(r, &-normal, slack),
+        SupportFeature::new(s, &normal, slack),
+    ];
+    let mut list = ContactList {
+        normal,
+        precision,
+        contacts: Vec::new(),
     };
     if mode.is_some() {
-        offer(closest.points, closest.features);
+        list.offer(closest.points, closest.features);
     }
-    // Corners of one supporting feature over the other.
-    for (i, corner) in on_r.corners() {
-        if on_s.covers(&corner, slack) {
-            offer(
-                [corner, on_s.foot(&corner)],
-                [Feature::vertex(i), on_s.feature],
-            );
-        }
-    }
-    for (j, corner) in on_s.corners() {
-        if on_r.covers(&corner, slack) {
-            offer(
-                [on_r.foot(&corner), corner],
-                [on_r.feature, Feature::vertex(j)],
-            );
-        }
-    }
-    // Crossings of the two outlines, seen along the normal.
+    list.offer_corners(&sides, slack);
     if !planar {
-        let sides_r = on_r.sides();
-        let sides_s = if sides_r.is_empty() {
-            Vec::new()
-        } else {
-            on_s.sides()
-        };
-        for (edge_r, segment_r) in &sides_r {
-            for (edge_s, segment_s) in &sides_s {
-                let (t, u) = closest_parameters(segment_r, segment_s);
-                let inside = |x: f64| x > 0.0 && x < 1.0;
-                let points = [segment_r.at(t), segment_s.at(u)];
-                let between = points[0] - points[1];
-                let aside = between - normal * normal.dot(&between);
-                if inside(t) && inside(u) && aside.norm() <= slack {
-                    offer(points, [Feature::edge(*edge_r), Feature::edge(*edge_s)]);
-                }
-            }
-        }
+        list.offer_crossings(&sides, slack);
     }
+    let mut found = list.contacts;
     deepest_first(&mut found, precision);
     // Parallel edges of a planar pair may overlap by less than the slack.
     if found.is_empty()
@@ -215,6 +183,71 @@ pub(super) fn polytope_contacts(
         });
     }
     found
+}
+
+/// Contacts with one normal, without duplicates.
+struct ContactList<'a> {
+    normal: Vec3,
+    precision: &'a Precision,
+    contacts: Vec<Contact>,
+}
+
+impl ContactList<'_> {
+    /// Adds a contact unless its features have no contact mode or its points are listed.
+    fn offer(&mut self, points: [Vec3; 2], features: [Feature; 2]) {
+        let same = SAME_POINT * self.precision.size;
+        let is_same = |other: &Contact| {
+            (other.points[0] - points[0]).norm() <= same
+                && (other.points[1] - points[1]).norm() <= same
+        };
+        if let Some(mode) = mode_of(features)
+            && !self.contacts.iter().any(is_same)
+        {
+            let contact = contact_between(points, features, self.normal, mode, self.precision);
+            self.contacts.push(contact);
+        }
+    }
+
+    /// Offers the corners of each supporting feature that are over the other.
+    fn offer_corners(&mut self, [on_r, on_s]: &[SupportFeature; 2], slack: f64) {
+        for (i, corner) in on_r.corners() {
+            if on_s.covers(&corner, slack) {
+                self.offer(
+                    [corner, on_s.foot(&corner)],
+                    [Feature::vertex(i), on_s.feature],
+                );
+            }
+        }
+        for (j, corner) in on_s.corners() {
+            if on_r.covers(&corner, slack) {
+                self.offer(
+                    [on_r.foot(&corner), corner],
+                    [on_r.feature, Feature::vertex(j)],
+                );
+            }
+        }
+    }
+
+    /// Offers the crossings of the two features' outlines, seen along the normal.
+    fn offer_crossings(&mut self, [on_r, on_s]: &[SupportFeature; 2], slack: f64) {
+        let sides_r = on_r.sides();
+        if sides_r.is_empty() {
+            return;
+        }
+        let sides_s = on_s.sides();
+        for (edge_r, segment_r) in &sides_r {
+            for (edge_s, segment_s) in &sides_s {
+                let (t, u) = closest_parameters(segment_r, segment_s);
+                let inside = |x: f64| x > 0.0 && x < 1.0;
+                let points = [segment_r.at(t), segment_s.at(u)];
+                let between = points[0] - points[1];
+                let aside = between - self.normal * self.normal.dot(&between);
+                if inside(t) && inside(u) && aside.norm() <= slack {
+                    self.offer(points, [Feature::edge(*edge_r), Feature::edge(*edge_s)]);
+                }
+            }
+        }
+    }
 }
 
 /// Whether only one vertex is within `slack` of the farthest along a direction.
