@@ -1,5 +1,7 @@
 //! Finds coplanar neighbours whose union is a convex polygon (§3.4).
 
+use std::collections::HashMap;
+
 use nalgebra::Vector2;
 
 use super::shared_edges::{SharedEdges, is_flat};
@@ -128,15 +130,6 @@ fn split_region(
     region: Vec<u32>,
 ) -> Vec<FlatPiece> {
     let normal = primitives[region[0] as usize].faces[0].normal;
-    let origin = primitives[region[0] as usize].vertices[0];
-    let (x, y) = plane_axes(&normal);
-    let flat = |polygon: u32| -> Vec<Vector2<f64>> {
-        let vertices = primitives[polygon as usize].vertices.iter();
-        vertices
-            .map(|v| v - origin)
-            .map(|v| Vector2::new(x.dot(&v), y.dot(&v)))
-            .collect()
-    };
     let piece = |mut members: Vec<u32>| {
         members.sort_unstable();
         FlatPiece {
@@ -148,12 +141,44 @@ fn split_region(
     if region.len() == 1 {
         return vec![piece(region)];
     }
+    let outlines = outlines_in_plane(primitives, areas, &region, &normal);
+    let corners = outlines.iter().flat_map(|outline| &outline.corners);
     let total = region.iter().map(|&i| areas[i as usize]).sum();
-    if hull_if_filled(region.iter().flat_map(|&i| flat(i)).collect(), total).is_some() {
+    if hull_if_filled(corners.copied().collect(), total).is_some() {
         return vec![piece(region)];
     }
-    let place: std::collections::HashMap<u32, usize> =
-        region.iter().enumerate().map(|(k, &i)| (i, k)).collect();
+    let shared = shared_within(edges, &region);
+    let joined = join_outlines(&region, outlines, shared);
+    joined.into_iter().map(piece).collect()
+}
+
+/// The outlines of a region's polygons in coordinates of its plane.
+fn outlines_in_plane(
+    primitives: &[Convex],
+    areas: &[f64],
+    region: &[u32],
+    normal: &Vec3,
+) -> Vec<Outline> {
+    let origin = primitives[region[0] as usize].vertices[0];
+    let (x, y) = plane_axes(normal);
+    let in_plane = |vertex: &Vec3| {
+        let v = vertex - origin;
+        Vector2::new(x.dot(&v), y.dot(&v))
+    };
+    let outline = |&polygon: &u32| Outline {
+        corners: primitives[polygon as usize]
+            .vertices
+            .iter()
+            .map(in_plane)
+            .collect(),
+        area: areas[polygon as usize],
+    };
+    region.iter().map(outline).collect()
+}
+
+/// The pairs of a region's polygons that share an edge, by their indices in the region, longest edges first.
+fn shared_within(edges: &SharedEdges, region: &[u32]) -> Vec<[usize; 2]> {
+    let place: HashMap<u32, usize> = region.iter().enumerate().map(|(k, &i)| (i, k)).collect();
     let mut shared: Vec<(f64, usize, usize)> = Vec::new();
     for (k, &polygon) in region.iter().enumerate() {
         for neighbour in &edges.neighbours[polygon as usize] {
@@ -164,20 +189,22 @@ fn split_region(
         }
     }
     shared.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    shared.into_iter().map(|(_, a, b)| [a, b]).collect()
+}
+
+/// Joins neighbours whose union is convex, in the order of `shared`. Returns the polygons of each union.
+fn join_outlines(
+    region: &[u32],
+    mut outlines: Vec<Outline>,
+    mut shared: Vec<[usize; 2]>,
+) -> Vec<Vec<u32>> {
     let mut owners: Vec<usize> = (0..region.len()).collect();
     let mut groups: Vec<Vec<u32>> = region.iter().map(|&i| vec![i]).collect();
-    let mut outlines: Vec<Outline> = region
-        .iter()
-        .map(|&i| Outline {
-            corners: flat(i),
-            area: areas[i as usize],
-        })
-        .collect();
     // A union that was not convex may be after other joins, so the pass is repeated until nothing joins.
     loop {
         let mut joined = false;
-        shared.retain(|&(_, a, b)| {
-            let [a, b] = [a, b].map(|k| owner(&mut owners, k));
+        shared.retain(|pair| {
+            let [a, b] = pair.map(|k| owner(&mut owners, k));
             if a == b {
                 return false;
             }
@@ -200,13 +227,11 @@ fn split_region(
             break;
         }
     }
+    groups.retain(|group| !group.is_empty());
     groups
-        .into_iter()
-        .filter(|g| !g.is_empty())
-        .map(piece)
-        .collect()
 }
 
+/// The polygon that stands for the union that polygon `k` belongs to.
 fn owner(owners: &mut [usize], mut k: usize) -> usize {
     while owners[k] != k {
         owners[k] = owners[owners[k]];
