@@ -85,88 +85,20 @@ impl WrapperTree {
         progress: &mut Progress,
     ) -> Result<Self> {
         let Groups { subsets, pieces } = groups;
-        let threads = options.thread_count();
-        let sizes = subsets.sizes();
-        // Small subtrees are the tasks of the threads; the nodes above them follow. A node's wrapper depends on its subtree
-        // alone, so the result does not depend on the split into tasks.
-        let task_size = (subsets.nodes.len() / (16 * threads)).max(512);
-        let mut tasks = Vec::new();
-        let mut upper = Vec::new();
-        let mut node = 0;
-        while node < subsets.nodes.len() {
-            if sizes[node] as usize <= task_size {
-                tasks.push(node);
-                node += sizes[node] as usize;
-            } else {
-                upper.push(node);
-                node += 1;
-            }
-        }
-        let finish = |node: usize, children: Option<[FinishedNode; 2]>, packed: &mut Packed| {
-            let mut options = *options;
-            if pieces.binary_search(&(node as u32)).is_ok() {
-                // A convex piece is bounded exactly.
-                options.hull_vertex_limit = u32::MAX;
-            }
-            match (subsets.nodes[node], children) {
-                (Node::Leaf { primitive }, _) => {
-                    let (points, slack) = points_of(primitive);
-                    wrap_leaf(points, slack, &options, packed)
-                }
-                (_, Some(children)) => wrap_children(children, &options, packed),
-                (_, None) => unreachable!("an interior node has children"),
-            }
+        let builder = WrapperBuilder {
+            sizes: subsets.sizes(),
+            subsets: &subsets,
+            pieces: &pieces,
+            points_of,
+            options,
         };
-        let done = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
-            let from = tasks[t];
-            let mut stack: Vec<FinishedNode> = Vec::new();
-            let mut packed = Packed::default();
-            // In reverse order children come before their parents, the first child last.
-            for node in (from..from + sizes[from] as usize).rev() {
-                let children = match subsets.nodes[node] {
-                    Node::Leaf { .. } => None,
-                    Node::Interior { .. } => stack.pop().zip(stack.pop()).map(<[_; 2]>::from),
-                };
-                stack.push(finish(node, children, &mut packed));
-            }
-            (packed, stack.pop())
-        })?;
-        let mut parentless: HashMap<usize, FinishedNode> = HashMap::new();
-        let mut packed: Vec<(usize, Packed)> = Vec::new();
-        for (&from, (wrappers, root)) in tasks.iter().zip(done) {
-            packed.push((from, wrappers));
-            parentless.extend(root.map(|root| (from, root)));
-        }
-        let count = upper.len();
-        for (i, node) in upper.into_iter().rev().enumerate() {
-            let children = match subsets.nodes[node] {
-                Node::Leaf { .. } => None,
-                Node::Interior { children } => {
-                    let [a, b] = children.map(|child| parentless.remove(&(child as usize)));
-                    a.zip(b).map(<[_; 2]>::from)
-                }
-            };
-            let mut one = Packed::default();
-            parentless.insert(node, finish(node, children, &mut one));
-            packed.push((node, one));
-            progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
-        }
-        drop(parentless);
-        // Node order: the runs sorted by first node, each run reversed.
-        packed.sort_unstable_by_key(|(first, _)| *first);
-        let mut all = Packed::default();
-        all.frames.reserve_exact(subsets.nodes.len());
-        all.corners
-            .reserve_exact(packed.iter().map(|(_, run)| run.corners.len()).sum());
-        for (_, run) in packed {
-            all.append_backwards(&run);
-        }
+        let packed = builder.build(progress)?;
         Ok(Self {
             subsets,
             kind: options.wrapper,
             pieces,
-            frames: all.frames,
-            corners: all.corners,
+            frames: packed.frames,
+            corners: packed.corners,
         })
     }
 
@@ -234,6 +166,117 @@ impl WrapperTree {
             + size_of_val(&self.frames[..])
             + size_of_val(&self.corners[..])
     }
+}
+
+/// Builds the wrappers of a subset tree.
+struct WrapperBuilder<'a, F> {
+    subsets: &'a SubsetTree,
+    /// The number of nodes of each subtree.
+    sizes: Vec<u32>,
+    pieces: &'a [u32],
+    points_of: F,
+    options: &'a HierarchyOptions,
+}
+
+impl<F: Fn(u32) -> (Vec<Vec3>, f64) + Sync> WrapperBuilder<'_, F> {
+    /// The wrappers of all nodes, in the order of the nodes. The threads share the small subtrees; the nodes above these
+    /// follow. A node's wrapper depends on its subtree alone, so the result does not depend on the split into tasks.
+    fn build(&self, progress: &mut Progress) -> Result<Packed> {
+        let threads = self.options.thread_count();
+        let (tasks, upper) = self.split(threads);
+        let subtrees = parallel::map(threads, tasks.len(), &mut progress.part(0.0, 0.9), |t| {
+            self.wrap_subtree(tasks[t])
+        })?;
+        let mut parentless: HashMap<usize, FinishedNode> = HashMap::new();
+        let mut runs: Vec<(usize, Packed)> = Vec::new();
+        for (&from, (wrappers, root)) in tasks.iter().zip(subtrees) {
+            runs.push((from, wrappers));
+            parentless.extend(root.map(|root| (from, root)));
+        }
+        let count = upper.len();
+        for (i, node) in upper.into_iter().rev().enumerate() {
+            let children = match self.subsets.nodes[node] {
+                Node::Leaf { .. } => None,
+                Node::Interior { children } => {
+                    let [a, b] = children.map(|child| parentless.remove(&(child as usize)));
+                    a.zip(b).map(<[_; 2]>::from)
+                }
+            };
+            let mut one = Packed::default();
+            parentless.insert(node, self.wrap_node(node, children, &mut one));
+            runs.push((node, one));
+            progress.at(0.9 + 0.1 * (i + 1) as f64 / count as f64)?;
+        }
+        drop(parentless);
+        Ok(in_node_order(runs, self.subsets.nodes.len()))
+    }
+
+    /// The roots of the small subtrees, which are the tasks of the threads, and the nodes above them.
+    fn split(&self, threads: usize) -> (Vec<usize>, Vec<usize>) {
+        let count = self.subsets.nodes.len();
+        let task_size = (count / (16 * threads)).max(512);
+        let (mut tasks, mut upper) = (Vec::new(), Vec::new());
+        let mut node = 0;
+        while node < count {
+            if self.sizes[node] as usize <= task_size {
+                tasks.push(node);
+                node += self.sizes[node] as usize;
+            } else {
+                upper.push(node);
+                node += 1;
+            }
+        }
+        (tasks, upper)
+    }
+
+    /// The wrappers of a subtree, last node first, and what its parent needs of it.
+    fn wrap_subtree(&self, from: usize) -> (Packed, Option<FinishedNode>) {
+        let mut stack: Vec<FinishedNode> = Vec::new();
+        let mut packed = Packed::default();
+        // In reverse order children come before their parents, the first child last.
+        for node in (from..from + self.sizes[from] as usize).rev() {
+            let children = match self.subsets.nodes[node] {
+                Node::Leaf { .. } => None,
+                Node::Interior { .. } => stack.pop().zip(stack.pop()).map(<[_; 2]>::from),
+            };
+            stack.push(self.wrap_node(node, children, &mut packed));
+        }
+        (packed, stack.pop())
+    }
+
+    fn wrap_node(
+        &self,
+        node: usize,
+        children: Option<[FinishedNode; 2]>,
+        packed: &mut Packed,
+    ) -> FinishedNode {
+        let mut options = *self.options;
+        if self.pieces.binary_search(&(node as u32)).is_ok() {
+            // A convex piece is bounded exactly.
+            options.hull_vertex_limit = u32::MAX;
+        }
+        match (self.subsets.nodes[node], children) {
+            (Node::Leaf { primitive }, _) => {
+                let (points, slack) = (self.points_of)(primitive);
+                wrap_leaf(points, slack, &options, packed)
+            }
+            (_, Some(children)) => wrap_children(children, &options, packed),
+            (_, None) => unreachable!("an interior node has children"),
+        }
+    }
+}
+
+/// Joins runs of wrappers, each from its last node back to its first, which is given, into the wrappers of all nodes in order.
+fn in_node_order(mut runs: Vec<(usize, Packed)>, node_count: usize) -> Packed {
+    runs.sort_unstable_by_key(|(first, _)| *first);
+    let mut all = Packed::default();
+    all.frames.reserve_exact(node_count);
+    all.corners
+        .reserve_exact(runs.iter().map(|(_, run)| run.corners.len()).sum());
+    for (_, run) in runs {
+        all.append_backwards(&run);
+    }
+    all
 }
 
 /// `slack` is how far the leaf's part may lie outside the points' hull.
