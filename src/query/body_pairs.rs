@@ -72,6 +72,113 @@ struct SObjectAt<'s> {
     carrier: Option<usize>,
 }
 
+impl<'s> SObjectAt<'s> {
+    /// An object that no link holds, by its place in the snapshot.
+    #[inline(always)]
+    fn in_world(snapshot: &'s Snapshot, place: usize) -> Self {
+        let object = snapshot.object(place);
+        Self {
+            object,
+            placement: (&*object.body, &object.pose),
+            carrier: None,
+        }
+    }
+}
+
+/// Offers the pairs of an induced set of links against s-objects as candidates.
+struct ObjectOffers<'o, 's, 'a, 'm> {
+    scene: &'s Scene<'a>,
+    term: &'o ObjectsTerm<'o, 's>,
+    candidates: &'o mut Candidates<'s, 'm>,
+}
+
+impl<'s> ObjectOffers<'_, 's, '_, '_> {
+    /// Offers the objects in the world that the tree finds near the bodies.
+    fn offer_near(&mut self, bodies: impl Iterator<Item = Named<'s>>, scratch: &mut NearScratch) {
+        let snapshot = self.term.snapshot;
+        let cutoff = self.candidates.cutoff(self.term.options);
+        snapshot
+            .tree()
+            .visit_near(bodies, cutoff, scratch, |named, bounds, place, bound| {
+                let other = snapshot.bounds(place);
+                self.offer(
+                    named,
+                    bounds,
+                    SObjectAt::in_world(snapshot, place),
+                    other,
+                    bound,
+                )
+            });
+    }
+
+    /// Offers those of the objects with these ids that are in the world.
+    fn offer_chosen(&mut self, bodies: impl Iterator<Item = Named<'s>>, ids: &[u64]) {
+        let snapshot = self.term.snapshot;
+        for named in bodies {
+            let bounds = Bounds::of(named.1, named.2);
+            let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
+            for place in places.filter(|&place| snapshot.object(place).attachment.is_none()) {
+                let (at, other) = (SObjectAt::in_world(snapshot, place), snapshot.bounds(place));
+                self.offer(&named, &bounds, at, other, f64::NEG_INFINITY);
+            }
+        }
+    }
+
+    /// Offers the set's objects that are attached to links.
+    fn offer_attached(
+        &mut self,
+        bodies: impl Iterator<Item = Named<'s>> + Clone,
+        environment: u64,
+    ) {
+        let objects = self.term.objects;
+        let held = self.scene.held_of(environment);
+        for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
+            let other = Bounds::of(&held.object.body, &held.pose);
+            for named in bodies.clone() {
+                let bounds = Bounds::of(named.1, named.2);
+                self.offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
+            }
+        }
+    }
+
+    /// Offers a body and an object with their bounds and a lower bound of their distance. Returns the cutoff for further
+    /// pairs.
+    #[inline(always)]
+    fn offer(
+        &mut self,
+        named: &Named<'s>,
+        bounds: &Bounds,
+        at: SObjectAt<'s>,
+        other: &Bounds,
+        bound: f64,
+    ) -> f64 {
+        let (scene, term) = (self.scene, self.term);
+        let &(number, body, pose) = named;
+        let (link, attached, r_data) = match number.checked_sub(scene.space().link_count()) {
+            None => (number, 0, body.data()),
+            Some(i) => {
+                let AttachedObject {
+                    object, attachment, ..
+                } = &scene.held()[i];
+                (attachment.link, object.id, object.data())
+            }
+        };
+        let r = RSide { link, attached };
+        if !term.admits(r, at.object) {
+            return self.candidates.cutoff(term.options);
+        }
+        let target = || Target {
+            options: *term.options,
+            term: term.number,
+            data: [r_data, at.object.data()],
+            s_carrier: at.carrier,
+            ..scene.target(r, SSide::Object(at.object.id), [(body, pose), at.placement])
+        };
+        self.candidates
+            .offer(term.options, [bounds, other], bound, target)
+    }
+}
+
 /// A group that can be searched: it has passed [`Scene::checked`].
 #[derive(Clone, Copy)]
 pub(crate) struct CheckedGroup<'g>(&'g Group);
@@ -225,97 +332,37 @@ impl<'a> Scene<'a> {
         candidates: &mut Candidates<'s, '_>,
         scratch: &mut NearScratch,
     ) {
-        let &ObjectsTerm {
-            links,
-            objects,
-            options,
-            snapshot,
-            ..
-        } = term;
+        let environment = term.objects.environment().serial();
+        let bodies = self.r_sides(term.links, environment);
+        let mut offers = ObjectOffers {
+            scene: self,
+            term,
+            candidates,
+        };
+        match term.objects {
+            SObjects::All(_) => offers.offer_near(bodies.clone(), scratch),
+            SObjects::Some(_, ids) => offers.offer_chosen(bodies.clone(), ids),
+        }
+        offers.offer_attached(bodies, environment);
+    }
+
+    /// The bodies of links and the s-objects attached to them, which are numbered after all links.
+    fn r_sides(
+        &self,
+        links: &[usize],
+        environment: u64,
+    ) -> impl Iterator<Item = Named<'_>> + Clone {
         let with_body = |&link: &usize| {
             let (body, pose) = self.link(link)?;
             Some((link, body, pose))
         };
         let of_links = links.iter().filter_map(with_body);
-        // Attached objects are numbered after the links.
         let first_held = self.space().link_count();
-        let environment = objects.environment().serial();
-        let held = self.held_of(environment);
-        let of_held = held
-            .clone()
+        let of_held = self
+            .held_of(environment)
             .filter(|(_, held)| links.contains(&held.attachment.link))
-            .map(|(i, held)| (first_held + i, &*held.object.body, &held.pose));
-        let bodies = of_links.chain(of_held);
-        let cutoff = candidates.cutoff(options);
-        let mut offer =
-            |named: &Named<'s>, bounds: &Bounds, at: SObjectAt<'s>, other: &Bounds, bound| {
-                let &(number, body, pose) = named;
-                let (link, attached, r_data) = match number.checked_sub(first_held) {
-                    None => (number, 0, body.data()),
-                    Some(i) => {
-                        let AttachedObject {
-                            object, attachment, ..
-                        } = &self.held()[i];
-                        (attachment.link, object.id, object.data())
-                    }
-                };
-                let r = RSide { link, attached };
-                if !term.admits(r, at.object) {
-                    return candidates.cutoff(options);
-                }
-                let target = || Target {
-                    options: *options,
-                    term: term.number,
-                    data: [r_data, at.object.data()],
-                    s_carrier: at.carrier,
-                    ..self.target(r, SSide::Object(at.object.id), [(body, pose), at.placement])
-                };
-                candidates.offer(options, [bounds, other], bound, target)
-            };
-        let in_world = |place: usize| {
-            let object = snapshot.object(place);
-            SObjectAt {
-                object,
-                placement: (&*object.body, &object.pose),
-                carrier: None,
-            }
-        };
-        match objects {
-            SObjects::All(_) => {
-                snapshot.tree().visit_near(
-                    bodies.clone(),
-                    cutoff,
-                    scratch,
-                    |named, bounds, place, bound| {
-                        offer(
-                            named,
-                            bounds,
-                            in_world(place),
-                            snapshot.bounds(place),
-                            bound,
-                        )
-                    },
-                );
-            }
-            SObjects::Some(_, ids) => {
-                for named in bodies.clone() {
-                    let bounds = Bounds::of(named.1, named.2);
-                    let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
-                    for place in places.filter(|&place| snapshot.object(place).attachment.is_none())
-                    {
-                        let other = snapshot.bounds(place);
-                        offer(&named, &bounds, in_world(place), other, f64::NEG_INFINITY);
-                    }
-                }
-            }
-        }
-        for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
-            let other = Bounds::of(&held.object.body, &held.pose);
-            for named in bodies.clone() {
-                let bounds = Bounds::of(named.1, named.2);
-                offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
-            }
-        }
+            .map(move |(i, held)| (first_held + i, &*held.object.body, &held.pose));
+        of_links.chain(of_held)
     }
 
     #[inline(always)]
