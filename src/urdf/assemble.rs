@@ -187,6 +187,7 @@ impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
             }
         }
         let mut names = HashSet::new();
+        // The joint that moves each link, by the link's name.
         let mut carried: HashMap<&str, &str> = HashMap::new();
         let mut joints: HashMap<&str, Vec<_>> = HashMap::new();
         for joint in &model.joints {
@@ -209,55 +210,27 @@ impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
             }
             joints.entry(joint.parent).or_default().push(joint);
         }
-        let mut roots = model
-            .links
-            .iter()
-            .filter(|link| !carried.contains_key(link.name));
-        let is_macro = |node: roxmltree::Node| {
-            let namespace = node.tag_name().namespace();
-            namespace.is_some_and(|namespace| namespace.contains("xacro"))
-        };
-        let empty = || {
-            let message = if model.node.children().any(is_macro) {
-                "the robot has no link, but xacro macros: expand them first"
-            } else {
-                "the robot has no link"
-            };
-            fault(model.node, ErrorKind::Empty, message)
-        };
-        let circle = || {
-            let message = "every link hangs on another: the joints form a circle";
-            fault(model.node, ErrorKind::InvalidArgument, message)
-        };
-        let root = match roots.next() {
-            Some(root) => root,
-            None if model.links.is_empty() => return Err(empty()),
-            None => return Err(circle()),
-        };
-        if let Some(other) = roots.next() {
-            let message = format!(
-                "no joint leads to it, nor to \"{}\": a robot has one root",
-                root.name
-            );
-            return Err(fault(other.node, ErrorKind::InvalidArgument, message)
-                .within(format_args!("link \"{}\"", other.name)));
-        }
         let tree = Self {
-            root,
+            root: only_root(model, &carried)?,
             links,
             joints,
         };
-        let reached: HashSet<&str> = tree
-            .links_by_depth()
-            .iter()
-            .map(|(link, _)| link.name)
-            .collect();
-        if let Some(lost) = model.links.iter().find(|link| !reached.contains(link.name)) {
-            let message = "the joints that lead to it form a circle";
-            return Err(fault(lost.node, ErrorKind::InvalidArgument, message)
-                .within(format_args!("link \"{}\"", lost.name)));
-        }
+        tree.check_all_reached(model)?;
         Ok(tree)
+    }
+
+    /// Refuses links that hang on each other in a circle.
+    fn check_all_reached(&self, model: &Model<'a, 'i>) -> Result<()> {
+        let order = self.links_by_depth();
+        let reached: HashSet<&str> = order.iter().map(|(link, _)| link.name).collect();
+        match model.links.iter().find(|link| !reached.contains(link.name)) {
+            None => Ok(()),
+            Some(lost) => {
+                let message = "the joints that lead to it form a circle";
+                Err(fault(lost.node, ErrorKind::InvalidArgument, message)
+                    .within(format_args!("link \"{}\"", lost.name)))
+            }
+        }
     }
 
     /// All links depth first.
@@ -271,6 +244,44 @@ impl<'m, 'a, 'i> Tree<'m, 'a, 'i> {
             }
         }
         order
+    }
+}
+
+/// The one link that no joint moves, given the joint that moves each other link.
+fn only_root<'m, 'a, 'i>(
+    model: &'m Model<'a, 'i>,
+    carried: &HashMap<&str, &str>,
+) -> Result<&'m LinkElement<'a, 'i>> {
+    let mut roots = model
+        .links
+        .iter()
+        .filter(|link| !carried.contains_key(link.name));
+    let Some(root) = roots.next() else {
+        let is_macro = |node: roxmltree::Node| {
+            let namespace = node.tag_name().namespace();
+            namespace.is_some_and(|namespace| namespace.contains("xacro"))
+        };
+        let (kind, message) = if !model.links.is_empty() {
+            let message = "every link hangs on another: the joints form a circle";
+            (ErrorKind::InvalidArgument, message)
+        } else if model.node.children().any(is_macro) {
+            let message = "the robot has no link, but xacro macros: expand them first";
+            (ErrorKind::Empty, message)
+        } else {
+            (ErrorKind::Empty, "the robot has no link")
+        };
+        return Err(fault(model.node, kind, message));
+    };
+    match roots.next() {
+        None => Ok(root),
+        Some(other) => {
+            let message = format!(
+                "no joint leads to it, nor to \"{}\": a robot has one root",
+                root.name
+            );
+            Err(fault(other.node, ErrorKind::InvalidArgument, message)
+                .within(format_args!("link \"{}\"", other.name)))
+        }
     }
 }
 
