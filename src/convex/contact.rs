@@ -1,16 +1,8 @@
-//! Contacts of a primitive pair: normal, contact mode, and the points that span parallel features (§4.4, Fig. 17).
+//! What a contact of two primitives is: two points, a normal, and the mode that follows from the features (§4.4, Fig. 17).
 
-use nalgebra::Vector2;
-
-use super::closest::{Closest, Segment, closest_parameters};
-use super::contact_normal::ContactPair;
-use super::curved::is_curved;
-use super::curved_contact::{curved_contacts, first_curved_contact};
-use super::distance::PrimitiveDistance;
-use super::placed::{PlacedPrimitive, Precision};
+use super::placed::Precision;
 use crate::pose::Vec3;
-use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
-use crate::tolerance;
+use crate::primitive::{Feature, FeatureKind};
 
 /// The report's contact modes, r-feature first, and one for sets without features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,251 +17,7 @@ pub enum ContactMode {
     PureSet,
 }
 
-/// One contact of the r-primitive with the s-primitive: two points and the unit normal from s to r.
-#[derive(Clone, Copy, Debug)]
-pub struct Contact {
-    pub points: [Vec3; 2],
-    pub normal: Vec3,
-    pub distance: f64,
-    /// The signed distance: negative where the primitives overlap slightly.
-    pub gap: f64,
-    pub mode: ContactMode,
-    pub features: [Feature; 2],
-}
-
-/// Contacts whose points on both primitives are nearer to each other than this times L count as one. A larger value drops
-/// contacts of small features, a smaller one lists contacts twice that differ by rounding alone.
-const SAME_POINT: f64 = 1e-9;
-
-/// The contacts of the pair (r, s) with the given closest points; the contact at these points comes first. Empty when the
-/// interiors overlap deeper than [`tolerance::JUST_INSIDE`] L: containment has no contact.
-///
-/// Curved primitives have the contacts of their cores. Smooth cores have a single contact even where they touch along a line or
-/// a face.
-pub fn contacts(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    measured: &PrimitiveDistance,
-    precision: &Precision,
-) -> Vec<Contact> {
-    if is_curved(r, s) {
-        curved_contacts(r, s, measured, precision)
-    } else {
-        polytope_contacts(r, s, &measured.closest, precision)
-    }
-}
-
-/// The first contact that [`contacts`] returns.
-pub fn first_contact(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    measured: &PrimitiveDistance,
-    precision: &Precision,
-) -> Option<Contact> {
-    let first = if is_curved(r, s) {
-        first_curved_contact(r, s, measured, precision)
-    } else {
-        first_polytope_contact(r, s, &measured.closest, precision)
-    };
-    if first.is_some() || measured.closest.depth > tolerance::JUST_INSIDE * precision.size {
-        return first;
-    }
-    contacts(r, s, measured, precision).into_iter().next()
-}
-
-/// The contact at the closest points of two hulls that are apart, if their features have a contact mode.
-pub(super) fn first_polytope_contact(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    closest: &Closest,
-    precision: &Precision,
-) -> Option<Contact> {
-    let mode = mode_of(closest.features)?;
-    if precision.planar && mode == ContactMode::EdgeEdge {
-        return None;
-    }
-    let pair = ContactPair {
-        r,
-        s,
-        closest,
-        precision,
-    };
-    let normal = pair.normal_if_apart()?;
-    // Cores that are apart are nearest along this normal, so this is also the deepest contact of the rounded sets around them.
-    Some(contact_between(
-        closest.points,
-        closest.features,
-        normal,
-        mode,
-        precision,
-    ))
-}
-
-fn contact_between(
-    points: [Vec3; 2],
-    features: [Feature; 2],
-    normal: Vec3,
-    mode: ContactMode,
-    precision: &Precision,
-) -> Contact {
-    let gap = normal.dot(&(points[0] - points[1]));
-    let error = precision.error;
-    Contact {
-        points,
-        normal,
-        distance: if gap > error { gap } else { 0.0 },
-        gap: if gap.abs() > error { gap } else { 0.0 },
-        mode,
-        features,
-    }
-}
-
-/// The contacts of the hulls of two primitives' vertices.
-pub(super) fn polytope_contacts(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    closest: &Closest,
-    precision: &Precision,
-) -> Vec<Contact> {
-    let pair = ContactPair {
-        r,
-        s,
-        closest,
-        precision,
-    };
-    let Some(normal) = pair.normal() else {
-        return Vec::new();
-    };
-    let planar = precision.planar;
-    let slack = tolerance::PARALLEL * precision.size;
-    let mode = mode_of(closest.features).filter(|mode| !(planar && *mode == ContactMode::EdgeEdge));
-    // Common case: a single corner is nearest, and there is no other contact.
-    if let Some(mode) = mode
-        && closest.distance > precision.error
-        && (has_lone_extreme(r, &-normal, slack) || has_lone_extreme(s, &normal, slack))
-    {
-        let (points, features) = (closest.points, closest.features);
-        return vec![contact_between(points, features, normal, mode, precision)];
-    }
-    let sides = [
-        SupportFeature::new(r, &-normal, slack),
-        SupportFeature::new(s, &normal, slack),
-    ];
-    let mut list = ContactList {
-        normal,
-        precision,
-        contacts: Vec::new(),
-    };
-    if mode.is_some() {
-        list.offer(closest.points, closest.features);
-    }
-    list.offer_corners(&sides, slack);
-    if !planar {
-        list.offer_crossings(&sides, slack);
-    }
-    let mut found = list.contacts;
-    deepest_first(&mut found, precision);
-    // Parallel edges of a planar pair may overlap by less than the slack.
-    if found.is_empty()
-        && let Some(mode) = mode_of(closest.features)
-    {
-        found.push(Contact {
-            points: closest.points,
-            normal,
-            distance: closest.distance,
-            gap: closest.distance,
-            mode,
-            features: closest.features,
-        });
-    }
-    found
-}
-
-/// Contacts with one normal, without duplicates.
-struct ContactList<'a> {
-    normal: Vec3,
-    precision: &'a Precision,
-    contacts: Vec<Contact>,
-}
-
-impl ContactList<'_> {
-    /// Adds a contact unless its features have no contact mode or its points are listed.
-    fn offer(&mut self, points: [Vec3; 2], features: [Feature; 2]) {
-        let same = SAME_POINT * self.precision.size;
-        let is_same = |other: &Contact| {
-            (other.points[0] - points[0]).norm() <= same
-                && (other.points[1] - points[1]).norm() <= same
-        };
-        if let Some(mode) = mode_of(features)
-            && !self.contacts.iter().any(is_same)
-        {
-            let contact = contact_between(points, features, self.normal, mode, self.precision);
-            self.contacts.push(contact);
-        }
-    }
-
-    /// Offers the corners of each supporting feature that are over the other.
-    fn offer_corners(&mut self, [on_r, on_s]: &[SupportFeature; 2], slack: f64) {
-        for (i, corner) in on_r.corners() {
-            if on_s.covers(&corner, slack) {
-                self.offer(
-                    [corner, on_s.foot(&corner)],
-                    [Feature::vertex(i), on_s.feature],
-                );
-            }
-        }
-        for (j, corner) in on_s.corners() {
-            if on_r.covers(&corner, slack) {
-                self.offer(
-                    [on_r.foot(&corner), corner],
-                    [on_r.feature, Feature::vertex(j)],
-                );
-            }
-        }
-    }
-
-    /// Offers the crossings of the two features' outlines, seen along the normal.
-    fn offer_crossings(&mut self, [on_r, on_s]: &[SupportFeature; 2], slack: f64) {
-        let sides_r = on_r.sides();
-        if sides_r.is_empty() {
-            return;
-        }
-        let sides_s = on_s.sides();
-        for (edge_r, segment_r) in &sides_r {
-            for (edge_s, segment_s) in &sides_s {
-                let (t, u) = closest_parameters(segment_r, segment_s);
-                let inside = |x: f64| x > 0.0 && x < 1.0;
-                let points = [segment_r.at(t), segment_s.at(u)];
-                let between = points[0] - points[1];
-                let aside = between - self.normal * self.normal.dot(&between);
-                if inside(t) && inside(u) && aside.norm() <= slack {
-                    self.offer(points, [Feature::edge(*edge_r), Feature::edge(*edge_s)]);
-                }
-            }
-        }
-    }
-}
-
-/// Whether only one vertex is within `slack` of the farthest along a direction.
-fn has_lone_extreme(placed: &PlacedPrimitive, direction: &Vec3, slack: f64) -> bool {
-    let (_, farthest) = placed.extent_along(direction);
-    let heights = placed.vertices().iter().map(|v| direction.dot(v));
-    heights.filter(|height| *height >= farthest - slack).count() == 1
-}
-
-/// Where the sets overlap slightly, the closest points are arbitrary: moves the deepest contact to the front, unless the one at
-/// the closest points is as deep.
-pub(super) fn deepest_first(found: &mut [Contact], precision: &Precision) {
-    let Some(first) = found.first().map(|first| first.gap) else {
-        return;
-    };
-    let is_deeper = |c: &Contact| c.gap < 0.0 && c.gap < first - precision.error;
-    if found.iter().any(is_deeper) {
-        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
-    }
-}
-
-pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
+pub fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
     use FeatureKind::{Edge, Face, Surface, Vertex};
     let as_point = |kind| if kind == Surface { Vertex } else { kind };
     match (as_point(features[0].kind), as_point(features[1].kind)) {
@@ -283,127 +31,26 @@ pub(super) fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
     }
 }
 
-/// The supporting feature of a primitive along a direction, with its corners in order around the direction.
-struct SupportFeature<'a> {
-    placed: PlacedPrimitive<'a>,
-    ring: Vec<u32>,
-    normal: Vec3,
-    feature: Feature,
+/// One contact of the r-primitive with the s-primitive: two points and the unit normal from s to r.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    pub points: [Vec3; 2],
+    pub normal: Vec3,
+    pub distance: f64,
+    /// The signed distance: negative where the primitives overlap slightly.
+    pub gap: f64,
+    pub mode: ContactMode,
+    pub features: [Feature; 2],
 }
 
-impl<'a> SupportFeature<'a> {
-    fn new(placed: &PlacedPrimitive<'a>, direction: &Vec3, slack: f64) -> Self {
-        let (_, farthest) = placed.extent_along(direction);
-        let level: Vec<u32> = (0..placed.vertex_count() as u32)
-            .filter(|&i| direction.dot(&placed.vertex(i)) >= farthest - slack)
-            .collect();
-        // Common case: a single corner.
-        let ring = if level.len() == 1 {
-            level
-        } else {
-            outline(placed, &level, direction, slack)
-        };
-        let feature = feature_of(placed, &ring);
-        Self {
-            placed: *placed,
-            ring,
-            normal: *direction,
-            feature,
-        }
-    }
-
-    fn corners(&self) -> impl Iterator<Item = (u32, Vec3)> + '_ {
-        self.ring.iter().map(|&i| (i, self.placed.vertex(i)))
-    }
-
-    /// The sides of the ring that are edges of the primitive.
-    fn sides(&self) -> Vec<(u32, Segment)> {
-        let n = self.ring.len();
-        let pairs = if n == 2 { 1 } else { n };
-        (0..pairs)
-            .filter(|_| n > 1)
-            .map(|i| [self.ring[i], self.ring[(i + 1) % n]])
-            .filter_map(|ends| {
-                edge_between(&self.placed, ends)
-                    .map(|e| (e, Segment::new(self.placed.edge_ends(ends))))
-            })
-            .collect()
-    }
-
-    /// Whether the feature, seen along its normal, covers the point. A single corner covers only itself.
-    fn covers(&self, point: &Vec3, slack: f64) -> bool {
-        let to_foot = point - self.foot(point);
-        match self.ring.len() {
-            1 | 2 => (to_foot - self.normal * self.normal.dot(&to_foot)).norm() <= slack,
-            n => (0..n).all(|i| {
-                let a = self.placed.vertex(self.ring[i]);
-                let b = self.placed.vertex(self.ring[(i + 1) % n]);
-                let edge = b - a;
-                edge.cross(&(point - a)).dot(&self.normal) >= -slack * edge.norm()
-            }),
-        }
-    }
-
-    /// The point of the feature under (or over) `point`.
-    fn foot(&self, point: &Vec3) -> Vec3 {
-        match self.ring[..] {
-            [i] => self.placed.vertex(i),
-            [i, j] => {
-                let segment = Segment::new(self.placed.edge_ends([i, j]));
-                let here = Segment::new((*point, *point));
-                segment.at(closest_parameters(&here, &segment).1)
-            }
-            _ => {
-                let normal = match self.feature.kind {
-                    FeatureKind::Face => self.placed.normal(self.feature.index as usize),
-                    _ => self.normal,
-                };
-                point - normal * normal.dot(&(point - self.placed.vertex(self.ring[0])))
-            }
-        }
-    }
-}
-
-/// The vertices of `level` that are corners of their outline seen along a direction, in order around it.
-fn outline(placed: &PlacedPrimitive, level: &[u32], direction: &Vec3, slack: f64) -> Vec<u32> {
-    let (x, y) = plane_axes(direction);
-    let points = level.iter().map(|&i| placed.vertex(i));
-    let flat: Vec<_> = points.map(|p| Vector2::new(x.dot(&p), y.dot(&p))).collect();
-    let corners = convex_hull_2d(&flat, slack);
-    corners.iter().map(|&i| level[i as usize]).collect()
-}
-
-fn edge_between(placed: &PlacedPrimitive, ends: [u32; 2]) -> Option<u32> {
-    placed
-        .shape
-        .edges
-        .iter()
-        .position(|&[a, b]| [a, b] == ends || [b, a] == ends)
-        .map(|e| e as u32)
-}
-
-/// The feature with these corners: for two the edge that joins them, for more the face that holds most of them.
-fn feature_of(placed: &PlacedPrimitive, ring: &[u32]) -> Feature {
-    match ring {
-        [i] => Feature::vertex(*i),
-        [i, j] => {
-            // Along a straight outline several edges may lie between the two ends; the first of them is taken.
-            let edge = edge_between(placed, [*i, *j]).or_else(|| {
-                let starts = placed.shape.edges.iter();
-                starts.clone().position(|e| e.contains(i)).map(|e| e as u32)
-            });
-            edge.map_or(Feature::vertex(*i), Feature::edge)
-        }
-        _ => {
-            let shared = |f: usize| {
-                ring.iter()
-                    .filter(|i| placed.shape.faces[f].vertices.contains(i))
-                    .count()
-            };
-            (0..placed.shape.faces.len())
-                .rev()
-                .max_by_key(|&f| shared(f))
-                .map_or(Feature::interior(), |f| Feature::face(f as u32))
-        }
+/// Where the sets overlap slightly, the closest points are arbitrary: moves the deepest contact to the front, unless the one at
+/// the closest points is as deep.
+pub fn deepest_first(found: &mut [Contact], precision: &Precision) {
+    let Some(first) = found.first().map(|first| first.gap) else {
+        return;
+    };
+    let is_deeper = |c: &Contact| c.gap < 0.0 && c.gap < first - precision.error;
+    if found.iter().any(is_deeper) {
+        found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
     }
 }

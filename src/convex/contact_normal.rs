@@ -4,9 +4,9 @@
 use smallvec::SmallVec;
 
 use super::closest::{Closest, Segment, closest_parameters};
-use super::distance::{feature_normal, gap_along};
-use super::penetration::polytope_penetration;
 use super::placed::{PlacedPrimitive, Precision};
+use super::polytope_distance::{feature_normal, gap_along};
+use super::polytope_penetration::polytope_penetration;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;

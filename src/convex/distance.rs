@@ -1,23 +1,15 @@
-//! The exact distance of two primitives: GJK finds the candidate features, closed forms give their distance, and a
-//! supporting direction certifies it; where none does, all features are compared.
+//! The distance of two primitives: that of their cores, by the form of these, less the radii.
 
-use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
-use super::cuboid_distance::segment_to_cuboid;
+use super::closest::Closest;
+use super::core::{Core, is_smooth};
 use super::cuboids_within::cuboids_within;
-use super::curved::{Core, beyond_radii, core_closest, grown, is_smooth};
 use super::placed::{PlacedPrimitive, Precision};
-use super::point_to_polygon::point_to_polygon;
-use crate::gjk::{DistanceLimits, NearestCorners, Support, gjk, meeting};
+use super::polytope_distance::{DistanceScratch, closed_form, closest_polytopes, cuboid};
+use super::smooth_distance::smooth_closest;
+use crate::gjk::{DistanceLimits, Support, meeting};
 use crate::pose::Vec3;
-use crate::primitive::{Cuboid, Feature, FeatureKind, Smooth, SmoothKind};
+use crate::primitive::{Smooth, SmoothKind};
 use crate::tolerance;
-
-/// Scratch memory of the distance computation, reused from pair to pair.
-#[derive(Default)]
-pub struct DistanceScratch {
-    a: FeatureSet,
-    b: FeatureSet,
-}
 
 /// The closest points of two primitives, and what their contacts are computed from.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +53,55 @@ pub fn measure(
         cores,
         direction,
     })
+}
+
+/// The closest points of the cores, and for smooth cores the unit direction from B to A that certifies their distance; zero if
+/// there is none. `None` where the cores are proved to be farther apart than the cutoff.
+fn core_closest(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    pair: &Precision,
+    limits: DistanceLimits,
+    scratch: &mut DistanceScratch,
+) -> Option<(Closest, Vec3)> {
+    if is_smooth(a, b) {
+        smooth_closest(a, b, pair, limits)
+    } else {
+        let found = closest_polytopes(a, b, pair, limits, scratch)?;
+        Some((found, Vec3::zeros()))
+    }
+}
+
+/// The distance of two sets, from that of their cores.
+#[inline(always)]
+fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
+    if cores >= a + b { cores - a - b } else { 0.0 }
+}
+
+/// The closest points of two sets, from those of their cores. Where the sets overlap, both are the same common point, between
+/// the cores.
+fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
+    let apart = cores.distance;
+    let [on_a, on_b] = cores.points;
+    if apart == 0.0 || radii == [0.0; 2] {
+        return *cores;
+    }
+    let normal = (on_a - on_b) / apart;
+    let [a, b] = radii;
+    if apart >= a + b {
+        return Closest {
+            distance: beyond_radii(apart, radii),
+            points: [on_a - normal * a, on_b + normal * b],
+            ..*cores
+        };
+    }
+    // The middle of the overlap along the line between the cores.
+    let between = 0.5 * ((apart - b).max(0.0) + a.min(apart));
+    Closest {
+        doubt: cores.doubt,
+        depth: cores.depth,
+        ..Closest::meeting_at(on_a - normal * between, cores.features)
+    }
 }
 
 /// Whether a unit direction from B to A proves two primitives to be farther apart than the cutoff.
@@ -137,286 +178,4 @@ pub fn closed_distance(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precisio
     let cores = closed_form(a, b, pair)?;
     let radii = [a, b].map(|placed| placed.shape.radius());
     Some(beyond_radii(cores.distance, radii))
-}
-
-/// The closest points of the hulls of two primitives' vertices; `None` where these are proved to be farther apart than the
-/// cutoff.
-pub fn closest_polytopes(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    pair: &Precision,
-    limits: DistanceLimits,
-    scratch: &mut DistanceScratch,
-) -> Option<Closest> {
-    let needs_bounds = |placed: &PlacedPrimitive| placed.shape.is_solid() || is_large(placed);
-    let mut found = match closed_form(a, b, pair) {
-        Some(found) => found,
-        None if pair.planar => planar_closest(a, b, pair, scratch),
-        None if needs_bounds(a) || needs_bounds(b) => bounded_closest(a, b, pair, limits, scratch)?,
-        None if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff => return None,
-        None => all_features(a, b, scratch),
-    };
-    for (placed, side) in [(a, 0), (b, 1)] {
-        snap_to_vertex(placed, &mut found, side, pair.error);
-    }
-    Some(found)
-}
-
-/// The closest points in closed form, in space: of a point or segment with a point, segment or box, and of a point with a small
-/// polygon.
-fn closed_form(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<Closest> {
-    if pair.planar {
-        return None;
-    }
-    let is_small_polygon =
-        |placed: &PlacedPrimitive| placed.shape.faces.len() == 1 && !is_large(placed);
-    match (a.vertex_count(), b.vertex_count()) {
-        (1 | 2, 1 | 2) => Some(closest_segments(a, b)),
-        (1, _) if is_small_polygon(b) => Some(point_to_polygon(&a.vertex(0), b)),
-        (_, 1) if is_small_polygon(a) => Some(point_to_polygon(&b.vertex(0), a).swapped()),
-        (1 | 2, _) | (_, 1 | 2) => closest_to_cuboid(a, b, pair.error),
-        _ => None,
-    }
-}
-
-/// The closest points of a point or a segment and a box that are more than `error` apart.
-fn closest_to_cuboid(a: &PlacedPrimitive, b: &PlacedPrimitive, error: f64) -> Option<Closest> {
-    let found = if let Some(cuboid) = cuboid(b)
-        && a.vertex_count() <= 2
-    {
-        segment_to_cuboid(a, b, cuboid)?
-    } else if let Some(cuboid) = cuboid(a)
-        && b.vertex_count() <= 2
-    {
-        segment_to_cuboid(b, a, cuboid)?.swapped()
-    } else {
-        return None;
-    };
-    (found.distance > error).then_some(found)
-}
-
-fn cuboid<'a>(placed: &PlacedPrimitive<'a>) -> Option<&'a Cuboid> {
-    placed.form()?.cuboid()
-}
-
-/// The distance of a set from the plane of a flat polygon, on either side.
-fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
-    if !flat.shape.is_flat() {
-        return f64::NEG_INFINITY;
-    }
-    let normal = flat.normal(0);
-    gap_along(other, flat, &normal).max(gap_along(flat, other, &normal))
-}
-
-/// Moves the feature from an edge to its end vertex where the point is within `slack` of it.
-fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, slack: f64) {
-    let feature = found.features[side];
-    if feature.kind == FeatureKind::Edge {
-        let ends = placed.shape.edges[feature.index as usize];
-        let near = |&i: &u32| (placed.vertex(i) - found.points[side]).norm() <= slack;
-        if let Some(i) = ends.into_iter().find(near) {
-            found.features[side] = Feature::vertex(i);
-        }
-    }
-}
-
-/// Polygons with at most this many edges are compared edge by edge.
-const MAX_EDGES_ENUMERATED: usize = 32;
-
-fn is_large(placed: &PlacedPrimitive) -> bool {
-    placed.shape.edges.len() > MAX_EDGES_ENUMERATED
-}
-
-fn all_features(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    scratch: &mut DistanceScratch,
-) -> Closest {
-    scratch.a.set_all(a);
-    scratch.b.set_all(b);
-    closest_features(a, &scratch.a, b, &scratch.b, true)
-}
-
-/// The closest points of polygons in one plane: compares the outlines, then tests containment.
-fn planar_closest(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    pair: &Precision,
-    scratch: &mut DistanceScratch,
-) -> Closest {
-    scratch.a.set_outline(a);
-    scratch.b.set_outline(b);
-    let found = closest_features(a, &scratch.a, b, &scratch.b, false);
-    let holds = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
-        let point = inner.vertex(0);
-        let inside = !outer.shape.faces.is_empty() && outer.over_face(0, &point).1;
-        inside.then_some(point)
-    };
-    let (inner, outer) = (Feature::vertex(0), Feature::interior());
-    if found.distance <= pair.error {
-        found
-    } else if let Some(point) = holds(b, a) {
-        Closest::meeting_at(point, [inner, outer])
-    } else if let Some(point) = holds(a, b) {
-        Closest::meeting_at(point, [outer, inner])
-    } else {
-        found
-    }
-}
-
-/// The closest points of solids, and of polygons too large to enumerate: compares the features near the supporting planes.
-fn bounded_closest(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    pair: &Precision,
-    limits: DistanceLimits,
-    scratch: &mut DistanceScratch,
-) -> Option<Closest> {
-    let size = pair.size;
-    let bounds = gjk(
-        a,
-        b,
-        // A start that depends on the two primitives alone, so that the answer does too.
-        a.middle() - b.middle(),
-        limits,
-    );
-    if bounds.lower > limits.cutoff {
-        return None;
-    }
-    // A separating direction is trusted over a tetrahedron around the origin.
-    let may_meet = bounds.lower <= tolerance::SUPPORT_ERROR * size;
-    if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
-        let interior = [Feature::interior(); 2];
-        return Some(Closest {
-            depth: bounds.overlap,
-            ..Closest::meeting_at(bounds.common, interior)
-        });
-    }
-    if let Some(points) = bounds.near
-        && bounds.overlap == 0.0
-    {
-        return Some(Closest::between(points, [Feature::interior(); 2]));
-    }
-    if let Some(nearest) = &bounds.nearest
-        && bounds.lower > 0.0
-        && nearest.difference.norm() - bounds.lower <= tolerance::CERTIFIED_GAP * size
-        && let Some(found) = between_corners(a, b, nearest)
-    {
-        return Some(found);
-    }
-    if bounds.lower > 0.0 {
-        // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets
-        // nearly touch, and then the certificate fails and all features are searched.
-        let slack = 1e-6 * size;
-        scratch.a.set_supporting(a, &-bounds.direction, slack);
-        scratch.b.set_supporting(b, &bounds.direction, slack);
-        let found = closest_features(a, &scratch.a, b, &scratch.b, false);
-        let accepted = tolerance::CERTIFIED_GAP * size;
-        if found.distance - bounds.lower <= accepted
-            || found.distance - certificate(a, b, &found, bounds.direction) <= accepted
-        {
-            return Some(found);
-        }
-    }
-    // Features that touch or cross are tested first: they say more than a vertex of one set inside the other.
-    let found = all_features(a, b, scratch);
-    if found.distance <= pair.error {
-        return Some(found);
-    }
-    let contained = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
-        let (i, point) = contained_vertex(inner, outer)?;
-        Some((Feature::vertex(i), point))
-    };
-    if let Some((vertex, point)) = contained(b, a) {
-        return Some(Closest::meeting_at(point, [vertex, Feature::interior()]));
-    }
-    if let Some((vertex, point)) = contained(a, b) {
-        return Some(Closest::meeting_at(point, [Feature::interior(), vertex]));
-    }
-    Some(found)
-}
-
-/// The nearest points between the corners that GJK ended with, if the corners of each side span a feature.
-fn between_corners(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    nearest: &NearestCorners,
-) -> Option<Closest> {
-    let feature = |placed: &PlacedPrimitive, side: usize| {
-        let (names, len) = nearest.names.of(side);
-        placed.feature_of(&names[..len])
-    };
-    let features = [feature(a, 0)?, feature(b, 1)?];
-    let found = Closest::between(nearest.points, features);
-    // The foot of a vertex in a face is more accurate than a combination of corners.
-    let [on_a, on_b] = found.points;
-    Some(match (features[0].kind, features[1].kind) {
-        (FeatureKind::Vertex, FeatureKind::Face) => Closest {
-            points: [on_a, foot_in(b, features[1], &on_a).unwrap_or(on_b)],
-            ..found
-        },
-        (FeatureKind::Face, FeatureKind::Vertex) => Closest {
-            points: [foot_in(a, features[0], &on_b).unwrap_or(on_a), on_b],
-            ..found
-        },
-        _ => found,
-    })
-}
-
-/// The foot of a point on a face, if it is inside the face.
-fn foot_in(placed: &PlacedPrimitive, face: Feature, point: &Vec3) -> Option<Vec3> {
-    let face = face.index as usize;
-    let (height, is_over) = placed.over_face(face, point);
-    is_over.then(|| point - placed.normal(face) * height)
-}
-
-/// A vertex of A inside the solid B.
-fn contained_vertex(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Option<(u32, Vec3)> {
-    let vertices = a.vertices().iter().enumerate();
-    vertices
-        .filter(|(_, point)| b.contains(point))
-        .map(|(i, point)| (i as u32, *point))
-        .next()
-}
-
-/// The largest gap proved by one of these directions: the given one, the one between the points, and the normal of their
-/// features.
-fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
-    let mut best = gap_along(a, b, &direction);
-    let mut offer = |n: Vec3| {
-        if let Some(n) = n.try_normalize(0.0) {
-            let n = if n.dot(&direction) < 0.0 { -n } else { n };
-            best = best.max(gap_along(a, b, &n));
-        }
-    };
-    offer(found.points[0] - found.points[1]);
-    if let Some(normal) = feature_normal(a, b, found) {
-        offer(normal);
-    }
-    best
-}
-
-/// The signed gap of the projections along the unit vector `direction`, from B to A.
-pub fn gap_along(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
-    a.extent_along(direction).0 - b.extent_along(direction).1
-}
-
-/// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
-/// perpendicular of two edges. Exact however close the points are.
-pub fn feature_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<Vec3> {
-    use FeatureKind::{Edge, Face, Vertex};
-    let [on_a, on_b] = found.features;
-    match (on_a.kind, on_b.kind) {
-        (Vertex, Face) => Some(b.normal(on_b.index as usize)),
-        (Face, Vertex) => Some(a.normal(on_a.index as usize)),
-        (Edge, Edge) => {
-            let along = |placed: &PlacedPrimitive, edge: u32| {
-                let (p, q) = placed.edge_ends(placed.shape.edges[edge as usize]);
-                (q - p).normalize()
-            };
-            let cross = along(a, on_a.index).cross(&along(b, on_b.index));
-            (cross.norm() > 1e-6).then(|| cross.normalize())
-        }
-        _ => None,
-    }
 }

@@ -3,10 +3,11 @@
 mod closest;
 mod contact;
 mod contact_normal;
+mod contacts;
+mod core;
 mod cuboid_distance;
 mod cuboids_within;
-mod curved;
-mod curved_contact;
+mod curved_contacts;
 mod distance;
 mod extreme_vertex;
 mod gauss_arcs;
@@ -19,16 +20,21 @@ mod point_to_polygon;
 mod point_to_smooth;
 mod polygon_crossing;
 mod polygon_distance;
+mod polytope_contacts;
+mod polytope_distance;
+mod polytope_penetration;
+mod smooth_distance;
 mod surface_part;
 mod swept_gap;
 
 pub use closest::Closest;
-pub use contact::{Contact, ContactMode, contacts, first_contact};
-pub use distance::{
-    DistanceScratch, PrimitiveDistance, closed_distance, measure, meeting_or_beyond, parts,
-};
+pub use contact::{Contact, ContactMode};
+pub use contacts::{contacts, first_contact};
+pub use distance::{PrimitiveDistance, closed_distance, measure, meeting_or_beyond, parts};
 pub use outline::{MAX_CORNERS, Outline, moved};
-pub use penetration::{Penetration, penetration};
+pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};
+pub use polytope_distance::DistanceScratch;
+pub use polytope_penetration::Penetration;
 pub use swept_gap::{Sweep, swept_gap};

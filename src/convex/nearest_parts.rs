@@ -1,7 +1,7 @@
 //! Newton's method for the direction between the closest points of two surface parts, once GJK has found which parts these are.
 //! It reaches the last digit in a few steps, where GJK alone halves the error in each.
 
-use super::curved::Core;
+use super::core::Core;
 use super::surface_part::SurfacePart;
 use crate::gjk::{Nearby, Support};
 use crate::pose::Vec3;

@@ -1,35 +1,13 @@
-//! Penetration: the shortest translation that separates two convex sets.
-//!
-//! A translation of r along n separates the sets when it is at least the highest projection of s on n minus the lowest of r.
-//! The shortest one goes along the normal of a facet of the sets' Minkowski difference: a face's normal, or the cross product
-//! of an edge of each (in the plane, an edge's normal). All of those are tried, so the result is exact to rounding and there is
-//! no iteration that could stop early. A pair of edges is tried only where both support along their cross product, as tested on
-//! the neighbouring corners; candidates are the pairs whose arcs of the Gauss map may cross.
+//! Penetration: the shortest translation that separates two primitives, by the form of these.
 
-use super::closest::{FeatureSet, closest_features};
-use super::curved::is_curved;
-use super::curved_contact::curved_penetration;
-use super::distance::{DistanceScratch, closest_polytopes};
-use super::extreme_vertex::ExtremeVertex;
-use super::gauss_arcs::GaussArcs;
+use super::core::{is_curved, is_smooth};
+use super::distance::measure;
 use super::placed::{PlacedPrimitive, Precision};
-use crate::error::Result;
+use super::polytope_distance::DistanceScratch;
+use super::polytope_penetration::{Penetration, polytope_penetration};
+use crate::error::{Error, ErrorKind, Result};
 use crate::gjk::DistanceLimits;
-use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
-
-/// The shortest translation of r that leaves r and s touching: by `depth` along `direction`, a unit vector from s to r.
-#[derive(Clone, Copy, Debug)]
-pub struct Penetration {
-    /// 0 for sets that only touch, or whose interiors do not overlap, such as flat sets in one plane.
-    pub depth: f64,
-    pub direction: Vec3,
-    /// A point of r and one of s that the translation brings together: s = r + depth * direction.
-    pub points: [Vec3; 2],
-}
-
-/// The slack by which a corner may lie beyond a supporting edge, relative to the pair's size.
-const SUPPORT_SLACK: f64 = 1e-9;
 
 /// The penetration of two sets that meet. Fails for smooth ones. The meter counts the edge pairs compared; if its limit is
 /// exceeded, the result is meaningless.
@@ -46,219 +24,45 @@ pub fn penetration(
     }
 }
 
-/// The penetration of the hulls of two primitives' vertices that meet.
-pub(super) fn polytope_penetration(
+/// The penetration of two sets of which at least one is curved. Smooth cores are refused: their shortest way out has no closed
+/// form.
+fn curved_penetration(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
     precision: &Precision,
     meter: &mut WorkMeter,
-) -> Penetration {
-    let mut shortest = ShortestWay::new(r, s);
-    if precision.planar {
-        for placed in [r, s] {
-            for &edge in &placed.shape.edges {
-                let (from, to) = placed.edge_ends(edge);
-                let along = to - from;
-                shortest.offer_next(&Vec3::new(-along.y, along.x, 0.0));
-            }
+) -> Result<Penetration> {
+    if is_smooth(r, s) {
+        return Err(Error::new(
+            ErrorKind::Unsupported,
+            "the penetration of cylinders, cones, ellipsoids and support functions is not computed",
+        ));
+    }
+    let radii = [r, s].map(|placed| placed.shape.radius());
+    let cores = measure(
+        r,
+        s,
+        precision,
+        DistanceLimits::EXACT,
+        &mut DistanceScratch::default(),
+    );
+    let cores = cores.expect("nothing is beyond infinity").cores;
+    let inner = if cores.distance > precision.error {
+        let between = cores.points[0] - cores.points[1];
+        Penetration {
+            depth: -cores.distance,
+            direction: between / cores.distance,
+            points: cores.points,
         }
     } else {
-        for placed in [r, s] {
-            for face in 0..placed.shape.faces.len() {
-                shortest.offer_next(&placed.normal(face));
-            }
-        }
-        offer_edges(r, s, SUPPORT_SLACK * precision.size, meter, &mut shortest);
-    }
-    shortest.measure_waiting();
-    // Sets without faces and without candidate normals: a direction perpendicular to their longest edge.
-    if shortest.depth == f64::INFINITY {
-        let along = [r, s]
-            .iter()
-            .flat_map(|placed| {
-                placed
-                    .shape
-                    .edges
-                    .iter()
-                    .map(|&edge| placed.edge_ends(edge))
-            })
-            .map(|(from, to)| to - from)
-            .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
-            .unwrap_or_else(Vec3::zeros);
-        let across = if along.x.abs() <= along.y.abs() {
-            Vec3::x()
-        } else {
-            Vec3::y()
-        };
-        let upright = if along == Vec3::zeros() {
-            across
-        } else {
-            along.cross(&across)
-        };
-        shortest.offer_next(&upright);
-        shortest.measure_waiting();
-    }
-    let depth = shortest.depth.max(0.0);
-    let direction = shortest.direction;
-    Penetration {
-        depth,
-        direction,
-        points: coinciding_points(r, s, depth, &direction, precision),
-    }
-}
-
-/// Offers the cross products of the edge pairs that support along them.
-fn offer_edges(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    slack: f64,
-    meter: &mut WorkMeter,
-    shortest: &mut ShortestWay,
-) {
-    let (arcs_r, arcs_s) = (
-        GaussArcs::new(r, true, slack),
-        GaussArcs::new(s, false, slack),
-    );
-    let first = shortest.next;
-    arcs_r.visit_crossing(&arcs_s, meter, |edge_r, edge_s| {
-        let cross = arcs_r.along(edge_r).cross(arcs_s.along(edge_s));
-        let Some(normal) = cross.try_normalize(0.0) else {
-            return;
-        };
-        let [low_r, high_r] = arcs_r.extent_at(edge_r, &normal);
-        let [low_s, high_s] = arcs_s.extent_at(edge_s, &normal);
-        let supports = (low_r >= -slack && high_s <= slack) || (high_r <= slack && low_s >= -slack);
-        if supports {
-            let pair = u64::from(edge_r) * arcs_s.len() as u64 + u64::from(edge_s);
-            shortest.offer(first + pair, &normal);
-        }
-    });
-    shortest.next += (arcs_r.len() * arcs_s.len()) as u64;
-}
-
-/// Points of both sets that coincide after r has moved by `depth` along `direction`, the normal of the planes in which they
-/// then touch: the closest points, with r moved a little farther, of the features in these planes. Where features are nearly
-/// parallel these may be too few; then the slack is increased, and finally all features are compared.
-fn coinciding_points(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    depth: f64,
-    direction: &Vec3,
-    precision: &Precision,
-) -> [Vec3; 2] {
-    let way = direction * depth;
-    let moved_by = |shift: Vec3| -> Vec<Vec3> { r.vertices().iter().map(|v| v + shift).collect() };
-    for slack in [1e-9, 1e-6].map(|part| part * precision.size) {
-        let shift = direction * (depth + slack);
-        let vertices = moved_by(shift);
-        let moved = r.shifted(&vertices);
-        let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
-        on_r.set_supporting(&moved, &-direction, slack);
-        on_s.set_supporting(s, direction, slack);
-        let met = closest_features(&moved, &on_r, s, &on_s, false);
-        let points = [met.points[0] - shift, met.points[1]];
-        if (points[1] - points[0] - way).norm() <= precision.error {
-            return points;
-        }
-    }
-    let vertices = moved_by(way);
-    let moved = r.shifted(&vertices);
-    let scratch = &mut DistanceScratch::default();
-    let met = closest_polytopes(&moved, s, precision, DistanceLimits::EXACT, scratch);
-    let met = met.expect("nothing is beyond infinity");
-    [met.points[0] - way, met.points[1]]
-}
-
-/// The shortest way out among the candidate lines tried so far.
-struct ShortestWay<'a> {
-    sets: [&'a PlacedPrimitive<'a>; 2],
-    extremes: [ExtremeVertex<'a>; 2],
-    depth: f64,
-    direction: Vec3,
-    /// The number of the direction's line, and whether it is the opposite of its normal. Ties of the depth go to the lowest
-    /// rank.
-    rank: (u64, bool),
-    /// The number of the next line.
-    next: u64,
-    /// Lines that may be the shortest, not yet measured with all vertices.
-    waiting: Vec<Line>,
-}
-
-struct Line {
-    number: u64,
-    normal: Vec3,
-    /// A lower bound of the depth along the line, either way.
-    lower: f64,
-}
-
-/// Lines are measured in batches of this many, in the order of their lower bounds: mostly the first then proves the others
-/// longer.
-const BATCH: usize = 64;
-
-impl<'a> ShortestWay<'a> {
-    fn new(r: &'a PlacedPrimitive<'a>, s: &'a PlacedPrimitive<'a>) -> Self {
-        Self {
-            sets: [r, s],
-            extremes: [r, s]
-                .map(|placed| ExtremeVertex::new(placed.vertices(), &placed.shape.edges)),
-            depth: f64::INFINITY,
-            direction: Vec3::x(),
-            rank: (u64::MAX, true),
-            next: 0,
-            waiting: Vec::new(),
-        }
-    }
-
-    /// Tries the directions of a vector of any length and of its opposite, as the next line.
-    fn offer_next(&mut self, line: &Vec3) {
-        self.offer(self.next, line);
-        self.next += 1;
-    }
-
-    /// The same for a line of the given number.
-    fn offer(&mut self, number: u64, line: &Vec3) {
-        let Some(normal) = line.try_normalize(0.0) else {
-            return;
-        };
-        // The projections of any vertices bound the extent from within, also in rounded arithmetic.
-        let [(low_r, high_r), (low_s, high_s)] =
-            [0, 1].map(|i| self.extremes[i].extent_within(&normal));
-        let lower = (high_s - low_r).min(high_r - low_s);
-        if lower > self.depth {
-            return;
-        }
-        self.waiting.push(Line {
-            number,
-            normal,
-            lower,
-        });
-        if self.waiting.len() >= BATCH {
-            self.measure_waiting();
-        }
-    }
-
-    /// Measures the waiting lines.
-    fn measure_waiting(&mut self) {
-        let mut waiting = std::mem::take(&mut self.waiting);
-        waiting.sort_unstable_by(|a, b| {
-            let by_bound = a.lower.total_cmp(&b.lower);
-            by_bound.then(a.number.cmp(&b.number))
-        });
-        for line in waiting.drain(..) {
-            if line.lower > self.depth {
-                break;
-            }
-            let normal = line.normal;
-            let [(low_r, high_r), (low_s, high_s)] =
-                self.sets.map(|placed| placed.extent_along(&normal));
-            let ways = [(high_s - low_r, normal), (high_r - low_s, -normal)];
-            for ((depth, direction), is_opposite) in ways.into_iter().zip([false, true]) {
-                let rank = (line.number, is_opposite);
-                if depth < self.depth || (depth == self.depth && rank < self.rank) {
-                    (self.depth, self.direction, self.rank) = (depth, direction, rank);
-                }
-            }
-        }
-        self.waiting = waiting;
-    }
+        polytope_penetration(r, s, precision, meter)
+    };
+    Ok(Penetration {
+        depth: (inner.depth + radii[0] + radii[1]).max(0.0),
+        direction: inner.direction,
+        points: [
+            inner.points[0] - inner.direction * radii[0],
+            inner.points[1] + inner.direction * radii[1],
+        ],
+    })
 }

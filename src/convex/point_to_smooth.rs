@@ -1,7 +1,7 @@
 //! The distance of a point from a cylinder or a cone, in closed form: both are solids of revolution.
 
 use super::closest::Closest;
-use super::curved::Core;
+use super::core::Core;
 use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::{Feature, SmoothKind};
 

@@ -1,6 +1,6 @@
 //! The parts of convex surfaces that can hold closest points: vertices, edges, rims, rulings, ellipsoids, faces.
 
-use super::curved::Core;
+use super::core::Core;
 use crate::pose::{Mat3, Vec3, turned, turned_back};
 use crate::primitive::{HIGH_END, LOW_END, SmoothKind};
 

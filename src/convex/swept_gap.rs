@@ -1,6 +1,6 @@
 //! The gap of two primitives along a direction over an interval of time.
 
-use super::curved::Core;
+use super::core::Core;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
 use crate::pose::Vec3;

@@ -1,16 +1,15 @@
-//! Contacts and penetration of curved primitives: those of their cores, moved outwards by the radii.
+//! Contacts of curved primitives: those of their cores, moved outwards by the radii.
 
 use super::closest::Closest;
-use super::contact::{Contact, deepest_first, first_polytope_contact, mode_of, polytope_contacts};
-use super::curved::{APART, Core, is_smooth, refined_cores};
-use super::distance::{DistanceScratch, PrimitiveDistance, measure};
-use super::penetration::{Penetration, polytope_penetration};
+use super::contact::{Contact, deepest_first, mode_of};
+use super::core::{Core, is_smooth};
+use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
-use crate::error::{Error, ErrorKind, Result};
-use crate::gjk::{DistanceLimits, Support};
+use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
+use super::smooth_distance::{APART, refined_cores};
+use crate::gjk::Support;
 use crate::pose::Vec3;
 use crate::tolerance;
-use crate::work_meter::WorkMeter;
 
 /// The contacts of a pair of which at least one is curved. They are exact as long as the cores are apart, however deep the
 /// rounded sets overlap.
@@ -144,47 +143,4 @@ fn touch(
     let [nearest, farthest] = [Core::of(r).support(&-normal), Core::of(s).support(&normal)];
     let gap = normal.dot(&(nearest - farthest));
     (gap >= -tolerance::JUST_INSIDE * precision.size).then_some((normal, gap, points))
-}
-
-/// The penetration of two sets of which at least one is curved. Smooth cores are refused: their shortest way out has no closed
-/// form.
-pub fn curved_penetration(
-    r: &PlacedPrimitive,
-    s: &PlacedPrimitive,
-    precision: &Precision,
-    meter: &mut WorkMeter,
-) -> Result<Penetration> {
-    if is_smooth(r, s) {
-        return Err(Error::new(
-            ErrorKind::Unsupported,
-            "the penetration of cylinders, cones, ellipsoids and support functions is not computed",
-        ));
-    }
-    let radii = [r, s].map(|placed| placed.shape.radius());
-    let cores = measure(
-        r,
-        s,
-        precision,
-        DistanceLimits::EXACT,
-        &mut DistanceScratch::default(),
-    );
-    let cores = cores.expect("nothing is beyond infinity").cores;
-    let inner = if cores.distance > precision.error {
-        let between = cores.points[0] - cores.points[1];
-        Penetration {
-            depth: -cores.distance,
-            direction: between / cores.distance,
-            points: cores.points,
-        }
-    } else {
-        polytope_penetration(r, s, precision, meter)
-    };
-    Ok(Penetration {
-        depth: (inner.depth + radii[0] + radii[1]).max(0.0),
-        direction: inner.direction,
-        points: [
-            inner.points[0] - inner.direction * radii[0],
-            inner.points[1] + inner.direction * radii[1],
-        ],
-    })
 }

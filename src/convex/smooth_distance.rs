@@ -1,98 +1,18 @@
-//! Curved primitives: the closest points of their cores, moved outwards by the radii. A rounded primitive is as exact as its
-//! core; smooth cores are known only by their support functions.
+//! The closest points of two cores of which at least one is smooth: known only by its support function.
 
 use super::closest::{Closest, Segment, closest_parameters};
-use super::distance::{DistanceScratch, closest_polytopes};
+use super::core::Core;
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
-use crate::gjk::{DistanceLimits, Extreme, RefinedBounds, Support, refined};
-use crate::pose::{Mat3, Vec3, turned, turned_back};
-use crate::primitive::{Feature, Smooth};
+use crate::gjk::{DistanceLimits, RefinedBounds, refined};
+use crate::pose::Vec3;
+use crate::primitive::Feature;
 use crate::tolerance;
 
-/// The support function of a core, for GJK.
-pub struct Core<'a> {
-    placed: &'a PlacedPrimitive<'a>,
-    smooth: Option<(&'a Smooth, Mat3)>,
-    shift: Vec3,
-}
-
-impl<'a> Core<'a> {
-    /// The core moved by `shift`.
-    pub fn shifted(placed: &'a PlacedPrimitive<'a>, shift: Vec3) -> Self {
-        let smooth = placed.shape.smooth();
-        Self {
-            placed,
-            smooth: smooth.map(|smooth| (smooth, placed.turned_axes(&smooth.axes))),
-            shift,
-        }
-    }
-
-    pub fn of(placed: &'a PlacedPrimitive<'a>) -> Self {
-        Self::shifted(placed, Vec3::zeros())
-    }
-
-    /// The smooth set, if the core is one, with the directions of its axes in the common frame.
-    pub fn smooth(&self) -> Option<(&Smooth, &Mat3)> {
-        let (smooth, axes) = self.smooth.as_ref()?;
-        Some((smooth, axes))
-    }
-
-    /// A vertex in the common frame. Vertex 0 of a smooth core is its origin.
-    pub fn vertex(&self, index: u32) -> Vec3 {
-        self.placed.vertex(index) + self.shift
-    }
-}
-
-impl Support for Core<'_> {
-    #[inline(always)]
-    fn extreme(&self, direction: &Vec3) -> Extreme {
-        let found = match &self.smooth {
-            None => self.placed.extreme(direction),
-            Some((smooth, axes)) => {
-                let found = smooth.kind.extreme(&turned_back(axes, direction));
-                Extreme {
-                    point: self.placed.vertex(0) + turned(axes, &found.point),
-                    ..found
-                }
-            }
-        };
-        Extreme {
-            point: found.point + self.shift,
-            ..found
-        }
-    }
-}
-
-/// Whether one of two primitives is more than the hull of its vertices.
-pub fn is_curved(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
-    a.shape.curve.is_some() || b.shape.curve.is_some()
-}
-
-/// Whether one of two cores is smooth: known only by its support function.
-pub fn is_smooth(a: &PlacedPrimitive, b: &PlacedPrimitive) -> bool {
-    a.shape.smooth().is_some() || b.shape.smooth().is_some()
-}
-
-/// The closest points of the cores, and for smooth cores the unit direction from B to A that certifies their distance; zero if
-/// there is none. `None` where the cores are proved to be farther apart than the cutoff.
-pub fn core_closest(
-    a: &PlacedPrimitive,
-    b: &PlacedPrimitive,
-    pair: &Precision,
-    limits: DistanceLimits,
-    scratch: &mut DistanceScratch,
-) -> Option<(Closest, Vec3)> {
-    if is_smooth(a, b) {
-        smooth_closest(a, b, pair, limits)
-    } else {
-        let found = closest_polytopes(a, b, pair, limits, scratch)?;
-        Some((found, Vec3::zeros()))
-    }
-}
-
-fn smooth_closest(
+/// The closest points of two such cores, and the unit direction from B to A that certifies their distance; zero if there is
+/// none. `None` where the cores are proved to be farther apart than the cutoff.
+pub fn smooth_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
     pair: &Precision,
@@ -227,38 +147,6 @@ fn feature_at(placed: &PlacedPrimitive, point: &Vec3, slack: f64) -> Feature {
     let mut faces = 0..placed.shape.faces.len();
     let face = faces.find(|&f| placed.over_face(f, point).0.abs() <= slack);
     face.map_or(Feature::interior(), |f| Feature::face(f as u32))
-}
-
-/// The distance of two sets, from that of their cores.
-#[inline(always)]
-pub fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
-    if cores >= a + b { cores - a - b } else { 0.0 }
-}
-
-/// The closest points of two sets, from those of their cores. Where the sets overlap, both are the same common point, between
-/// the cores.
-pub fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
-    let apart = cores.distance;
-    let [on_a, on_b] = cores.points;
-    if apart == 0.0 || radii == [0.0; 2] {
-        return *cores;
-    }
-    let normal = (on_a - on_b) / apart;
-    let [a, b] = radii;
-    if apart >= a + b {
-        return Closest {
-            distance: beyond_radii(apart, radii),
-            points: [on_a - normal * a, on_b + normal * b],
-            ..*cores
-        };
-    }
-    // The middle of the overlap along the line between the cores.
-    let between = 0.5 * ((apart - b).max(0.0) + a.min(apart));
-    Closest {
-        doubt: cores.doubt,
-        depth: cores.depth,
-        ..Closest::meeting_at(on_a - normal * between, cores.features)
-    }
 }
 
 #[cfg(test)]
