@@ -22,7 +22,7 @@ use crate::capi::at_configuration::answers::{
     cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
 };
 use crate::capi::at_configuration::explain::cstk_verdict;
-use crate::capi::at_configuration::link_pairs::cstk_link_pair;
+use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;
 use crate::capi::environment::environment::cstk_environment;
 use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;

@@ -3,58 +3,15 @@
 use super::answer::{ContactRecord, ContactsListed, Witness, WitnessList};
 use super::candidates::CandidateFilter;
 use super::context::{QueryContext, check_threshold};
+use super::leaves::Leaves;
 use super::pure_answer::{PureAt, PureWitness};
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
-use crate::cobject::{CObject, Induced, Leaf, PureSet, Set};
+use crate::cobject::{CObject, Leaf, PureSet};
 use crate::error::Result;
 use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact, traverse};
 use crate::robot::RobotState;
 use crate::space::Space;
-use std::collections::HashSet;
-use std::sync::Arc;
-
-/// The leaves of a C-object, without duplicates: unions of induced sets, and pure sets, with `true` where the complement is
-/// meant.
-#[derive(Default)]
-pub(super) struct Leaves<'a> {
-    pub groups: Vec<Vec<Arc<Induced>>>,
-    pub pure: Vec<(&'a PureSet, bool)>,
-}
-
-impl<'a> Leaves<'a> {
-    pub fn of(cobject: &'a CObject) -> Self {
-        let mut found = Self::default();
-        let mut seen = HashSet::new();
-        let mut seen_leaves = HashSet::new();
-        let mut stack = vec![(cobject, false)];
-        while let Some((next, complement)) = stack.pop() {
-            match next.set() {
-                Set::Pure(set) => {
-                    if seen_leaves.insert((set.leaf.serial, complement)) {
-                        found.pure.push((set, complement));
-                    }
-                    continue;
-                }
-                Set::Union { induced, .. } => {
-                    let is_new =
-                        |term: &&Arc<Induced>| seen_leaves.insert((term.leaf.serial, false));
-                    let group: Vec<Arc<Induced>> = induced.iter().filter(is_new).cloned().collect();
-                    found.groups.extend((!group.is_empty()).then_some(group));
-                }
-                _ => {}
-            }
-            let complement = complement != matches!(next.set(), Set::Complement(_));
-            for part in next.set().parts().iter().rev() {
-                let is_leaf = matches!(part.set(), Set::Pure(_));
-                if is_leaf || seen.insert((part.serial(), complement)) {
-                    stack.push((part, complement));
-                }
-            }
-        }
-        found
-    }
-}
 
 /// Which witnesses a query lists, and what it computes for them.
 #[derive(Clone, Copy)]

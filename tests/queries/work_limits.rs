@@ -222,7 +222,7 @@ fn queries_of_cobjects() {
     }
     let chain = &chain();
     check(
-        "link_pairs",
+        "find_link_pairs",
         &ask(|c| {
             let options = LinkPairOptions {
                 samples: 50,
@@ -230,7 +230,7 @@ fn queries_of_cobjects() {
             };
             Ok(format!(
                 "{:?}",
-                c.link_pairs(chain, &options, &mut |_| Ok(()))?
+                c.find_link_pairs(chain, &options, &mut |_| Ok(()))?
             ))
         }),
     );

@@ -1,8 +1,8 @@
 //! Robots, spaces, URDF.
 
+mod find_link_pairs;
 mod kinematics;
 mod link_motions;
-mod link_pairs;
 mod motion_bound;
 mod spaces;
 mod urdf;

@@ -16,4 +16,4 @@ pub mod questions;
 
 pub mod explain;
 
-pub mod link_pairs;
+pub mod find_link_pairs;

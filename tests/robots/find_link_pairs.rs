@@ -44,7 +44,9 @@ fn verdict(pairs: &[LinkPair], links: [usize; 2]) -> (PairVerdict, f64) {
 
 fn judged(space: &Space, options: &LinkPairOptions) -> Vec<LinkPair> {
     let mut query = QueryContext::new();
-    query.link_pairs(space, options, &mut |_| Ok(())).unwrap()
+    query
+        .find_link_pairs(space, options, &mut |_| Ok(()))
+        .unwrap()
 }
 
 /// A turntable with an arm, posts around it, and links of every kind of pair.
@@ -203,7 +205,7 @@ fn options_are_checked() {
         let mut options = LinkPairOptions::default();
         change(&mut options);
         query
-            .link_pairs(&space, &options, &mut |_| Ok(()))
+            .find_link_pairs(&space, &options, &mut |_| Ok(()))
             .unwrap_err()
             .kind
     };
@@ -217,7 +219,7 @@ fn options_are_checked() {
     assert_eq!(refused(&|o| o.margin = f64::NAN), ErrorKind::NotFinite);
     assert_eq!(refused(&|o| o.rest = Some(vec![])), ErrorKind::WrongSize);
     let mut stopped = |_: f64| Err(cstk::error::Error::new(ErrorKind::Cancelled, "enough"));
-    let ended = query.link_pairs(&space, &LinkPairOptions::default(), &mut stopped);
+    let ended = query.find_link_pairs(&space, &LinkPairOptions::default(), &mut stopped);
     assert_eq!(ended.unwrap_err().kind, ErrorKind::Cancelled);
 }
 

@@ -131,7 +131,9 @@ pub unsafe extern "C" fn cstk_find_link_pairs(
             // SAFETY: checked for NULL; the header states the length.
             let options = unsafe { read(&given, space)? };
             let mut report = reporter(progress, user);
-            let pairs = state.context.link_pairs(space, &options, &mut report)?;
+            let pairs = state
+                .context
+                .find_link_pairs(space, &options, &mut report)?;
             state.keep_pairs(&pairs, given.skip_never != 0);
             out.write(cstk_link_pair_list {
                 pairs: start(&state.pairs),

@@ -92,7 +92,7 @@ const MAX_SAMPLES: usize = 1 << 30;
 impl QueryContext {
     /// Gives a verdict on all pairs of links with bodies, in order of their numbers. Coordinates without bounds stay at
     /// rest. `progress` receives the fraction done and may stop the work with an error.
-    pub fn link_pairs(
+    pub fn find_link_pairs(
         &mut self,
         space: &Space,
         options: &LinkPairOptions,
