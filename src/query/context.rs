@@ -157,7 +157,7 @@ pub(crate) fn check_threshold(value: f64, name: &str) -> Result<()> {
 
 /// The scene of a query. Refused for link poses if any part of the C-object needs coordinates, even one that the query
 /// would not reach.
-pub(super) fn scene<'a>(
+fn scene<'a>(
     cobject: &'a CObject,
     world: &'a World,
     at: Configuration<'a>,

@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use super::answer::WitnessList;
 use super::context::QueryContext;
-use super::context::scene;
-use super::scene::{Configuration, Group, Scene, SceneMemory};
+use super::scene::{Configuration, Group, Scene};
 use super::witnesses::{WitnessRequest, pure_witnesses};
 use crate::cobject::{CObject, Class, Leaf, PureSet, Set};
 use crate::error::Result;
@@ -72,9 +71,19 @@ impl QueryContext {
         max_count: usize,
     ) -> Result<Explanation> {
         let world = self.look(cobject);
-        let scene = scene(cobject, &world, at, SceneMemory::default())?;
+        self.with_scene(cobject, &world, at, |context, scene| {
+            context.explanation(cobject, scene, max_count)
+        })
+    }
+
+    fn explanation(
+        &mut self,
+        cobject: &CObject,
+        scene: &Scene,
+        max_count: usize,
+    ) -> Result<Explanation> {
         let mut classes = Classes {
-            scene: &scene,
+            scene,
             leaves: HashMap::new(),
             compounds: HashMap::new(),
         };
@@ -83,7 +92,7 @@ impl QueryContext {
             class,
             leaves: Vec::new(),
             list: WitnessList {
-                version: world.version(),
+                version: scene.version(),
                 ..WitnessList::default()
             },
         };
@@ -93,7 +102,7 @@ impl QueryContext {
             let first_witness = explanation.list.witnesses.len();
             if decisive {
                 let room = max_count - first_witness;
-                let list = self.reasons(query, class, room, &scene)?;
+                let list = self.reasons(query, class, room, scene)?;
                 explanation.list.truncated |= list.truncated;
                 for witness in &list.witnesses {
                     explanation.list.take(&list, witness);
