@@ -232,7 +232,7 @@ impl Reader<'_> {
             MADE => {
                 let tree = self.tree(primitives.len(), wrapper)?;
                 let shape = shape_of(tree.subsets());
-                (Wrappers::Made(Box::new(tree)), shape)
+                (Wrappers::Eager(Box::new(tree)), shape)
             }
             OF_GROUPS => {
                 let options = self.options(wrapper)?;

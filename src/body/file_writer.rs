@@ -154,7 +154,7 @@ impl Writer {
         let kind = KINDS.iter().position(|&kind| kind == wrappers.kind());
         self.u32(kind.unwrap_or(0) as u32);
         match wrappers {
-            Wrappers::Made(tree) => {
+            Wrappers::Eager(tree) => {
                 self.u32(MADE);
                 self.tree(tree);
             }

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::placed::{PlacedPrimitive, Precision};
-use super::polytope_distance::{feature_normal, gap_along};
+use super::polytope_distance::{feature_normal, gap_of_primitives};
 use super::polytope_penetration::polytope_penetration;
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind};
@@ -103,7 +103,7 @@ impl ContactPair<'_> {
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {
             for n in [candidate, -candidate] {
-                let gap = gap_along(self.r, self.s, &n);
+                let gap = gap_of_primitives(self.r, self.s, &n);
                 if best.is_none_or(|(most, _)| gap > most + 1e-13 * self.precision.size) {
                     best = Some((gap, n));
                 }

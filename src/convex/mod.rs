@@ -34,7 +34,7 @@ pub use distance::{PrimitiveDistance, closed_distance, measure, meeting_or_beyon
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
-pub use polygon_distance::{Nearest, PolygonDistance, polygon_closest, polygon_distance};
+pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
 pub use polytope_distance::DistanceScratch;
 pub use polytope_penetration::Penetration;
 pub use swept_gap::{Sweep, swept_gap};

@@ -13,9 +13,9 @@ use crate::tolerance;
 pub enum PolygonDistance {
     /// The distance is above the cutoff. The nearest features, unless a plane separated the polygons before these were
     /// computed.
-    Beyond(Option<Nearest>),
+    Beyond(Option<NearestFeatures>),
     /// The distance and the nearest features.
-    Apart(f64, Nearest),
+    Apart(f64, NearestFeatures),
     /// They certainly cross.
     Cross,
     /// They may cross: the answer is within rounding.
@@ -24,7 +24,7 @@ pub enum PolygonDistance {
 
 /// The nearest features of two polygons that do not cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Nearest {
+pub enum NearestFeatures {
     /// A corner of the first, over the inside of the second.
     FirstCorner(usize),
     /// A corner of the second, over the inside of the first.
@@ -32,7 +32,7 @@ pub enum Nearest {
     Edges(NearestEdges),
 }
 
-impl Nearest {
+impl NearestFeatures {
     /// The vector between the closest points, from the second polygon to the first.
     #[inline(always)]
     pub fn across(&self, a: &Outline, b: &Outline) -> Vec3 {
@@ -90,12 +90,12 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
         )
     };
     let (points, features) = match nearest {
-        Nearest::FirstCorner(corner) => {
+        NearestFeatures::FirstCorner(corner) => {
             let ([foot, point], [face, vertex]) = over(b, a, corner);
             ([point, foot], [vertex, face])
         }
-        Nearest::SecondCorner(corner) => over(a, b, corner),
-        Nearest::Edges(edges) => {
+        NearestFeatures::SecondCorner(corner) => over(a, b, corner),
+        NearestFeatures::Edges(edges) => {
             let found = edges.points(a, b, error);
             (found.points, found.features)
         }
@@ -115,24 +115,27 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
 /// it. If several corners are equally near, testing one suffices: either it is over the inside, or an edge from it to another
 /// such corner passes over the outline equally near.
 #[inline(always)]
-fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Nearest) {
+fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, NearestFeatures) {
     let rounding = tolerance::INSIDE_DOUBT * size;
     if sides[0].gap >= rounding {
         let corner = b.corner_with(&a.normal.into(), sides[0].extreme);
         let point = b.corner(corner);
         if a.is_under(&point) {
-            return (a.height(&point).abs(), Nearest::SecondCorner(corner));
+            return (
+                a.height(&point).abs(),
+                NearestFeatures::SecondCorner(corner),
+            );
         }
     }
     if sides[1].gap >= rounding {
         let corner = a.corner_with(&b.normal.into(), sides[1].extreme);
         let point = a.corner(corner);
         if b.is_under(&point) {
-            return (b.height(&point).abs(), Nearest::FirstCorner(corner));
+            return (b.height(&point).abs(), NearestFeatures::FirstCorner(corner));
         }
     }
     let edges = nearest_edges(a, b, sides, size);
-    let by_edges = (edges.distance(), Nearest::Edges(edges));
+    let by_edges = (edges.distance(), NearestFeatures::Edges(edges));
     if sides.iter().any(|side| side.gap.abs() < rounding) {
         nearest_corner(a, b, by_edges)
     } else {
@@ -142,7 +145,11 @@ fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Near
 
 /// The nearer of the nearest edges and of the corners over the other's inside, for polygons that neither plane separates.
 #[inline(never)]
-fn nearest_corner(a: &Outline, b: &Outline, by_edges: (f64, Nearest)) -> (f64, Nearest) {
+fn nearest_corner(
+    a: &Outline,
+    b: &Outline,
+    by_edges: (f64, NearestFeatures),
+) -> (f64, NearestFeatures) {
     let (mut distance, mut found) = by_edges;
     for (is_first, polygon, other) in [(false, a, b), (true, b, a)] {
         for (block, corners) in other.blocks.iter().enumerate() {
@@ -153,9 +160,9 @@ fn nearest_corner(a: &Outline, b: &Outline, by_edges: (f64, Nearest)) -> (f64, N
                 if inside.0[lane] >= 0.0 && height < distance {
                     distance = height;
                     found = if is_first {
-                        Nearest::FirstCorner(corner)
+                        NearestFeatures::FirstCorner(corner)
                     } else {
-                        Nearest::SecondCorner(corner)
+                        NearestFeatures::SecondCorner(corner)
                     };
                 }
             }

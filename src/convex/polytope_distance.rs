@@ -83,7 +83,7 @@ fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
         return f64::NEG_INFINITY;
     }
     let normal = flat.normal(0);
-    gap_along(other, flat, &normal).max(gap_along(flat, other, &normal))
+    gap_of_primitives(other, flat, &normal).max(gap_of_primitives(flat, other, &normal))
 }
 
 /// Moves the feature from an edge to its end vertex where the point is within `slack` of it.
@@ -260,11 +260,11 @@ fn contained_vertex(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Option<(u32, Ve
 /// The largest gap proved by one of these directions: the given one, the one between the points, and the normal of their
 /// features.
 fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direction: Vec3) -> f64 {
-    let mut best = gap_along(a, b, &direction);
+    let mut best = gap_of_primitives(a, b, &direction);
     let mut offer = |n: Vec3| {
         if let Some(n) = n.try_normalize(0.0) {
             let n = if n.dot(&direction) < 0.0 { -n } else { n };
-            best = best.max(gap_along(a, b, &n));
+            best = best.max(gap_of_primitives(a, b, &n));
         }
     };
     offer(found.points[0] - found.points[1]);
@@ -275,7 +275,7 @@ fn certificate(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest, direct
 }
 
 /// The signed gap of the projections along the unit vector `direction`, from B to A.
-pub fn gap_along(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
+pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3) -> f64 {
     a.extent_along(direction).0 - b.extent_along(direction).1
 }
 

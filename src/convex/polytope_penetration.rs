@@ -137,8 +137,8 @@ fn coinciding_points(
         let (mut on_r, mut on_s) = (FeatureSet::default(), FeatureSet::default());
         on_r.set_supporting(&moved, &-direction, slack);
         on_s.set_supporting(s, direction, slack);
-        let met = closest_features(&moved, &on_r, s, &on_s, false);
-        let points = [met.points[0] - shift, met.points[1]];
+        let closest = closest_features(&moved, &on_r, s, &on_s, false);
+        let points = [closest.points[0] - shift, closest.points[1]];
         if (points[1] - points[0] - way).norm() <= precision.error {
             return points;
         }
@@ -146,9 +146,9 @@ fn coinciding_points(
     let vertices = moved_by(way);
     let moved = r.shifted(&vertices);
     let scratch = &mut DistanceScratch::default();
-    let met = closest_polytopes(&moved, s, precision, DistanceLimits::EXACT, scratch);
-    let met = met.expect("nothing is beyond infinity");
-    [met.points[0] - way, met.points[1]]
+    let closest = closest_polytopes(&moved, s, precision, DistanceLimits::EXACT, scratch);
+    let closest = closest.expect("nothing is beyond infinity");
+    [closest.points[0] - way, closest.points[1]]
 }
 
 /// The shortest way out among the candidate lines tried so far.

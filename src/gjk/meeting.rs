@@ -20,7 +20,7 @@ pub fn meeting<A: Support, B: Support>(
 ) -> Option<bool> {
     // Directions are products of three lengths, and support functions square them: in units of the size they stay in range.
     let unit = power_of_two(size);
-    with_widest(Search {
+    with_widest(MeetingSearch {
         a,
         b,
         start: start / unit,
@@ -36,7 +36,7 @@ fn power_of_two(length: f64) -> f64 {
     f64::from_bits(length.to_bits() & EXPONENT)
 }
 
-struct Search<'a, A, B> {
+struct MeetingSearch<'a, A, B> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
@@ -46,7 +46,7 @@ struct Search<'a, A, B> {
     cutoff: f64,
 }
 
-impl<A: Support, B: Support> Work for Search<'_, A, B> {
+impl<A: Support, B: Support> Work for MeetingSearch<'_, A, B> {
     type Output = Option<bool>;
 
     #[inline(always)]

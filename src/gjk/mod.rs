@@ -10,7 +10,7 @@ mod simplex;
 
 pub use self::meeting::meeting;
 pub use self::refined::{Nearby, RefinedBounds, refined};
-use self::simplex::{Corner, Nearest, Simplex};
+use self::simplex::{Corner, OriginPosition, Simplex};
 pub use self::simplex::{CornerNames, NearestCorners};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
@@ -103,7 +103,7 @@ const MAX_STEPS: usize = 128;
 
 /// Bounds the distance of A and B. Stops as soon as the limits allow. `start` is a guess of the direction from B to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
-    with_widest(Search {
+    with_widest(BoundsSearch {
         a,
         b,
         start,
@@ -111,14 +111,14 @@ pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLi
     })
 }
 
-struct Search<'a, A, B> {
+struct BoundsSearch<'a, A, B> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
     limits: DistanceLimits,
 }
 
-impl<A: Support, B: Support> Work for Search<'_, A, B> {
+impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
     type Output = Gjk;
 
     #[inline(always)]
@@ -158,11 +158,11 @@ impl<A: Support, B: Support> Work for Search<'_, A, B> {
             }
             simplex.push(corner);
             match simplex.reduce() {
-                Nearest::Inside { margin, at } => {
+                OriginPosition::Inside { margin, at } => {
                     found.take_inside(margin, &at, scale);
                     return found;
                 }
-                Nearest::Outside(point) => {
+                OriginPosition::Outside(point) => {
                     let upper = point.norm();
                     v = point;
                     if upper >= found.upper {

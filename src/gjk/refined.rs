@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use super::simplex::{Corner, CornerNames, Nearest, Simplex};
+use super::simplex::{Corner, CornerNames, OriginPosition, Simplex};
 use super::{DistanceLimits, Support};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
@@ -279,18 +279,18 @@ impl Iteration {
             return Extended::Nearest(nearest, foot);
         }
         match simplex.reduce() {
-            Nearest::Inside { at, margin } if at.difference.norm() <= rounding => {
+            OriginPosition::Inside { at, margin } if at.difference.norm() <= rounding => {
                 (self.found.upper, self.found.depth) = (0.0, margin);
                 self.found.points = [at.on_a; 2];
                 Extended::Overlap
             }
             // The four corners are coplanar and have no inside: restart from the point that they combine to.
-            Nearest::Inside { at, .. } => {
+            OriginPosition::Inside { at, .. } => {
                 *simplex = Simplex::empty();
                 Extended::Nearest(at, at.difference)
             }
             // A point of the difference even where rounding spoilt the foot on a needle-like triangle.
-            Nearest::Outside(point) => Extended::Nearest(simplex.combined(&point), point),
+            OriginPosition::Outside(point) => Extended::Nearest(simplex.combined(&point), point),
         }
     }
 

@@ -70,7 +70,7 @@ pub struct Simplex {
 }
 
 /// Where the origin lies relative to a simplex.
-pub enum Nearest {
+pub enum OriginPosition {
     /// Outside, with the closest point of the simplex.
     Outside(Vec3),
     /// Inside a tetrahedron, at least `margin` from its faces. The corners combine to `at`, which is the origin up to rounding.
@@ -107,7 +107,7 @@ impl Simplex {
 
     /// The closest point to the origin; the simplex shrinks to the face that holds it.
     #[inline(always)]
-    pub fn reduce(&mut self) -> Nearest {
+    pub fn reduce(&mut self) -> OriginPosition {
         let (point, kept) = match self.len {
             1 | 2 => self.on_few(),
             3 => self.on_triangle(0, 1, 2),
@@ -117,7 +117,7 @@ impl Simplex {
             },
         };
         self.keep(&kept);
-        Nearest::Outside(point)
+        OriginPosition::Outside(point)
     }
 
     /// The closest point to the origin of a simplex known not to contain it, as a combination of its corners. Of four corners
@@ -308,9 +308,9 @@ impl Simplex {
         best.unwrap_or_else(|| self.on_segment(i, j))
     }
 
-    /// The nearest face, or `Err` with [`Nearest::Inside`].
+    /// The nearest face, or `Err` with [`OriginPosition::Inside`].
     #[inline(always)]
-    fn on_tetrahedron(&self) -> Result<(Vec3, ClosestFace), Nearest> {
+    fn on_tetrahedron(&self) -> Result<(Vec3, ClosestFace), OriginPosition> {
         let mut weights = [0.0; 4];
         let mut heights = [(0.0, 0.0); 4];
         let mut best: Option<(Vec3, ClosestFace)> = None;
@@ -340,20 +340,20 @@ impl Simplex {
         })
     }
 
-    /// [`Nearest::Inside`] for an origin on the inner side of all four faces, given approximate weights with which the corners
+    /// [`OriginPosition::Inside`] for an origin on the inner side of all four faces, given approximate weights with which the corners
     /// combine to it.
     ///
     /// A weight is a quotient of volumes. Where the corners are far apart compared with the heights, its rounding moves the
     /// point by more than a distance's error; Newton steps with the same volumes correct it.
     #[inline(never)]
-    fn inside(&self, margin: f64, weights: [f64; 4]) -> Nearest {
+    fn inside(&self, margin: f64, weights: [f64; 4]) -> OriginPosition {
         let total: f64 = weights.iter().sum();
         let mut weights = weights.map(|w| w / total);
         let mut at = self.combination(&weights);
         let square = |corner: &Corner| corner.difference.norm_squared();
         let largest = self.corners.iter().map(square).fold(0.0, f64::max);
         if square(&at) <= (4.0 * tolerance::EPSILON).powi(2) * largest {
-            return Nearest::Inside { margin, at };
+            return OriginPosition::Inside { margin, at };
         }
         let normals = self.inner_normals();
         for _ in 0..MAX_WEIGHT_STEPS {
@@ -372,7 +372,7 @@ impl Simplex {
             }
             (weights, at) = (next, better);
         }
-        Nearest::Inside { margin, at }
+        OriginPosition::Inside { margin, at }
     }
 
     /// The gradients of the four barycentric weights.

@@ -86,7 +86,7 @@ fn build_of_shapes(
             let mut part = rest.part(0.0, 0.8);
             let tree = wrap_parts(&shapes, &parts, groups, options, &mut part)?;
             let packed = pack_wrappers(primitives, &tree, threads, &mut rest.part(0.8, 1.0))?;
-            (Wrappers::Made(Box::new(tree)), packed)
+            (Wrappers::Eager(Box::new(tree)), packed)
         };
     let times = BuildTimes {
         preparation: prepared,

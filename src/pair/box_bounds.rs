@@ -308,7 +308,7 @@ pub(super) fn splat<I: Instructions>(lanes: I, v: &[f32; 3]) -> Triple<I> {
 /// The gap of two boxes along a unit vector from the first to the second: a lower bound of their distance, negative where they
 /// may meet.
 #[inline(always)]
-pub fn gap_along(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
+pub fn gap_of_boxes(first: &PackedBox, second: &PackedBox, direction: &Vec3) -> f32 {
     let direction = &each3(|k| direction[k] as f32);
     let apart = each3(|k| second.center[k] - first.center[k]);
     dot(&apart, direction) - extent_of(first, direction) - extent_of(second, direction)

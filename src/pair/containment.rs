@@ -56,12 +56,12 @@ impl<'a> Pairing<'a> {
             return Vec::new();
         }
         // Discards the candidates that meet the boundary.
-        let mut apart = PairClearance {
+        let mut filter = BoundaryFilter {
             pairing: self,
             candidates,
         };
-        let _ = traverse(self, None, scratch, &mut apart);
-        let mut found: Vec<Hit> = apart.candidates.iter().map(|c| c.hit(pair)).collect();
+        let _ = traverse(self, None, scratch, &mut filter);
+        let mut found: Vec<Hit> = filter.candidates.iter().map(|c| c.hit(pair)).collect();
         found.sort_unstable_by(Hit::order);
         found
     }
@@ -205,25 +205,25 @@ impl Candidate {
     }
 }
 
-/// Visitor that keeps the candidates that do not meet the boundary around them.
-struct PairClearance<'a> {
+/// Drops the candidates that meet the boundary of the solid around them.
+struct BoundaryFilter<'a> {
     pairing: &'a Pairing<'a>,
     candidates: Vec<Candidate>,
 }
 
-impl Visitor for PairClearance<'_> {
+impl Visitor for BoundaryFilter<'_> {
     const REFINES: bool = false;
 
     fn bound(&self) -> f64 {
         0.0
     }
 
-    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
-        if met.apart <= met.error {
+    fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
+        if pair.apart <= pair.error {
             let pairing = self.pairing;
             self.candidates.retain(|candidate| {
                 let inner = candidate.inner;
-                let [own, other] = [inner, inner.other()].map(|of| met.primitives[of as usize]);
+                let [own, other] = [inner, inner.other()].map(|of| pair.primitives[of as usize]);
                 let is_boundary = |solid: &Solid| solid.sign(other) != 0;
                 pairing.body(inner).piece_of(own) != candidate.piece
                     || !pairing.body(inner.other()).solid().is_some_and(is_boundary)

@@ -53,9 +53,9 @@ impl Ranked for Hit {
 }
 
 impl Hit {
-    /// If this hit is at distance 0: the primitives of the body pair `pair` from which on no pair ranks before it. `None` if no
-    /// pair can be ruled out.
-    pub fn settles(&self, pair: u32) -> Option<[u32; 2]> {
+    /// The primitives of the body pair `pair` from which on, in order of ids, no pair can rank before this hit. `None` if there
+    /// are none: this hit is at a distance above 0, or its body pair ranks behind `pair`.
+    pub fn outranks_from(&self, pair: u32) -> Option<[u32; 2]> {
         if self.distance > 0.0 {
             return None;
         }

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::pairing::{BeyondCutoff, MovedOutline, PairClearance, Pairing, PrimitiveScratch};
+use super::pairing::{BeyondCutoff, MovedOutline, PairDistance, Pairing, PrimitiveScratch};
 use super::visitor::{PrimitivePair, Visitor};
-use crate::convex::{Nearest, Outline};
+use crate::convex::{NearestFeatures, Outline};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work};
 use crate::pose::Vec3;
@@ -176,7 +176,7 @@ fn moved_outline<'b>(
 
 /// The unit vector between the closest points of two polygons, from the second to the first; zero where they touch.
 #[inline(always)]
-fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
+fn unit_across(nearest: &NearestFeatures, a: &Outline, b: &Outline) -> Vec3 {
     let across = nearest.across(a, b);
     across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
@@ -186,17 +186,17 @@ fn unit_across(nearest: &Nearest, a: &Outline, b: &Outline) -> Vec3 {
 fn show(
     pairing: &Pairing,
     places: [u32; 2],
-    apart: &PairClearance,
+    apart: &PairDistance,
     visitor: &mut impl Visitor,
     meter: &mut WorkMeter,
 ) -> ControlFlow<()> {
-    let met = pairing.met(places, apart.distance);
-    let met = PrimitivePair {
-        error: met.error + apart.doubt,
+    let pair = pairing.primitive_pair(places, apart.distance);
+    let pair = PrimitivePair {
+        error: pair.error + apart.doubt,
         measured: apart.measured.as_ref(),
-        ..met
+        ..pair
     };
-    visitor.visit(&met, meter)
+    visitor.visit(&pair, meter)
 }
 
 pub(super) struct SinglePair<'a, V> {

@@ -4,9 +4,10 @@ use super::hit::Hit;
 use super::visitor::PrimitivePair;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MAX_CORNERS, Nearest, Outline, Penetration, PlacedBuffer,
-    PlacedPrimitive, PolygonDistance, Precision, PrimitiveDistance, contacts, first_contact,
-    measure, meeting_or_beyond, moved, parts, penetration, polygon_closest, polygon_distance,
+    Closest, Contact, DistanceScratch, MAX_CORNERS, NearestFeatures, Outline, Penetration,
+    PlacedBuffer, PlacedPrimitive, PolygonDistance, Precision, PrimitiveDistance, contacts,
+    first_contact, measure, meeting_or_beyond, moved, parts, penetration, polygon_closest,
+    polygon_distance,
 };
 use crate::error::Result;
 use crate::gjk::DistanceLimits;
@@ -41,10 +42,10 @@ pub struct PrimitiveScratch {
 }
 
 /// The distance of two primitives, with what was computed on the way.
-pub struct PairClearance {
+pub struct PairDistance {
     pub distance: f64,
     /// The nearest features, for polygons that do not cross.
-    pub nearest: Option<Nearest>,
+    pub nearest: Option<NearestFeatures>,
     /// The full result, for other primitives.
     pub measured: Option<PrimitiveDistance>,
     /// How far the distance may exceed the true one, beyond the pair's error.
@@ -54,10 +55,10 @@ pub struct PairClearance {
 /// The result for two primitives that are farther apart than the cutoff.
 pub struct BeyondCutoff {
     /// Their nearest features, if these were computed.
-    pub nearest: Option<Nearest>,
+    pub nearest: Option<NearestFeatures>,
 }
 
-impl PairClearance {
+impl PairDistance {
     /// For primitives that meet.
     const NONE: Self = Self {
         distance: 0.0,
@@ -171,7 +172,7 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> std::result::Result<PairClearance, BeyondCutoff> {
+    ) -> std::result::Result<PairDistance, BeyondCutoff> {
         let outline_a = outline(self.a.packed().primitives(), places[0]);
         let found = match (&outline_a, outline_b) {
             (Some(a), Some(b)) => polygon_distance(a, b, limits.cutoff, self.precision.size),
@@ -179,12 +180,12 @@ impl<'a> Pairing<'a> {
         };
         let apart = match found {
             PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff { nearest }),
-            PolygonDistance::Apart(distance, nearest) => PairClearance {
+            PolygonDistance::Apart(distance, nearest) => PairDistance {
                 distance: self.above_error(distance),
                 nearest: Some(nearest),
-                ..PairClearance::NONE
+                ..PairDistance::NONE
             },
-            PolygonDistance::Cross => PairClearance::NONE,
+            PolygonDistance::Cross => PairDistance::NONE,
             PolygonDistance::Doubt => {
                 let measured = self.measured_apart(places, direction, limits, scratch);
                 return measured.ok_or(BeyondCutoff { nearest: None });
@@ -207,7 +208,7 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<PairClearance> {
+    ) -> Option<PairDistance> {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = &self.placed(places, buffer);
         let is_aimed = *direction != Vec3::zeros();
@@ -217,14 +218,14 @@ impl<'a> Pairing<'a> {
         if limits.enough >= 0.0
             && let Some(meet) = meeting_or_beyond(a, b, &self.precision, limits)
         {
-            return meet.then_some(PairClearance::NONE);
+            return meet.then_some(PairDistance::NONE);
         }
         let measured = measure(a, b, &self.precision, limits, distance)?;
         let Closest {
             distance, doubt, ..
         } = measured.closest;
         let distance = self.above_error(distance);
-        (distance - doubt <= limits.cutoff).then_some(PairClearance {
+        (distance - doubt <= limits.cutoff).then_some(PairDistance {
             distance,
             nearest: None,
             measured: Some(measured),
@@ -241,7 +242,8 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    pub fn met(&self, places: [u32; 2], apart: f64) -> PrimitivePair<'static> {
+    /// A primitive pair at a known distance, as visitors get it.
+    pub fn primitive_pair(&self, places: [u32; 2], apart: f64) -> PrimitivePair<'static> {
         let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
         let primitives = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
         PrimitivePair {

@@ -1,7 +1,7 @@
 //! Two primitives over an interval of time: whether they stay apart, or meet at its middle.
 
 use super::Scratch;
-use super::pairing::{BeyondCutoff, EMPTY, PairClearance, Pairing, PrimitiveScratch};
+use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratch};
 use crate::convex::{PlacedPrimitive, Sweep, swept_gap};
 use crate::gjk::DistanceLimits;
 use crate::pose::Vec3;
@@ -69,12 +69,12 @@ impl Pairing<'_> {
         let between = match (&outlines, &apart) {
             (
                 Some((a, b)),
-                PairClearance {
+                PairDistance {
                     nearest: Some(nearest),
                     ..
                 },
             ) => nearest.across(a, b),
-            (_, PairClearance { measured, .. }) => measured.map_or_else(Vec3::zeros, |measured| {
+            (_, PairDistance { measured, .. }) => measured.map_or_else(Vec3::zeros, |measured| {
                 if measured.direction == Vec3::zeros() {
                     measured.closest.points[0] - measured.closest.points[1]
                 } else {

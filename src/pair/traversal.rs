@@ -3,7 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use super::box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gap_along, sharper_bounds};
+use super::box_bounds::{
+    BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, sharper_bounds,
+};
 use super::nearest_first::{Entry, PendingPairs};
 use super::pair_visits::{PairVisits, SinglePair, State};
 use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
@@ -215,10 +217,10 @@ impl<'a, V: Visitor> Walk<'a, V> {
     }
 
     #[inline(always)]
-    fn is_settled(&self, a: NodeRef, b: NodeRef) -> bool {
+    fn is_irrelevant(&self, a: NodeRef, b: NodeRef) -> bool {
         self.visits
             .visitor
-            .settled_from()
+            .irrelevant_from()
             .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
     }
 
@@ -246,7 +248,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             };
             let b = self.trees[1].box_in_lanes(lanes, self.trees[1].root());
             let b = self.motions[0].apply(lanes, b);
-            if gap_along(&b, &a, &first) > 0.0 || gap_along(&b, &a, &centers) <= 0.0 {
+            if gap_of_boxes(&b, &a, &first) > 0.0 || gap_of_boxes(&b, &a, &centers) <= 0.0 {
                 return;
             }
         }
@@ -302,7 +304,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
 
     #[inline(always)]
     fn matters(&self, entry: &Entry, cutoff: f32) -> bool {
-        entry.bound <= cutoff && !self.is_settled(entry.a, entry.b)
+        entry.bound <= cutoff && !self.is_irrelevant(entry.a, entry.b)
     }
 
     #[inline(always)]

@@ -19,13 +19,13 @@ pub trait Visitor {
         f64::NEG_INFINITY
     }
 
-    /// Primitive pairs from this one on cannot change the result, however near they are.
-    fn settled_from(&self) -> Option<[u32; 2]> {
+    /// Primitive pairs from this one on, in order of ids, cannot change the result, however near they are.
+    fn irrelevant_from(&self) -> Option<[u32; 2]> {
         None
     }
 
     /// Visits a primitive pair. Further work on it is counted by the meter.
-    fn visit(&mut self, met: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()>;
+    fn visit(&mut self, pair: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()>;
 }
 
 /// A primitive pair that the traversal visits.

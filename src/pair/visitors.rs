@@ -1,5 +1,5 @@
-//! The queries as visitors of the traversal. A visitor may see several body pairs in turn; `pair` and `margin` belong to the
-//! current one.
+//! The queries as visitors of the traversal. A visitor may see several body pairs in turn; `body_pair` and `margin` belong to
+//! the current one.
 
 use std::ops::ControlFlow;
 
@@ -10,23 +10,23 @@ use crate::convex::PrimitiveDistance;
 use crate::work_meter::WorkMeter;
 
 /// Whether a primitive pair meets, to within the error of its distance.
-pub fn meets(met: &PrimitivePair) -> bool {
-    measured(met, 0.0).0 == 0.0
+pub fn meets(pair: &PrimitivePair) -> bool {
+    measured(pair, 0.0).0 == 0.0
 }
 
 /// A primitive pair's distance minus the margin, and a safe lower bound of it: both 0 when it is not above the error.
-fn measured(met: &PrimitivePair, margin: f64) -> (f64, f64) {
-    let clear = met.apart - margin;
-    if met.apart > 0.0 && clear > met.error {
-        (clear, clear - met.error)
+fn measured(pair: &PrimitivePair, margin: f64) -> (f64, f64) {
+    let clear = pair.apart - margin;
+    if pair.apart > 0.0 && clear > pair.error {
+        (clear, clear - pair.error)
     } else {
         (0.0, 0.0)
     }
 }
 
 /// The nearest primitive pair, up to a limit.
-pub struct Nearest {
-    pub pair: u32,
+pub struct NearestPrimitives {
+    pub body_pair: u32,
     pub margin: f64,
     pub best: Option<Hit>,
     /// The full result of the best pair, where it was computed.
@@ -36,11 +36,11 @@ pub struct Nearest {
     limit: f64,
 }
 
-impl Nearest {
+impl NearestPrimitives {
     /// A search for pairs no farther than `limit`.
     pub fn up_to(limit: f64) -> Self {
         Self {
-            pair: 0,
+            body_pair: 0,
             margin: 0.0,
             best: None,
             measured: None,
@@ -71,20 +71,20 @@ impl Nearest {
     }
 }
 
-impl Visitor for Nearest {
+impl Visitor for NearestPrimitives {
     const REFINES: bool = true;
 
     fn bound(&self) -> f64 {
         self.limit + self.margin
     }
 
-    fn settled_from(&self) -> Option<[u32; 2]> {
-        self.best.as_ref()?.settles(self.pair)
+    fn irrelevant_from(&self) -> Option<[u32; 2]> {
+        self.best.as_ref()?.outranks_from(self.body_pair)
     }
 
-    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
-        let (distance, lower) = measured(met, self.margin);
-        self.take(met.hit(self.pair, distance), lower, met.measured);
+    fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
+        let (distance, lower) = measured(pair, self.margin);
+        self.take(pair.hit(self.body_pair, distance), lower, pair.measured);
         ControlFlow::Continue(())
     }
 }
@@ -109,10 +109,10 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
         self.threshold + self.margin
     }
 
-    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
-        let (_, lower) = measured(met, self.margin);
+    fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
+        let (_, lower) = measured(pair, self.margin);
         if lower <= self.threshold {
-            self.found = Some(met.places);
+            self.found = Some(pair.places);
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
@@ -121,7 +121,7 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
 
 /// All primitive pairs within a threshold; of more than `max_count`, the nearest.
 pub struct Collect {
-    pub pair: u32,
+    pub body_pair: u32,
     pub margin: f64,
     list: Shortlist<Hit>,
     threshold: f64,
@@ -132,7 +132,7 @@ impl Collect {
     /// With `counts_doubt`, a pair is within the threshold if its lower bound is, as for [`Within`].
     pub fn new(threshold: f64, max_count: usize, counts_doubt: bool) -> Self {
         Self {
-            pair: 0,
+            body_pair: 0,
             margin: 0.0,
             list: Shortlist::new(max_count),
             threshold,
@@ -167,15 +167,15 @@ impl Visitor for Collect {
         self.threshold + self.margin
     }
 
-    fn settled_from(&self) -> Option<[u32; 2]> {
-        self.list.last()?.settles(self.pair)
+    fn irrelevant_from(&self) -> Option<[u32; 2]> {
+        self.list.last()?.outranks_from(self.body_pair)
     }
 
-    fn visit(&mut self, met: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
-        let (distance, lower) = measured(met, self.margin);
+    fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
+        let (distance, lower) = measured(pair, self.margin);
         let compared = if self.counts_doubt { lower } else { distance };
         if compared <= self.threshold {
-            self.take(met.hit(self.pair, distance));
+            self.take(pair.hit(self.body_pair, distance));
         }
         ControlFlow::Continue(())
     }

@@ -8,7 +8,7 @@ use crate::pose::{Mat3, Vec3};
 /// primitive's vertices, or the smooth set placed at its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// The radius around the core, at least 0.
+    /// The radius around the core, at least 0. Body builders give none to a smooth core; a body file may.
     pub radius: f64,
     /// The smooth core; `None` where the core is the hull of the vertices.
     pub smooth: Option<Smooth>,

@@ -12,7 +12,7 @@ use super::world::World;
 use crate::cobject::{CObject, Set};
 use crate::convex::PrimitiveDistance;
 use crate::error::Result;
-use crate::pair::{Hit, Nearest, Visitor, traverse, visit_pair};
+use crate::pair::{Hit, NearestPrimitives, Visitor, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
 pub(crate) struct NearestHit<'t, 'a> {
@@ -171,7 +171,7 @@ impl QueryContext {
     ) -> Result<f64> {
         let mut least = limit;
         self.visit_recent(scene, group, |pairing, places, options, scratch| {
-            let mut visitor = Nearest::up_to(least);
+            let mut visitor = NearestPrimitives::up_to(least);
             visitor.margin = options.margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
             least = visitor.limit();
@@ -186,11 +186,11 @@ impl QueryContext {
         targets: &'t [Target<'a>],
         limit: f64,
     ) -> Result<NearestHit<'t, 'a>> {
-        let mut visitor = Nearest::up_to(limit);
+        let mut visitor = NearestPrimitives::up_to(limit);
         // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed.
         for target in targets.iter().filter(|_| targets.len() > 1) {
             visitor.margin = target.options.margin;
-            visitor.pair = target.rank;
+            visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 break;
             }
@@ -201,13 +201,13 @@ impl QueryContext {
         }
         for target in targets {
             visitor.margin = target.options.margin;
-            visitor.pair = target.rank;
+            visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 continue;
             }
             self.count_body_pair()?;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
-                if pairing.has_solid() && visitor.settled_from() != Some([0, 0]) {
+                if pairing.has_solid() && visitor.irrelevant_from() != Some([0, 0]) {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
                     contained
                         .iter()

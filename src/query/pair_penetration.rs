@@ -37,14 +37,16 @@ impl Visitor for Deepest<'_> {
         0.0
     }
 
-    fn settled_from(&self) -> Option<[u32; 2]> {
+    fn irrelevant_from(&self) -> Option<[u32; 2]> {
         self.failed.as_ref().map(|(primitives, _)| *primitives)
     }
 
     fn visit(&mut self, pair: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()> {
         let primitives = pair.primitives;
-        let is_settled = self.settled_from().is_some_and(|from| from <= primitives);
-        if !meets(pair) || is_settled {
+        let is_irrelevant = self
+            .irrelevant_from()
+            .is_some_and(|from| from <= primitives);
+        if !meets(pair) || is_irrelevant {
             return ControlFlow::Continue(());
         }
         match self.pairing.world_penetration(primitives, meter) {

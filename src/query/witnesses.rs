@@ -159,7 +159,7 @@ impl QueryContext {
     ) -> Result<(Vec<Hit>, bool)> {
         for target in targets {
             visitor.margin = target.options.margin;
-            visitor.pair = target.rank;
+            visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 continue;
             }

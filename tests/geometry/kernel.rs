@@ -195,7 +195,7 @@ fn distances_of_polygons_are_those_of_brute_force_and_of_all_features() {
             "case {case}: {found}, all features {features:?}"
         );
         // The closest points are as far apart as the distance says.
-        let hit = pairing.met([0, 0], found).hit(0, found);
+        let hit = pairing.primitive_pair([0, 0], found).hit(0, found);
         let closest = pairing.closest(&hit, &mut scratch).closest;
         let between = (closest.points[0] - closest.points[1]).norm();
         assert!(

@@ -81,7 +81,7 @@ fn all_pairs(a: PlacedPrimitive, b: PlacedPrimitive) -> Vec<(f64, [u32; 2])> {
         for j in 0..count(b.0) {
             let apart = pairing.distance([i, j], f64::INFINITY, &mut scratch);
             let apart = apart.expect("a distance");
-            pairs.push((apart, pairing.met([i, j], apart).primitives));
+            pairs.push((apart, pairing.primitive_pair([i, j], apart).primitives));
         }
     }
     pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));

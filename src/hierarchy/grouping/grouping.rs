@@ -4,7 +4,7 @@ use super::adjacent::{Adjacent, sibling_pairs};
 use super::binned_split::{levels_for, split, split_within};
 use super::forest::Forest;
 use super::greedy_clustering::{Limits, cluster};
-use super::nearby::{Curve, Nearby};
+use super::nearby::{MortonCurve, Nearby};
 use super::parts::Part;
 use super::rebalancing::rebalanced;
 use super::regions::{REGION, group_by_regions};
@@ -62,7 +62,7 @@ pub fn group_few(
         .iter()
         .fold(extents[0], |all, extent| all.union(extent));
     // Leaves in Morton order: neighbours in space are neighbours in memory, and ties are broken between neighbours.
-    let curve = Curve::new(&bounds);
+    let curve = MortonCurve::new(&bounds);
     let mut order: Vec<u32> = (0..extents.len() as u32).collect();
     order.sort_by_cached_key(|&i| (curve.code(&extents[i as usize].center()), i));
     let mut forest = Forest::new(order.iter().map(|&i| extents[i as usize]).collect());

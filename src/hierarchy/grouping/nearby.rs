@@ -32,7 +32,7 @@ pub struct Nearby {
     gap_limit: f64,
     edge: f64,
     origin: Vec3,
-    curve: Curve,
+    curve: MortonCurve,
     voxels: HashMap<u64, Voxel, BuildHasherDefault<KeyHasher>>,
     next: Vec<u32>,
     previous: Vec<u32>,
@@ -47,7 +47,7 @@ impl Nearby {
             gap_limit: 0.0,
             edge: 1.0,
             origin: bounds.low,
-            curve: Curve::new(bounds),
+            curve: MortonCurve::new(bounds),
             voxels: HashMap::default(),
             next: Vec::new(),
             previous: Vec::new(),
@@ -269,12 +269,12 @@ impl Hasher for KeyHasher {
 }
 
 /// A space-filling curve (Morton order) through a box.
-pub struct Curve {
+pub struct MortonCurve {
     low: Vec3,
     scale: f64,
 }
 
-impl Curve {
+impl MortonCurve {
     pub fn new(bounds: &Extent) -> Self {
         let size = bounds.size().amax();
         Self {

@@ -16,7 +16,9 @@ use crate::primitive::Primitives;
 /// queries do not need them, and they take several times the time and memory of everything else.
 #[derive(Debug)]
 pub enum Wrappers {
-    Made(Box<WrapperTree>),
+    /// Built with the body.
+    Eager(Box<WrapperTree>),
+    /// Built on first use.
     OnDemand {
         /// `None` for a point cloud, whose groups are recomputed.
         groups: Option<Groups>,
@@ -47,7 +49,7 @@ impl Wrappers {
     /// The tree over the body's primitives; built here if this is the first use.
     pub fn tree(&self, primitives: &Primitives) -> &WrapperTree {
         match self {
-            Self::Made(tree) => tree,
+            Self::Eager(tree) => tree,
             Self::OnDemand {
                 groups,
                 options,
@@ -61,7 +63,7 @@ impl Wrappers {
 
     pub fn kind(&self) -> WrapperKind {
         match self {
-            Self::Made(tree) => tree.kind(),
+            Self::Eager(tree) => tree.kind(),
             Self::OnDemand { options, .. } => options.wrapper,
         }
     }
@@ -69,7 +71,7 @@ impl Wrappers {
     /// The ball around the body's primitives.
     pub fn ball(&self, primitives: &Primitives) -> Ball {
         match self {
-            Self::Made(tree) => tree.ball(),
+            Self::Eager(tree) => tree.ball(),
             Self::OnDemand { .. } => Ball::around(primitives),
         }
     }
@@ -78,7 +80,7 @@ impl Wrappers {
     /// bytes are those of the groups and of the wrappers built so far.
     pub fn statistics(&self, primitives: &Primitives) -> TreeStatistics {
         match self {
-            Self::Made(tree) => tree.statistics(),
+            Self::Eager(tree) => tree.statistics(),
             Self::OnDemand {
                 groups,
                 options,
