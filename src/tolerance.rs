@@ -42,6 +42,50 @@ pub const TOUCH_DEPTH: f64 = 1e-10;
 /// planners and simulations sometimes end this deep; deeper, the shortest way out says little about the nearest features.
 pub const JUST_INSIDE: f64 = 1e-6;
 
+/// Closest points nearer to each other than this times L do not determine a normal: their rounding, a few EPSILON L, turns the
+/// direction between them by 1e-4 and more. Then features do.
+pub const MIN_NORMAL_DISTANCE: f64 = 1e-12;
+
+/// The normal between two closest points is taken as it is where its error is below this, a tenth of [`PARALLEL`]; else the
+/// normals of the features around the points are compared with it.
+pub const NORMAL_ERROR: f64 = 1e-12;
+
+/// Closest points of smooth cores nearer to each other than this times L do not determine a normal. At this distance the
+/// direction that certifies it is within sqrt(2 CERTIFIED_GAP / 1e-6) = 8e-5 of the normal.
+pub const MIN_SMOOTH_NORMAL_DISTANCE: f64 = 1e-6;
+
+/// Two directions of edges whose cross product is shorter than this are parallel: the product's rounding of some EPSILON would
+/// turn a normal by more than 1e-10.
+pub const PARALLEL_EDGES: f64 = 1e-6;
+
+/// A normal replaces another at touch only where the sets' gap along it is larger by this times L. That is 28 times
+/// [`SUPPORT_ERROR`], so that rounding does not choose among normals that are equal.
+pub const GAP_TIE: f64 = 1e-13;
+
+/// Features within this times L of a touching pair's closest points offer their normals. A larger value offers normals of
+/// features that do not touch, a smaller one misses features where the points are inaccurate.
+pub const NEAR_FEATURE: f64 = 1e-8;
+
+/// A point nearer than this times L to a vertex, edge or face counts as lying on it, where one of the sets is smooth: along a
+/// surface, closest points are known only to about the square root of the distance's error, sqrt(CERTIFIED_GAP) = 6e-8.
+pub const ON_FEATURE: f64 = 1e-7;
+
+/// Contacts whose points on both primitives are within this times L of each other count as one. A larger value drops contacts
+/// of small features, a smaller one lists contacts twice that differ by rounding alone.
+pub const SAME_CONTACT: f64 = 1e-9;
+
+/// Features whose vertices are within this times L of the supporting plane along GJK's direction are compared first. The
+/// direction is more accurate than that unless the sets nearly touch; then the certificate fails and all features are compared.
+pub const NEAR_SUPPORT: f64 = 1e-6;
+
+/// A vertex may lie beyond a supporting plane by this times L. For the penetration, a larger value tries more pairs of edges,
+/// none of which can give too small a depth; a smaller one could miss the pair that does support.
+pub const SUPPORT_SLACK: f64 = 1e-9;
+
+/// The normal of touching smooth cores is found when a step turns it by less than this: some thousand times EPSILON, above the
+/// rounding of a unit vector.
+pub const NORMAL_STEP: f64 = 1e-12;
+
 /// A polygon's vertices may be off its plane by this times its diameter, plus the rounding of their own coordinates.
 pub const PLANAR: f64 = 1e-12;
 

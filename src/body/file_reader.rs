@@ -1,7 +1,7 @@
 //! Reads numbers, primitives and hierarchies from the bytes of a body file.
 
 use super::file_writer::{
-    CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, MADE, OF_CLOUD, OF_GROUPS, PLAIN, POINTS, ROUNDED,
+    CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, OF_CLOUD, OF_GROUPS, OF_TREE, PLAIN, POINTS, ROUNDED,
     SHAPE,
 };
 use super::solid::Solid;
@@ -229,7 +229,7 @@ impl Reader<'_> {
             .ok_or_else(|| self.damaged("the kind of wrappers"))?;
         let shape_of = |subsets: &SubsetTree| [subsets.nodes.len(), subsets.depth()];
         let (wrappers, shape) = match self.u32()? {
-            MADE => {
+            OF_TREE => {
                 let tree = self.tree(primitives.len(), wrapper)?;
                 let shape = shape_of(tree.subsets());
                 (Wrappers::Eager(Box::new(tree)), shape)

@@ -18,7 +18,7 @@ pub const POINTS: u32 = 1;
 
 /// The codes of what follows of the wrappers: nothing, the wrapper tree, or the groups.
 pub const OF_CLOUD: u32 = 0;
-pub const MADE: u32 = 1;
+pub const OF_TREE: u32 = 1;
 pub const OF_GROUPS: u32 = 2;
 
 /// The codes of the kinds of shapes.
@@ -155,7 +155,7 @@ impl Writer {
         self.u32(kind.unwrap_or(0) as u32);
         match wrappers {
             Wrappers::Eager(tree) => {
-                self.u32(MADE);
+                self.u32(OF_TREE);
                 self.tree(tree);
             }
             Wrappers::OnDemand {

@@ -12,13 +12,8 @@ use crate::primitive::{Feature, FeatureKind};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
-/// Beyond this distance, in L, the direction between two closest points is known to at least 1e-4.
-const MIN_DISTANCE: f64 = 1e-12;
-
-/// A normal with a smaller error than this is accurate enough to detect parallel features (see [`tolerance::PARALLEL`]).
-const MAX_NORMAL_ERROR: f64 = 1e-12;
-
-/// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices.
+/// At most 4096 edge pairs are tried, where fans of very many edges meet at two touching vertices. A larger value takes
+/// longer at such vertices, a smaller one leaves contacts just inside without a normal.
 const MAX_EDGE_PAIRS: usize = 4096;
 
 /// A list of usually few directions.
@@ -40,7 +35,7 @@ impl ContactPair<'_> {
     }
 
     fn is_apart(&self) -> bool {
-        self.closest.distance > MIN_DISTANCE * self.precision.size
+        self.closest.distance > tolerance::MIN_NORMAL_DISTANCE * self.precision.size
     }
 
     /// The unit normal from s to r, or `None` where the interiors overlap deeper than [`tolerance::JUST_INSIDE`] L.
@@ -84,7 +79,7 @@ impl ContactPair<'_> {
         }
         let direct = direct.try_normalize(0.0)?;
         let doubt = 64.0 * tolerance::EPSILON * self.precision.size / self.closest.distance;
-        if doubt < MAX_NORMAL_ERROR {
+        if doubt < tolerance::NORMAL_ERROR {
             return Some(direct);
         }
         let mut best = (doubt, direct);
@@ -100,11 +95,12 @@ impl ContactPair<'_> {
     /// The normal of touching primitives: among the candidate normals of the touching features, the one along which the sets
     /// overlap least.
     fn normal_at_touch(&self) -> Option<Vec3> {
+        let tie = tolerance::GAP_TIE * self.precision.size;
         let mut best: Option<(f64, Vec3)> = None;
         for candidate in self.local_normals() {
             for n in [candidate, -candidate] {
                 let gap = gap_of_primitives(self.r, self.s, &n);
-                if best.is_none_or(|(most, _)| gap > most + 1e-13 * self.precision.size) {
+                if best.is_none_or(|(most, _)| gap > most + tie) {
                     best = Some((gap, n));
                 }
             }
@@ -142,7 +138,7 @@ impl ContactPair<'_> {
     /// The candidate normals of the features around the closest points: face normals, cross products of edge pairs, and the
     /// normals of a flat polygon's edges within its plane. Unit vectors.
     fn local_normals(&self) -> Directions {
-        let near = 1e-8 * self.precision.size;
+        let near = tolerance::NEAR_FEATURE * self.precision.size;
         let local_r = LocalFeatures::around(self.r, &self.closest.points[0], near);
         let local_s = LocalFeatures::around(self.s, &self.closest.points[1], near);
         let mut found = Directions::new();
@@ -152,7 +148,7 @@ impl ContactPair<'_> {
             } else {
                 candidate
             };
-            found.extend(in_plane.try_normalize(1e-6));
+            found.extend(in_plane.try_normalize(tolerance::PARALLEL_EDGES));
         };
         for normal in local_r.normals.iter().chain(&local_s.normals) {
             offer(*normal);

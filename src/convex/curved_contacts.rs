@@ -6,7 +6,7 @@ use super::core::{Core, is_smooth};
 use super::distance::PrimitiveDistance;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_contacts::{first_polytope_contact, polytope_contacts};
-use super::smooth_distance::{APART, refined_cores};
+use super::smooth_distance::refined_cores;
 use crate::gjk::Support;
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -83,11 +83,12 @@ fn smooth_contact(
     if closest.depth > tolerance::JUST_INSIDE * precision.size {
         return None;
     }
-    let is_apart = closest.distance > APART * precision.size && direction != Vec3::zeros();
+    let least = tolerance::MIN_SMOOTH_NORMAL_DISTANCE * precision.size;
+    let is_apart = closest.distance > least && direction != Vec3::zeros();
     let (normal, gap, points) = if is_apart {
         (direction, closest.distance, closest.points)
     } else {
-        touch(r, s, &closest, direction, precision)?
+        smooth_touch(r, s, &closest, direction, precision)?
     };
     Some(Contact {
         points,
@@ -99,20 +100,26 @@ fn smooth_contact(
     })
 }
 
+/// At most 40 steps towards the normal of touching cores, four of them at larger shifts than [`LAST_SHIFT`]. With fewer, more
+/// normals stay off; their gaps are safe all the same.
+const MAX_NORMAL_STEPS: i32 = 40;
+
+/// How far, in L, touching cores are moved apart in the last steps. Less brings the steps to the normal sooner: at a sphere of
+/// radius R each divides its error by about (R + shift) / shift. More leaves less rounding in the direction.
+const LAST_SHIFT: f64 = 1e-4;
+
 /// The normal of cores that touch or overlap slightly, with the gap along it and the points there.
 ///
 /// If the cores are moved apart a little along the normal, that normal is also the direction between their closest points. It
 /// is found by moving them apart along the last guess, by less each time. Even if this does not converge, the gap is that of
 /// the support points along the returned direction.
-fn touch(
+fn smooth_touch(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
     closest: &Closest,
     direction: Vec3,
     precision: &Precision,
 ) -> Option<(Vec3, f64, [Vec3; 2])> {
-    const STEPS: i32 = 40;
-    const LAST_SHIFT: f64 = 1e-4;
     let apart = r.middle() - s.middle();
     let guesses = [direction, closest.points[0] - closest.points[1], apart];
     let mut normal = guesses
@@ -126,7 +133,7 @@ fn touch(
         LAST_SHIFT
     };
     let mut points = closest.points;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NORMAL_STEPS {
         let by = normal * (shift * precision.size);
         let found = refined_cores(r, s, by, by, precision);
         if found.direction == Vec3::zeros() {
@@ -135,7 +142,7 @@ fn touch(
         points = [found.points[0] - by, found.points[1]];
         let turned = (found.direction - normal).norm();
         normal = found.direction;
-        if shift <= LAST_SHIFT && turned <= 1e-12 {
+        if shift <= LAST_SHIFT && turned <= tolerance::NORMAL_STEP {
             break;
         }
         shift = (0.1 * shift).max(LAST_SHIFT);

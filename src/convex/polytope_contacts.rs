@@ -11,10 +11,6 @@ use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
 
-/// Contacts whose points on both primitives are nearer to each other than this times L count as one. A larger value drops
-/// contacts of small features, a smaller one lists contacts twice that differ by rounding alone.
-const SAME_POINT: f64 = 1e-9;
-
 /// The contact at the closest points of two hulls that are apart, if their features have a contact mode.
 pub fn first_polytope_contact(
     r: &PlacedPrimitive,
@@ -133,7 +129,7 @@ struct ContactList<'a> {
 impl ContactList<'_> {
     /// Adds a contact unless its features have no contact mode or its points are listed.
     fn offer(&mut self, points: [Vec3; 2], features: [Feature; 2]) {
-        let same = SAME_POINT * self.precision.size;
+        let same = tolerance::SAME_CONTACT * self.precision.size;
         let is_same = |other: &Contact| {
             (other.points[0] - points[0]).norm() <= same
                 && (other.points[1] - points[1]).norm() <= same

@@ -98,7 +98,8 @@ fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, sl
     }
 }
 
-/// Polygons with at most this many edges are compared edge by edge.
+/// Polygons with at most this many edges are compared edge by edge; GJK finds the features of larger ones. The time of the
+/// first grows with the product of the edge counts.
 const MAX_EDGES_ENUMERATED: usize = 32;
 
 fn is_large(placed: &PlacedPrimitive) -> bool {
@@ -183,9 +184,7 @@ fn bounded_closest(
         return Some(found);
     }
     if bounds.lower > 0.0 {
-        // The features within 1e-6 L of the supporting planes: GJK's direction is better than that unless the sets
-        // nearly touch, and then the certificate fails and all features are searched.
-        let slack = 1e-6 * size;
+        let slack = tolerance::NEAR_SUPPORT * size;
         scratch.a.set_supporting(a, &-bounds.direction, slack);
         scratch.b.set_supporting(b, &bounds.direction, slack);
         let found = closest_features(a, &scratch.a, b, &scratch.b, false);
@@ -293,7 +292,7 @@ pub fn feature_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest)
                 (q - p).normalize()
             };
             let cross = along(a, on_a.index).cross(&along(b, on_b.index));
-            (cross.norm() > 1e-6).then(|| cross.normalize())
+            (cross.norm() > tolerance::PARALLEL_EDGES).then(|| cross.normalize())
         }
         _ => None,
     }

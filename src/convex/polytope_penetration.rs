@@ -13,6 +13,7 @@ use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{DistanceScratch, closest_polytopes};
 use crate::gjk::DistanceLimits;
 use crate::pose::Vec3;
+use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
 /// The shortest translation of r that leaves r and s touching: by `depth` along `direction`, a unit vector from s to r.
@@ -24,9 +25,6 @@ pub struct Penetration {
     /// A point of r and one of s that the translation brings together: s = r + depth * direction.
     pub points: [Vec3; 2],
 }
-
-/// The slack by which a corner may lie beyond a supporting edge, relative to the pair's size.
-const SUPPORT_SLACK: f64 = 1e-9;
 
 /// The penetration of the hulls of two primitives' vertices that meet.
 pub fn polytope_penetration(
@@ -50,7 +48,8 @@ pub fn polytope_penetration(
                 shortest.offer_next(&placed.normal(face));
             }
         }
-        offer_edges(r, s, SUPPORT_SLACK * precision.size, meter, &mut shortest);
+        let slack = tolerance::SUPPORT_SLACK * precision.size;
+        offer_edges(r, s, slack, meter, &mut shortest);
     }
     shortest.measure_waiting();
     // Sets without faces and without candidate normals: a direction perpendicular to their longest edge.
@@ -130,7 +129,8 @@ fn coinciding_points(
 ) -> [Vec3; 2] {
     let way = direction * depth;
     let moved_by = |shift: Vec3| -> Vec<Vec3> { r.vertices().iter().map(|v| v + shift).collect() };
-    for slack in [1e-9, 1e-6].map(|part| part * precision.size) {
+    for slack in [tolerance::SUPPORT_SLACK, tolerance::NEAR_SUPPORT] {
+        let slack = slack * precision.size;
         let shift = direction * (depth + slack);
         let vertices = moved_by(shift);
         let moved = r.shifted(&vertices);
@@ -174,7 +174,7 @@ struct Line {
 }
 
 /// Lines are measured in batches of this many, in the order of their lower bounds: mostly the first then proves the others
-/// longer.
+/// longer. A smaller batch measures more lines that a later one would have ruled out.
 const BATCH: usize = 64;
 
 impl<'a> ShortestWay<'a> {

@@ -36,7 +36,7 @@ pub fn smooth_closest(
         let interior = [Feature::interior(); 2];
         return Some((Closest::between(found.points, interior), found.direction));
     }
-    let slack = ON_FEATURE * pair.size;
+    let slack = tolerance::ON_FEATURE * pair.size;
     let closest = Closest {
         distance: found.upper,
         points: found.points,
@@ -61,11 +61,9 @@ fn from_point(point: &PlacedPrimitive, core: &Core, pair: &Precision) -> Option<
     if !is_point {
         return None;
     }
-    point_to_smooth(&point.vertex(0), core, APART * pair.size)
+    let least = tolerance::MIN_SMOOTH_NORMAL_DISTANCE * pair.size;
+    point_to_smooth(&point.vertex(0), core, least)
 }
-
-/// Beyond this distance, in L, the closest points of two cores determine the contact normal.
-pub const APART: f64 = 1e-6;
 
 /// How far the upper bound may exceed the distance, beyond the pair's error. Where no direction proves the sets apart it is the
 /// whole upper bound, so that callers get a lower bound of 0.
@@ -103,10 +101,6 @@ fn refined_pair(
         NearestParts::new([a, b], names, accepted)?.solve(direction)
     })
 }
-
-/// A point nearer than this to a vertex or edge, in L, counts as lying on it. Along a surface, closest points are known only to
-/// about the square root of the distance's error.
-const ON_FEATURE: f64 = 1e-7;
 
 /// The feature of a polytope that holds its closest point.
 fn holding_feature(

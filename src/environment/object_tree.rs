@@ -22,6 +22,14 @@ const COMING: usize = 4;
 /// keeps the tree tighter, but a reinsertion costs several times a refit.
 const FEW: usize = 16;
 
+/// An object is reinserted if its node would grow by more than this factor: where few objects change, and where many do. A
+/// larger factor reinserts less and leaves larger nodes, which queries open more often.
+const MAX_GROWTH: [f64; 2] = [1.1, 1.5];
+
+/// A tree is rebuilt if its nodes have more than this many times the surface that they would have by the growth of the number
+/// of objects. A smaller value rebuilds more often, a larger one leaves a tree of which queries open more nodes.
+const MAX_LOOSENESS: f64 = 1.3;
+
 /// The tree over the objects of one snapshot; it refers to them by their places.
 #[derive(Clone, Debug, Default)]
 pub struct ObjectTree {
@@ -117,7 +125,7 @@ impl ObjectTree {
         let mut refitted = IndexSet::new(places.len());
         let (mut removed, mut inserted, mut leaving) = (Vec::new(), Vec::new(), Vec::new());
         let is_few = FEW * changed.iter().take(self.count / FEW + 1).count() <= self.count;
-        let max_growth = if is_few { 1.1 } else { 1.5 };
+        let max_growth = MAX_GROWTH[usize::from(!is_few)];
         for place in changed.iter() {
             let was_held = self.tree.holds(place);
             let Place { bounds, .. } = &places[place];
@@ -196,8 +204,9 @@ impl ObjectTree {
         found.is_ok()
     }
 
-    /// Whether the tree should be rebuilt. It takes enough changes that the amortized cost of each is small. `objects` counts
-    /// attached ones too; `places` counts objects deleted since the gaps were closed too.
+    /// Whether the tree should be rebuilt. All of these take a number of changes in proportion to the objects, so that the
+    /// amortized cost of a change is that of a few insertions; smaller fractions rebuild more often. `objects` counts attached
+    /// ones too; `places` counts objects deleted since the gaps were closed too.
     pub fn is_worn(&self, objects: usize, places: usize) -> bool {
         let Wear {
             changes,
@@ -212,7 +221,7 @@ impl ObjectTree {
         let slack = ROUNDING * self.radius + slack(self.largest_coordinate, self.deviation);
         let has_large_slack = slack > 0.5 * FAR * ROUNDING * size;
         let count_growth = (self.count as f64 / count.max(1) as f64).max(1.0);
-        let is_loose = self.surface() > 1.3 * count_growth * surface;
+        let is_loose = self.surface() > MAX_LOOSENESS * count_growth * surface;
         has_large_slack && changes > self.count / 16
             || self.strays.len() > strays + self.count / 8
             || (is_loose || is_hasty) && changes > self.count

@@ -39,20 +39,23 @@ pub struct Nearby {
     pub points: [Vec3; 2],
 }
 
-/// At most 400 steps; more do not improve the bounds.
+/// At most 400 steps, restarts included. A smaller value leaves more pairs with bounds that have not met.
 const MAX_STEPS: u32 = 400;
 
-/// At most 50 steps in a row without progress.
+/// After more than 50 steps in a row in which the bounds come no closer, the search is restarted. A smaller value restarts
+/// searches that would still have gone on; a larger one spends more steps on those that would not.
 const MAX_IDLE: u32 = 50;
 
 /// `finish` is first tried when `upper - lower` is at most 0.3 `upper`, and again each time the quotient has shrunk by this
-/// factor.
+/// factor. A larger value tries it sooner, when the corners are less likely to be the final ones; a smaller one takes steps
+/// that it would have saved.
 const FIRST_FINISH: f64 = 0.3;
 
-/// At most 12 tries of `finish`.
+/// At most 12 tries of `finish`, the last where the quotient is at most 0.3^12 = 5e-7.
 const MAX_FINISHES: u32 = 12;
 
-/// A search that is stuck is restarted at most 8 times.
+/// A search that is stuck is restarted at most 8 times: in quarters from the direction between the points to that of the best
+/// bound, and as far beyond.
 const MAX_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step improves

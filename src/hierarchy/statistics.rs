@@ -5,7 +5,8 @@ use crate::boxes::Extent;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::wrapper::WrapperTree;
 
-/// The cost of a primitive test relative to a node test, in the model of the expected cost.
+/// The cost of a primitive test relative to a node test, in the model of the expected cost. It is reported alone: nothing is
+/// built by it.
 const PRIMITIVE_COST: f64 = 4.0;
 
 /// Size, shape and expected cost of a hierarchy.

@@ -21,7 +21,8 @@ pub struct Shortlist<T> {
 /// the bound of the last one.
 const MIN_SPARE: usize = 8;
 
-/// With a larger `max_count`, lists shorter than this are not cut: most searches end before.
+/// With a larger `max_count`, lists shorter than this are not cut: most searches end before. A smaller value sorts more often,
+/// a larger one holds more items that are not kept.
 const MIN_CUT: usize = 1024;
 
 impl<T: Ranked> Shortlist<T> {

@@ -135,7 +135,9 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     }
 }
 
-/// Bounds are sharpened only while the cutoff is above this, in units of the pair.
+/// Bounds are sharpened only while the cutoff is above this, in units of the pair. With a cutoff near 0 the boxes that
+/// matter overlap, and sharper bounds prune no more. A smaller value sharpens in vain more often, a larger one leaves boxes of
+/// near bodies that sharper bounds would prune.
 const SHARP_FROM: f32 = 1e-4;
 
 /// The traversal of two trees. Lengths in single precision are in units of `scale`, the next power of two above the pair's

@@ -214,7 +214,8 @@ impl BoxFrame {
         extent: &Extent,
         given: impl Fn(usize) -> OrientedBox,
     ) -> WideNode {
-        // Room for boxes that grow a little in later refits.
+        // Room for boxes that grow a little in later refits. More room makes the steps of the 16-bit numbers larger; with less,
+        // more refits must pack the node anew.
         const ROOM: f64 = 1.25;
         let center = (extent.center() - self.center) / self.scale;
         let largest = (0..children.len())

@@ -8,10 +8,11 @@ use crate::error::Result;
 use crate::hierarchy::{Progress, parallel};
 use crate::pose::Vec3;
 
-/// Number of bins per axis.
+/// Number of bins per axis. More find better splits and take longer.
 const BINS: usize = 16;
 
-/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads.
+/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads. A smaller value shares the
+/// work more evenly, but leaves more of it to one thread.
 const TASK: usize = 4096;
 
 /// A subtree not yet in the forest: a body, or the index of a pair of branches.

@@ -11,10 +11,11 @@ use crate::boxes::Extent;
 use crate::pose::Vec3;
 
 /// If more bodies than this have their centres in the 27 voxels around a body, only its neighbours on a space-filling curve
-/// are considered. The report's bound on eligible partners fails in such crowds: spaghetti, coincident polygons.
+/// are considered. The report's bound on eligible partners fails in such crowds: spaghetti, coincident polygons. A larger value
+/// considers more partners, and takes longer.
 const CROWD: u32 = 512;
 
-/// How many neighbours before and after a body on the curve are considered in a crowd.
+/// How many neighbours before and after a body on the curve are considered in a crowd. More make better groups and take longer.
 const WINDOW: usize = 24;
 
 const NONE: u32 = u32::MAX;

@@ -5,10 +5,10 @@ use crate::pose::Vec3;
 use crate::primitive::Convex;
 use crate::tolerance;
 
-/// The most leaves of one primitive.
+/// The most leaves of one primitive. More bound a slender primitive more tightly, but each is a box in memory and in queries.
 const MAX_SLABS: usize = 64;
 
-/// The most parts per primitive on average, if all are slender.
+/// The most parts per primitive on average, if all are slender: bounds the memory of a body of needles.
 const MAX_PARTS: usize = 8;
 
 /// A primitive, or the slab of it between two planes. The slab only serves as a bound: queries test the whole primitive.

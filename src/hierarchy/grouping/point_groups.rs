@@ -16,13 +16,14 @@ use crate::pose::Vec3;
 /// The number of children of a full node.
 const FULL: usize = 8;
 
-/// Number of bins per axis.
+/// Number of bins per axis. More find better splits and take longer.
 const BINS: usize = 16;
 
 /// The heuristic samples at least this many points of a larger set; the best split hardly changes with more.
 const SAMPLE: usize = 1024;
 
-/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads.
+/// Sets larger than this are split on the calling thread; smaller ones are the tasks of the threads. A smaller value shares the
+/// work more evenly, but leaves more of it to one thread.
 const TASK: usize = 8192;
 
 /// The binary tree over points.

@@ -10,7 +10,8 @@ use crate::error::Result;
 use crate::hierarchy::{HierarchyOptions, Node, Progress, SubsetTree, parallel};
 use crate::primitive::Convex;
 
-/// The most parts of a region.
+/// The most parts of a region. A larger one no longer fits the cache; more parts of smaller ones are grouped by the split into
+/// regions alone.
 pub const REGION: usize = 16_384;
 
 /// Groups at least one part by regions that are split top-down. The same input gives the same tree.

@@ -15,7 +15,8 @@ use crate::hierarchy::{
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::Primitives;
 
-/// Above this many points the axes of a box are searched for over the extreme points; below, the principal axes do.
+/// Above this many points the axes of a box are searched for over the extreme points; below, the principal axes do. A smaller
+/// value makes boxes tighter and takes longer to build.
 const MIN_SEARCHED: usize = 512;
 
 /// Whether primitives are built as a cloud: all are points, and `Grouping::Basic` is not asked for.

@@ -11,7 +11,8 @@ use crate::hierarchy::{Ball, Node, Progress, SubsetTree, few_extremes};
 use crate::pose::Vec3;
 use crate::primitive::Primitives;
 
-/// Above this many points the axes of a box are fitted to the extreme points only.
+/// Above this many points the axes of a box are fitted to the extreme points only. A larger value makes boxes a little tighter
+/// and takes longer to build.
 const MAX_FITTED: usize = 48;
 
 /// Packs a subset tree over the primitives; `ball` bounds them all.
