@@ -10,14 +10,14 @@ const WIDTH: usize = 32;
 type Chunk<T, const N: usize> = [T; N];
 type Block<T, const N: usize> = [Arc<Chunk<T, N>>; WIDTH];
 
-/// A vector in chunks of `N` items, a power of two. A clone takes constant time. A later change copies the item's chunk and the
-/// pointers that lead to it: one per 32 `N` items of the vector, and the 32 of a block.
+/// A vector in chunks of `N` items, a power of two. A clone takes constant time. The first change after a clone copies the
+/// pointers to all blocks; the first in a block copies its 32 pointers to chunks, and the first in a chunk its `N` items.
 #[derive(Debug)]
 pub struct CowVec<T, const N: usize> {
     blocks: Arc<[Arc<Block<T, N>>]>,
     len: usize,
-    /// The indices changed since this was cloned from another vector or followed it, in any order; `None` for a vector built
-    /// otherwise.
+    /// The indices changed since this vector became equal to another by `clone` or `follow`, in any order. `None` if it never
+    /// did.
     changed: Option<Vec<u32>>,
 }
 
@@ -78,8 +78,8 @@ impl<T: Clone + Default, const N: usize> CowVec<T, N> {
         }
     }
 
-    /// The next items to change that lie in one chunk. Two nested loops over these do the same as [`CowVec::update`], for
-    /// callers whose closure would not be compiled for their instruction set.
+    /// The next items to change that lie in one chunk. Code that runs in lanes loops over these, as [`CowVec::update`] does,
+    /// instead of passing a closure, which would not be compiled for its instruction set.
     #[inline(always)]
     pub fn next_run<'a, I: Iterator<Item = usize>>(
         &'a mut self,

@@ -15,10 +15,11 @@ const MAX_NAMED: usize = 3;
 /// Orients the faces of a closed surface. Returns for each face 1 as given, -1 reversed, 0 unused (a face without area that
 /// the others do not need).
 ///
-/// Closed means that as many faces run along each edge one way as the other. If exactly two faces share an edge, they are
-/// oriented to run along it in opposite directions; of each component connected that way, the larger part by area stays as
-/// given (of equal parts, that of the first face). Fails if edges are open, if a component is one-sided, and if each face of
-/// a component has a reversed copy, so that it bounds nothing.
+/// Closed means that as many faces run along each edge one way as the other. Where exactly two faces share an edge, one of them
+/// may be reversed so that they run along it in opposite directions. Faces connected over such edges form a component. Of its
+/// faces, those given one way and those given the other way, the part with the larger area keeps its orientation; of equal
+/// parts, that of the first face. Fails if edges are open, or if a component is one-sided. Fails too if each face of a
+/// component has a reversed copy, for then it bounds nothing.
 pub fn closed_surface(faces: &[Outline]) -> Result<Vec<i8>> {
     let mut edges = SurfaceEdges::of(faces);
     let is_kept = edges.closing(faces);
@@ -68,7 +69,8 @@ impl Surface<'_> {
                 ));
             }
         }
-        // Per root, the area on the side of its first face minus the area on the other side, and the side of that face.
+        // By root: the area of the faces on the same side as its first face, less that of the others; and the first face's
+        // side.
         let mut balance: HashMap<u32, (f64, bool), RandomState> = HashMap::default();
         let found: Vec<(u32, bool)> = (0..self.faces.len() as u32)
             .map(|face| sides.find(face))

@@ -55,9 +55,9 @@ impl ContactPair<'_> {
         touching.or_else(|| self.normal_just_inside())
     }
 
-    /// The normal of primitives that are apart: that of the features where they define one, else the direction between the
-    /// points, minus its components along the edges that hold them, which are rounding. Where a face's or two edges' normal
-    /// agrees with it within rounding, the features are parallel and that normal is exact.
+    /// The normal of primitives that are apart. It is that of the features where they define one. Else it is the direction
+    /// between the points, without its components along the edges that hold the points: these components are rounding. If a
+    /// normal of the features around the points agrees with that direction within rounding, it is taken instead: it is exact.
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
         let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };

@@ -3,8 +3,8 @@
 //! A translation of r along n separates the sets when it is at least the highest projection of s on n minus the lowest of r.
 //! The shortest one goes along the normal of a facet of the sets' Minkowski difference: a face's normal, or the cross product
 //! of an edge of each (in the plane, an edge's normal). All of those are tried, so the result is exact to rounding and there is
-//! no iteration that could stop early. A pair of edges is tried only where both support along their cross product, as tested on
-//! the neighbouring corners; candidates are the pairs whose arcs of the Gauss map may cross.
+//! no iteration that could stop early. Of the pairs of edges, those are compared whose arcs of the Gauss map may cross. A
+//! pair's cross product is tried only if both edges support along it, which the corners next to them tell.
 
 use super::closest::{FeatureSet, closest_features};
 use super::extreme_vertex::ExtremeVertex;
@@ -117,9 +117,10 @@ fn offer_edges(
     shortest.next += (arcs_r.len() * arcs_s.len()) as u64;
 }
 
-/// Points of both sets that coincide after r has moved by `depth` along `direction`, the normal of the planes in which they
-/// then touch: the closest points, with r moved a little farther, of the features in these planes. Where features are nearly
-/// parallel these may be too few; then the slack is increased, and finally all features are compared.
+/// Points of both sets that coincide after r has moved by `depth` along `direction`. The sets then touch in the supporting
+/// planes normal to `direction`. The points are found by moving r a little farther and taking the closest points of the
+/// features in these planes. Where features are nearly parallel some may be missed; then the slack is increased, and finally
+/// all features are compared.
 fn coinciding_points(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,

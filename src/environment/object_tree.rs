@@ -15,7 +15,8 @@ use crate::pair::ROUNDING;
 /// that took less than half the time of reinserting each (`scripts/bench.sh objects --only "jump"`).
 const LEAVING: usize = 16;
 
-/// The same for objects that are added or deleted, each a single insertion or removal: a guess from the measurement above.
+/// If more than 1 in this many objects are added or deleted in one update, the tree is rebuilt in haste. This is a guess: such
+/// a change costs less than the reinsertions measured for [`LEAVING`], of which each is a removal and an insertion.
 const COMING: usize = 4;
 
 /// If at most 1 in this many objects changes, objects are reinserted at a smaller growth of their nodes than otherwise. That
@@ -91,7 +92,8 @@ impl ObjectTree {
         built
     }
 
-    /// Copies what changed in a tree that was cloned from this one, or followed it.
+    /// Becomes equal to `other`, which was cloned from this tree, or followed it, and was then changed. Copies only what
+    /// changed.
     pub(super) fn follow(&mut self, other: &Self) {
         self.tree.follow(&other.tree);
         self.strays = other.strays.clone();
@@ -204,9 +206,9 @@ impl ObjectTree {
         found.is_ok()
     }
 
-    /// Whether the tree should be rebuilt. All of these take a number of changes in proportion to the objects, so that the
-    /// amortized cost of a change is that of a few insertions; smaller fractions rebuild more often. `objects` counts attached
-    /// ones too; `places` counts objects deleted since the gaps were closed too.
+    /// Whether the tree should be rebuilt. That takes changes in proportion to the number of objects, so that the amortized
+    /// cost of a change stays small; smaller fractions rebuild more often. `objects` includes attached objects; `places`
+    /// includes the places of objects that were deleted since the gaps were closed.
     pub fn is_worn(&self, objects: usize, places: usize) -> bool {
         let Wear {
             changes,

@@ -54,14 +54,14 @@ const FIRST_FINISH: f64 = 0.3;
 /// At most 12 tries of `finish`, the last where the quotient is at most 0.3^12 = 5e-7.
 const MAX_FINISHES: u32 = 12;
 
-/// A search that is stuck is restarted at most 8 times: in quarters from the direction between the points to that of the best
-/// bound, and as far beyond.
+/// A search that is stuck is restarted at most 8 times. Restart k begins k/4 of the way from the direction between the points
+/// to that of the best bound.
 const MAX_RESTARTS: u32 = 8;
 
 /// Bounds the distance of A and B until the bounds are [`tolerance::CERTIFIED_GAP`] times `size` apart, or no step improves
 /// them, or `limits` allow to stop. No coordinate of A and B exceeds `size`. `start` is a guess of the direction from B to A.
-/// Once the bounds are close, `finish` gets that direction and the names of the extreme points that the closest points lie
-/// between; it may return the closest points to the same accuracy.
+/// Once the bounds are close, `finish` is called with the direction of the last step and the names of the extreme points that
+/// the closest points lie between. It may end the search by returning closest points that are accurate enough.
 pub fn refined<A: Support, B: Support>(
     a: &A,
     b: &B,
@@ -335,8 +335,6 @@ impl Iteration {
             return ControlFlow::Continue(());
         }
         let between = (found.points[0] - found.points[1]) / found.upper;
-        // Each restart uses another direction: from that between the nearest points to that of the best lower bound, and as
-        // far beyond.
         let part = f64::from(self.restarts) / 4.0;
         self.v = between + (found.direction - between) * part;
         ControlFlow::Continue(())

@@ -120,9 +120,9 @@ impl Simplex {
         OriginPosition::Outside(point)
     }
 
-    /// The closest point to the origin of a simplex known not to contain it, as a combination of its corners. Of four corners
-    /// the best three are chosen by the distance they reach, not by sidedness, which rounding decides where the four are nearly
-    /// coplanar.
+    /// The closest point to the origin of a simplex known not to contain it, as a combination of its corners. Of a tetrahedron
+    /// each face is tried. On which side of a face the origin lies does not matter: where the corners are nearly coplanar,
+    /// rounding decides it.
     ///
     /// Also returns the foot, whose direction is the triangle's normal and therefore more accurate.
     #[inline(always)]
@@ -182,8 +182,8 @@ impl Simplex {
         }
     }
 
-    /// The foot on a segment without its component along the segment, which is rounding. That component hardly moves the point,
-    /// but turns its direction where the origin is near.
+    /// Removes from the foot on a segment its component along the segment. That component is rounding: it hardly moves the
+    /// foot, but turns its direction where the origin is near.
     fn upright(&self, foot: &Vec3) -> Vec3 {
         if self.len != 2 {
             return *foot;
@@ -281,8 +281,8 @@ impl Simplex {
         let square = normal.norm_squared();
         let rounding = (64.0 * tolerance::EPSILON).powi(2);
         let is_needle = square <= rounding * ab.norm_squared() * ac.norm_squared();
-        // Twice the signed areas that the origin's foot spans with each edge, times |normal|. Computed from the edge vector,
-        // whose error is small where the corners are close.
+        // For each edge, twice the signed area of its triangle with the origin's foot, times |normal|. It is computed from the
+        // vector along the edge, whose error is small where the corners are close.
         let weight = |p: Vec3, q: Vec3| normal.dot(&(p - q).cross(&p));
         let weights = [weight(b, c), weight(c, a), weight(a, b)];
         if square > 0.0 && weights.iter().all(|weight| *weight > 0.0) {
@@ -340,8 +340,7 @@ impl Simplex {
         })
     }
 
-    /// [`OriginPosition::Inside`] for an origin on the inner side of all four faces, given approximate weights with which the corners
-    /// combine to it.
+    /// The result for an origin on the inner side of all four faces. `weights` combine the corners to about the origin.
     ///
     /// A weight is a quotient of volumes. Where the corners are far apart compared with the heights, its rounding moves the
     /// point by more than a distance's error; Newton steps with the same volumes correct it.

@@ -8,7 +8,7 @@ use crate::work_meter::WorkMeter;
 
 /// A query, as the traversal sees it: its pruning bound and its action per primitive pair.
 pub trait Visitor {
-    /// Whether to sharpen bounds: it pays where distances are compared with a bound of about their size.
+    /// Whether the traversal sharpens the bounds of boxes. That takes longer, and pays where `bound` is well above 0.
     const REFINES: bool;
 
     /// Pairs farther apart than this are skipped; pairs at exactly this distance are not.

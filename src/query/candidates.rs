@@ -138,8 +138,8 @@ impl<'s, 'm> Candidates<'s, 'm> {
 }
 
 /// Removes duplicates from pairs in order of ids. Where several terms hold a pair at the same poses, it gets the largest
-/// margin and the farthest contact distance of any: it is inside, or in contact, if it is for any term. An object that an
-/// environment and its snapshot hold in different states counts as two.
+/// margin and the farthest contact distance of any: it is inside, or in contact, if it is for any term. An object
+/// whose two pairs differ in pose or body, as those of an environment and of an older snapshot of it may, counts as two.
 fn without_repeats(targets: Vec<Target>) -> Vec<Target> {
     let mut unique: Vec<Target> = Vec::with_capacity(targets.len());
     for next in targets {

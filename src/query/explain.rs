@@ -19,8 +19,8 @@ pub struct Verdict {
     pub class: Class,
     /// Whether the tree takes the leaf's complement.
     pub complemented: bool,
-    /// Whether the class of the whole rests on this leaf: from the root to the leaf, each part has the class of the union
-    /// or intersection that holds it.
+    /// Whether the class of the whole rests on this leaf: the leaf and every part above it have the class of the union or
+    /// intersection that they belong to.
     pub decisive: bool,
     /// Index of the first witness of the leaf's class, a pair that meets or is in contact. Only decisive leaves have any.
     pub first_witness: usize,

@@ -45,8 +45,8 @@ impl Robot {
         bound
     }
 
-    /// The same along a unit direction of the world; `state` holds the link poses at the start. The bound is 0 along the
-    /// normal of a floor for a base that translates and turns over it.
+    /// The same along a unit direction of the world; `state` holds the link poses at the start. For a base that drives on a
+    /// floor, the bound along the floor's normal is 0.
     pub fn directed_motion_bound(
         &self,
         link: usize,

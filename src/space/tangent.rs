@@ -48,8 +48,8 @@ impl Space {
         reached
     }
 
-    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round (opposite
-    /// angles by -pi), quaternions turn by at most half a turn.
+    /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round, and by -pi
+    /// between opposite angles; quaternions turn by at most half a turn.
     pub fn difference(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut v = self.displacement(q0, q1);
         for block in self.blocks() {

@@ -30,8 +30,8 @@ pub trait Eligibility: Sync {
     fn merged(&mut self, forest: &Forest, children: [u32; 2], parent: u32, active: bool);
 }
 
-/// A body and its cheapest older partner. Every pair is considered by its younger body, so one entry per body suffices for
-/// the least entry to be the cheapest of all eligible pairs.
+/// A body and its cheapest older partner. Each pair of bodies is considered once, by the younger. The cheapest of all eligible
+/// pairs is therefore among these entries.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
     /// The bits of a non-negative double, which order as the number does.

@@ -324,7 +324,7 @@ fn wrap(
     let cover = cover.grown(if merged { 0.0 } else { inherited });
     match corners {
         Corners::Points => packed.push(&cover, &points),
-        // Above this node the hull's vertices replace the points; a box's corners would loosen the hulls above.
+        // The nodes above take the hull's vertices for its points. A box's corners would not do: they loosen the hulls above.
         Corners::Hull(corners) => {
             packed.push(&cover, &corners);
             points = corners;
