@@ -9,7 +9,7 @@ pub struct Statistics {
     pub node_pairs: u64,
     /// Primitive pairs visited; for rays, the faces tested.
     pub primitive_pairs: u64,
-    /// Those of the pairs whose distance was computed: polygon pairs separated by a remembered direction do not count.
+    /// Primitive pairs whose distance was computed. Those that a direction from an earlier pair separates are not among them.
     pub primitive_distances: u64,
     /// Cached witnesses that were evaluated first.
     pub cache_hits: u64,

@@ -104,8 +104,8 @@ impl WideNode {
         }
     }
 
-    /// A node without children, for boxes whose centres are within `half` of `center` along each axis and whose half sides
-    /// are at most nearly twice that.
+    /// A node without children. Its boxes may have centres within `half` of `center` along each axis, and half sides up to
+    /// almost twice `half`.
     pub fn around(center: &Vec3, half: f64) -> Self {
         let origin = each3(|k| center[k] as f32);
         let off = (0..3).map(|k| (center[k] - f64::from(origin[k])).abs());

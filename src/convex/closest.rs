@@ -218,7 +218,7 @@ fn vertices_over_faces(
         for &i in &features_a.vertices {
             let point = a.vertex(i);
             let (height, inside) = b.over_face(f as usize, &point);
-            // A point below the face of a solid is not outside it there.
+            // A point below a face of a solid is inside, or nearer to another face.
             if inside && (height >= 0.0 || !b.shape.is_solid()) {
                 let foot = point - b.normal(f as usize) * height;
                 offer(Closest {
@@ -305,9 +305,9 @@ impl Segment {
 
 /// Parameters of the closest points of two segments.
 ///
-/// The lines' parameters are computed from the cross product of the directions. As the directions become parallel, its relative
-/// error grows at the rate at which the distance's dependence on the parameters falls, so the distance is fully accurate at any
-/// angle; the usual determinant loses half the digits.
+/// The lines' parameters are computed from the cross product of the directions. Nearly parallel directions make the parameters
+/// inaccurate, but the distance then depends on them as much less: it is fully accurate at any angle. With the usual
+/// determinant it would lose half its digits.
 pub fn closest_parameters(p: &Segment, q: &Segment) -> (f64, f64) {
     let cross = p.along.cross(&q.along);
     let square = cross.norm_squared();

@@ -79,8 +79,8 @@ impl Outline<'_> {
         (low.least(), high.greatest())
     }
 
-    /// The distance of another polygon from this one's plane, and its corner nearest to it. Negative where the other polygon
-    /// crosses the plane: minus its smaller extent to one side.
+    /// Where another polygon lies relative to this one's plane. If it crosses the plane, it extends to both sides; the gap is
+    /// then minus the smaller of its two extents.
     #[inline(always)]
     pub fn side(&self, other: &Outline) -> Side {
         let (low, high) = other.extent_along(&self.normal.into());
@@ -178,7 +178,8 @@ pub fn moved<'a>(outline: &Outline, pose: &Pose, buffer: &'a mut [Points64]) -> 
     }
 }
 
-/// Where a polygon lies relative to another's plane: its distance, and the product of the normal with its nearest corner.
+/// Where a polygon lies relative to another's plane: its distance from it, and the product of the plane's normal with its
+/// corner nearest to the plane.
 #[derive(Clone, Copy)]
 pub struct Side {
     pub gap: f64,

@@ -19,7 +19,8 @@ pub struct TreeLimits {
 }
 
 impl TreeLimits {
-    /// The limits for a tree over some objects: 15 of 16 are within them, and others if not very far from those.
+    /// The limits for a tree over some objects. At least 15 of 16 objects are within them; of the others, those that are not
+    /// [`FAR`] times farther out.
     pub fn of(all: &Places) -> Self {
         if all.len() == 0 {
             return Self::default();
@@ -41,7 +42,7 @@ impl TreeLimits {
         )
     }
 
-    /// The limits for objects added to a tree, given its radius around its centre and its slack: twice as much.
+    /// The limits for objects added to a tree: twice its radius around its centre, and twice its slack.
     pub fn around(center: Vec3, radius: f64, slack: f64) -> Self {
         let range = 2.0 * radius;
         Self {

@@ -2,9 +2,9 @@
 //!
 //! Coordinates are rounded to a lattice of 2^-60 of the boundary's largest coordinate, so products of their differences are
 //! integers of less than 128 bits. The side of an edge on which the point lies, seen along the ray, is therefore exact; a point
-//! on an edge is treated as moved by (e, e^2) for an infinitesimal e. So each ray crosses only the insides of faces. Moving
-//! vertices leaves a closed surface closed, so the count is that of the lattice's surface, which is within 2^-59 of the
-//! boundary's largest coordinate of the given surface.
+//! on an edge is treated as moved by (e, e^2) for an infinitesimal e. So each ray crosses only the insides of faces. The
+//! surface with rounded vertices is as closed as the given one, and the count is exact for it. It is nowhere farther from the
+//! given surface than 2^-59 of the boundary's largest coordinate.
 //!
 //! A face over the point is above it by at least their distance. Its height is a mean of the corners' heights with exact
 //! products as weights, so it is accurate to 4 EPSILON of the largest coordinate: the sign is certain for points farther from
@@ -47,8 +47,8 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     else {
         return Winding::default();
     };
-    // All coordinates are within the tree's unit, and the boxes hold the unrounded primitives; the lattice moves these by far
-    // less than the slack.
+    // The boxes hold the primitives before these are rounded to the lattice. That moves them by far less than the slack, which
+    // is in the tree's unit, as large as any coordinate.
     let ray_box = ray.in_units(body.packed().scale());
     let RayScratch { near, counts } = scratch;
     let primitives = near.find(body.packed(), ray_box, 2.0 * ROUNDING);

@@ -19,8 +19,8 @@ pub struct CheckedHull {
 }
 
 /// The best of a few proposals: the first whose excess is at most `accepted`, else the one of least excess. If a proposal lost
-/// points, the next one is made from its corners and the lost points, then in a rotated frame. `None` when a hull has more than
-/// `vertex_limit` corners, or when nothing was proposed.
+/// points, the next one is made of its corners and the lost points. If a third one still lost points, all begins anew in a
+/// rotated frame. `None` when a hull has more than `vertex_limit` corners, or when nothing was proposed.
 pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Option<CheckedHull> {
     let mut best: Option<CheckedHull> = None;
     let (center, stretch) = frame_of(points);

@@ -1,8 +1,8 @@
 //! Groups points by top-down splits with a surface-area heuristic, at counts that make the nodes of eight children full.
 //!
-//! The nodes of eight children follow from the binary tree: the set of such a node holds more than 8^k points and at most
-//! 8^(k + 1), and its children are the largest sets below it of at most 8^k. Sets of more than 8 points are split at
-//! multiples of 8, so that all but one of the lowest nodes hold eight points.
+//! The nodes of eight children follow from the binary tree. Let a node's set hold more than 8^k points and at most 8^(k + 1).
+//! Its children are then found by descending from the set until each set holds at most 8^k. Sets of more than 8 points are
+//! split at multiples of 8, so that all but one of the lowest nodes hold eight points.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -60,7 +60,7 @@ struct Limits {
     levels: usize,
     /// The most points in a child of the node of eight that the set belongs to.
     unit: usize,
-    /// The most children of that node that the set may become.
+    /// The set may be divided into at most this many children of that node.
     children: usize,
 }
 
