@@ -19,8 +19,8 @@ pub struct TreeLimits {
 }
 
 impl TreeLimits {
-    /// The limits for a tree over some objects. At least 15 of 16 objects are within them; of the others, those that are not
-    /// [`FAR`] times farther out.
+    /// The limits for a tree over some objects. Each limit is kept by 15 of 16 objects, and by others that are not [`FAR`] times
+    /// farther out or twice as inaccurate.
     pub fn of(all: &Places) -> Self {
         if all.len() == 0 {
             return Self::default();
