@@ -128,7 +128,7 @@ impl BodyBuilder {
             ));
         }
         self.push_all(added, true)?;
-        // A scrap of two vertices is a segment there and back, whose edge uses cancel.
+        // A scrap of two vertices uses its edge once each way, which closes nothing.
         self.scraps
             .extend(scraps.into_iter().filter(|s| s.vertices.len() > 2));
         self.faces_split += split;

@@ -1,9 +1,9 @@
 //! Lower bounds of the distance between one oriented box and eight others, in single precision.
 //!
 //! For a unit vector n, two sets with centres c and c' are at least |n . (c - c')| minus their two extents along n apart. The
-//! largest such gap along the three axes of one box and of the other is the plain bound. Sharper: the positive gaps along the
-//! axes of a box are the sides of a box between the sets, whose diagonal bounds the distance; the gap along the diagonal's
-//! direction is another bound, and is computed too. Along n = sum of d_i axis_i the extent of the box of these axes is sum
+//! largest such gap along the three axes of one box and of the other is the plain bound. A sharper bound: the positive gaps
+//! along the axes of a box are the sides of a box between the sets, and its diagonal is no longer than their distance. The gap
+//! along the direction of the diagonal is a third bound. Along n = sum of d_i axis_i the extent of the box of these axes is sum
 //! |d_i| half_i, that of the other box sum |n . axis_j| half_j.
 //!
 //! Axes: with the axes of a box as rows of M, M M^T differs from the identity by less than e = 2^-12 (see `WideNode`: each
@@ -16,12 +16,12 @@
 //! sides, with centres to within u S; each component of the motion's rotation and translation is within u of its exact value. A
 //! centre moved into the other frame takes at most three products and three sums: with the rounding of the motion, it is within
 //! 8 u S, its difference from another centre within 9 u S in each component, and the projection of that on an axis within 24 u
-//! S. A rotated axis is within 5 u in each component; the third, the cross product of two such, within 14 u; its product with
-//! another axis within 13 u, that of the third within 28 u. So the extent of a box is within 60 u S for these and 7 u S for the
-//! sum. A gap is thus within 91 u S, and a diagonal within sqrt(3) times that. The gap along the diagonal is within 42 u S for
-//! the centre and 95 u S for the extent, less than 150 u S. In all this is less than 160 u S; bounds are lowered by
-//! [`ROUNDING`]. A direction given in double precision and rotated into a frame is within 6 u of unit length, its gap within
-//! 100 u S by the same count.
+//! S. Each component of a rotated axis is within 5 u; of the third axis, a cross product of two rotated ones, within 14 u. The
+//! product of a rotated axis with another box's axis is within 13 u, that of the third axis within 28 u. So the extent of a box
+//! is within 60 u S for these and 7 u S for the sum. A gap is thus within 91 u S, and a diagonal within sqrt(3) times that. The
+//! gap along the diagonal is within 42 u S for the centre and 95 u S for the extent, less than 150 u S. In all this is less
+//! than 160 u S; bounds are lowered by [`ROUNDING`]. A direction given in double precision and rotated into a frame is within 6
+//! u of unit length, its gap within 100 u S by the same count.
 //!
 //! The tree over objects compares boxes that were rotated in double precision. Their third axis is the cross product in double
 //! precision (`ObjectTree`) or again in single precision: within 3 u of the axis that their sides were fitted to, so 9 u S in

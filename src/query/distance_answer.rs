@@ -16,7 +16,7 @@ pub(super) struct NearestPair<'a> {
 }
 
 impl Distance {
-    /// That of nothing measured.
+    /// The distance where nothing was measured.
     pub(crate) fn unknown() -> Self {
         Self::empty(0)
     }
@@ -118,8 +118,9 @@ impl Distance {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower,
-            // Sets within the error count as meeting, and the measured distance may be wrong by the error once more. Where
-            // the distance was not measured exactly, it bounds the truth instead.
+            // Sets that meet by their measured distance may be apart by twice the error: they count as meeting up to the
+            // error, and the measured distance may itself be too small by it. Where it was not measured exactly, `apart` is
+            // an upper bound of it.
             upper: if hit.distance == 0.0 {
                 match hit.apart - target.options.margin + error {
                     beyond if beyond <= 0.0 => 0.0,

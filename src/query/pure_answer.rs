@@ -30,7 +30,7 @@ impl PureAt<'_> {
         Ok(class.reversed_if(self.complement))
     }
 
-    /// The distance. Of a set that does not measure only a 0 is known, where the configuration is inside.
+    /// The distance. A set that does not measure has distance 0 where the configuration is inside, else an unknown one.
     pub fn bounded_distance(&self) -> Result<BoundedDistance> {
         if let Some(measure) = self.set.measure(&self.scene.space_state())? {
             return Ok(measure.bounded_distance(self.complement));

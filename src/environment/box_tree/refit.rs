@@ -24,7 +24,7 @@ impl<B: Boxes> BoxTreeChanges<'_, B> {
         });
     }
 
-    /// Orders a set of nodes, which holds the parent of each, children before parents.
+    /// The nodes of a set, children before parents. The set must hold the parents of its nodes.
     fn bottom_up(&self, nodes: &IndexSet) -> Vec<u32> {
         let is_member = |&name: &u32| nodes.contains(name as usize);
         let mut found: Vec<u32> = self.tree.root.filter(is_member).into_iter().collect();
