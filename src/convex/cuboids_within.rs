@@ -12,9 +12,6 @@ use crate::tolerance;
 /// rotated half extents.
 const GAP_ERROR: f64 = 64.0 * tolerance::EPSILON;
 
-/// The cross product of two edges is skipped when the sine of the angle between them is below this.
-const NEARLY_PARALLEL: f64 = 1e-6;
-
 /// `Some(true)` if two boxes meet, `Some(false)` if they are farther apart than the cutoff, else `None`. `size` is no less than
 /// any coordinate of the two.
 pub fn cuboids_within(
@@ -75,7 +72,7 @@ impl Work for Axes<'_> {
             for j in 0..3 {
                 let (up, down) = (turn[(next, j)], turn[(last, j)]);
                 let length = (up * up + down * down).sqrt();
-                if length < NEARLY_PARALLEL {
+                if length < tolerance::PARALLEL_EDGES {
                     // If the cross product of nearly parallel edges separates the boxes, so does a face axis once one box is
                     // rotated until the edges are parallel.
                     meet &= across < -(8.0 * length * self.size + self.error);

@@ -47,7 +47,7 @@ enum NodeKind {
 const MAX_LEAF: usize = 8;
 
 /// The slack added to the boxes for the rounding of their arcs.
-const ROUNDING: f64 = 1e-9;
+const ARC_ROUNDING: f64 = 1e-9;
 
 impl GaussArcs {
     /// The arcs of a polytope in space, or the reversed arcs. `slack` is the length by which a vertex may lie beyond a
@@ -280,13 +280,13 @@ impl Bounds {
             let half_chord = 0.5 * (end.normal - middle).norm();
             bulge = bulge.max(1.0 - (1.0 - half_chord * half_chord).max(0.0).sqrt());
         }
-        Some(bounds.grown(bulge + a.beyond.max(b.beyond) + ROUNDING))
+        Some(bounds.grown(bulge + a.beyond.max(b.beyond) + ARC_ROUNDING))
     }
 
     /// The box of all directions perpendicular to a unit vector.
     fn of_circle(along: &Vec3) -> Self {
         let high = along.map(|x| (1.0 - x * x).max(0.0).sqrt());
-        Self { low: -high, high }.grown(ROUNDING)
+        Self { low: -high, high }.grown(ARC_ROUNDING)
     }
 
     fn grown(&self, by: f64) -> Self {

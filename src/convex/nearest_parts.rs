@@ -13,7 +13,7 @@ const MAX_STEPS: usize = 10;
 const MAX_TURN: f64 = 0.7;
 
 /// Lines count as parallel when the sine of the angle between them is below this.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_LINES: f64 = 1e-9;
 
 /// Two cores, their nearest surface parts, and the gap between upper and lower bound at which a distance is accepted.
 pub struct NearestParts<'a> {
@@ -80,7 +80,7 @@ impl<'a> NearestParts<'a> {
         let (along_q, half_q) = self.parts[1].line(direction)?;
         let across = along_p.cross(&along_q);
         let square = across.norm_squared();
-        if square <= PARALLEL * PARALLEL {
+        if square <= PARALLEL_LINES * PARALLEL_LINES {
             return None;
         }
         let between = q - p;
@@ -226,7 +226,7 @@ fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Opti
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);
     let square = across.norm_squared();
-    if square <= PARALLEL * PARALLEL {
+    if square <= PARALLEL_LINES * PARALLEL_LINES {
         return None;
     }
     // The component in the plane of the two axes, then the one across it.
