@@ -1,4 +1,5 @@
-//! Pairs of convex sets: bounds by GJK, exact distances by closed forms on features, contacts and their modes.
+//! Pairs of convex sets: bounds by GJK, exact distances by closed forms on features, contacts and their modes. `distance.rs`,
+//! `contacts.rs` and `penetration.rs` choose the file that treats a pair, by the form of its primitives.
 
 mod closest;
 mod contact;

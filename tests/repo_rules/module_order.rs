@@ -175,6 +175,40 @@ use super::convex;
     assert_eq!(names, want);
 }
 
+/// The files beside a source text that it refers to, as in `super::name::`.
+fn siblings(text: &str) -> Vec<String> {
+    let outside_tests = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let code = outside_tests.lines().map(|line| line.split("//").next());
+    code.flatten().flat_map(|line| by_supers(line, 1)).collect()
+}
+
+/// In the modules that measure, files import one way too: no file needs one that needs it.
+#[test]
+fn files_of_the_kernel_import_one_way() {
+    for module in ["gjk", "convex", "pair"] {
+        let folder = root().join("src").join(module);
+        let name_of = |path: &Path| path.file_stem().unwrap().to_str().unwrap().to_string();
+        let mut files: Vec<(String, Vec<String>)> = sources(&folder)
+            .iter()
+            .map(|path| {
+                let text = std::fs::read_to_string(path).unwrap();
+                (name_of(path), siblings(&text))
+            })
+            .filter(|(name, _)| name != "mod")
+            .collect();
+        assert!(files.len() > 2, "src/{module} has {} files", files.len());
+        // Files that import none of those left are taken away, until none is left.
+        while !files.is_empty() {
+            let left: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
+            files.retain(|(_, used)| used.iter().any(|name| left.contains(name)));
+            assert!(
+                files.len() < left.len(),
+                "in src/{module} these import each other in a circle, or need those that do: {left:?}"
+            );
+        }
+    }
+}
+
 /// docs/architecture.md and src/lib.rs say the same of each module, in the same order.
 #[test]
 fn the_map_of_modules_is_current() {
