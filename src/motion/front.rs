@@ -2,6 +2,7 @@
 //! decides is never looked at again in its halves.
 
 use super::crowd::{Crowd, CrowdOver};
+use super::first_contact::MeetingLeaves;
 use super::moving_pair::{Kinematics, MovingPair, PairOver};
 use super::set_tree::Known;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
@@ -194,6 +195,8 @@ pub(super) struct LeafLook {
     /// It meets, or its complement is proved: what is left of it is not looked at.
     is_decided: bool,
     meets: bool,
+    /// Primitives that meet.
+    pub met: Option<MeetingLeaves>,
     /// Primitive pairs whose depth was computed.
     depths: u32,
     /// Where its undecided bundles, groups and leaves begin.
@@ -421,6 +424,10 @@ impl Look<'_, '_, '_> {
         self.front.leaves.push(pair);
         if meets && !self.leaf.complement {
             self.leaf.is_decided = true;
+            self.leaf.met = Some(MeetingLeaves {
+                pair: pair.pair,
+                places: pair.places,
+            });
             // The half before it asks first what met.
             let last = self.front.leaves.len() - 1;
             self.front.leaves.swap(self.leaf.first[2], last);

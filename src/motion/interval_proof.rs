@@ -2,6 +2,7 @@
 //! primitives, and all pure sets.
 
 use super::crowd::Crowd;
+use super::first_contact::MeetingLeaves;
 use super::front::{Front, LeafLook, Look, OverPairs, Part};
 use super::moving_pair::{Kinematics, MovingPair};
 use super::moving_pure::{Moment, MovingPure};
@@ -64,6 +65,8 @@ pub(super) struct MovingSet<'a> {
 struct Interval {
     times: [f64; 2],
     part: Part,
+    /// How long after its end a contact is expected, if one is.
+    before_contact: Option<f64>,
 }
 
 /// Asked for a time: whether the set is certainly met there.
@@ -95,107 +98,209 @@ struct Prover<'a, 'k, 'c, 'd> {
     confirm: &'c mut Confirm<'d>,
 }
 
+/// What is known of an interval.
+struct Outcome {
+    whole: Known,
+    left: Part,
+    /// Primitives that meet at its middle.
+    met: Option<MeetingLeaves>,
+}
+
+/// Memory of the proof.
+struct Lists<'a> {
+    front: Front,
+    over: OverPairs<'a>,
+    known: Vec<Known>,
+    nodes: Vec<Known>,
+}
+
 impl Work for Prover<'_, '_, '_, '_> {
     type Output = Result<Proof>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, lanes: I) -> Result<Proof> {
-        let Self {
-            set,
-            kinematics,
-            limits,
-            context,
-            confirm,
-        } = self;
-        let front = &mut Front::default();
-        let over = &mut OverPairs::new(set.pairs.len());
-        let memory = &mut Vec::new();
+    fn run<I: Instructions>(mut self, lanes: I) -> Result<Proof> {
+        let set = self.set;
         let is_plain = set.tree.is_plain_union();
-        let mut known = vec![Known::Nothing; set.leaves.len()];
+        let lists = &mut Lists {
+            front: Front::default(),
+            over: OverPairs::new(set.pairs.len()),
+            known: vec![Known::Nothing; set.leaves.len()],
+            nodes: Vec::new(),
+        };
         let mut todo = vec![Interval {
             times: [0.0, 1.0],
-            part: front.start(&set.pairs, &set.crowds, !is_plain),
+            part: lists.front.start(&set.pairs, &set.crowds, !is_plain),
+            before_contact: None,
         }];
         let mut contact: Option<f64> = None;
-        while let Some(Interval { times, part }) = todo.pop() {
-            let [start, end] = times;
-            if contact.is_some_and(|contact| start >= contact) {
-                continue;
+        while let Some(interval) = todo.pop() {
+            let [start, end] = interval.times;
+            if let Some(contact) = contact {
+                if start >= contact {
+                    continue;
+                }
+                if contact <= end && end - start <= self.limits.tolerance {
+                    return Ok(Proof::Contact([start, contact]));
+                }
             }
-            if context.scratch.meter().is_exceeded() {
+            if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-            known.fill(Known::Nothing);
-            kinematics.start(middle)?;
-            let mut look = Look {
-                pairs: &set.pairs,
-                crowds: &set.crowds,
-                over,
-                kinematics,
-                half,
-                front,
-                scratch: &mut context.scratch,
-                known: &mut known,
-                leaf: LeafLook::default(),
-            };
-            look.start(&part);
-            set.look_at_pure(&mut look, middle)?;
-            let mut whole = set.tree.known(look.known, memory);
-            let mut cursor = part;
-            for (number, leaf) in set.leaves.iter().enumerate() {
-                let MovingLeaf::Pairs { complement } = leaf else {
-                    continue;
-                };
-                if whole == Known::Free {
-                    break;
-                }
-                let is_passed = whole == Known::Meets && is_plain;
-                look.look_at(lanes, number, [*complement, is_passed], &part, &mut cursor);
-                whole = set.tree.known(look.known, memory);
-            }
-            let left = look.left(&part);
-            if context.scratch.meter().is_exceeded() {
+            let Outcome { whole, left, met } = self.look_at(lanes, &interval, is_plain, lists)?;
+            if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
             if whole == Known::Free {
                 continue;
             }
-            if half == 0.5 && confirm(context, 0.0)? {
-                return Ok(Proof::Contact([0.0, 0.0]));
-            }
-            let meets = whole == Known::Meets && (is_plain || confirm(context, middle)?);
-            if meets {
-                contact = Some(middle);
-                if limits.any_contact {
-                    return Ok(Proof::Contact([start, middle]));
-                }
-            }
-            if let Some(contact) = contact
-                && contact <= end
-                && end - start <= limits.tolerance
+            if [start, end] == [0.0, 1.0]
+                && let Some(time) = self.sample()?
             {
-                return Ok(Proof::Contact([start, contact]));
+                return Ok(Proof::Contact([0.0, time]));
             }
-            // The first such interval ends the proof, so that a graze costs one descent.
-            if end - start <= SHORTEST_INTERVAL {
-                return Ok(Proof::Undecided(times));
-            }
+            let middle = 0.5 * (start + end);
+            let meets =
+                whole == Known::Meets && (is_plain || (self.confirm)(self.context, middle)?);
             if !meets {
-                todo.push(Interval {
-                    times: [middle, end],
-                    part: left,
-                });
+                // The first such interval ends the proof, so that a graze costs one descent.
+                if end - start <= SHORTEST_INTERVAL {
+                    return Ok(Proof::Undecided([start, end]));
+                }
+                interval.part_at(interval.split(), left, &mut todo);
+                continue;
             }
-            todo.push(Interval {
-                times: [start, middle],
-                part: left,
-            });
+            if self.limits.any_contact || end - start <= self.limits.tolerance {
+                return Ok(Proof::Contact([start, middle]));
+            }
+            let (mut apart, mut meeting) = (middle, middle);
+            if let Some(met) = met {
+                let wanted = 0.5 * self.limits.tolerance;
+                let scratch = &mut self.context.scratch;
+                let pairs = &set.pairs;
+                [apart, meeting] =
+                    met.narrowed(pairs, self.kinematics, [start, middle], wanted, scratch)?;
+            }
+            contact = Some(meeting);
+            interval.before(apart, meeting, left, &mut todo);
         }
         Ok(match contact {
             Some(contact) => Proof::Contact([contact, contact]),
             None => Proof::Free,
         })
+    }
+}
+
+impl Interval {
+    /// Where to part the interval: in the middle, or, before a contact, so that what is nearest to it is short: there the gap is about
+    /// as wide as the time to the contact is long.
+    fn split(&self) -> f64 {
+        let [start, end] = self.times;
+        let middle = 0.5 * (start + end);
+        match self.before_contact {
+            Some(rest) => middle.max(end - (rest * (end - start)).sqrt()),
+            None => middle,
+        }
+    }
+
+    /// Adds what comes before a contact at `meeting`; the primitives that meet there are apart up to `apart`.
+    fn before(&self, apart: f64, meeting: f64, part: Part, todo: &mut Vec<Self>) {
+        let [start, _] = self.times;
+        let with = |times: [f64; 2], before_contact: Option<f64>| Self {
+            times,
+            part,
+            before_contact,
+        };
+        if start < apart && apart < meeting {
+            todo.push(with([apart, meeting], None));
+            todo.push(with([start, apart], Some(meeting - apart)));
+        } else {
+            todo.push(with([start, meeting], None));
+        }
+    }
+
+    /// Adds both parts, the first of them last: it is looked at next.
+    fn part_at(&self, split: f64, part: Part, todo: &mut Vec<Self>) {
+        let [start, end] = self.times;
+        let later = Self {
+            times: [split, end],
+            part,
+            before_contact: self.before_contact,
+        };
+        let first = Self {
+            times: [start, split],
+            part,
+            before_contact: self.before_contact.map(|rest| rest + (end - split)),
+        };
+        todo.extend([later, first]);
+    }
+}
+
+impl Prover<'_, '_, '_, '_> {
+    /// Looks at what an interval has left of the front.
+    #[inline(always)]
+    fn look_at<'l, I: Instructions>(
+        &mut self,
+        lanes: I,
+        interval: &Interval,
+        is_plain: bool,
+        lists: &mut Lists<'l>,
+    ) -> Result<Outcome>
+    where
+        Self: 'l,
+    {
+        let [start, end] = interval.times;
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let (set, part) = (self.set, &interval.part);
+        lists.known.fill(Known::Nothing);
+        self.kinematics.start(middle)?;
+        let mut look = Look {
+            pairs: &set.pairs,
+            crowds: &set.crowds,
+            over: &mut lists.over,
+            kinematics: &mut *self.kinematics,
+            half,
+            front: &mut lists.front,
+            scratch: &mut self.context.scratch,
+            known: &mut lists.known,
+            leaf: LeafLook::default(),
+        };
+        look.start(part);
+        set.look_at_pure(&mut look, middle)?;
+        let mut whole = set.tree.known(look.known, &mut lists.nodes);
+        let mut cursor = *part;
+        let mut met = None;
+        for (number, leaf) in set.leaves.iter().enumerate() {
+            let MovingLeaf::Pairs { complement } = leaf else {
+                continue;
+            };
+            if whole == Known::Free {
+                break;
+            }
+            let is_passed = whole == Known::Meets && is_plain;
+            look.look_at(lanes, number, [*complement, is_passed], part, &mut cursor);
+            // Of other sets the contact of one leaf says little.
+            if is_plain {
+                met = met.or(look.leaf.met);
+            }
+            whole = set.tree.known(look.known, &mut lists.nodes);
+        }
+        let left = look.left(part);
+        Ok(Outcome { whole, left, met })
+    }
+
+    /// Asks for contact at the start, which decides all; and, where any contact will do, at some times more.
+    fn sample(&mut self) -> Result<Option<f64>> {
+        let times: &[f64] = if self.limits.any_contact {
+            &[0.0, 0.5, 0.25, 0.75, 1.0]
+        } else {
+            &[0.0]
+        };
+        for time in times {
+            if (self.confirm)(self.context, *time)? {
+                return Ok(Some(*time));
+            }
+        }
+        Ok(None)
     }
 }
 

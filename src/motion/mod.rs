@@ -2,6 +2,7 @@
 
 mod crowd;
 mod curve;
+mod first_contact;
 mod front;
 mod half_spaces;
 mod interval_proof;
