@@ -1,5 +1,6 @@
-//! Motions: proofs that a segment of C-space is free, and the sliding step (Appendix A).
+//! Motions: proofs that motions and paths are free, their clearance, and the sliding step (Appendix A).
 
+mod clearance;
 mod crowd;
 mod curve;
 mod first_contact;
@@ -11,6 +12,7 @@ mod motion;
 mod moving_pair;
 mod moving_pure;
 mod pair_motion;
+mod path;
 mod segment;
 mod set_tree;
 mod slide;
@@ -19,9 +21,11 @@ mod slide_step;
 mod step_limits;
 mod way;
 
+pub use clearance::{ClearanceOptions, ClearanceOutcome, MotionClearance};
 pub use curve::{Spline, SplinePiece};
 pub use half_spaces::HalfSpace;
 pub use motion::{MotionAnswer, MotionOptions, MotionOutcome};
 pub use pair_motion::{PairMotion, PairMotionAnswer};
+pub use path::PathAnswer;
 pub use slide::{SlideOptions, SlideOutcome, SlideStep};
 pub use slide_step::{Approach, slide_step, spring_step};

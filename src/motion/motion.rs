@@ -17,6 +17,7 @@ use crate::query::{
     CandidateFilter, Configuration, Distance, Group, QueryContext, Scene, Target, World,
     check_threshold,
 };
+use crate::space::Space;
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -84,8 +85,8 @@ impl MotionOptions {
 }
 
 impl QueryContext {
-    /// Whether the motion from q0 to q1, as [`crate::space::Space::interpolate`] makes it, keeps clear of a C-object, a union of
-    /// induced and pure sets: proved, or its first contact.
+    /// Whether the motion from q0 to q1, as [`crate::space::Space::interpolate`] makes it, keeps clear of a C-object: proved, or its
+    /// first contact.
     pub fn motion(
         &mut self,
         cobject: &CObject,
@@ -93,13 +94,7 @@ impl QueryContext {
         q1: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let space = cobject.space();
-        for (q, name) in [(q0, "q0"), (q1, "q1")] {
-            space
-                .check_configuration(q)
-                .map_err(|error| error.within(name))?;
-        }
-        let v = space.difference(q0, q1);
+        let v = checked_difference(cobject.space(), q0, q1)?;
         self.motion_along(cobject, q0, &v, options)
     }
 
@@ -114,16 +109,12 @@ impl QueryContext {
         cobject.space().check_configuration(q)?;
         cobject.space().check_velocity(v, "velocity")?;
         let world = &self.begin_motion(cobject, options)?;
-        let line = LinearMotion {
+        let way = &Way::straight(LinearMotion {
             world,
             cobject,
             q,
             v,
-        };
-        let way = &Way {
-            line,
-            controls: None,
-        };
+        });
         self.motion_on(way, options)
     }
 
@@ -196,7 +187,12 @@ impl QueryContext {
     }
 
     /// Whether there is contact at a time of the motion.
-    fn has_contact(&mut self, way: &Way, t: f64, options: &MotionOptions) -> Result<bool> {
+    pub(super) fn has_contact(
+        &mut self,
+        way: &Way,
+        t: f64,
+        options: &MotionOptions,
+    ) -> Result<bool> {
         let q = way.at(t);
         if options.threshold == 0.0 {
             return Ok(self.classify_in(way.line.world, way.line.cobject, &q)? == Class::Inside);
@@ -205,7 +201,7 @@ impl QueryContext {
         self.set_within(way.line.cobject, scene, options.threshold)
     }
 
-    fn answer(
+    pub(super) fn answer(
         &mut self,
         way: &Way,
         outcome: MotionOutcome,
@@ -228,6 +224,16 @@ impl QueryContext {
             distance,
         })
     }
+}
+
+/// The velocity that leads from q0 to q1 in a unit of time.
+pub(super) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Result<Vec<f64>> {
+    for (q, name) in [(q0, "q0"), (q1, "q1")] {
+        space
+            .check_configuration(q)
+            .map_err(|error| error.within(name))?;
+    }
+    Ok(space.difference(q0, q1))
 }
 
 fn unstated_speeds(term: &Induced) -> Error {

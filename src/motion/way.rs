@@ -17,6 +17,13 @@ pub(super) struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
+    pub fn straight(line: LinearMotion<'a>) -> Self {
+        Self {
+            line,
+            controls: None,
+        }
+    }
+
     /// The configuration at a time.
     pub fn at(&self, t: f64) -> Vec<f64> {
         let Some(controls) = self.controls else {
