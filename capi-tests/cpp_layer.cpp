@@ -261,6 +261,22 @@ static void queries() {
         query.motion(obstacles, q, far, cstk::motion_options(), &reached);
     REQUIRE(hits.outcome == CSTK_MOTION_HIT && hits.distance.distance == 0.0);
     REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
+    std::vector<double> points = q;
+    points.insert(points.end(), q.begin(), q.end());
+    REQUIRE(query.motion_path(obstacles, points, 2).motion.outcome == CSTK_MOTION_FREE);
+    points.insert(points.end(), far.begin(), far.end());
+    const cstk_path_result meets =
+        query.motion_path(obstacles, points, 3, cstk::motion_options(), {}, &reached);
+    REQUIRE(meets.segment == 1 && meets.motion.outcome == CSTK_MOTION_HIT);
+    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
+    const auto stop = [](double) { return false; };
+    REQUIRE(status_of([&] {
+                query.motion_path(obstacles, points, 3, cstk::motion_options(), stop);
+            }) == CSTK_ERROR_CANCELLED);
+    const cstk_clearance_result nearest =
+        query.motion_clearance(obstacles, q, q, cstk::clearance_options(1e-6), &reached);
+    REQUIRE(nearest.outcome == CSTK_CLEARANCE_KNOWN && reached == q);
+    REQUIRE(nearest.lower <= 2.5 && nearest.upper >= nearest.lower);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);

@@ -298,6 +298,7 @@ DEFAULTS_OF(cstk_pure_options, cstk_pure_options_default)
 DEFAULTS_OF(cstk_predicate, cstk_predicate_default)
 DEFAULTS_OF(cstk_slide_options, cstk_slide_options_default)
 DEFAULTS_OF(cstk_motion_options, cstk_motion_options_default)
+DEFAULTS_OF(cstk_clearance_options, cstk_clearance_options_default)
 
 /* Callers compiled with an earlier header have smaller structures. */
 static void earlier_sizes(void) {
@@ -345,6 +346,7 @@ int main(void) {
     cstk_predicate_trials();
     cstk_slide_options_trials();
     cstk_motion_options_trials();
+    cstk_clearance_options_trials();
     earlier_sizes();
     return check_result();
 }

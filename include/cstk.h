@@ -3464,8 +3464,9 @@ cstk_status cstk_pair_penetration(cstk_query *query,
 /**
  * @defgroup motion Motions
  *
- * A whole motion between two configurations, proved free or followed to its first contact. Nothing is sampled: bounds over
- * intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows what sampling misses).
+ * A whole motion between two configurations, or a path through several, proved free or followed to its first contact; and the
+ * least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
+ * (§2.3.1; Figure 1 shows what sampling misses).
  *
  * @code
      cstk_motion_result found;
@@ -3474,6 +3475,12 @@ cstk_status cstk_pair_penetration(cstk_query *query,
      if (found.outcome == CSTK_MOTION_HIT) {
          printf("contact at %g of the way\n", found.times[1]);
      }
+     cstk_clearance_options options;
+     cstk_clearance_result clearance;
+     check(cstk_clearance_options_default(&options, sizeof options));
+     options.tolerance = 1e-3;
+     check(cstk_motion_clearance(query, cobject, q, q, nq, &options, NULL, &clearance));
+     printf("never nearer than %g\n", clearance.lower);
  * @endcode
  * @{
  */
@@ -3511,6 +3518,48 @@ enum cstk_motion_outcome
 typedef enum cstk_motion_outcome cstk_motion_outcome;
 #else
 typedef int32_t cstk_motion_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What is known of a clearance. The bounds hold whatever the outcome.
+ */
+enum cstk_clearance_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The motion is proved free, as cstk_motion says it, and the bounds are within the tolerance.
+   */
+  CSTK_CLEARANCE_KNOWN = 0,
+  /**
+   * There is contact at `time`, not always the first: `lower` is 0, and `upper` 0 or what rounding leaves.
+   */
+  CSTK_CLEARANCE_HIT = 1,
+  /**
+   * Proved: at every time the distance is larger than max_distance, which is `lower`.
+   */
+  CSTK_CLEARANCE_BEYOND_MAX = 2,
+  /**
+   * The C-object is empty: there is nothing to hit, and both bounds are infinite.
+   */
+  CSTK_CLEARANCE_EMPTY = 3,
+  /**
+   * Rounding does not let the bounds come within the tolerance; if `lower` is 0, it may decide whether the motion is free.
+   */
+  CSTK_CLEARANCE_NEAR = 4,
+  /**
+   * The limit of cstk_query_set_limit ended the work. (Where the distance at q0 already needs more, the call ends with
+   * CSTK_ERROR_LIMIT.)
+   */
+  CSTK_CLEARANCE_UNDECIDED = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_clearance_outcome cstk_clearance_outcome;
+#else
+typedef int32_t cstk_clearance_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -3554,6 +3603,69 @@ typedef struct cstk_motion_result {
   uint64_t reserved[8];
 } cstk_motion_result;
 
+/**
+ * What was found of a path.
+ */
+typedef struct cstk_path_result {
+  /**
+   * The number of the segment that `motion` is about; segment i leads from point i to point i + 1. It is the first that is not
+   * free, or the one with the contact if any contact was asked for; the last segment of a path that is free.
+   */
+  size_t segment;
+  /**
+   * The answer of that segment, with times from 0 to 1 within it.
+   */
+  cstk_motion_result motion;
+  uint64_t reserved[4];
+} cstk_path_result;
+
+/**
+ * Options of a clearance. Write it with cstk_clearance_options_default first, then set `tolerance`. Distances are lengths, or in
+ * units of C-space for pure sets without a scale.
+ */
+typedef struct cstk_clearance_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The bounds come out at most this far apart: a distance, finite. Must be set, larger than 0. Where the motion is smooth
+   * at its nearest place, the work grows with the inverse square root of the tolerance.
+   */
+  double tolerance;
+  /**
+   * Or at most this part of the upper bound apart, if that is more: at least 0, less than 1. Default 0.
+   */
+  double relative_tolerance;
+  /**
+   * A clearance above this is only known to be so, in less time: a distance, at least 0. Default INFINITY.
+   */
+  double max_distance;
+} cstk_clearance_options;
+
+/**
+ * The least distance along a motion.
+ */
+typedef struct cstk_clearance_result {
+  cstk_clearance_outcome outcome;
+  uint32_t reserved_word;
+  /**
+   * Proved: no distance on the motion is smaller.
+   */
+  double lower;
+  /**
+   * The distance at `time` is no larger; infinite if only a lower bound is known.
+   */
+  double upper;
+  /**
+   * Where the nearest place was found, from 0 to 1. Of several within the tolerance it is any.
+   */
+  double time;
+  /**
+   * The distance at `time`, with witness and contact.
+   */
+  cstk_distance_result distance;
+  uint64_t reserved[8];
+} cstk_clearance_result;
+
 
 /**
  * Writes the default options. `size` is sizeof(cstk_motion_options).
@@ -3578,6 +3690,55 @@ cstk_status cstk_motion(cstk_query *query,
                         const cstk_motion_options *options,
                         double *reached,
                         cstk_motion_result *out);
+
+/**
+ * Proves that a path keeps clear of a C-object, or finds its first contact: cstk_motion for each of its segments in turn, all in
+ * the state that the environments are in at the call. `points` has count * nq doubles, one configuration after the other; `count`
+ * is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
+ * defaults; their tolerance is of each segment's time. `progress` may be NULL; it is called before each segment, and `user` is
+ * passed to it. `reached` may be NULL, or receives the configuration at motion.times[1] of the segment, `nq` doubles.
+ *
+ * Unless the outcome is a hit and any_contact was set, all segments before the one of the answer are proved free. With
+ * any_contact, the points and the middles of the segments are looked at first, so that most contacts are found in a fraction of the
+ * time of a proof.
+ *
+ * The limit of cstk_query_set_limit counts for the whole path. What it ends is CSTK_MOTION_UNDECIDED, never CSTK_ERROR_LIMIT.
+ * CSTK_ERROR_WRONG_SIZE if there is no point, or `nq` is not that of the space; errors name the point or the segment.
+ * CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_motion.
+ */
+cstk_status cstk_motion_path(cstk_query *query,
+                             const cstk_cobject *cobject,
+                             const double *points,
+                             size_t count,
+                             size_t nq,
+                             const cstk_motion_options *options,
+                             cstk_progress_fn progress,
+                             void *user,
+                             double *reached,
+                             cstk_path_result *out);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_clearance_options).
+ */
+cstk_status cstk_clearance_options_default(cstk_clearance_options *out, size_t size);
+
+/**
+ * Finds the least distance from a C-object along the motion from q0 to q1, that of cstk_motion: two bounds, the lower one proved for
+ * every time, the upper one the distance at a time of the motion. Distances are those of cstk_distance, less the margins of the
+ * C-object. It takes a few times as long as cstk_motion, for small tolerances longer.
+ *
+ * `q0` and `q1` have `nq` doubles; `clearance_options` must not be NULL; `nearest` may be NULL, or receives the configuration at
+ * `time`, `nq` doubles, and may be q0 or q1. CSTK_ERROR_UNSUPPORTED as for cstk_motion, and for pure sets without a scale among
+ * induced ones.
+ */
+cstk_status cstk_motion_clearance(cstk_query *query,
+                                  const cstk_cobject *cobject,
+                                  const double *q0,
+                                  const double *q1,
+                                  size_t nq,
+                                  const cstk_clearance_options *clearance_options,
+                                  double *nearest,
+                                  cstk_clearance_result *out);
 
 /** @} */
 

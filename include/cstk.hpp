@@ -236,6 +236,14 @@ inline cstk_motion_options motion_options(double threshold = 0) {
     return options;
 }
 
+/// The options of a clearance, whose bounds are to be within the tolerance.
+inline cstk_clearance_options clearance_options(double tolerance) {
+    cstk_clearance_options options;
+    check(cstk_clearance_options_default(&options, sizeof options));
+    options.tolerance = tolerance;
+    return options;
+}
+
 inline cstk_slide_options slide_options(double max_shell) {
     cstk_slide_options options;
     check(cstk_slide_options_default(&options, sizeof options));
@@ -262,6 +270,39 @@ inline cstk_predicate predicate() {
     check(cstk_predicate_default(&predicate, sizeof predicate));
     return predicate;
 }
+
+/// Hears the progress of a long call. Return false to end the call with CSTK_ERROR_CANCELLED. Exceptions pass through to the caller.
+using Progress = std::function<bool(double fraction)>;
+
+namespace detail {
+
+/* No exception may pass through C: it is kept, and thrown again after the call. */
+struct Report {
+    Progress progress;
+    std::exception_ptr thrown;
+
+    cstk_progress_fn function() const { return progress ? &Report::call : nullptr; }
+
+    /* The status of the call that reported. */
+    void check(cstk_status status) const {
+        if (thrown) {
+            std::rethrow_exception(thrown);
+        }
+        cstk::check(status);
+    }
+
+    static std::int32_t call(double fraction, void *user) noexcept {
+        Report &report = *static_cast<Report *>(user);
+        try {
+            return report.progress(fraction) ? 0 : 1;
+        } catch (...) {
+            report.thrown = std::current_exception();
+            return 1;
+        }
+    }
+};
+
+} // namespace detail
 
 /// One reference to an object of the library; empty when default-constructed or moved from.
 template <typename T, cstk_status (*Retain)(T *), cstk_status (*Release)(T *)> class Handle {
@@ -412,8 +453,7 @@ public:
 class BodyBuilder
     : public Handle<cstk_body_builder, cstk_body_builder_retain, cstk_body_builder_release> {
 public:
-    /// Return false to end the build with CSTK_ERROR_CANCELLED. Exceptions pass through to the caller of build().
-    using Progress = std::function<bool(double fraction)>;
+    using Progress = cstk::Progress;
 
     explicit BodyBuilder(std::uint32_t dimension = 3) : Handle(create(dimension)) {}
 
@@ -542,34 +582,13 @@ public:
     }
 
     Body build(const cstk_hierarchy_options &options, Progress progress = {}) const {
-        Report report{std::move(progress), nullptr};
+        detail::Report report{std::move(progress), nullptr};
         cstk_body *out = nullptr;
-        cstk_status status =
-            cstk_body_build(get(), &options, report.progress ? &Report::call : nullptr, &report, &out);
-        if (report.thrown) {
-            std::rethrow_exception(report.thrown);
-        }
-        check(status);
+        report.check(cstk_body_build(get(), &options, report.function(), &report, &out));
         return Body(out);
     }
 
 private:
-    /* No exception may pass through C: it is kept, and thrown again after the call. */
-    struct Report {
-        Progress progress;
-        std::exception_ptr thrown;
-
-        static std::int32_t call(double fraction, void *user) noexcept {
-            Report &report = *static_cast<Report *>(user);
-            try {
-                return report.progress(fraction) ? 0 : 1;
-            } catch (...) {
-                report.thrown = std::current_exception();
-                return 1;
-            }
-        }
-    };
-
     static std::int32_t ask_support(const double *direction, double *point, void *user) noexcept {
         try {
             const Vector given{direction[0], direction[1], direction[2]};
@@ -1395,6 +1414,39 @@ public:
                           found.data(), &out));
         if (reached != nullptr) {
             *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The same for a path: `points` holds `count` configurations, one after the other.
+    cstk_path_result motion_path(const CObject &cobject, Span<double> points, std::size_t count,
+                                 const cstk_motion_options &options = motion_options(),
+                                 Progress progress = {},
+                                 std::vector<double> *reached = nullptr) const {
+        if (count == 0 || points.size() % count != 0) {
+            throw std::invalid_argument("cstk: a path has at least one point, all of one size");
+        }
+        detail::Report report{std::move(progress), nullptr};
+        cstk_path_result out;
+        std::vector<double> found(points.size() / count);
+        report.check(cstk_motion_path(get(), cobject.get(), points.data(), count, found.size(),
+                                      &options, report.function(), &report, found.data(), &out));
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The least distance along the motion from q0 to q1; `nearest`, if given, receives the configuration there.
+    cstk_clearance_result motion_clearance(const CObject &cobject, Span<double> q0, Span<double> q1,
+                                           const cstk_clearance_options &options,
+                                           std::vector<double> *nearest = nullptr) const {
+        cstk_clearance_result out;
+        std::vector<double> found(detail::same_size(q0, q1));
+        check(cstk_motion_clearance(get(), cobject.get(), q0.data(), q1.data(), q0.size(), &options,
+                                    found.data(), &out));
+        if (nearest != nullptr) {
+            *nearest = std::move(found);
         }
         return out;
     }

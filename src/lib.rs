@@ -92,7 +92,7 @@ pub mod cobject;
 // The queries at a configuration and of pairs of bodies, one file each.
 pub mod query;
 
-// Segments proved free, and the step that slides.
+// Motions and paths proved free, their clearance, and the step that slides.
 pub mod motion;
 
 // Pictures as glTF files.

@@ -1,26 +1,16 @@
-//! Motions.
-//!
-//! A whole motion between two configurations, proved free or followed to its first contact. Nothing is sampled: bounds over
-//! intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows what sampling misses).
-//!
-//! ```c
-//! cstk_motion_result found;
-//! double contact[6];
-//! check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
-//! if (found.outcome == CSTK_MOTION_HIT) {
-//!     printf("contact at %g of the way\n", found.times[1]);
-//! }
-//! ```
+//! One motion: proved free, or its first contact.
 
-use super::boundary::guard;
-use super::handle;
-use super::input::{OptionsStruct, Output, OutputSlice, options_or_default, slice, write_defaults};
-use super::query::{cstk_query, with_query};
 use crate::capi::at_configuration::answers::cstk_distance_result;
+use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::input::{
+    OptionsStruct, Output, OutputSlice, options_or_default, slice, write_defaults,
+};
+use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
-use crate::motion::{MotionOptions, MotionOutcome};
+use crate::motion::{MotionAnswer, MotionOptions, MotionOutcome};
 use crate::query::Distance;
 
 /// Options of a motion. Write it with cstk_motion_options_default first.
@@ -128,33 +118,53 @@ pub unsafe extern "C" fn cstk_motion(
                     options_or_default(options, "options")?,
                 )
             };
-            let options = MotionOptions {
-                threshold: given.threshold,
-                tolerance: given.tolerance,
-                any_contact: given.any_contact != 0,
-            };
-            let reached = (!reached.is_null())
-                .then(|| OutputSlice::checked(reached, nq, "reached"))
-                .transpose()?;
-            let answer = state.context.motion(&cobject, q0, q1, &options)?;
+            let reached = optional_configuration(reached, nq, "reached")?;
+            let answer = state.context.motion(&cobject, q0, q1, &given.into())?;
             if let Some(reached) = reached {
                 reached.write(&answer.configuration);
             }
-            let nothing = Distance::unknown();
-            out.write(cstk_motion_result {
-                outcome: match answer.outcome {
-                    MotionOutcome::Free => cstk_motion_outcome::CSTK_MOTION_FREE,
-                    MotionOutcome::Hit => cstk_motion_outcome::CSTK_MOTION_HIT,
-                    MotionOutcome::Near => cstk_motion_outcome::CSTK_MOTION_NEAR,
-                    MotionOutcome::Undecided => cstk_motion_outcome::CSTK_MOTION_UNDECIDED,
-                },
-                has_distance: answer.distance.is_some(),
-                reserved_bytes: [0; 3],
-                times: answer.times,
-                distance: answer.distance.as_ref().unwrap_or(&nothing).into(),
-                reserved: [0; 8],
-            });
+            out.write((&answer).into());
             Ok(())
         })
     })
+}
+
+/// The destination of a configuration that the caller may leave out.
+pub(super) fn optional_configuration(
+    out: *mut f64,
+    nq: usize,
+    argument: &str,
+) -> Result<Option<OutputSlice<f64>>, Failure> {
+    (!out.is_null())
+        .then(|| OutputSlice::checked(out, nq, argument))
+        .transpose()
+}
+
+impl From<cstk_motion_options> for MotionOptions {
+    fn from(given: cstk_motion_options) -> Self {
+        Self {
+            threshold: given.threshold,
+            tolerance: given.tolerance,
+            any_contact: given.any_contact != 0,
+        }
+    }
+}
+
+impl From<&MotionAnswer> for cstk_motion_result {
+    fn from(answer: &MotionAnswer) -> Self {
+        let nothing = Distance::unknown();
+        Self {
+            outcome: match answer.outcome {
+                MotionOutcome::Free => cstk_motion_outcome::CSTK_MOTION_FREE,
+                MotionOutcome::Hit => cstk_motion_outcome::CSTK_MOTION_HIT,
+                MotionOutcome::Near => cstk_motion_outcome::CSTK_MOTION_NEAR,
+                MotionOutcome::Undecided => cstk_motion_outcome::CSTK_MOTION_UNDECIDED,
+            },
+            has_distance: answer.distance.is_some(),
+            reserved_bytes: [0; 3],
+            times: answer.times,
+            distance: answer.distance.as_ref().unwrap_or(&nothing).into(),
+            reserved: [0; 8],
+        }
+    }
 }

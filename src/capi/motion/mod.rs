@@ -1,0 +1,27 @@
+//! Motions.
+//!
+//! A whole motion between two configurations, or a path through several, proved free or followed to its first contact; and the
+//! least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
+//! (§2.3.1; Figure 1 shows what sampling misses).
+//!
+//! ```c
+//! cstk_motion_result found;
+//! double contact[6];
+//! check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
+//! if (found.outcome == CSTK_MOTION_HIT) {
+//!     printf("contact at %g of the way\n", found.times[1]);
+//! }
+//! cstk_clearance_options options;
+//! cstk_clearance_result clearance;
+//! check(cstk_clearance_options_default(&options, sizeof options));
+//! options.tolerance = 1e-3;
+//! check(cstk_motion_clearance(query, cobject, q, q, nq, &options, NULL, &clearance));
+//! printf("never nearer than %g\n", clearance.lower);
+//! ```
+
+#[allow(clippy::module_inception)]
+pub mod motion;
+
+pub mod path;
+
+pub mod clearance;

@@ -1,0 +1,99 @@
+//! Paths of several segments.
+
+use std::ffi::c_void;
+
+use super::motion::{cstk_motion_options, cstk_motion_result, optional_configuration};
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::input::{Output, options_or_default, slice};
+use crate::capi::query::{cstk_query, with_query};
+use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
+use crate::capi::status::status::cstk_status;
+use crate::cobject::CObject;
+use crate::error::{Error, ErrorKind};
+
+/// What was found of a path.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_path_result {
+    /// The number of the segment that `motion` is about; segment i leads from point i to point i + 1. It is the first that is not
+    /// free, or the one with the contact if any contact was asked for; the last segment of a path that is free.
+    pub segment: usize,
+    /// The answer of that segment, with times from 0 to 1 within it.
+    pub motion: cstk_motion_result,
+    pub reserved: [u64; 4],
+}
+
+/// Proves that a path keeps clear of a C-object, or finds its first contact: cstk_motion for each of its segments in turn, all in
+/// the state that the environments are in at the call. `points` has count * nq doubles, one configuration after the other; `count`
+/// is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
+/// defaults; their tolerance is of each segment's time. `progress` may be NULL; it is called before each segment, and `user` is
+/// passed to it. `reached` may be NULL, or receives the configuration at motion.times[1] of the segment, `nq` doubles.
+///
+/// Unless the outcome is a hit and any_contact was set, all segments before the one of the answer are proved free. With
+/// any_contact, the points and the middles of the segments are looked at first, so that most contacts are found in a fraction of the
+/// time of a proof.
+///
+/// The limit of cstk_query_set_limit counts for the whole path. What it ends is CSTK_MOTION_UNDECIDED, never CSTK_ERROR_LIMIT.
+/// CSTK_ERROR_WRONG_SIZE if there is no point, or `nq` is not that of the space; errors name the point or the segment.
+/// CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_motion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_motion_path(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    points: *const f64,
+    count: usize,
+    nq: usize,
+    options: *const cstk_motion_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    reached: *mut f64,
+    out: *mut cstk_path_result,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let out = Output::checked(out, "out")?;
+            let numbers = size(&cobject, count, nq)?;
+            // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+            let (points, options) = unsafe {
+                (
+                    slice(points, numbers, "points")?,
+                    options_or_default(options, "options")?,
+                )
+            };
+            let reached = optional_configuration(reached, nq, "reached")?;
+            let mut report = reporter(progress, user);
+            let context = &mut state.context;
+            let answer = context.motion_path(&cobject, points, &options.into(), &mut report)?;
+            if let Some(reached) = reached {
+                reached.write(&answer.motion.configuration);
+            }
+            out.write(cstk_path_result {
+                segment: answer.segment,
+                motion: (&answer.motion).into(),
+                reserved: [0; 4],
+            });
+            Ok(())
+        })
+    })
+}
+
+/// How many numbers the points have.
+fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
+    let wrong = |message: String| Err(Error::new(ErrorKind::WrongSize, message).into());
+    let expected = cobject.space().nq();
+    if nq != expected {
+        return wrong(format!(
+            "nq is {nq}, but the space has {expected} coordinates"
+        ));
+    }
+    if count == 0 {
+        return wrong("count is 0: a path has at least one point".to_string());
+    }
+    match count.checked_mul(nq) {
+        Some(numbers) => Ok(numbers),
+        None => wrong(format!("points cannot have {count} times {nq} entries")),
+    }
+}
