@@ -133,7 +133,8 @@ const MAX_DESCENT: usize = 40;
 /// More proofs than this are not tried. Their number grows with the logarithm of the distance over the tolerance.
 const MAX_PROOFS: usize = 1000;
 
-/// So many proofs that failed are followed by one at the same part of the tolerance: mostly the motion has a few near places.
+/// After this many failed proofs in a row, each next one is tried at a four times longer step below the upper bound. Most motions
+/// have only a few near places, and need no longer steps.
 const MAX_SHORT_STEPS: i32 = 2;
 
 /// A proof is tried at this part of the tolerance below the upper bound: less than 1 for the rounding of the difference.
@@ -214,7 +215,7 @@ impl QueryContext {
         {
             return Ok(ClearanceOutcome::Hit);
         }
-        // A proof at this threshold failed, and found no smaller distance either: rounding decides there.
+        // The threshold of a proof that failed without finding a smaller distance: rounding decides there.
         let mut ceiling = f64::INFINITY;
         let mut failures = 0;
         for _ in 0..MAX_PROOFS {
@@ -223,7 +224,7 @@ impl QueryContext {
             if ceiling - bounds.lower() <= 0.25 * allowed {
                 break;
             }
-            // Longer steps after several proofs that failed, so that they are few even if each finds hardly more than it must.
+            // Longer steps keep the proofs few, even if each failure lowers the upper bound by hardly more than the tolerance.
             let longer = allowed * 4f64.powi((failures - MAX_SHORT_STEPS).max(0));
             let half = 0.5 * (upper - bounds.lower());
             let step = STEP * allowed.max(longer.min(half));
