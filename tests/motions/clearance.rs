@@ -261,6 +261,12 @@ fn a_largest_distance_is_all_that_is_proved() {
 fn limited_work_gives_bounds_that_hold() {
     let cell = gantry(&cuboid([0.2; 3]).body, &ball(0.15), shifted(0.0, 0.5, 0.0));
     let options = ClearanceOptions::with_tolerance(1e-6);
+    let work_of_first = {
+        let context = &mut QueryContext::new();
+        distance(context, &cell, &[-1.3]);
+        let work = context.statistics();
+        work.node_pairs + work.primitive_pairs
+    };
     let mut outcomes = [0usize; 3];
     for limit in (0..400).chain([4000, 100_000]) {
         let context = &mut QueryContext::new();
@@ -268,6 +274,8 @@ fn limited_work_gives_bounds_that_hold() {
         match context.motion_clearance(&cell, &[-1.3], &[1.7], &options) {
             Err(error) => {
                 assert_eq!(error.kind, ErrorKind::Limit);
+                // Only where not even the distance at the start is known.
+                assert!(limit < work_of_first, "{limit}");
                 outcomes[0] += 1;
             }
             Ok(found) => {
