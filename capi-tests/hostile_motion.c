@@ -1,4 +1,4 @@
-/* cstk_motion, cstk_motion_path and cstk_motion_clearance with bad handles, numbers and options; and what they say of clear
+/* Motions on segments, paths, curves and of bodies, and clearances, with bad handles, numbers and options; and what they say of clear
  * cases. */
 #include <math.h>
 
@@ -97,15 +97,13 @@ static void options(const fixture *f) {
     }
 }
 
-/* Sets of which no motion is proved are named. */
-static void unsupported(const fixture *f) {
+/* A complement is met where the set is not: at once, from a free start. */
+static void complements(const fixture *f) {
     motion_out out;
     cstk_cobject *complement = NULL;
     CHECK_OK(cstk_cobject_complement(f->cobject, &complement));
-    CHECK_REFUSED(out,
-                  cstk_motion(f->query, complement, f->q, f->q, FIXTURE_NQ, NULL, out.reached,
-                              &out.result),
-                  CSTK_ERROR_UNSUPPORTED, "C-object");
+    CHECK_OK(cstk_motion(f->query, complement, f->q, f->q, FIXTURE_NQ, NULL, out.reached, &out.result));
+    CHECK(out.result.outcome == CSTK_MOTION_HIT && out.result.times[1] == 0);
     CHECK_OK(cstk_cobject_release(complement));
 }
 
@@ -132,6 +130,167 @@ static void answers(const fixture *f) {
     }
     CHECK_OK(cstk_query_set_limit(f->query, 1));
     CHECK_OK(cstk_query_set_limit(f->query, 0));
+}
+
+static void curves(const fixture *f) {
+    motion_out out;
+    enum { COUNT = 3 };
+    double points[COUNT * FIXTURE_NQ];
+    for (int i = 0; i < COUNT * FIXTURE_NQ; ++i) {
+        points[i] = f->q[i % FIXTURE_NQ];
+    }
+    const double knots[] = {0, 0, 0, 1, 1, 1};
+    const size_t nq = FIXTURE_NQ;
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(out,
+                      cstk_motion_curve(bad->handle, f->cobject, points, COUNT, nq, NULL,
+                                        out.reached, &out.result),
+                      bad->status, "query");
+        CHECK_REFUSED(out,
+                      cstk_motion_spline(bad->handle, f->cobject, 2, knots, 6, points, COUNT, nq,
+                                         NULL, out.reached, &out.result),
+                      bad->status, "query");
+    }
+    EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(out,
+                      cstk_motion_curve(f->query, bad->handle, points, COUNT, nq, NULL, out.reached,
+                                        &out.result),
+                      bad->status, "cobject");
+        CHECK_REFUSED(out,
+                      cstk_motion_spline(f->query, bad->handle, 2, knots, 6, points, COUNT, nq, NULL,
+                                         out.reached, &out.result),
+                      bad->status, "cobject");
+    }
+    CHECK_REFUSED(out,
+                  cstk_motion_curve(f->query, f->cobject, NULL, COUNT, nq, NULL, out.reached,
+                                    &out.result),
+                  CSTK_ERROR_NULL_ARGUMENT, "points");
+    CHECK_REFUSED(out,
+                  cstk_motion_curve(f->query, f->cobject, points, COUNT, nq, NULL, out.reached, NULL),
+                  CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out,
+                  cstk_motion_spline(f->query, f->cobject, 2, NULL, 6, points, COUNT, nq, NULL,
+                                     out.reached, &out.result),
+                  CSTK_ERROR_NULL_ARGUMENT, "knots");
+    CHECK_REFUSED(out,
+                  cstk_motion_spline(f->query, f->cobject, 2, knots, 6, NULL, COUNT, nq, NULL,
+                                     out.reached, &out.result),
+                  CSTK_ERROR_NULL_ARGUMENT, "points");
+    const size_t counts[] = {0, SIZE_MAX, SIZE_MAX / FIXTURE_NQ + 1};
+    for (int i = 0; i < 3; ++i) {
+        CHECK_REFUSED(out,
+                      cstk_motion_curve(f->query, f->cobject, points, counts[i], nq, NULL,
+                                        out.reached, &out.result),
+                      CSTK_ERROR_WRONG_SIZE, "");
+        CHECK_REFUSED(out,
+                      cstk_motion_spline(f->query, f->cobject, 2, knots, 6, points, counts[i], nq,
+                                         NULL, out.reached, &out.result),
+                      CSTK_ERROR_WRONG_SIZE, "");
+    }
+    CHECK_REFUSED(out,
+                  cstk_motion_curve(f->query, f->cobject, points, COUNT, nq - 1, NULL, out.reached,
+                                    &out.result),
+                  CSTK_ERROR_WRONG_SIZE, "nq");
+    const struct {
+        size_t degree;
+        size_t knot_count;
+        cstk_status status;
+        const char *culprit;
+    } wrong[] = {
+        {0, 6, CSTK_ERROR_INVALID_ARGUMENT, "degree"},
+        {SIZE_MAX, 6, CSTK_ERROR_INVALID_ARGUMENT, "degree"},
+        {2, 5, CSTK_ERROR_WRONG_SIZE, "knots"},
+        {2, 0, CSTK_ERROR_WRONG_SIZE, "knots"},
+        {3, 6, CSTK_ERROR_WRONG_SIZE, "control points"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        CHECK_REFUSED(out,
+                      cstk_motion_spline(f->query, f->cobject, wrong[i].degree, knots,
+                                         wrong[i].knot_count, points, COUNT, nq, NULL, out.reached,
+                                         &out.result),
+                      wrong[i].status, wrong[i].culprit);
+    }
+    const double falling[] = {0, 0, 1, 0, 1, 1};
+    const double unknown[] = {0, 0, NAN, 1, 1, 1};
+    CHECK_REFUSED(out,
+                  cstk_motion_spline(f->query, f->cobject, 2, falling, 6, points, COUNT, nq, NULL,
+                                     out.reached, &out.result),
+                  CSTK_ERROR_INVALID_ARGUMENT, "knot 3");
+    CHECK_REFUSED(out,
+                  cstk_motion_spline(f->query, f->cobject, 2, unknown, 6, points, COUNT, nq, NULL,
+                                     out.reached, &out.result),
+                  CSTK_ERROR_NOT_FINITE, "knot");
+    points[nq] = NAN;
+    CHECK_REFUSED(out,
+                  cstk_motion_curve(f->query, f->cobject, points, COUNT, nq, NULL, out.reached,
+                                    &out.result),
+                  CSTK_ERROR_NOT_FINITE, "control point 1");
+    points[nq] = f->q[0];
+    /* What rests on a curve is where it was. */
+    CHECK_OK(cstk_motion_curve(f->query, f->cobject, points, COUNT, nq, NULL, out.reached, &out.result));
+    CHECK(out.result.outcome == CSTK_MOTION_FREE && out.reached[0] == f->q[0]);
+    CHECK_OK(cstk_motion_spline(f->query, f->cobject, 2, knots, 6, points, COUNT, nq, NULL, NULL,
+                                &out.result));
+    CHECK(out.result.outcome == CSTK_MOTION_FREE);
+}
+
+typedef struct pair_out {
+    double reached[24];
+    cstk_motion_result result;
+} pair_out;
+
+static void pairs(const fixture *f) {
+    pair_out out;
+    const double start[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double end[12] = {1, 0, 0, 90, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double far[12] = {1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double skew[12] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double nan[12] = {1, 0, 0, NAN, 0, 1, 0, 0, 0, 0, 1, 0};
+    cstk_body *b = f->body;
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(out,
+                      cstk_pair_motion(bad->handle, b, start, end, b, far, far, NULL, out.reached,
+                                       &out.result),
+                      bad->status, "query");
+    }
+    EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
+        CHECK_REFUSED(out,
+                      cstk_pair_motion(f->query, bad->handle, start, end, b, far, far, NULL,
+                                       out.reached, &out.result),
+                      bad->status, "body_a");
+        CHECK_REFUSED(out,
+                      cstk_pair_motion(f->query, b, start, end, bad->handle, far, far, NULL,
+                                       out.reached, &out.result),
+                      bad->status, "body_b");
+    }
+    const struct {
+        const double *poses[4];
+        cstk_status status;
+        const char *culprit;
+    } wrong[] = {
+        {{NULL, end, far, far}, CSTK_ERROR_NULL_ARGUMENT, "start_a"},
+        {{start, NULL, far, far}, CSTK_ERROR_NULL_ARGUMENT, "end_a"},
+        {{start, end, NULL, far}, CSTK_ERROR_NULL_ARGUMENT, "start_b"},
+        {{start, end, far, NULL}, CSTK_ERROR_NULL_ARGUMENT, "end_b"},
+        {{start, nan, far, far}, CSTK_ERROR_NOT_FINITE, "end_a"},
+        {{start, end, nan, far}, CSTK_ERROR_NOT_FINITE, "start_b"},
+        {{skew, end, far, far}, CSTK_ERROR_INVALID_ARGUMENT, "start_a"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        const double *const *poses = wrong[i].poses;
+        CHECK_REFUSED(out,
+                      cstk_pair_motion(f->query, b, poses[0], poses[1], b, poses[2], poses[3], NULL,
+                                       out.reached, &out.result),
+                      wrong[i].status, wrong[i].culprit);
+    }
+    CHECK_REFUSED(out,
+                  cstk_pair_motion(f->query, b, start, end, b, far, far, NULL, out.reached, NULL),
+                  CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_OK(cstk_pair_motion(f->query, b, start, end, b, far, far, NULL, out.reached, &out.result));
+    CHECK(out.result.outcome == CSTK_MOTION_HIT && out.result.distance.distance == 0);
+    CHECK(out.reached[15] == 50 && fabs(out.reached[3] - 90 * out.result.times[1]) < 1e-9);
+    CHECK_OK(cstk_pair_motion(f->query, b, end, far, b, start, start, NULL, NULL, &out.result));
+    CHECK(out.result.outcome == CSTK_MOTION_FREE && !out.result.has_distance);
 }
 
 typedef struct path_out {
@@ -214,10 +373,9 @@ static void paths_refused(const fixture *f) {
                   "tolerance");
     cstk_cobject *complement = NULL;
     CHECK_OK(cstk_cobject_complement(f->cobject, &complement));
-    CHECK_REFUSED(out,
-                  cstk_motion_path(f->query, complement, points, POINTS, nq, NULL, NULL, NULL,
-                                   out.reached, &out.result),
-                  CSTK_ERROR_UNSUPPORTED, "C-object");
+    CHECK_OK(cstk_motion_path(f->query, complement, points, POINTS, nq, NULL, NULL, NULL, out.reached,
+                              &out.result));
+    CHECK(out.result.motion.outcome == CSTK_MOTION_HIT && out.result.segment == 0);
     CHECK_OK(cstk_cobject_release(complement));
 }
 
@@ -404,8 +562,10 @@ int main(void) {
     arguments(&f);
     numbers(&f);
     options(&f);
-    unsupported(&f);
+    complements(&f);
     answers(&f);
+    curves(&f);
+    pairs(&f);
     paths_refused(&f);
     paths_report(&f);
     clearances_refused(&f);

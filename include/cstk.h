@@ -3464,8 +3464,8 @@ cstk_status cstk_pair_penetration(cstk_query *query,
 /**
  * @defgroup motion Motions
  *
- * A whole motion between two configurations, or a path through several, proved free or followed to its first contact; and the
- * least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
+ * A whole motion between two configurations, on a path through several or on a curve, proved free or followed to its first
+ * contact; the same of two bodies without a robot; and the least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
  * (§2.3.1; Figure 1 shows what sampling misses).
  *
  * @code
@@ -3591,7 +3591,8 @@ typedef struct cstk_motion_options {
 typedef struct cstk_motion_result {
   cstk_motion_outcome outcome;
   /**
-   * `distance` holds the distance at times[1], with witness and contact: for hits and near motions.
+   * `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless lengths and units of
+   * C-space mix in the C-object.
    */
   bool has_distance;
   uint8_t reserved_bytes[3];
@@ -3678,9 +3679,14 @@ cstk_status cstk_motion_options_default(cstk_motion_options *out, size_t size);
  * `options` may be NULL for the defaults; `reached` may be NULL, or receives the configuration at times[1], `nq` doubles, and
  * may be q0 or q1.
  *
- * The C-object must be an induced set, a pure set other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise,
- * and where a custom joint moves. A solid that the motion starts outside of is not entered without contact. A motion along contact
- * at a distance of 0 is a hit at its start; one that grazes ends near.
+ * Every C-object that cstk_classify takes: links, link pairs, attached objects, unions, intersections, complements. Of the
+ * complement of an induced set freedom is proved where primitives overlap more deeply than the motion can change, or where a body is
+ * inside a solid; elsewhere the answer may be near. With a threshold above 0 the complement of an induced set counts as contact
+ * everywhere, as for cstk_within. CSTK_ERROR_UNSUPPORTED, naming the set, for predicates that do not measure and for custom joints
+ * that move without stating their speeds; and for a threshold above 0 where lengths and units of C-space mix.
+ *
+ * A solid that the motion starts outside of is not entered without contact. A motion along contact at a distance of 0 is a hit at
+ * its start; one that grazes ends near.
  */
 cstk_status cstk_motion(cstk_query *query,
                         const cstk_cobject *cobject,
@@ -3716,6 +3722,59 @@ cstk_status cstk_motion_path(cstk_query *query,
                              void *user,
                              double *reached,
                              cstk_path_result *out);
+
+/**
+ * Proves that the motion on a Bezier curve keeps clear of a C-object, or finds its first contact, as cstk_motion does on a segment.
+ * `points` has count * nq doubles, the control points, one configuration after the other; `count` is from 1 to 17. At time t each
+ * coordinate is what de Casteljau's construction makes of its control values; coordinates on circles are not taken the shorter way
+ * round. Coordinates of joints with quaternions must be the same in all control points: CSTK_ERROR_UNSUPPORTED otherwise.
+ * `options`, `reached` and `out` as for cstk_motion. CSTK_ERROR_WRONG_SIZE if there is no point or `nq` is not that of the space.
+ */
+cstk_status cstk_motion_curve(cstk_query *query,
+                              const cstk_cobject *cobject,
+                              const double *points,
+                              size_t count,
+                              size_t nq,
+                              const cstk_motion_options *options,
+                              double *reached,
+                              cstk_motion_result *out);
+
+/**
+ * The same on a B-spline of a degree from 1 to 16, with `count` control points, more than its degree, and `knot_count` knots that
+ * never fall: count + degree + 1 of them. The parameter goes from the knot of number `degree` to that of number `count`; times of
+ * the result go from 0 to 1 in proportion to it. What is before and behind is the caller's to leave out.
+ */
+cstk_status cstk_motion_spline(cstk_query *query,
+                               const cstk_cobject *cobject,
+                               size_t degree,
+                               const double *knots,
+                               size_t knot_count,
+                               const double *points,
+                               size_t count,
+                               size_t nq,
+                               const cstk_motion_options *options,
+                               double *reached,
+                               cstk_motion_result *out);
+
+/**
+ * Proves that two bodies that move keep farther apart than the threshold, or finds their first contact. From time 0 to 1 each body
+ * goes from its start to its end on a screw: with constant velocity in its own frame, by the shortest rotation. A translation is a
+ * straight line, and is followed exactly. Poses are 12 doubles, row-major [R | t], the body's frame in the world.
+ *
+ * `options` are those of cstk_motion, and may be NULL. `reached` may be NULL, or receives the poses of both bodies at times[1], 24
+ * doubles. `out` as for cstk_motion; a body inside a solid one is in contact, as for cstk_pair_within.
+ * CSTK_ERROR_INVALID_ARGUMENT for bodies of different dimension.
+ */
+cstk_status cstk_pair_motion(cstk_query *query,
+                             const cstk_body *body_a,
+                             const double *start_a,
+                             const double *end_a,
+                             const cstk_body *body_b,
+                             const double *start_b,
+                             const double *end_b,
+                             const cstk_motion_options *options,
+                             double *reached,
+                             cstk_motion_result *out);
 
 /**
  * Writes the default options. `size` is sizeof(cstk_clearance_options).

@@ -182,6 +182,14 @@ inline std::size_t same_size(Span<double> q0, Span<double> q1) {
     return q0.size();
 }
 
+/// The length of each of `count` configurations, one after the other.
+inline std::size_t parts_of(Span<double> points, std::size_t count) {
+    if (count == 0 || points.size() % count != 0) {
+        throw std::invalid_argument("cstk: there is at least one point, and all are of one size");
+    }
+    return points.size() / count;
+}
+
 } // namespace detail
 
 /// From a basic Jacobian, 6 rows, to that of x, y, z, yaw, pitch, roll.
@@ -1423,16 +1431,58 @@ public:
                                  const cstk_motion_options &options = motion_options(),
                                  Progress progress = {},
                                  std::vector<double> *reached = nullptr) const {
-        if (count == 0 || points.size() % count != 0) {
-            throw std::invalid_argument("cstk: a path has at least one point, all of one size");
-        }
         detail::Report report{std::move(progress), nullptr};
         cstk_path_result out;
-        std::vector<double> found(points.size() / count);
+        std::vector<double> found(detail::parts_of(points, count));
         report.check(cstk_motion_path(get(), cobject.get(), points.data(), count, found.size(),
                                       &options, report.function(), &report, found.data(), &out));
         if (reached != nullptr) {
             *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The same on a Bezier curve: `points` holds `count` control points, one configuration after the other.
+    cstk_motion_result motion_curve(const CObject &cobject, Span<double> points, std::size_t count,
+                                    const cstk_motion_options &options = motion_options(),
+                                    std::vector<double> *reached = nullptr) const {
+        cstk_motion_result out;
+        std::vector<double> found(detail::parts_of(points, count));
+        check(cstk_motion_curve(get(), cobject.get(), points.data(), count, found.size(), &options,
+                                found.data(), &out));
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The same on a B-spline with `count` control points and count + degree + 1 knots.
+    cstk_motion_result motion_spline(const CObject &cobject, std::size_t degree, Span<double> knots,
+                                     Span<double> points, std::size_t count,
+                                     const cstk_motion_options &options = motion_options(),
+                                     std::vector<double> *reached = nullptr) const {
+        cstk_motion_result out;
+        std::vector<double> found(detail::parts_of(points, count));
+        check(cstk_motion_spline(get(), cobject.get(), degree, knots.data(), knots.size(),
+                                 points.data(), count, found.size(), &options, found.data(), &out));
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The same of two bodies, each on a screw from its start to its end; `reached`, if given, receives both poses at the contact.
+    cstk_motion_result pair_motion(const Body &a, const Pose &start_a, const Pose &end_a,
+                                   const Body &b, const Pose &start_b, const Pose &end_b,
+                                   const cstk_motion_options &options = motion_options(),
+                                   std::pair<Pose, Pose> *reached = nullptr) const {
+        cstk_motion_result out;
+        double poses[24];
+        check(cstk_pair_motion(get(), a.get(), start_a.data(), end_a.data(), b.get(), start_b.data(),
+                               end_b.data(), &options, poses, &out));
+        if (reached != nullptr) {
+            std::copy(poses, poses + 12, reached->first.begin());
+            std::copy(poses + 12, poses + 24, reached->second.begin());
         }
         return out;
     }

@@ -3,6 +3,7 @@
 
 use super::motion::{MotionOptions, MotionOutcome, checked_difference};
 use super::segment::LinearMotion;
+use super::set_tree::SetTree;
 use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result, require_finite};
@@ -154,6 +155,15 @@ impl QueryContext {
         let v = &checked_difference(cobject.space(), q0, q1)?;
         cobject.space().check_velocity(v, "velocity")?;
         cobject.require_one_metric()?;
+        if !SetTree::new(cobject).is_plain_union() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "C-object {} holds an intersection or a complement, from which no exact distance is known",
+                    cobject.serial()
+                ),
+            ));
+        }
         let world = &self.look(cobject);
         let way = &Way::straight(LinearMotion {
             world,

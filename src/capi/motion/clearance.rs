@@ -93,7 +93,8 @@ pub unsafe extern "C" fn cstk_clearance_options_default(
 /// C-object. It takes a few times as long as cstk_motion, for small tolerances longer.
 ///
 /// `q0` and `q1` have `nq` doubles; `clearance_options` must not be NULL; `nearest` may be NULL, or receives the configuration at
-/// `time`, `nq` doubles, and may be q0 or q1. CSTK_ERROR_UNSUPPORTED as for cstk_motion, and for pure sets without a scale among
+/// `time`, `nq` doubles, and may be q0 or q1. CSTK_ERROR_UNSUPPORTED as for cstk_motion, for C-objects that hold an intersection or a
+/// complement, from which no exact distance is known, and for pure sets without a scale among
 /// induced ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_motion_clearance(

@@ -1,7 +1,7 @@
 //! Motions.
 //!
-//! A whole motion between two configurations, or a path through several, proved free or followed to its first contact; and the
-//! least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
+//! A whole motion between two configurations, on a path through several or on a curve, proved free or followed to its first
+//! contact; the same of two bodies without a robot; and the least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
 //! (§2.3.1; Figure 1 shows what sampling misses).
 //!
 //! ```c
@@ -23,5 +23,9 @@
 pub mod motion;
 
 pub mod path;
+
+pub mod curve;
+
+pub mod pair_motion;
 
 pub mod clearance;

@@ -68,7 +68,8 @@ pub enum cstk_motion_outcome {
 #[derive(Clone, Copy)]
 pub struct cstk_motion_result {
     pub outcome: cstk_motion_outcome,
-    /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions.
+    /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless lengths and units of
+    /// C-space mix in the C-object.
     pub has_distance: bool,
     pub reserved_bytes: [u8; 3],
     /// See cstk_motion_outcome; 1 and 1 for a free motion.
@@ -92,9 +93,14 @@ pub unsafe extern "C" fn cstk_motion_options_default(
 /// `options` may be NULL for the defaults; `reached` may be NULL, or receives the configuration at times[1], `nq` doubles, and
 /// may be q0 or q1.
 ///
-/// The C-object must be an induced set, a pure set other than a predicate, or a union of such: CSTK_ERROR_UNSUPPORTED otherwise,
-/// and where a custom joint moves. A solid that the motion starts outside of is not entered without contact. A motion along contact
-/// at a distance of 0 is a hit at its start; one that grazes ends near.
+/// Every C-object that cstk_classify takes: links, link pairs, attached objects, unions, intersections, complements. Of the
+/// complement of an induced set freedom is proved where primitives overlap more deeply than the motion can change, or where a body is
+/// inside a solid; elsewhere the answer may be near. With a threshold above 0 the complement of an induced set counts as contact
+/// everywhere, as for cstk_within. CSTK_ERROR_UNSUPPORTED, naming the set, for predicates that do not measure and for custom joints
+/// that move without stating their speeds; and for a threshold above 0 where lengths and units of C-space mix.
+///
+/// A solid that the motion starts outside of is not entered without contact. A motion along contact at a distance of 0 is a hit at
+/// its start; one that grazes ends near.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_motion(
     query: *mut cstk_query,

@@ -81,7 +81,7 @@ pub unsafe extern "C" fn cstk_motion_path(
 }
 
 /// How many numbers the points have.
-fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
+pub(super) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
     let wrong = |message: String| Err(Error::new(ErrorKind::WrongSize, message).into());
     let expected = cobject.space().nq();
     if nq != expected {
@@ -90,7 +90,7 @@ fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
         ));
     }
     if count == 0 {
-        return wrong("count is 0: a path has at least one point".to_string());
+        return wrong("count is 0: there is at least one point".to_string());
     }
     match count.checked_mul(nq) {
         Some(numbers) => Ok(numbers),
