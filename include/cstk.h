@@ -3787,7 +3787,8 @@ cstk_status cstk_clearance_options_default(cstk_clearance_options *out, size_t s
  * C-object. It takes a few times as long as cstk_motion, for small tolerances longer.
  *
  * `q0` and `q1` have `nq` doubles; `clearance_options` must not be NULL; `nearest` may be NULL, or receives the configuration at
- * `time`, `nq` doubles, and may be q0 or q1. CSTK_ERROR_UNSUPPORTED as for cstk_motion, and for pure sets without a scale among
+ * `time`, `nq` doubles, and may be q0 or q1. CSTK_ERROR_UNSUPPORTED as for cstk_motion, for C-objects that hold an intersection or a
+ * complement, from which no exact distance is known, and for pure sets without a scale among
  * induced ones.
  */
 cstk_status cstk_motion_clearance(cstk_query *query,
