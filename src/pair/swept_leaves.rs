@@ -4,6 +4,7 @@ use super::Scratch;
 use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratch};
 use crate::convex::{PlacedPrimitive, Sweep, swept_gap};
 use crate::gjk::DistanceLimits;
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::SmoothKind;
 
@@ -29,9 +30,70 @@ pub enum SweptLeaves {
     Undecided([f32; 3]),
 }
 
+/// A look at two primitives, in the widest instructions.
+struct SweptPair<'a, 'p> {
+    pairing: &'a Pairing<'p>,
+    places: [u32; 2],
+    direction: &'a [f32; 3],
+    sweep: &'a Sweep,
+    limits: &'a SweptLimits,
+    scratch: &'a mut PrimitiveScratch,
+}
+
+impl Work for SweptPair<'_, '_> {
+    type Output = SweptLeaves;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> SweptLeaves {
+        self.pairing.swept_pair(
+            self.places,
+            self.direction,
+            self.sweep,
+            self.limits,
+            self.scratch,
+        )
+    }
+}
+
+/// The same for the distance alone.
+struct DistancePair<'a, 'p> {
+    pairing: &'a Pairing<'p>,
+    places: [u32; 2],
+    scratch: &'a mut PrimitiveScratch,
+}
+
+impl Work for DistancePair<'_, '_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<f64> {
+        self.pairing
+            .distance(self.places, f64::INFINITY, self.scratch)
+    }
+}
+
 impl Pairing<'_> {
     /// Looks at the primitives at two places. `direction` may part them: in B's frame, or zero.
     pub fn swept_leaves(
+        &self,
+        places: [u32; 2],
+        direction: &[f32; 3],
+        sweep: &Sweep,
+        limits: &SweptLimits,
+        scratch: &mut PrimitiveScratch,
+    ) -> SweptLeaves {
+        with_widest(SweptPair {
+            pairing: self,
+            places,
+            direction,
+            sweep,
+            limits,
+            scratch,
+        })
+    }
+
+    #[inline(always)]
+    fn swept_pair(
         &self,
         places: [u32; 2],
         direction: &[f32; 3],
@@ -90,6 +152,16 @@ impl Pairing<'_> {
         }
         let in_b = self.relative.rotation.tr_mul(&direction);
         SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+    }
+
+    /// The distance of the primitives at two places, 0 where they touch to within the pair's error.
+    pub fn distance_of_leaves(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> f64 {
+        let distance = with_widest(DistancePair {
+            pairing: self,
+            places,
+            scratch,
+        });
+        distance.unwrap_or(f64::INFINITY)
     }
 
     /// Whether the primitives are certain to stay within the threshold of each other through the interval: they are nearer at its
