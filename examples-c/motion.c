@@ -1,11 +1,18 @@
 /* A whole motion proved, where sampling sees nothing: an arm of two links sweeps past a thin plate.
  *
- *   cc motion.c $(pkg-config --cflags --libs cstk) -lm -o motion && ./motion
+ *   cc motion.c motion_picture.c svg.c $(pkg-config --cflags --libs cstk) -lm -o motion && ./motion motion.svg
+ *
+ * With the name of a file it draws the sweep.
  */
+#include "motion_picture.h"
+
 #include <cstk.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+/* Where the plate stands, in radians: between two samples. */
+#define PLATE_ANGLE 0.475
 
 static void check(cstk_status status) {
     if (status != CSTK_OK) {
@@ -73,7 +80,7 @@ static cstk_environment *plate(double angle) {
 
 int main(int count, char **arguments) {
     cstk_space *space = arm();
-    cstk_environment *environment = plate(0.475);
+    cstk_environment *environment = plate(PLATE_ANGLE);
     cstk_cobject *obstacles = NULL;
     cstk_query *query = NULL;
     check(cstk_cobject_induced(space, NULL, 0, environment, NULL, 0, NULL, &obstacles));
@@ -99,7 +106,13 @@ int main(int count, char **arguments) {
         printf("the whole motion: link %u meets object %llu at %.4f of the way\n",
                (unsigned)witness->r_link, (unsigned long long)witness->s_object, found.times[1]);
         if (count > 1) {
-            check(cstk_show(obstacles, contact, 2, arguments[1]));
+            const motion_picture picture = {
+                space, from, to, 20, contact, {0.5, 0.03}, PLATE_ANGLE, 2.09, {0.1, 0.001},
+            };
+            if (!draw_motion(&picture, arguments[1])) {
+                fprintf(stderr, "%s could not be written\n", arguments[1]);
+                return 1;
+            }
         }
     }
     /* Folded a little, the arm passes. */

@@ -1,4 +1,4 @@
-/* The few primitives of SVG that planar_picture.c needs. Lengths are in pixels, y points down. */
+/* The few primitives of SVG that the pictures need. Lengths are in pixels, y points down. */
 #ifndef SVG_H
 #define SVG_H
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
 # picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
-# demo/workcell.png shows two arms that share a workcell.
+# demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/workcell.png shows two arms that share a
+# workcell.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -39,6 +40,9 @@ echo
 build/examples/planar_slider demo
 rsvg-convert --width 1280 demo/planar_slider.svg --output demo/planar_slider.png
 echo
+build/examples/motion demo/motion.svg
+rsvg-convert --width 1240 demo/motion.svg --output demo/motion.png
+echo
 build/examples/workcell demo
 for frame in free wrists; do
   render "workcell_$frame" 0.45,-2.5,1.3 0,0,0.32
@@ -49,4 +53,5 @@ montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 2
 echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
+echo "picture: $PWD/demo/motion.png"
 echo "picture: $PWD/demo/workcell.png"
