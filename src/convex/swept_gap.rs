@@ -1,15 +1,25 @@
-//! The gap of two primitives along a direction over an interval of time.
+//! The gap of two primitives along a direction over an interval of time, or over a box of configurations.
 
 use super::core::Core;
 use super::placed::PlacedPrimitive;
 use crate::gjk::Support;
 use crate::pose::Vec3;
 
-/// The velocity of A's points x, seen from B, at the middle of the interval, times half its length: linear + angular x x.
+/// Primitives with more vertices are bounded by support points: each twist then takes off the most that any vertex gives it.
+const MAX_LISTED_VERTICES: usize = 64;
+
+/// A displacement of A's points x, seen from B: linear + angular x x.
 #[derive(Clone, Copy, Debug)]
-pub struct Sweep {
+pub struct SweepTwist {
     pub linear: Vec3,
     pub angular: Vec3,
+}
+
+/// How A moves, seen from B: by a sum of displacements, each times any factor from -1 to 1. For an interval of time there is one, the
+/// velocity at its middle times half its length; for a box of configurations there is one for each coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweep<'a> {
+    pub twists: &'a [SweepTwist],
     /// What the acceleration may take off a gap along a direction that moves with A, and along one that rests with B.
     pub bends: [f64; 2],
 }
@@ -18,8 +28,11 @@ pub struct Sweep {
 /// as it moves with A, and as it rests with B. Of A's point a the place along n at the end is n . a + n . (v + w x a), that is
 /// (n + n x w) . a + n . v, and linear in between but for the bend.
 pub fn swept_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, sweep: &Sweep) -> f64 {
-    let turned = direction.cross(&sweep.angular);
-    let shift = direction.dot(&sweep.linear);
+    let &[twist] = sweep.twists else {
+        return gap_over_box(a, b, direction, sweep);
+    };
+    let turned = direction.cross(&twist.angular);
+    let shift = direction.dot(&twist.linear);
     let [ahead, behind] = [direction + turned, direction - turned];
     let rests_with_b = (least_along(a, &ahead) + shift).min(least_along(a, &behind) - shift)
         + least_along(b, &-direction)
@@ -29,6 +42,57 @@ pub fn swept_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, swe
         + (least_along(b, &-behind) + shift).min(least_along(b, &-ahead) - shift)
         - sweep.bends[0];
     rests_with_b.max(moves_with_a)
+}
+
+/// The same for any number of twists.
+fn gap_over_box(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, sweep: &Sweep) -> f64 {
+    let rests_with_b =
+        least_moved(a, direction, 1.0, sweep.twists) + least_along(b, &-direction) - sweep.bends[1];
+    let moves_with_a =
+        least_along(a, direction) + least_moved(b, direction, -1.0, sweep.twists) - sweep.bends[0];
+    rests_with_b.max(moves_with_a)
+}
+
+/// The least place along `sign * direction` that any sum of displacements gives a point of a primitive. Of a point x it is
+/// sign n . x - sum |n . v + (n x w) . x|, which is concave in x: the least over a polytope is at a vertex.
+fn least_moved(
+    placed: &PlacedPrimitive,
+    direction: &Vec3,
+    sign: f64,
+    twists: &[SweepTwist],
+) -> f64 {
+    let along = |twist: &SweepTwist| {
+        (
+            direction.cross(&twist.angular),
+            direction.dot(&twist.linear),
+        )
+    };
+    let is_listed = placed.shape.smooth().is_none() && placed.vertex_count() <= MAX_LISTED_VERTICES;
+    if !is_listed {
+        let moved = twists.iter().map(|twist| {
+            let (turned, shift) = along(twist);
+            let least = shift + least_along(placed, &turned);
+            let most = shift - least_along(placed, &-turned);
+            most.max(-least)
+        });
+        return least_along(placed, &(sign * direction)) - moved.sum::<f64>();
+    }
+    let mut least = f64::INFINITY;
+    for index in 0..placed.vertex_count() as u32 {
+        let vertex = placed.vertex(index);
+        let mut place = sign * direction.dot(&vertex);
+        for twist in twists {
+            let (turned, shift) = along(twist);
+            place -= (shift + turned.dot(&vertex)).abs();
+        }
+        least = least.min(place);
+    }
+    let radius = placed.shape.radius();
+    if radius > 0.0 {
+        let turns = twists.iter().map(|twist| along(twist).0.norm());
+        least -= radius * (direction.norm() + turns.sum::<f64>());
+    }
+    least
 }
 
 /// The least product of a direction, of any length, with the points of a primitive.

@@ -1,10 +1,11 @@
 //! A body that moves among objects that rest: the boxes around them are looked at eight at a time before any pair is.
 
-use super::moving_pair::{Kinematics, MovingPair};
+use super::moving_pair::MovingPair;
+use super::piece::{Piece, TwistLists};
 use crate::body::Body;
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::lanes::{Instructions, each3};
-use crate::pair::{ROUNDING, Twist32};
+use crate::pair::{ROUNDING, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3};
 use crate::tolerance;
 
@@ -30,10 +31,10 @@ struct RestingEight {
     count: usize,
 }
 
-/// The body over an interval.
-pub(super) struct CrowdOver {
+/// The body over a piece.
+pub(super) struct CrowdOver<L: TwistLists> {
     pub one: PackedBox,
-    pub twist: Twist32,
+    pub twists: L::Of<Twist32>,
     /// What acceleration may take off, along axes that rest with the objects and along those of the body.
     pub bends: [f32; 2],
     /// Boxes with a larger gap do not meet.
@@ -96,26 +97,32 @@ impl Crowd {
         }
     }
 
-    /// The body over an interval of given half length; `pair` is any pair of the crowd.
-    pub fn over(&self, pair: &MovingPair, kinematics: &mut Kinematics, half: f64) -> CrowdOver {
-        let moved = pair.moved(kinematics, half);
+    /// The body over a piece; `pair` is any pair of the crowd.
+    pub fn over<P: Piece>(&self, pair: &MovingPair, piece: &mut P) -> CrowdOver<P::Lists> {
+        let moved = piece.moved(pair);
         let [a, _] = pair.bodies();
-        let center = moved.pose.transform_point(a.center()) - self.origin;
-        let [linear, angular] = [moved.velocity * half, moved.angular * half];
-        let at_origin = linear - angular.cross(&center);
+        let [pose, _] = &moved.poses;
+        let center = pose.transform_point(a.center()) - self.origin;
         // What all boxes are near to, and how far their points are taken to move.
         let size = self.size.max(center.norm() + a.radius());
-        let shift = linear.norm() + angular.norm() * (size + center.norm());
+        let mut shift = 0.0;
+        for by in moved.displacements.as_ref() {
+            shift += by.linear.norm() + by.angular.norm() * (size + center.norm());
+        }
+        shift *= sum_factor(moved.displacements.as_ref().len());
         let error = tolerance::DISTANCE_ERROR * 2.0 * size + a.deviation() + self.deviation;
         let slack = tolerance::BOUND_ERROR * 2.0 * size + 2.0 * error + moved.kinematics_error;
         let lowered = slack * (1.0 + shift / size) + ROUNDING * (size + shift);
         let [with_a, with_b] = moved.bends.map(|x| (x as f32).next_up() * 1.001);
         CrowdOver {
-            one: root_box(a, &moved.pose, &self.origin),
-            twist: Twist32 {
-                angular: each3(|k| angular[k] as f32),
-                linear: each3(|k| at_origin[k] as f32),
-            },
+            one: root_box(a, pose, &self.origin),
+            twists: P::Lists::map(&moved.displacements, |by| {
+                let at_origin = by.linear - by.angular.cross(&center);
+                Twist32 {
+                    angular: each3(|k| by.angular[k] as f32),
+                    linear: each3(|k| at_origin[k] as f32),
+                }
+            }),
             bends: [with_b, with_a],
             cutoff: ((pair.threshold + lowered) as f32).next_up(),
         }

@@ -1,6 +1,7 @@
 //! When two primitives on a motion begin to meet.
 
-use super::moving_pair::{Kinematics, MovingPair, PairOver};
+use super::moving_pair::{Interval, Kinematics, MovingPair};
+use super::piece::{PairOver, Piece};
 use crate::error::Result;
 use crate::pair::Scratch;
 
@@ -85,7 +86,11 @@ impl MeetingLeaves {
         scratch: &mut Scratch,
     ) -> Result<Option<f64>> {
         kinematics.start(time)?;
-        let PairOver::Near(over) = pair.over(kinematics, 0.0) else {
+        let moment = &mut Interval {
+            kinematics,
+            half: 0.0,
+        };
+        let PairOver::Near(over) = moment.over(pair) else {
             return Ok(Some(f64::INFINITY));
         };
         scratch.count_primitive_pair();

@@ -1,22 +1,23 @@
-//! The front of a proof: the pairs of boxes and primitives that an interval of the motion left undecided. A pair that an interval
-//! decides is never looked at again in its halves.
+//! The front of a proof: the pairs of boxes and primitives that a piece left undecided, an interval of a motion or a box of
+//! configurations. A pair that a piece decides is never looked at again in its halves.
 
 use super::crowd::{Crowd, CrowdOver};
 use super::first_contact::MeetingLeaves;
-use super::moving_pair::{Kinematics, MovingPair, PairOver};
+use super::moving_pair::MovingPair;
+use super::piece::{PairOver, Piece, TwistLists};
 use super::set_tree::Known;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
 use crate::pair::{Scratch, SweptLeaves, swept_gaps};
 
-/// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the interval, others
-/// are opened. Larger values open boxes that a shorter interval would part; smaller ones look at the same boxes again. Not tuned by
+/// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the piece, others
+/// are opened. Larger values open boxes that a smaller piece would part; smaller ones look at the same boxes again. Not tuned by
 /// a benchmark yet.
 const OPEN_NODES_BELOW: f32 = 0.08;
 /// The same for pairs of primitives.
 const MEASURE_LEAVES_BELOW: f32 = 0.04;
 
-/// The most primitive pairs of a complement whose depth is computed in one interval.
+/// The most primitive pairs of a complement whose depth is computed in one piece.
 const MAX_DEPTHS: u32 = 16;
 
 /// Some children of a node against a unit of the other body.
@@ -66,7 +67,7 @@ pub(super) struct Front {
     leaves: Vec<Leaves>,
     /// Pairs with a solid of which it is not known whether one body is inside the other.
     solids: Vec<u32>,
-    /// Leaves of the set tree of which something is known through the whole interval.
+    /// Leaves of the set tree of which something is known through the whole piece.
     settled: Vec<(u32, Known)>,
     open: Vec<Group>,
 }
@@ -119,6 +120,18 @@ impl Front {
         }
     }
 
+    /// The numbers of the pairs that a part has undecided; of a crowd that of its first. Some come more than once.
+    pub fn undecided(&self, part: &Part, crowds: &[Crowd]) -> impl Iterator<Item = u32> {
+        let [bundles, groups, leaves] =
+            [part.bundles, part.groups, part.leaves].map(|[first, end]| first..end);
+        let bundles = self.bundles[bundles].iter();
+        bundles
+            .map(|bundle| crowds[bundle.crowd as usize].first_pair)
+            .chain(self.groups[groups].iter().map(|group| group.pair))
+            .chain(self.leaves[leaves].iter().map(|leaf| leaf.pair))
+            .chain(self.solids[part.solids[0]..part.solids[1]].iter().copied())
+    }
+
     /// Forgets what stands behind a part.
     fn truncate(&mut self, part: &Part) {
         self.bundles.truncate(part.bundles[1]);
@@ -129,57 +142,53 @@ impl Front {
     }
 }
 
-/// Pairs over one interval, made when they are first asked for.
-#[derive(Default)]
-pub(super) struct OverPairs<'a> {
-    made: Vec<PairOver<'a>>,
-    /// The place of each pair in `made`, and the interval for which it was made.
+/// Pairs over one piece, made when they are first asked for.
+pub(super) struct OverPairs<'a, L: TwistLists> {
+    made: Vec<PairOver<'a, L>>,
+    /// The place of each pair in `made`, and the number of the piece for which it was made.
     places: Vec<(u32, u32)>,
-    interval: u32,
-    /// The crowd looked at last, in this interval.
-    crowd: Option<(u32, CrowdOver)>,
+    piece: u32,
+    /// The crowd looked at last, in this piece.
+    crowd: Option<(u32, CrowdOver<L>)>,
 }
 
-impl<'a> OverPairs<'a> {
+impl<'a, L: TwistLists> OverPairs<'a, L> {
     pub fn new(count: usize) -> Self {
         Self {
             crowd: None,
             made: Vec::new(),
             places: vec![(0, 0); count],
-            interval: 0,
+            piece: 0,
         }
     }
 
     fn start(&mut self) {
-        self.interval += 1;
+        self.piece += 1;
         self.made.clear();
         self.crowd = None;
     }
 
-    fn of(
+    fn of<P: Piece<Lists = L>>(
         &mut self,
         number: usize,
         pairs: &[MovingPair<'a>],
-        kinematics: &mut Kinematics,
-        half: f64,
-    ) -> &PairOver<'a> {
-        let (place, interval) = &mut self.places[number];
-        if *interval != self.interval {
-            (*place, *interval) = (self.made.len() as u32, self.interval);
-            self.made.push(pairs[number].over(kinematics, half));
+        piece: &mut P,
+    ) -> &PairOver<'a, L> {
+        let (place, made_for) = &mut self.places[number];
+        if *made_for != self.piece {
+            (*place, *made_for) = (self.made.len() as u32, self.piece);
+            self.made.push(piece.over(&pairs[number]));
         }
         &self.made[*place as usize]
     }
 }
 
-/// One interval's look at its part of the front.
-pub(super) struct Look<'l, 'p, 'k> {
+/// One piece's look at its part of the front.
+pub(super) struct Look<'l, 'p, P: Piece> {
     pub pairs: &'p [MovingPair<'p>],
     pub crowds: &'p [Crowd],
-    pub over: &'l mut OverPairs<'p>,
-    pub kinematics: &'l mut Kinematics<'k>,
-    /// Half the length of the interval.
-    pub half: f64,
+    pub over: &'l mut OverPairs<'p, P::Lists>,
+    pub piece: &'l mut P,
     pub front: &'l mut Front,
     pub scratch: &'l mut Scratch,
     /// What is known of the set tree's leaves.
@@ -203,7 +212,7 @@ pub(super) struct LeafLook {
     first: [usize; 3],
 }
 
-impl Look<'_, '_, '_> {
+impl<P: Piece> Look<'_, '_, P> {
     /// Prepares for a part of the front; fills in what was known before.
     pub fn start(&mut self, part: &Part) {
         self.front.truncate(part);
@@ -215,7 +224,7 @@ impl Look<'_, '_, '_> {
         }
     }
 
-    /// Notes what holds of a leaf through the whole interval.
+    /// Notes what holds of a leaf through the whole piece.
     pub fn settle(&mut self, leaf: usize, known: Known) {
         self.known[leaf] = known;
         self.front.settled.push((leaf as u32, known));
@@ -338,7 +347,7 @@ impl Look<'_, '_, '_> {
         };
     }
 
-    /// Where the surfaces of a pair stay apart, a body that is inside the other at the middle is so through the interval.
+    /// Where the surfaces of a pair stay apart, a body that is inside the other at the middle is so through the piece.
     fn look_at_solids(&mut self, solids: [usize; 2]) {
         for i in solids[0]..solids[1] {
             let number = self.front.solids[i];
@@ -347,9 +356,7 @@ impl Look<'_, '_, '_> {
                 self.front.solids.push(number);
                 continue;
             }
-            let over = self
-                .over
-                .of(number as usize, self.pairs, self.kinematics, self.half);
+            let over = self.over.of(number as usize, self.pairs, self.piece);
             // Balls that stay apart hold nothing of each other.
             let PairOver::Near(over) = over else {
                 continue;
@@ -388,7 +395,7 @@ impl Look<'_, '_, '_> {
             return;
         }
         let number = pair.pair as usize;
-        let over = self.over.of(number, self.pairs, self.kinematics, self.half);
+        let over = self.over.of(number, self.pairs, self.piece);
         let over = match over {
             PairOver::Near(over) => over,
             PairOver::Apart => return,
@@ -401,7 +408,7 @@ impl Look<'_, '_, '_> {
         let found = over.pairing.swept_leaves(
             pair.places,
             &pair.direction,
-            &over.sweep,
+            &over.sweep(),
             &over.limits,
             self.scratch.for_primitives(),
         );
@@ -445,14 +452,14 @@ impl Look<'_, '_, '_> {
         let known = self.over.crowd.as_ref().map(|(number, _)| *number);
         if known != Some(bundle.crowd) {
             let pair = &self.pairs[crowd.first_pair as usize];
-            let made = crowd.over(pair, self.kinematics, self.half);
+            let made = crowd.over(pair, self.piece);
             self.over.crowd = Some((bundle.crowd, made));
         }
         let Some((_, over)) = &self.over.crowd else {
             return;
         };
         let eight = crowd.boxes(lanes, bundle.eight);
-        let gaps = swept_gaps(lanes, &eight, &over.one, &over.twist, over.bends);
+        let gaps = swept_gaps(lanes, &eight, &over.one, over.twists.as_ref(), over.bends);
         self.scratch
             .meter_mut()
             .count_nodes(u64::from(bundle.lanes.count_ones()));
@@ -538,7 +545,7 @@ impl Look<'_, '_, '_> {
         }
         let number = group.pair as usize;
         let [a, b] = self.pairs[number].bodies();
-        let over = self.over.of(number, self.pairs, self.kinematics, self.half);
+        let over = self.over.of(number, self.pairs, self.piece);
         let over = match over {
             PairOver::Near(over) => over,
             PairOver::Apart => return,
@@ -556,7 +563,7 @@ impl Look<'_, '_, '_> {
         let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
         let eight = node.boxes(lanes, unit);
         let bends = [over.bends[opened], over.bends[1 - opened]];
-        let gaps = swept_gaps(lanes, &eight, &one, &over.twists[opened], bends);
+        let gaps = swept_gaps(lanes, &eight, &one, over.twists[opened].as_ref(), bends);
         self.scratch
             .meter_mut()
             .count_nodes(u64::from(group.lanes.count_ones()));
@@ -597,7 +604,7 @@ impl Look<'_, '_, '_> {
     }
 }
 
-/// Two boxes that the interval does not part.
+/// Two boxes that the piece does not part.
 struct Meeting {
     pair: u32,
     /// Of A and of B.

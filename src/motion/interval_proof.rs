@@ -4,8 +4,9 @@
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, LeafLook, Look, OverPairs, Part};
-use super::moving_pair::{Kinematics, MovingPair};
+use super::moving_pair::{Interval, Kinematics, MovingPair};
 use super::moving_pure::{Moment, MovingPure};
+use super::piece::OneTwist;
 use super::set_tree::{Known, SetTree};
 use super::way::Way;
 use crate::error::Result;
@@ -62,7 +63,7 @@ pub(super) struct MovingSet<'a> {
 }
 
 /// An interval of time, with what is undecided in it.
-struct Interval {
+struct Undecided {
     times: [f64; 2],
     part: Part,
     /// How long after its end a contact is expected, if one is.
@@ -109,7 +110,7 @@ struct Outcome {
 /// Memory of the proof.
 struct Lists<'a> {
     front: Front,
-    over: OverPairs<'a>,
+    over: OverPairs<'a, OneTwist>,
     known: Vec<Known>,
     nodes: Vec<Known>,
 }
@@ -127,7 +128,7 @@ impl Work for Prover<'_, '_, '_, '_> {
             known: vec![Known::Nothing; set.leaves.len()],
             nodes: Vec::new(),
         };
-        let mut todo = vec![Interval {
+        let mut todo = vec![Undecided {
             times: [0.0, 1.0],
             part: lists.front.start(&set.pairs, &set.crowds, !is_plain),
             before_contact: None,
@@ -190,7 +191,7 @@ impl Work for Prover<'_, '_, '_, '_> {
     }
 }
 
-impl Interval {
+impl Undecided {
     /// Where to part the interval: in the middle, or, before a contact, so that what is nearest to it is short: there the gap is about
     /// as wide as the time to the contact is long.
     fn split(&self) -> f64 {
@@ -241,7 +242,7 @@ impl Prover<'_, '_, '_, '_> {
     fn look_at<'l, I: Instructions>(
         &mut self,
         lanes: I,
-        interval: &Interval,
+        interval: &Undecided,
         is_plain: bool,
         lists: &mut Lists<'l>,
     ) -> Result<Outcome>
@@ -257,8 +258,10 @@ impl Prover<'_, '_, '_, '_> {
             pairs: &set.pairs,
             crowds: &set.crowds,
             over: &mut lists.over,
-            kinematics: &mut *self.kinematics,
-            half,
+            piece: &mut Interval {
+                kinematics: &mut *self.kinematics,
+                half,
+            },
             front: &mut lists.front,
             scratch: &mut self.context.scratch,
             known: &mut lists.known,
@@ -306,7 +309,7 @@ impl Prover<'_, '_, '_, '_> {
 
 impl MovingSet<'_> {
     /// Asks the pure leaves of which nothing is known from a longer interval.
-    fn look_at_pure(&self, look: &mut Look, middle: f64) -> Result<()> {
+    fn look_at_pure(&self, look: &mut Look<Interval>, middle: f64) -> Result<()> {
         let mut is_asked = false;
         for (leaf, known) in self.leaves.iter().zip(look.known.iter_mut()) {
             match leaf {
@@ -323,7 +326,7 @@ impl MovingSet<'_> {
         let moment = &Moment {
             way,
             scene,
-            half: look.half,
+            half: look.piece.half,
         };
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Pure(pure) = leaf

@@ -13,6 +13,7 @@ mod moving_pair;
 mod moving_pure;
 mod pair_motion;
 mod path;
+mod piece;
 mod segment;
 mod set_tree;
 mod slide;

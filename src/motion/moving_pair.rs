@@ -1,12 +1,13 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use super::piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, Piece, TwistLists};
 use super::way::Way;
 use crate::body::Body;
-use crate::convex::Sweep;
+use crate::convex::SweepTwist;
 use crate::error::Result;
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
-use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32};
+use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{ChainRates, LinkMotions, LinkStates, MotionRates, MotionState};
 use crate::tolerance::EPSILON;
@@ -44,45 +45,8 @@ enum Bounds {
     Speed(f64),
 }
 
-/// A pair over an interval.
-pub(super) struct OverInterval<'a> {
-    pub pairing: Pairing<'a>,
-    /// Into A's frame, and into B's.
-    pub motions: [Motion32; 2],
-    /// In A's frame, and in B's.
-    pub twists: [Twist32; 2],
-    /// As [`Sweep::bends`], in units of the pair.
-    pub bends: [f32; 2],
-    pub sweep: Sweep,
-    pub limits: SweptLimits,
-    /// Boxes with a larger gap do not meet, in units of the pair.
-    pub cutoff: f32,
-}
-
-/// How A moves over an interval, as B sees it, with the components in the world's frame.
-pub(super) struct Moved {
-    pub pose: Pose,
-    /// Of A's centre at the middle.
-    pub velocity: Vec3,
-    pub angular: Vec3,
-    /// As [`Sweep::bends`].
-    pub bends: [f64; 2],
-    pub kinematics_error: f64,
-}
-
-/// What is known of a pair at the beginning of an interval.
-#[allow(clippy::large_enum_variant)]
-pub(super) enum PairOver<'a> {
-    /// The balls around the bodies stay apart.
-    Apart,
-    /// The interval is too long for bounds of boxes to be of use.
-    TooLong,
-    /// Boxes and primitives may be looked at.
-    Near(OverInterval<'a>),
-}
-
 /// Intervals through which bodies may turn by more than this, in radians to either side, are halved before boxes are looked at.
-const MAX_TURN: f64 = 1.0;
+pub(super) const MAX_TURN: f64 = 1.0;
 
 /// The bounds of links' derivatives in the world, each computed when it is first asked for.
 pub(super) struct RatesInWorld<'a> {
@@ -120,7 +84,11 @@ impl<'a> RatesInWorld<'a> {
     }
 
     /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
-    fn between(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Option<MotionRates> {
+    pub fn between(
+        &mut self,
+        a: &Carried<usize>,
+        b: &Carried<Option<usize>>,
+    ) -> Option<MotionRates> {
         let mut rates = match b.link {
             None => self.of_body(a)?,
             Some(from) => {
@@ -289,18 +257,6 @@ impl<'a> MovingPair<'a> {
         self.a.link
     }
 
-    /// How A moves over an interval of given half length.
-    pub fn moved(&self, kinematics: &mut Kinematics, half: f64) -> Moved {
-        let (relative, rates) = self.relative(kinematics);
-        Moved {
-            pose: relative.poses[0],
-            velocity: relative.velocity,
-            angular: relative.angular,
-            bends: self.bends(&relative, &rates, half),
-            kinematics_error: self.kinematics_error(&rates),
-        }
-    }
-
     pub fn needs_poses(&self) -> bool {
         matches!(self.bounds, Bounds::Speed(_))
     }
@@ -315,49 +271,91 @@ impl<'a> MovingPair<'a> {
     /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
-    pub fn over(&self, kinematics: &mut Kinematics, half: f64) -> PairOver<'a> {
-        let [a, b] = self.bodies();
-        let radius = a.radius();
+    fn over_interval(&self, kinematics: &mut Kinematics, half: f64) -> PairOver<'a, OneTwist> {
         let (relative, rates) = self.relative(kinematics);
         let kinematics_error = self.kinematics_error(&rates);
-        if self.balls_stay_apart(&relative, &rates, half, kinematics_error) {
+        let center_moves = |apart: &Vec3, distance: f64| match self.bounds {
+            Bounds::Derivatives(_) => {
+                let [_, p2, p3] = rates.origin;
+                let acceleration = p2.min(relative.acceleration.norm() + half * p3 / 3.0);
+                let along = relative.velocity.dot(apart).abs() / distance.max(f64::MIN_POSITIVE);
+                half * along + 0.5 * half * half * acceleration
+            }
+            Bounds::Speed(speed) => half * speed,
+        };
+        if self.balls_stay_apart(&relative.poses, center_moves, kinematics_error) {
             return PairOver::Apart;
         }
         if half * rates.turn[0] > MAX_TURN {
             return PairOver::TooLong;
         }
-        let bends = self.bends(&relative, &rates, half);
-        let [v, w] = [relative.velocity, relative.angular];
-        let [pose_a, pose_b] = &relative.poses;
-        let displacement = half * (v.norm() + w.norm() * radius) + bends[1];
+        PairOver::Near(self.placed(self.moved_over_interval(&relative, &rates, half)))
+    }
+
+    fn moved_over_interval(
+        &self,
+        relative: &Relative,
+        rates: &MotionRates,
+        half: f64,
+    ) -> Moved<OneTwist> {
+        Moved {
+            poses: relative.poses,
+            displacements: [Displacement {
+                linear: relative.velocity * half,
+                angular: relative.angular * half,
+            }],
+            bends: self.bends(relative, rates, half),
+            kinematics_error: self.kinematics_error(rates),
+        }
+    }
+
+    /// The pair in one frame, with all that boxes and primitives are compared by.
+    #[inline]
+    pub fn placed<L: TwistLists>(&self, moved: Moved<L>) -> OverPiece<'a, L> {
+        let [a, b] = self.bodies();
+        let radius = a.radius();
+        let [pose_a, pose_b] = &moved.poses;
+        let bends = moved.bends;
         let pairing = Pairing::new(a, pose_a, b, pose_b);
         let size = pairing.precision.size;
         let scale = power_of_two(size);
         let inverse = 1.0 / scale;
         let [tree_a, tree_b] = [a.packed(), b.packed()];
         let to_b = &pairing.relative;
-        let [linear, angular] = [v, w].map(|x| pose_a.rotation.tr_mul(&x) * half);
-        let in_b = [
-            to_b.rotation
-                .tr_mul(&(linear + angular.cross(&to_b.translation))),
-            to_b.rotation.tr_mul(&angular),
-        ];
-        let twist = |[linear, angular]: [Vec3; 2]| Twist32 {
+        let sweep_twists = L::map(&moved.displacements, |by| SweepTwist {
+            linear: pose_a.rotation.tr_mul(&by.linear),
+            angular: pose_a.rotation.tr_mul(&by.angular),
+        });
+        let twist = |linear: Vec3, angular: Vec3| Twist32 {
             angular: each3(|k| angular[k] as f32),
             linear: each3(|k| (linear[k] * inverse) as f32),
         };
-        // Velocities times half the interval are lengths like others: what they are rounded to, gaps lose too.
-        let moved = linear.norm() + angular.norm() * size;
-        let larger = 1.0 + moved / size;
-        let slack = (pairing.slack() + kinematics_error) * larger;
+        let in_a = L::map(&sweep_twists, |by| twist(by.linear, by.angular));
+        let in_b = L::map(&sweep_twists, |by| {
+            let at_origin = by.linear + by.angular.cross(&to_b.translation);
+            twist(
+                to_b.rotation.tr_mul(&at_origin),
+                to_b.rotation.tr_mul(&by.angular),
+            )
+        });
+        // Displacements are lengths like others: what they are rounded to, gaps lose too.
+        let (mut moved_at_size, mut displacement) = (0.0, bends[1]);
+        for by in sweep_twists.as_ref() {
+            let (linear, angular) = (by.linear.norm(), by.angular.norm());
+            moved_at_size += linear + angular * size;
+            displacement += linear + angular * radius;
+        }
+        moved_at_size *= sum_factor(sweep_twists.as_ref().len());
+        let larger = 1.0 + moved_at_size / size;
+        let slack = (pairing.slack() + moved.kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
-        let lowered = slack + ROUNDING * (size + moved) + cores;
-        PairOver::Near(OverInterval {
+        let lowered = slack + ROUNDING * (size + moved_at_size) + cores;
+        OverPiece {
             motions: [
                 Motion32::new(to_b, tree_b.scale(), scale),
                 Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
             ],
-            twists: [twist([linear, angular]), twist(in_b)],
+            twists: [in_a, in_b],
             bends: bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
             cutoff: (((self.threshold + lowered) * inverse) as f32).next_up(),
             limits: SweptLimits {
@@ -365,16 +363,13 @@ impl<'a> MovingPair<'a> {
                 slack,
                 displacement,
             },
-            sweep: Sweep {
-                linear,
-                angular,
-                bends,
-            },
+            sweep_twists,
+            sweep_bends: bends,
             pairing,
-        })
+        }
     }
 
-    fn kinematics_error(&self, rates: &MotionRates) -> f64 {
+    pub fn kinematics_error(&self, rates: &MotionRates) -> f64 {
         KINEMATICS_ERROR * (rates.size + self.a.body.radius()) * (1.0 + rates.angle)
     }
 
@@ -417,28 +412,19 @@ impl<'a> MovingPair<'a> {
         (Relative::new(a, b, self.a.body.center()), rates)
     }
 
-    /// Whether the balls around the bodies stay apart through the interval, along the line between their centres: a ball does not
-    /// turn.
-    fn balls_stay_apart(
+    /// Whether the balls around the bodies stay apart through a piece, along the line between their centres: a ball does not turn.
+    /// `center_moves` bounds how far A's centre moves along that line, given with its length.
+    #[inline(always)]
+    pub fn balls_stay_apart(
         &self,
-        relative: &Relative,
-        rates: &MotionRates,
-        half: f64,
+        [pose_a, pose_b]: &[Pose; 2],
+        center_moves: impl Fn(&Vec3, f64) -> f64,
         kinematics_error: f64,
     ) -> bool {
         let [a, b] = self.bodies();
-        let [pose_a, pose_b] = &relative.poses;
         let apart = pose_a.transform_point(a.center()) - pose_b.transform_point(b.center());
         let distance = apart.norm();
-        let moved = match self.bounds {
-            Bounds::Derivatives(_) => {
-                let [_, p2, p3] = rates.origin;
-                let acceleration = p2.min(relative.acceleration.norm() + half * p3 / 3.0);
-                let along = relative.velocity.dot(&apart).abs() / distance.max(f64::MIN_POSITIVE);
-                half * along + 0.5 * half * half * acceleration
-            }
-            Bounds::Speed(speed) => half * speed,
-        };
+        let moved = center_moves(&apart, distance);
         let reach = a.radius() + b.radius();
         let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
         distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
@@ -468,5 +454,25 @@ impl<'a> MovingPair<'a> {
             of_b.min(t2 * rho + 2.0 * t1 * p1 + p2),
             of_a.min(t2 * radius + p2),
         ]
+    }
+}
+
+/// An interval of a motion, whose middle the kinematics are at.
+pub(super) struct Interval<'k, 'a> {
+    pub kinematics: &'k mut Kinematics<'a>,
+    /// Half its length.
+    pub half: f64,
+}
+
+impl Piece for Interval<'_, '_> {
+    type Lists = OneTwist;
+
+    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, OneTwist> {
+        pair.over_interval(self.kinematics, self.half)
+    }
+
+    fn moved(&mut self, pair: &MovingPair) -> Moved<OneTwist> {
+        let (relative, rates) = pair.relative(self.kinematics);
+        pair.moved_over_interval(&relative, &rates, self.half)
     }
 }

@@ -21,7 +21,7 @@ pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use shortlist::{Ranked, Shortlist};
 pub use singles::Singles;
-pub use swept_bounds::{SweptGaps, Twist32, swept_gaps};
+pub use swept_bounds::{SweptGaps, Twist32, sum_factor, swept_gaps};
 pub use swept_leaves::{SweptLeaves, SweptLimits};
 pub use traversal::{Scratch, traverse, visit_pair};
 pub use visitor::{PrimitivePair, Visitor};

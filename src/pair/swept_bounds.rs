@@ -1,4 +1,5 @@
-//! Lower bounds of the gap between one moving oriented box and eight others over an interval of time, in single precision.
+//! Lower bounds of the gap between one moving oriented box and eight others over an interval of time, or over a box of
+//! configurations, in single precision.
 //!
 //! Let the eight rest, and the one turn with angular velocity w and move so that its points x have the velocity v + w x x at the
 //! middle of the interval; all is multiplied by half the interval's length. Along an axis n that rests with the eight, the
@@ -8,10 +9,16 @@
 //! m = n x w and c the centre of each. A small box beside a long one that turns keeps a small term so, and a translation is
 //! exact.
 //!
+//! A box of configurations has one such twist for each coordinate: the velocity times half the box's width in it. To first order a
+//! configuration of the box moves the points by a sum of these, each times a factor from -1 to 1, so that the terms above are summed
+//! over the twists.
+//!
 //! Rounding, with the terms of [`super::box_bounds`]: let M bound |v| + |w| S. Each component of w x c and of w x a_k takes two
 //! products and a difference, is within 4 u M, and with the axis' error of 14 u within 20 u M of what it stands for; a product
 //! of two such vectors within 60 u M, the sum of four such terms (sides add up to 3 S, which M has) within 240 u M. Together
-//! with the gap's 160 u S less than [`super::ROUNDING`] (S + M) is lost.
+//! with the gap's 160 u S less than [`super::ROUNDING`] (S + M) is lost. With N twists M bounds the sum over them, and the errors of
+//! the products add up as before; but each of the 4 N sums is rounded too, by at most u times the largest, 4 M: 16 N u M more, of
+//! which the first twist's are counted above. That is what [`sum_factor`] adds to M.
 
 use super::box_bounds::{AXIS_FACTOR, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
@@ -33,14 +40,19 @@ pub struct SweptGaps<I: Instructions> {
     pub swept: Lanes8<I>,
 }
 
-/// The largest gap along the axes of the eight and of the one, which has the twist, or of which the eight have the opposite. `bends`
+/// How much more the sums over several twists are rounded than that of one.
+pub fn sum_factor(twists: usize) -> f64 {
+    1.0 + twists.saturating_sub(1) as f64 / 16.0
+}
+
+/// The largest gap along the axes of the eight and of the one, which has the twists, or of which the eight have the opposite. `bends`
 /// are what the acceleration may take off: along axes that rest with the eight, and with the one.
 #[inline(always)]
 pub fn swept_gaps<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,
-    twist: &Twist32,
+    twists: &[Twist32],
     bends: [f32; 2],
 ) -> SweptGaps<I> {
     let [x, y, z] = splat(lanes, &one.center);
@@ -51,12 +63,6 @@ pub fn swept_gaps<I: Instructions>(
         lanes.sub(z, center[2]),
     ];
     let half = splat(lanes, &one.half);
-    let turn = cross3(&twist.angular, &one.center);
-    let velocity = each3(|k| twist.linear[k] + turn[k]);
-    let sides = each3(|j| {
-        let turned = cross3(&twist.angular, &one.axes[j]);
-        each3(|k| turned[k] * one.half[j])
-    });
     let axes = &eight.axes;
     let [first, second, third] = &one.axes;
     let products: [Triple<I>; 3] = [
@@ -80,36 +86,49 @@ pub fn swept_gaps<I: Instructions>(
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
     };
-    let bend = lanes.splat(bends[0]);
+    let mut of_one = [lanes.splat(bends[0]); 3];
+    let mut of_eight = [lanes.splat(bends[1]); 3];
+    for twist in twists {
+        let turn = cross3(&twist.angular, &one.center);
+        let velocity = each3(|k| twist.linear[k] + turn[k]);
+        let sides = each3(|j| {
+            let turned = cross3(&twist.angular, &one.axes[j]);
+            each3(|k| turned[k] * one.half[j])
+        });
+        for k in 0..3 {
+            of_one[k] = lanes.add(lanes.abs(lanes.along(&axes[k], &velocity)), of_one[k]);
+            for side in &sides {
+                of_one[k] = lanes.add(of_one[k], lanes.abs(lanes.along(&axes[k], side)));
+            }
+        }
+        for (j, axis) in one.axes.iter().enumerate() {
+            let arm = cross3(axis, &twist.angular);
+            let [ax, ay, az] = splat(lanes, &arm);
+            let origin = lanes.splat(dot(axis, &twist.linear));
+            let first = lanes.mul_add(center[0], ax, origin);
+            let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
+            let moved = lanes.add(lanes.abs(at_center), of_eight[j]);
+            let turned = [
+                lanes.along(&axes[0], &arm),
+                lanes.along(&axes[1], &arm),
+                lanes.along(&axes[2], &arm),
+            ];
+            of_eight[j] = extent_along(lanes, &turned, &eight.half, moved);
+        }
+    }
     for k in 0..3 {
         let place = lanes.abs(lanes.dot(&axes[k], &apart));
         let gap = lanes.sub(
             place,
             extent_along(lanes, &products[k], &half, eight.half[k]),
         );
-        let mut moved = lanes.add(lanes.abs(lanes.along(&axes[k], &velocity)), bend);
-        for side in &sides {
-            moved = lanes.add(moved, lanes.abs(lanes.along(&axes[k], side)));
-        }
-        gaps.offer(lanes, gap, moved);
+        gaps.offer(lanes, gap, of_one[k]);
     }
     for (j, axis) in one.axes.iter().enumerate() {
         let along = [products[0][j], products[1][j], products[2][j]];
         let place = lanes.abs(lanes.along(&apart, axis));
         let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-        let arm = cross3(axis, &twist.angular);
-        let [ax, ay, az] = splat(lanes, &arm);
-        let origin = lanes.splat(dot(axis, &twist.linear));
-        let first = lanes.mul_add(center[0], ax, origin);
-        let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-        let moved = lanes.add(lanes.abs(at_center), lanes.splat(bends[1]));
-        let turned = [
-            lanes.along(&axes[0], &arm),
-            lanes.along(&axes[1], &arm),
-            lanes.along(&axes[2], &arm),
-        ];
-        let moved = extent_along(lanes, &turned, &eight.half, moved);
-        gaps.offer(lanes, lanes.sub(place, extent), moved);
+        gaps.offer(lanes, lanes.sub(place, extent), of_eight[j]);
     }
     let upright = lanes.splat(AXIS_FACTOR);
     SweptGaps {

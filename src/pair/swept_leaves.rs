@@ -1,4 +1,4 @@
-//! Two primitives over an interval of time: whether they stay apart, or meet at its middle.
+//! Two primitives over an interval of time, or a box of configurations: whether they stay apart, or meet at its middle.
 
 use super::Scratch;
 use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratch};
@@ -35,7 +35,7 @@ struct SweptPair<'a, 'p> {
     pairing: &'a Pairing<'p>,
     places: [u32; 2],
     direction: &'a [f32; 3],
-    sweep: &'a Sweep,
+    sweep: &'a Sweep<'a>,
     limits: &'a SweptLimits,
     scratch: &'a mut PrimitiveScratch,
 }

@@ -12,6 +12,12 @@ pub(super) enum Course {
     Line { start: f64, rate: f64 },
     /// A Bezier curve, by the place and the number of its control points in a list.
     Curve { first: u32, count: u32 },
+    /// Of a box of configurations: `center + s rate`, with any s from -1 to 1 that the velocity of this number takes.
+    Range {
+        center: f64,
+        rate: f64,
+        velocity: u32,
+    },
 }
 
 /// A value with its first two derivatives.
@@ -32,7 +38,7 @@ pub(super) struct CourseBounds {
 }
 
 impl Course {
-    /// The value and its derivatives at time t.
+    /// The value and its derivatives at time t; of a range what is at its centre.
     #[inline]
     pub fn at(&self, t: f64, controls: &[f64]) -> CourseState {
         match *self {
@@ -45,6 +51,11 @@ impl Course {
                 let (first, count) = (first as usize, count as usize);
                 bezier_at(&controls[first..first + count], t)
             }
+            Self::Range { center, .. } => CourseState {
+                value: center,
+                rate: 0.0,
+                acceleration: 0.0,
+            },
         }
     }
 
@@ -69,6 +80,11 @@ impl Course {
                     derivatives,
                 }
             }
+            // The way from the centre to any value in the range.
+            Self::Range { center, rate, .. } => CourseBounds {
+                farthest: center.abs() + rate.abs(),
+                derivatives: [rate.abs(), 0.0, 0.0],
+            },
         }
     }
 }

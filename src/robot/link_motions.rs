@@ -11,7 +11,7 @@ use crate::pose::{Mat3, Pose, Vec3};
 
 /// One step of a chain.
 #[derive(Clone, Copy, Debug)]
-enum Element {
+pub(super) enum Element {
     /// A pose that stays.
     Fixed(Pose),
     /// A turn about a unit axis, in radians.
@@ -47,6 +47,15 @@ pub enum CoordinateCourses<'a> {
         /// The number of coordinates of the space.
         nq: usize,
         /// The robot's first coordinate in the space.
+        first: usize,
+    },
+    /// Straight from a configuration to any other in a box around it; coordinates of quaternions must rest.
+    Box {
+        /// The middle of the box.
+        q: &'a [f64],
+        /// The half widths, one entry per velocity: those of a free joint's position stand with its linear velocities.
+        half: &'a [f64],
+        /// The robot's first velocity in the space.
         first: usize,
     },
 }
@@ -217,6 +226,18 @@ impl LinkMotions {
         }
     }
 
+    /// The parent of a link, and what its joint is made of; no more than its parent where a custom joint moves.
+    pub(super) fn link(&self, link: usize) -> (Option<usize>, &[Element]) {
+        let motion = &self.links[link];
+        let [first, end] = motion.elements;
+        let elements = if motion.is_known {
+            &self.elements[first..end]
+        } else {
+            &[]
+        };
+        (motion.parent, elements)
+    }
+
     /// The links between a link and one that carries it, or the world: the link first.
     fn path(&self, from: Option<usize>, link: usize) -> SmallVec<[usize; 16]> {
         let mut path = SmallVec::new();
@@ -364,6 +385,11 @@ impl LinkMotions {
                     count: (self.controls.len() - begin) as u32,
                 }
             }
+            CoordinateCourses::Box { q, half, first } => Course::Range {
+                center: multiplier * q[coordinate] + offset,
+                rate: multiplier * half[velocity],
+                velocity: (first + velocity) as u32,
+            },
         }
     }
 }
@@ -381,7 +407,7 @@ impl CoordinateCourses<'_> {
     fn rests(&self, link: &Link) -> bool {
         let joint = &link.joint;
         match self {
-            Self::Line { v, .. } => {
+            Self::Line { v, .. } | Self::Box { half: v, .. } => {
                 let own = &v[joint.velocity..joint.velocity + joint.kind.nv()];
                 own.iter().all(|rate| *rate == 0.0)
             }
@@ -398,10 +424,10 @@ impl CoordinateCourses<'_> {
         }
     }
 
-    /// The coordinates at time 0, from the robot's first on.
+    /// The coordinates at time 0, or in the middle, from the robot's first on.
     fn start(&self) -> &[f64] {
         match self {
-            Self::Line { q, .. } => q,
+            Self::Line { q, .. } | Self::Box { q, .. } => q,
             Self::Curve {
                 controls, first, ..
             } => &controls[*first..],
@@ -446,6 +472,18 @@ impl Link {
                     let angle = motions.course(courses, place(k));
                     motions.turn(axis, angle);
                 }
+            }
+            (JointKind::Free, CoordinateCourses::Box { q, .. }) => {
+                let Ok(start) = joint.motion(q) else {
+                    return false;
+                };
+                // Along the axes of the joint's frame: the coordinates are ranges, not the velocities in the moved frame.
+                motions.shift_by(courses, [place(0), place(1), place(2)]);
+                let turned = Pose {
+                    translation: Vec3::zeros(),
+                    ..start
+                };
+                motions.elements.push(Element::Fixed(turned));
             }
             (kind, _) => {
                 let Ok(start) = joint.motion(courses.start()) else {

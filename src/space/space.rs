@@ -315,6 +315,22 @@ impl Space {
         motions
     }
 
+    /// All links in a box of configurations around q, with one half width per velocity: those of a free joint's position stand with
+    /// its linear velocities, those of quaternions must be 0.
+    pub fn link_motions_in_box(&self, q: &[f64], half: &[f64]) -> LinkMotions {
+        let mut motions = LinkMotions::default();
+        for (index, robot) in self.robots.iter().enumerate() {
+            let first = self.offsets[index].velocity;
+            let courses = CoordinateCourses::Box {
+                q: &q[self.coordinates_of(index)],
+                half: &half[first..first + robot.nv()],
+                first,
+            };
+            robot.append_motions(&mut motions, &courses);
+        }
+        motions
+    }
+
     /// All links on a Bezier curve, given by its control points: one configuration after another, of which no coordinates of
     /// quaternions or custom joints differ.
     pub fn link_motions_on_curve(&self, controls: &[f64]) -> LinkMotions {

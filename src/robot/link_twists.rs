@@ -1,0 +1,149 @@
+//! What each coordinate of a box of configurations does to each link, to first order: the columns of the Jacobian at the middle of
+//! the box, times the half widths.
+
+use smallvec::SmallVec;
+
+use super::course::Course;
+use super::link_motions::{Element, LinkMotions};
+use crate::pose::{Pose, Vec3};
+
+/// What one coordinate does to a link, from the middle of a box to its side: the world's points x that move with the link move by
+/// `linear + angular x (x - point)`.
+#[derive(Clone, Copy, Debug)]
+struct OwnTwist {
+    velocity: u32,
+    linear: Vec3,
+    angular: Vec3,
+    point: Vec3,
+}
+
+/// What one coordinate does to a body as another body sees it, from the middle of a box to its side.
+#[derive(Clone, Copy, Debug)]
+pub struct RelativeTwist {
+    /// The number of the coordinate's velocity.
+    pub velocity: u32,
+    /// The displacement of the body's centre, in the world's axes.
+    pub linear: Vec3,
+    /// The turn, in radians, about this axis of the world.
+    pub angular: Vec3,
+}
+
+/// One entry for each coordinate that moves the one as the other sees it.
+pub type RelativeTwists = SmallVec<[RelativeTwist; 8]>;
+
+/// The links at the middle of a box of configurations.
+pub struct LinkTwists<'a> {
+    motions: &'a LinkMotions,
+    poses: &'a [Pose],
+    own: Vec<OwnTwist>,
+    /// Where each link's twists end in the list.
+    ends: Vec<u32>,
+}
+
+impl<'a> LinkTwists<'a> {
+    /// Of links whose motions are ranges, with the poses of all links at the middle.
+    pub fn new(motions: &'a LinkMotions, poses: &'a [Pose]) -> Self {
+        let mut twists = Self {
+            motions,
+            poses,
+            own: Vec::with_capacity(2 * poses.len()),
+            ends: Vec::with_capacity(poses.len()),
+        };
+        for link in 0..motions.len() {
+            twists.add(link);
+            twists.ends.push(twists.own.len() as u32);
+        }
+        twists
+    }
+
+    fn add(&mut self, link: usize) {
+        let (parent, elements) = self.motions.link(link);
+        let mut pose = parent.map_or_else(Pose::identity, |parent| self.poses[parent]);
+        for element in elements {
+            match element {
+                Element::Fixed(fixed) => pose = pose.compose(fixed),
+                Element::Turn { axis, angle } => {
+                    let direction = pose.rotation * axis;
+                    let Course::Range {
+                        center,
+                        rate,
+                        velocity,
+                    } = *angle
+                    else {
+                        continue;
+                    };
+                    if rate != 0.0 {
+                        self.own.push(OwnTwist {
+                            velocity,
+                            linear: Vec3::zeros(),
+                            angular: direction * rate,
+                            point: pose.translation,
+                        });
+                    }
+                    pose = pose.turned_about(axis, center);
+                }
+                Element::Shift { axis, length } => {
+                    let direction = pose.rotation * axis;
+                    let Course::Range {
+                        center,
+                        rate,
+                        velocity,
+                    } = *length
+                    else {
+                        continue;
+                    };
+                    if rate != 0.0 {
+                        self.own.push(OwnTwist {
+                            velocity,
+                            linear: direction * rate,
+                            angular: Vec3::zeros(),
+                            point: pose.translation,
+                        });
+                    }
+                    pose.translation += direction * center;
+                }
+            }
+        }
+    }
+
+    /// A link's pose at the middle.
+    pub fn pose(&self, link: usize) -> &Pose {
+        &self.poses[link]
+    }
+
+    /// What the coordinates do to a body of a link, centred at a point of the world, as another link sees it, or the world. Joints
+    /// that carry both do nothing; a coordinate that moves several joints is one entry.
+    pub fn between(&self, link: usize, from: Option<usize>, center: &Vec3) -> RelativeTwists {
+        let mut found = RelativeTwists::new();
+        // Parents have smaller numbers, and no number is the world's.
+        let (mut ahead, mut back) = (Some(link), from);
+        while ahead != back {
+            let (side, sign) = if ahead > back {
+                (&mut ahead, 1.0)
+            } else {
+                (&mut back, -1.0)
+            };
+            let Some(index) = *side else {
+                break;
+            };
+            let first = index.checked_sub(1).map_or(0, |before| self.ends[before]);
+            for own in &self.own[first as usize..self.ends[index] as usize] {
+                let linear = sign * (own.linear + own.angular.cross(&(center - own.point)));
+                let angular = sign * own.angular;
+                match found.iter_mut().find(|f| f.velocity == own.velocity) {
+                    Some(same) => {
+                        same.linear += linear;
+                        same.angular += angular;
+                    }
+                    None => found.push(RelativeTwist {
+                        velocity: own.velocity,
+                        linear,
+                        angular,
+                    }),
+                }
+            }
+            *side = self.motions.link(index).0;
+        }
+        found
+    }
+}
