@@ -2,7 +2,7 @@
 
 use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
 use super::segment::LinearMotion;
-use super::way::Way;
+use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
@@ -104,7 +104,7 @@ impl QueryContext {
         };
         let way = &Way {
             line,
-            controls: Some(points),
+            kind: WayKind::Curve { controls: points },
         };
         self.motion_on(way, options)
     }

@@ -5,7 +5,7 @@ use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, LeafLook, Look, OverPairs, Part};
 use super::moving_pair::{Interval, Kinematics, MovingPair};
-use super::moving_pure::{Moment, MovingPure};
+use super::moving_pure::{Extent, Moment, MovingPure};
 use super::piece::OneTwist;
 use super::set_tree::{Known, SetTree};
 use super::way::Way;
@@ -326,7 +326,7 @@ impl MovingSet<'_> {
         let moment = &Moment {
             way,
             scene,
-            half: look.piece.half,
+            extent: Extent::Time(look.piece.half),
         };
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Pure(pure) = leaf

@@ -1,10 +1,12 @@
 //! Motions: proofs that motions and paths are free, their clearance, and the sliding step (Appendix A).
 
+mod box_piece;
 mod clearance;
 mod crowd;
 mod curve;
 mod first_contact;
 mod front;
+mod gathering;
 mod half_spaces;
 mod interval_proof;
 #[allow(clippy::module_inception)]

@@ -1,22 +1,15 @@
 //! Whole motions: a proof that a segment of C-space is free, or its first contact (§2.3.1 asks for it; Figure 1 shows what sampling
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
-use std::cmp::Ordering;
-
-use super::crowd::Crowd;
-use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
-use super::moving_pair::{Carried, Kinematics, MovingPair, RatesInWorld};
-use super::moving_pure::MovingPure;
-use super::segment::{LinearMotion, STEP_FRACTION};
-use super::set_tree::{LeafContent, SetLeaf, SetTree};
+use super::gathering::{Gathering, Keeps};
+use super::interval_proof::{MovingSet, Proof, ProofLimits, prove};
+use super::moving_pair::{Kinematics, MovingPair};
+use super::segment::LinearMotion;
+use super::set_tree::SetTree;
 use super::way::Way;
-use crate::cobject::{CObject, Class, Induced};
-use crate::error::{Error, ErrorKind, Result};
-use crate::pose::Pose;
-use crate::query::{
-    CandidateFilter, Configuration, Distance, Group, QueryContext, Scene, Target, World,
-    check_threshold,
-};
+use crate::cobject::{CObject, Class};
+use crate::error::{Error, Result};
+use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::space::Space;
 
 /// What is asked of a motion.
@@ -137,16 +130,7 @@ impl QueryContext {
         let tree = &SetTree::new(way.line.cobject);
         let q_middle = &way.at(0.5);
         let scene = &way.scene(q_middle)?;
-        let mut gathering = Gathering {
-            way,
-            rates: RatesInWorld::new(motions),
-            threshold: options.threshold,
-            is_plain: tree.is_plain_union(),
-            leaves: Vec::with_capacity(tree.leaves.len()),
-            pairs: Vec::new(),
-            needs_start: false,
-            speeds: Vec::new(),
-        };
+        let mut gathering = Gathering::new(way, motions, options.threshold, tree, Keeps::Out);
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }
@@ -234,200 +218,4 @@ pub(super) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Resul
             .map_err(|error| error.within(name))?;
     }
     Ok(space.difference(q0, q1))
-}
-
-fn unstated_speeds(term: &Induced) -> Error {
-    Error::new(
-        ErrorKind::Unsupported,
-        format!(
-            "C-object {}: a custom joint that does not state its speeds moves on the way",
-            term.leaf.serial
-        ),
-    )
-}
-
-/// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
-struct Gathering<'a> {
-    way: &'a Way<'a>,
-    rates: RatesInWorld<'a>,
-    threshold: f64,
-    is_plain: bool,
-    leaves: Vec<MovingLeaf>,
-    pairs: Vec<MovingPair<'a>>,
-    /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
-    needs_start: bool,
-    /// Of links' bodies in the world, where they were asked for.
-    speeds: Vec<Option<f64>>,
-}
-
-impl<'a> Gathering<'a> {
-    fn add(
-        &mut self,
-        leaf: &SetLeaf<'a>,
-        scene: &'a Scene,
-        context: &mut QueryContext,
-    ) -> Result<()> {
-        let complement = leaf.complement;
-        let moving = match leaf.content {
-            LeafContent::Pure(set) => {
-                let pure = MovingPure::new(self.way, set, complement, self.threshold)?;
-                MovingLeaf::Pure(pure)
-            }
-            // The distance from the complement of an induced set is 0 or unknown.
-            LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
-            LeafContent::Induced(group) => {
-                for term in 0..group.len() {
-                    self.add_pairs(&group[term..=term], complement, scene, context)?;
-                }
-                MovingLeaf::Pairs { complement }
-            }
-        };
-        self.leaves.push(moving);
-        Ok(())
-    }
-
-    /// Adds the pairs of one induced set. A complement begins where distances exceed the contact epsilon.
-    fn add_pairs(
-        &mut self,
-        term: &'a Group,
-        complement: bool,
-        scene: &'a Scene,
-        context: &mut QueryContext,
-    ) -> Result<()> {
-        let line = &self.way.line;
-        let fastest = line.fastest_pair(&term[0]).unwrap_or(0.0);
-        if fastest.is_infinite() {
-            return Err(unstated_speeds(&term[0]));
-        }
-        if fastest == 0.0 && self.is_plain {
-            self.needs_start = true;
-            return Ok(());
-        }
-        let threshold = if complement {
-            term[0].options.contact_epsilon
-        } else {
-            self.threshold
-        };
-        let checked = scene.checked(term)?;
-        // No distance at another time is less than that at the middle by more than what the whole motion changes.
-        let wanted = CandidateFilter {
-            any_order: true,
-            ..CandidateFilter::within(threshold + fastest)
-        };
-        let meter = context.scratch.meter_mut();
-        let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
-        // Of a straight motion at most half lies between the middle and any other time.
-        let share = if self.way.controls.is_some() {
-            1.0
-        } else {
-            0.5
-        };
-        // Those of one body together, what is near first.
-        let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
-        for (place, target) in found.iter().enumerate() {
-            let needed = share * self.speed(scene, target);
-            if STEP_FRACTION * (target.bound - threshold) <= needed {
-                let (link, object, _) = target.parties();
-                order.push((link, object, OrderedBound(target.bound), place));
-            }
-        }
-        order.sort_unstable();
-        self.pairs.reserve(order.len());
-        for (.., place) in order {
-            self.add_pair(&found[place], threshold, term, scene)?;
-        }
-        context.candidates.keep(found);
-        Ok(())
-    }
-
-    fn add_pair(
-        &mut self,
-        target: &Target<'a>,
-        threshold: f64,
-        term: &Group,
-        scene: &Scene,
-    ) -> Result<()> {
-        let (r_link, s_link) = target.links();
-        let [(body, r_pose), (other, s_pose)] = target.sides;
-        let a = Carried {
-            body,
-            link: r_link,
-            pose: pose_on(scene, Some(r_link), r_pose),
-        };
-        let b = Carried {
-            body: other,
-            link: s_link,
-            pose: pose_on(scene, s_link, s_pose),
-        };
-        let limit = threshold + target.options.margin;
-        let leaf = self.leaves.len() as u32;
-        let line = &self.way.line;
-        let speed = || line.rate(scene, target);
-        let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
-        let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
-        if self.is_plain {
-            // What rests has no contact on the way that it has not at the start.
-            self.needs_start |= pair.rests() || pair.has_solid();
-            if pair.rests() {
-                return Ok(());
-            }
-        }
-        self.pairs.push(pair);
-        Ok(())
-    }
-}
-
-/// A bound in order of size.
-#[derive(Clone, Copy, PartialEq)]
-struct OrderedBound(f64);
-
-impl Eq for OrderedBound {}
-
-impl PartialOrd for OrderedBound {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for OrderedBound {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-impl Gathering<'_> {
-    /// The pairs of a body among objects that rest, which stand together.
-    fn crowds(&self, scene: &Scene) -> Vec<Crowd> {
-        let mut crowds = Vec::new();
-        let mut first = 0;
-        for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
-            if run.len() > 1 {
-                let origin = scene.poses()[run[0].link()].translation;
-                crowds.push(Crowd::new(first, run, origin));
-            }
-            first += run.len() as u32;
-        }
-        crowds
-    }
-
-    /// Bounds the change of a pair's distance in the whole time.
-    fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
-        let line = &self.way.line;
-        let (r_link, s_link) = target.links();
-        let (_, r_object, _) = target.parties();
-        if s_link.is_some() || r_object != 0 {
-            return line.rate(scene, target);
-        }
-        self.speeds.resize(scene.poses().len(), None);
-        *self.speeds[r_link].get_or_insert_with(|| line.rate(scene, target))
-    }
-}
-
-/// A pose of the world in the frame of a link, if one carries it.
-fn pose_on(scene: &Scene, link: Option<usize>, pose: &Pose) -> Pose {
-    match link.map(|link| &scene.poses()[link]) {
-        None => *pose,
-        Some(link) if link == pose => Pose::identity(),
-        Some(link) => link.inverse().compose(pose),
-    }
 }

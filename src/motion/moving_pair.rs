@@ -218,6 +218,10 @@ impl<'a> MovingPair<'a> {
         })
     }
 
+    pub fn carried(&self) -> (&Carried<'a, usize>, &Carried<'a, Option<usize>>) {
+        (&self.a, &self.b)
+    }
+
     pub fn bodies(&self) -> [&'a Body; 2] {
         [self.a.body, self.b.body]
     }

@@ -1,10 +1,13 @@
-//! A pure set over an interval of a motion: its measure at the middle, and how much the motion may change it.
+//! A pure set over an interval of a motion, or a box of configurations: its measure at the middle, and how much may change it from
+//! there.
 
+use super::box_piece::BoxPiece;
 use super::set_tree::Known;
-use super::way::Way;
+use super::way::{Way, WayKind};
 use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{PureAt, Scene};
+use crate::robot::BlockKind;
 
 /// More than the rounding of products of rates and times.
 const RATE_SLACK: f64 = 1.0 + 1e-9;
@@ -18,18 +21,26 @@ pub(super) struct MovingPure {
     threshold: f64,
 }
 
-/// A set with a bound of how its signed distance changes in the whole time.
+/// A set with a bound of how its signed distance changes in the whole time, or from the middle of the whole box.
 struct MovingPart {
     set: PureSet,
     rate: f64,
 }
 
-/// A motion at the middle of an interval.
+/// A piece of a motion, at its middle.
 pub(super) struct Moment<'a> {
     pub way: &'a Way<'a>,
     pub scene: &'a Scene<'a>,
-    /// Half the length of the interval.
-    pub half: f64,
+    pub extent: Extent<'a>,
+}
+
+/// How far a piece goes from its middle.
+#[derive(Clone, Copy)]
+pub(super) enum Extent<'a> {
+    /// An interval, of which this is half the length.
+    Time(f64),
+    /// A box, which is all of the moment's way.
+    Box(&'a BoxPiece<'a>),
 }
 
 impl MovingPure {
@@ -95,7 +106,7 @@ impl MovingPart {
         if is_inside || (threshold > 0.0 && lower <= threshold) {
             return Ok(Known::Meets);
         }
-        let change = self.rate * moment.half * RATE_SLACK;
+        let change = self.change(moment);
         if change == 0.0 || lower - threshold > change {
             return Ok(Known::Free);
         }
@@ -108,7 +119,7 @@ impl MovingPart {
     }
 
     fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
-        let change = self.rate * moment.half * RATE_SLACK;
+        let change = self.change(moment);
         let pure = self.at(moment, true);
         if threshold > 0.0 {
             let lower = pure.bounded_distance()?.lower;
@@ -144,6 +155,14 @@ impl MovingPart {
         })
     }
 
+    /// Bounds how much the signed distance changes from the middle of a piece on.
+    fn change(&self, moment: &Moment) -> f64 {
+        match moment.extent {
+            Extent::Time(half) => self.rate * half * RATE_SLACK,
+            Extent::Box(_) => rate(moment.way, &self.set) * RATE_SLACK,
+        }
+    }
+
     fn at<'a>(&'a self, moment: &Moment<'a>, complement: bool) -> PureAt<'a> {
         PureAt {
             set: &self.set,
@@ -153,7 +172,7 @@ impl MovingPart {
     }
 
     /// How far the link over a floor may come down from the middle of the interval on, by its motion along the normal alone:
-    /// nothing for a base that slides. Of straight motions.
+    /// nothing for a base that slides. Of straight motions and boxes.
     fn along_normal(&self, moment: &Moment) -> Option<f64> {
         let PureShape::Floor { links, normal, .. } = &self.set.shape else {
             return None;
@@ -161,7 +180,14 @@ impl MovingPart {
         let &[link] = &links[..] else {
             return None;
         };
-        if moment.way.controls.is_some() {
+        let half = match moment.extent {
+            Extent::Time(half) => half,
+            Extent::Box(piece) => {
+                let (body, _) = moment.scene.link(link)?;
+                return Some(piece.change_along(link, body, normal)? * RATE_SLACK);
+            }
+        };
+        if !matches!(moment.way.kind, WayKind::Line) {
             return None;
         }
         let extent = moment.scene.link(link)?.0.radius_from_origin();
@@ -169,7 +195,7 @@ impl MovingPart {
         let state = moment.scene.state()?;
         let toward = |sign: f64| {
             let v = moment.way.line.v.iter();
-            let v: Vec<f64> = v.map(|rate| sign * moment.half * rate).collect();
+            let v: Vec<f64> = v.map(|rate| sign * half * rate).collect();
             space.directed_motion_bound(link, extent, normal, state, &v)
         };
         Some(toward(1.0).max(toward(-1.0)) * RATE_SLACK)
@@ -182,18 +208,23 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
     if matches!(set.shape, PureShape::BeyondLimits) {
         // Between configurations in range, coordinates that move alone are in range.
         let is_in_range = |q: &[f64]| space.beyond_limits(q).is_none();
-        let stays = match way.controls {
-            None => is_in_range(way.line.q) && is_in_range(&way.at(1.0)),
-            Some(controls) => controls.chunks_exact(way.line.q.len()).all(is_in_range),
+        let stays = match way.kind {
+            WayKind::Line => is_in_range(way.line.q) && is_in_range(&way.at(1.0)),
+            WayKind::Curve { controls } => controls.chunks_exact(way.line.q.len()).all(is_in_range),
+            WayKind::Box { low, high } => is_in_range(low) && is_in_range(high),
         };
         if is_whole || !stays {
             return vec![set.clone()];
+        }
+        // In a box the positions of free joints are coordinates like others.
+        if matches!(way.kind, WayKind::Box { .. }) {
+            return Vec::new();
         }
     }
     set.parts_on_way(space)
 }
 
-/// Bounds how much the signed distance changes in the whole time.
+/// Bounds how much the signed distance changes in the whole time, or from the middle of a box.
 fn rate(way: &Way, set: &PureSet) -> f64 {
     let space = way.line.cobject.space();
     let (q, v) = (way.line.q, way.line.v);
@@ -202,10 +233,20 @@ fn rate(way: &Way, set: &PureSet) -> f64 {
         // Distances in the metric of C-space change no faster than the configuration.
         PureShape::Predicate(predicate) if predicate.measures() => set.scale() * speed(),
         PureShape::BeyondLimits => set.scale() * speed(),
-        PureShape::HalfSpace { .. } if way.controls.is_none() => {
+        PureShape::HalfSpace { .. } if matches!(way.kind, WayKind::Line) => {
             let back: Vec<f64> = v.iter().map(|rate| -rate).collect();
             let falls = |v: &[f64]| set.motion_bound(space, q, v);
             falls(v).max(falls(&back))
+        }
+        PureShape::HalfSpace { normal, .. } if matches!(way.kind, WayKind::Box { .. }) => {
+            let mut falling = v.to_vec();
+            for block in space.blocks() {
+                if block.kind == BlockKind::Line {
+                    let k = block.velocity;
+                    falling[k] = v[k].copysign(-normal[block.coordinate]);
+                }
+            }
+            set.motion_bound(space, q, &falling)
         }
         PureShape::HalfSpace { .. } => set.scale() * speed(),
         _ => set.motion_bound(space, q, v),

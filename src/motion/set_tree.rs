@@ -69,6 +69,13 @@ impl<'a> SetTree<'a> {
         }
     }
 
+    /// The complement of a set.
+    pub fn of_complement(cobject: &'a CObject) -> Self {
+        let mut tree = Self::default();
+        tree.add(cobject, true, &mut Memo::default());
+        tree
+    }
+
     /// A union of one induced set.
     pub fn of_group(group: &'a Group) -> Self {
         let mut tree = Self::default();

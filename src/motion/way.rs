@@ -1,4 +1,5 @@
-//! A motion through C-space as a function of time, from 0 to 1: straight, or on a Bezier curve.
+//! What a robot does in a proof: a motion through C-space as a function of time, from 0 to 1, or any of the straight motions from the
+//! middle of a box of configurations to another of the box.
 
 use super::segment::LinearMotion;
 use crate::error::Result;
@@ -6,32 +7,50 @@ use crate::pose::Pose;
 use crate::query::Scene;
 use crate::robot::{LinkMotions, bezier};
 
-/// A motion in one state of the world.
+/// A motion, or the motions in a box, in one state of the world.
 #[derive(Clone, Copy)]
 pub(super) struct Way<'a> {
     /// The motion itself; of a curve, one from the same start whose velocities no coordinate exceeds, with signs that lead away
-    /// from zero: bounds of its motion hold for the curve too.
+    /// from zero; of a box, from its middle with its half widths for velocities. Bounds of this motion that hold whatever the signs
+    /// of its velocities hold for all.
     pub line: LinearMotion<'a>,
-    /// The control points of a curve, one configuration after another.
-    pub controls: Option<&'a [f64]>,
+    pub kind: WayKind<'a>,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum WayKind<'a> {
+    Line,
+    Curve {
+        /// The control points, one configuration after another.
+        controls: &'a [f64],
+    },
+    Box {
+        /// The lowest coordinates.
+        low: &'a [f64],
+        /// The highest.
+        high: &'a [f64],
+    },
 }
 
 impl<'a> Way<'a> {
     pub fn straight(line: LinearMotion<'a>) -> Self {
         Self {
             line,
-            controls: None,
+            kind: WayKind::Line,
         }
     }
 
-    /// The configuration at a time.
+    /// The configuration at a time; of a box the one in its middle.
     pub fn at(&self, t: f64) -> Vec<f64> {
-        let Some(controls) = self.controls else {
-            return self.line.at(t);
-        };
-        let nq = self.line.q.len();
-        let coordinate = |c: usize| bezier(controls.iter().skip(c).step_by(nq).copied(), t);
-        (0..nq).map(coordinate).collect()
+        match self.kind {
+            WayKind::Line => self.line.at(t),
+            WayKind::Curve { controls } => {
+                let nq = self.line.q.len();
+                let coordinate = |c: usize| bezier(controls.iter().skip(c).step_by(nq).copied(), t);
+                (0..nq).map(coordinate).collect()
+            }
+            WayKind::Box { .. } => self.line.q.to_vec(),
+        }
     }
 
     /// The world at a configuration.
@@ -47,9 +66,10 @@ impl<'a> Way<'a> {
     /// The motions of all links.
     pub fn link_motions(&self) -> LinkMotions {
         let space = self.line.cobject.space();
-        match self.controls {
-            Some(controls) => space.link_motions_on_curve(controls),
-            None => space.link_motions(self.line.q, self.line.v),
+        match self.kind {
+            WayKind::Line => space.link_motions(self.line.q, self.line.v),
+            WayKind::Curve { controls } => space.link_motions_on_curve(controls),
+            WayKind::Box { .. } => space.link_motions_in_box(self.line.q, self.line.v),
         }
     }
 }

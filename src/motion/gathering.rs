@@ -1,0 +1,260 @@
+//! What a proof looks at: the leaves of a set, the body pairs that the motion may bring near, and the crowds that pairs make.
+
+use std::cmp::Ordering;
+
+use super::crowd::Crowd;
+use super::interval_proof::MovingLeaf;
+use super::moving_pair::{Carried, MovingPair, RatesInWorld};
+use super::moving_pure::MovingPure;
+use super::segment::STEP_FRACTION;
+use super::set_tree::{LeafContent, SetLeaf, SetTree};
+use super::way::{Way, WayKind};
+use crate::cobject::{Induced, PureSet, PureShape};
+use crate::error::{Error, ErrorKind, Result};
+use crate::pose::Pose;
+use crate::query::{CandidateFilter, Group, QueryContext, Scene, Target};
+use crate::robot::LinkMotions;
+
+/// What is to be proved of a set, whose complements are moved down to the leaves of its tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keeps {
+    /// No configuration is inside the tree's set: a leaf must not be inside, a complement must be inside or in contact.
+    Out,
+    /// Every configuration is inside the set whose complement the tree stands for: a leaf must be outside and not in contact, a
+    /// complement inside.
+    In,
+}
+
+fn unstated_speeds(term: &Induced) -> Error {
+    Error::new(
+        ErrorKind::Unsupported,
+        format!(
+            "C-object {}: a custom joint that does not state its speeds moves on the way",
+            term.leaf.serial
+        ),
+    )
+}
+
+/// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
+pub(super) struct Gathering<'a> {
+    way: &'a Way<'a>,
+    rates: RatesInWorld<'a>,
+    threshold: f64,
+    keeps: Keeps,
+    is_plain: bool,
+    pub leaves: Vec<MovingLeaf>,
+    pub pairs: Vec<MovingPair<'a>>,
+    /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
+    pub needs_start: bool,
+    /// Of links' bodies in the world, where they were asked for.
+    speeds: Vec<Option<f64>>,
+}
+
+impl<'a> Gathering<'a> {
+    pub fn new(
+        way: &'a Way<'a>,
+        motions: &'a LinkMotions,
+        threshold: f64,
+        tree: &SetTree,
+        keeps: Keeps,
+    ) -> Self {
+        Self {
+            way,
+            rates: RatesInWorld::new(motions),
+            threshold,
+            keeps,
+            is_plain: tree.is_plain_union(),
+            leaves: Vec::with_capacity(tree.leaves.len()),
+            pairs: Vec::new(),
+            needs_start: false,
+            speeds: Vec::new(),
+        }
+    }
+
+    /// Adds a leaf of the tree; in the order of the tree's leaves. The scene is that at the middle.
+    pub fn add(
+        &mut self,
+        leaf: &SetLeaf<'a>,
+        scene: &'a Scene,
+        context: &mut QueryContext,
+    ) -> Result<()> {
+        let complement = leaf.complement;
+        let moving = match leaf.content {
+            LeafContent::Pure(set) => self.pure(set, complement)?,
+            // The distance from the complement of an induced set is 0 or unknown.
+            LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
+            LeafContent::Induced(group) => {
+                for term in 0..group.len() {
+                    self.add_pairs(&group[term..=term], complement, scene, context)?;
+                }
+                MovingLeaf::Pairs { complement }
+            }
+        };
+        self.leaves.push(moving);
+        Ok(())
+    }
+
+    fn pure(&self, set: &PureSet, complement: bool) -> Result<MovingLeaf> {
+        let is_predicate = matches!(set.shape, PureShape::Predicate(_));
+        Ok(match (self.keeps, complement) {
+            (Keeps::Out, _) => {
+                MovingLeaf::Pure(MovingPure::new(self.way, set, complement, self.threshold)?)
+            }
+            // Where a predicate is in contact it is not outside, however far away that is.
+            (Keeps::In, false) if is_predicate => MovingLeaf::Everything,
+            (Keeps::In, false) => {
+                MovingLeaf::Pure(MovingPure::new(self.way, set, false, set.epsilon())?)
+            }
+            (Keeps::In, true) => {
+                let mut without_contact = set.clone();
+                without_contact.options.contact_epsilon = 0.0;
+                MovingLeaf::Pure(MovingPure::new(self.way, &without_contact, true, 0.0)?)
+            }
+        })
+    }
+
+    /// Adds the pairs of one induced set. Its outside begins where distances exceed the contact epsilon.
+    fn add_pairs(
+        &mut self,
+        term: &'a Group,
+        complement: bool,
+        scene: &'a Scene,
+        context: &mut QueryContext,
+    ) -> Result<()> {
+        let line = &self.way.line;
+        let fastest = line.fastest_pair(&term[0]).unwrap_or(0.0);
+        if fastest.is_infinite() {
+            return Err(unstated_speeds(&term[0]));
+        }
+        if fastest == 0.0 && self.is_plain {
+            self.needs_start = true;
+            return Ok(());
+        }
+        let is_outside_meant = complement != (self.keeps == Keeps::In);
+        let threshold = if is_outside_meant {
+            term[0].options.contact_epsilon
+        } else {
+            self.threshold
+        };
+        let checked = scene.checked(term)?;
+        // No distance at another time is less than that at the middle by more than what the whole motion changes.
+        let wanted = CandidateFilter {
+            any_order: true,
+            ..CandidateFilter::within(threshold + fastest)
+        };
+        let meter = context.scratch.meter_mut();
+        let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
+        // Of a straight motion at most half lies between the middle and any other time.
+        let share = match self.way.kind {
+            WayKind::Line => 0.5,
+            WayKind::Curve { .. } | WayKind::Box { .. } => 1.0,
+        };
+        // Those of one body together, what is near first.
+        let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
+        for (place, target) in found.iter().enumerate() {
+            let needed = share * self.speed(scene, target);
+            if STEP_FRACTION * (target.bound - threshold) <= needed {
+                let (link, object, _) = target.parties();
+                order.push((link, object, OrderedBound(target.bound), place));
+            }
+        }
+        order.sort_unstable();
+        self.pairs.reserve(order.len());
+        for (.., place) in order {
+            self.add_pair(&found[place], threshold, term, scene)?;
+        }
+        context.candidates.keep(found);
+        Ok(())
+    }
+
+    fn add_pair(
+        &mut self,
+        target: &Target<'a>,
+        threshold: f64,
+        term: &Group,
+        scene: &Scene,
+    ) -> Result<()> {
+        let (r_link, s_link) = target.links();
+        let [(body, r_pose), (other, s_pose)] = target.sides;
+        let a = Carried {
+            body,
+            link: r_link,
+            pose: pose_on(scene, Some(r_link), r_pose),
+        };
+        let b = Carried {
+            body: other,
+            link: s_link,
+            pose: pose_on(scene, s_link, s_pose),
+        };
+        let limit = threshold + target.options.margin;
+        let leaf = self.leaves.len() as u32;
+        let line = &self.way.line;
+        let speed = || line.rate(scene, target);
+        let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
+        let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+        if self.is_plain {
+            // What rests has no contact on the way that it has not at the start.
+            self.needs_start |= pair.rests() || pair.has_solid();
+            if pair.rests() {
+                return Ok(());
+            }
+        }
+        self.pairs.push(pair);
+        Ok(())
+    }
+}
+
+/// A bound in order of size.
+#[derive(Clone, Copy, PartialEq)]
+struct OrderedBound(f64);
+
+impl Eq for OrderedBound {}
+
+impl PartialOrd for OrderedBound {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for OrderedBound {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl Gathering<'_> {
+    /// The pairs of a body among objects that rest, which stand together.
+    pub fn crowds(&self, scene: &Scene) -> Vec<Crowd> {
+        let mut crowds = Vec::new();
+        let mut first = 0;
+        for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
+            if run.len() > 1 {
+                let origin = scene.poses()[run[0].link()].translation;
+                crowds.push(Crowd::new(first, run, origin));
+            }
+            first += run.len() as u32;
+        }
+        crowds
+    }
+
+    /// Bounds the change of a pair's distance in the whole time.
+    fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
+        let line = &self.way.line;
+        let (r_link, s_link) = target.links();
+        let (_, r_object, _) = target.parties();
+        if s_link.is_some() || r_object != 0 {
+            return line.rate(scene, target);
+        }
+        self.speeds.resize(scene.poses().len(), None);
+        *self.speeds[r_link].get_or_insert_with(|| line.rate(scene, target))
+    }
+}
+
+/// A pose of the world in the frame of a link, if one carries it.
+fn pose_on(scene: &Scene, link: Option<usize>, pose: &Pose) -> Pose {
+    match link.map(|link| &scene.poses()[link]) {
+        None => *pose,
+        Some(link) if link == pose => Pose::identity(),
+        Some(link) => link.inverse().compose(pose),
+    }
+}
