@@ -2,6 +2,7 @@
 //! second derivative on the straight way from the middle of the box to any other configuration of it.
 
 use super::moving_pair::{Carried, MAX_TURN, MovingPair, RatesInWorld};
+use super::moving_pure::Extent;
 use super::piece::{Displacement, ManyTwists, Moved, PairOver, Piece};
 use super::way::Way;
 use crate::body::Body;
@@ -93,8 +94,7 @@ impl<'a> BoxPiece<'a> {
         }
     }
 
-    /// The box over which a pair may be left to the halves: raises the entry of each velocity to how far it alone moves A's points as
-    /// B sees them.
+    /// Raises the entry of each velocity to how far it alone moves A's points as B sees them: what a box is halved by.
     pub fn raise_shares(&mut self, pair: &MovingPair, shares: &mut [f64]) {
         let radius = pair.bodies()[0].radius();
         let found = self.in_box(pair);
@@ -194,5 +194,9 @@ impl Piece for BoxPiece<'_> {
     fn moved(&mut self, pair: &MovingPair) -> Moved<ManyTwists> {
         let radius = pair.bodies()[0].radius();
         self.in_box(pair).moved(radius, pair.threshold)
+    }
+
+    fn extent(&self) -> Extent<'_> {
+        Extent::Box(self)
     }
 }

@@ -195,6 +195,8 @@ pub(super) struct Look<'l, 'p, P: Piece> {
     pub known: &'l mut [Known],
     /// The leaf that is looked at.
     pub leaf: LeafLook,
+    /// Primitives that meet at the middle.
+    pub met: Option<MeetingLeaves>,
 }
 
 /// A leaf that is looked at.
@@ -204,8 +206,6 @@ pub(super) struct LeafLook {
     /// It meets, or its complement is proved: what is left of it is not looked at.
     is_decided: bool,
     meets: bool,
-    /// Primitives that meet.
-    pub met: Option<MeetingLeaves>,
     /// Primitive pairs whose depth was computed.
     depths: u32,
     /// Where its undecided bundles, groups and leaves begin.
@@ -431,7 +431,7 @@ impl<P: Piece> Look<'_, '_, P> {
         self.front.leaves.push(pair);
         if meets && !self.leaf.complement {
             self.leaf.is_decided = true;
-            self.leaf.met = Some(MeetingLeaves {
+            self.met = Some(MeetingLeaves {
                 pair: pair.pair,
                 places: pair.places,
             });

@@ -5,8 +5,8 @@ use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, LeafLook, Look, OverPairs, Part};
 use super::moving_pair::{Interval, Kinematics, MovingPair};
-use super::moving_pure::{Extent, Moment, MovingPure};
-use super::piece::OneTwist;
+use super::moving_pure::{Moment, MovingPure};
+use super::piece::{OneTwist, Piece};
 use super::set_tree::{Known, SetTree};
 use super::way::Way;
 use crate::error::Result;
@@ -60,6 +60,15 @@ pub(super) struct MovingSet<'a> {
     pub pairs: Vec<MovingPair<'a>>,
     /// In the order of their pairs.
     pub crowds: Vec<Crowd>,
+}
+
+/// The middle of a piece.
+#[derive(Clone, Copy)]
+pub(super) struct Middle<'a> {
+    /// `None` for two bodies without a robot.
+    pub way: Option<&'a Way<'a>>,
+    /// Its time, 0 in boxes of configurations.
+    pub time: f64,
 }
 
 /// An interval of time, with what is undecided in it.
@@ -254,6 +263,10 @@ impl Prover<'_, '_, '_, '_> {
         let (set, part) = (self.set, &interval.part);
         lists.known.fill(Known::Nothing);
         self.kinematics.start(middle)?;
+        let at = Middle {
+            way: set.way,
+            time: middle,
+        };
         let mut look = Look {
             pairs: &set.pairs,
             crowds: &set.crowds,
@@ -266,28 +279,12 @@ impl Prover<'_, '_, '_, '_> {
             scratch: &mut self.context.scratch,
             known: &mut lists.known,
             leaf: LeafLook::default(),
+            met: None,
         };
-        look.start(part);
-        set.look_at_pure(&mut look, middle)?;
-        let mut whole = set.tree.known(look.known, &mut lists.nodes);
-        let mut cursor = *part;
-        let mut met = None;
-        for (number, leaf) in set.leaves.iter().enumerate() {
-            let MovingLeaf::Pairs { complement } = leaf else {
-                continue;
-            };
-            if whole == Known::Free {
-                break;
-            }
-            let is_passed = whole == Known::Meets && is_plain;
-            look.look_at(lanes, number, [*complement, is_passed], part, &mut cursor);
-            // Of other sets the contact of one leaf says little.
-            if is_plain {
-                met = met.or(look.leaf.met);
-            }
-            whole = set.tree.known(look.known, &mut lists.nodes);
-        }
+        let whole = set.look_at_all(lanes, &mut look, part, at, &mut lists.nodes)?;
         let left = look.left(part);
+        // Of other sets the contact of one leaf says little.
+        let met = look.met.filter(|_| is_plain);
         Ok(Outcome { whole, left, met })
     }
 
@@ -308,8 +305,37 @@ impl Prover<'_, '_, '_, '_> {
 }
 
 impl MovingSet<'_> {
-    /// Asks the pure leaves of which nothing is known from a longer interval.
-    fn look_at_pure(&self, look: &mut Look<Interval>, middle: f64) -> Result<()> {
+    /// Looks at all leaves of which nothing is known from a larger piece; says what is known of the set.
+    #[inline(always)]
+    pub fn look_at_all<I: Instructions, P: Piece>(
+        &self,
+        lanes: I,
+        look: &mut Look<P>,
+        part: &Part,
+        middle: Middle,
+        memory: &mut Vec<Known>,
+    ) -> Result<Known> {
+        look.start(part);
+        self.look_at_pure(look, middle)?;
+        let is_plain = self.tree.is_plain_union();
+        let mut whole = self.tree.known(look.known, memory);
+        let mut cursor = *part;
+        for (number, leaf) in self.leaves.iter().enumerate() {
+            let MovingLeaf::Pairs { complement } = leaf else {
+                continue;
+            };
+            if whole == Known::Free {
+                break;
+            }
+            let is_passed = whole == Known::Meets && is_plain;
+            look.look_at(lanes, number, [*complement, is_passed], part, &mut cursor);
+            whole = self.tree.known(look.known, memory);
+        }
+        Ok(whole)
+    }
+
+    /// Asks the pure leaves.
+    fn look_at_pure<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
         let mut is_asked = false;
         for (leaf, known) in self.leaves.iter().zip(look.known.iter_mut()) {
             match leaf {
@@ -318,21 +344,21 @@ impl MovingSet<'_> {
                 MovingLeaf::Pure(_) => is_asked |= *known == Known::Nothing,
             }
         }
-        let (true, Some(way)) = (is_asked, self.way) else {
+        let (true, Some(way)) = (is_asked, middle.way) else {
             return Ok(());
         };
-        let q = way.at(middle);
+        let q = way.at(middle.time);
         let scene = &way.scene(&q)?;
-        let moment = &Moment {
-            way,
-            scene,
-            extent: Extent::Time(look.piece.half),
-        };
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Pure(pure) = leaf
                 && look.known[number] == Known::Nothing
             {
-                match pure.over(moment)? {
+                let moment = Moment {
+                    way,
+                    scene,
+                    extent: look.piece.extent(),
+                };
+                match pure.over(&moment)? {
                     Known::Free => look.settle(number, Known::Free),
                     known => look.known[number] = known,
                 }

@@ -1,5 +1,6 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use super::moving_pure::Extent;
 use super::piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, Piece, TwistLists};
 use super::way::Way;
 use crate::body::Body;
@@ -478,5 +479,9 @@ impl Piece for Interval<'_, '_> {
     fn moved(&mut self, pair: &MovingPair) -> Moved<OneTwist> {
         let (relative, rates) = pair.relative(self.kinematics);
         pair.moved_over_interval(&relative, &rates, self.half)
+    }
+
+    fn extent(&self) -> Extent<'_> {
+        Extent::Time(self.half)
     }
 }

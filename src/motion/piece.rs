@@ -3,6 +3,7 @@
 use smallvec::SmallVec;
 
 use super::moving_pair::MovingPair;
+use super::moving_pure::Extent;
 use crate::convex::{Sweep, SweepTwist};
 use crate::pair::{Motion32, Pairing, SweptLimits, Twist32};
 use crate::pose::{Pose, Vec3};
@@ -47,6 +48,9 @@ pub(super) trait Piece {
 
     /// How A moves through the piece.
     fn moved(&mut self, pair: &MovingPair) -> Moved<Self::Lists>;
+
+    /// How far the piece goes from its middle.
+    fn extent(&self) -> Extent<'_>;
 }
 
 /// A displacement of a body: of its centre, and its turn in radians.

@@ -25,7 +25,7 @@ fn body(random: &mut Random, size: f64) -> Arc<Body> {
     }
 }
 
-fn arm(random: &mut Random) -> Arc<Space> {
+pub fn arm(random: &mut Random) -> Arc<Space> {
     let links = (0..3).map(|i: usize| LinkDefinition {
         at: Pose::from_translation(Vec3::new(0.6, 0.0, 0.0)),
         body: Some(body(random, 0.4)),
@@ -73,7 +73,7 @@ fn leaf(random: &mut Random, space: &Arc<Space>) -> Arc<CObject> {
     Arc::new(CObject::pure(space.clone(), shape, options).unwrap())
 }
 
-fn compound(random: &mut Random, space: &Arc<Space>, depth: usize) -> Arc<CObject> {
+pub fn compound(random: &mut Random, space: &Arc<Space>, depth: usize) -> Arc<CObject> {
     if depth == 0 || random.below(5) == 0 {
         return leaf(random, space);
     }

@@ -7,6 +7,7 @@ mod motions;
 mod pair_motion;
 mod path;
 mod random_scenes;
+mod regions;
 mod slide;
 mod slide_paths;
 mod slide_proofs;

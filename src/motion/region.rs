@@ -1,0 +1,185 @@
+//! Whole boxes of C-space: whether all of their configurations are out of a C-object, or all inside. Nothing rests on samples but that
+//! a box is mixed.
+
+use super::gathering::{Gathering, Keeps};
+use super::interval_proof::MovingSet;
+use super::region_proof::{BoxProof, Center, Region, RegionProof, prove_region};
+use super::segment::LinearMotion;
+use super::set_tree::SetTree;
+use super::way::{Way, WayKind};
+use crate::cobject::{CObject, Class};
+use crate::error::{Error, ErrorKind, Result};
+use crate::query::{QueryContext, World};
+use crate::robot::Coordinate;
+use crate::space::Space;
+
+/// How much work a box may take.
+#[derive(Clone, Copy, Debug)]
+pub struct RegionOptions {
+    /// The most boxes that the box is halved into, at least 1.
+    pub max_boxes: usize,
+}
+
+impl Default for RegionOptions {
+    fn default() -> Self {
+        Self { max_boxes: 1000 }
+    }
+}
+
+/// What is known of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RegionOutcome {
+    /// Proved: no configuration of the box is inside the C-object.
+    Free,
+    /// Proved: every configuration of the box is inside.
+    Inside,
+    /// One configuration of the box is inside, and another is not.
+    Mixed,
+    /// The work ended before one of the others was known.
+    Undecided,
+}
+
+/// What was found of a box.
+#[derive(Clone, Debug)]
+pub struct RegionAnswer {
+    /// What is known.
+    pub outcome: RegionOutcome,
+    /// The part of the box's volume that is proved to be like its middle: 1 for free and inside.
+    pub proved: f64,
+    /// A configuration of the box that is inside, if one is known.
+    pub inside: Option<Vec<f64>>,
+    /// One that is not inside.
+    pub outside: Option<Vec<f64>>,
+}
+
+impl RegionOptions {
+    pub(super) fn check(&self) -> Result<()> {
+        if self.max_boxes == 0 {
+            return Err(Error::invalid(
+                "max_boxes is 0: not even one box is looked at",
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl QueryContext {
+    /// Whether all configurations between `low` and `high` are out of a C-object, or all inside. On a circle these are the angles from
+    /// `low` upwards to `high`. Quaternions must be the same in both.
+    pub fn classify_region(
+        &mut self,
+        cobject: &CObject,
+        low: &[f64],
+        high: &[f64],
+        options: &RegionOptions,
+    ) -> Result<RegionAnswer> {
+        options.check()?;
+        let region = &checked(cobject.space(), low, high)?;
+        let world = &self.look(cobject);
+        let Center { q, .. } = region.center(cobject.space());
+        let is_inside = self.classify_in(world, cobject, &q)? == Class::Inside;
+        let keeps = if is_inside { Keeps::In } else { Keeps::Out };
+        let found = self.prove_region(world, cobject, region, keeps, options.max_boxes)?;
+        let (outcome, proved, other) = match found {
+            BoxProof::Free if is_inside => (RegionOutcome::Inside, 1.0, None),
+            BoxProof::Free => (RegionOutcome::Free, 1.0, None),
+            BoxProof::Meets(other) => (RegionOutcome::Mixed, 0.0, Some(other)),
+            BoxProof::Undecided { proved, .. } => (RegionOutcome::Undecided, proved, None),
+        };
+        let [inside, outside] = if is_inside {
+            [Some(q), other]
+        } else {
+            [other, Some(q)]
+        };
+        Ok(RegionAnswer {
+            outcome,
+            proved,
+            inside,
+            outside,
+        })
+    }
+
+    /// Proves that all configurations of a box are as its middle is: not inside, or inside.
+    pub(super) fn prove_region(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        region: &Region,
+        keeps: Keeps,
+        max_boxes: usize,
+    ) -> Result<BoxProof> {
+        let Center { q, half } = &region.center(cobject.space());
+        let way = &Way {
+            line: LinearMotion {
+                world,
+                cobject,
+                q,
+                v: half,
+            },
+            kind: WayKind::Box {
+                low: &region.low,
+                high: &region.high,
+            },
+        };
+        let tree = &match keeps {
+            Keeps::Out => SetTree::new(cobject),
+            Keeps::In => SetTree::of_complement(cobject),
+        };
+        let motions = &way.link_motions();
+        let scene = &way.scene(q)?;
+        let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps);
+        for leaf in &tree.leaves {
+            gathering.add(leaf, scene, self)?;
+        }
+        let crowds = gathering.crowds(scene);
+        let Gathering { leaves, pairs, .. } = gathering;
+        let set = &MovingSet {
+            way: Some(way),
+            tree,
+            leaves,
+            pairs,
+            crowds,
+        };
+        let proof = RegionProof {
+            world,
+            cobject,
+            set,
+            region,
+            max_boxes,
+        };
+        prove_region(proof, self, &mut |context, q| {
+            let is_inside = context.classify_in(world, cobject, q)? == Class::Inside;
+            Ok(is_inside == (keeps == Keeps::Out))
+        })
+    }
+}
+
+/// A box, if it is one.
+pub(super) fn checked(space: &Space, low: &[f64], high: &[f64]) -> Result<Region> {
+    for (q, name) in [(low, "low"), (high, "high")] {
+        space
+            .check_configuration(q)
+            .map_err(|error| error.within(name))?;
+    }
+    for (c, coordinate) in space.coordinates().iter().enumerate() {
+        let ends = [low[c], high[c]];
+        if *coordinate == Coordinate::Quaternion && ends[0] != ends[1] {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "coordinate {c} belongs to a quaternion, which must be the same in low and high"
+                ),
+            ));
+        }
+        if ends[0] > ends[1] {
+            return Err(Error::invalid(format!(
+                "coordinate {c} has low {} above high {}",
+                ends[0], ends[1]
+            )));
+        }
+    }
+    Ok(Region {
+        low: low.to_vec(),
+        high: high.to_vec(),
+    })
+}

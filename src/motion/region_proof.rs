@@ -1,0 +1,306 @@
+//! The proof that a box of configurations keeps out of a set: boxes are halved until bounds over them part all pairs of boxes and
+//! primitives, and all pure sets.
+
+use super::box_piece::BoxPiece;
+use super::front::{Front, Look, OverPairs, Part};
+use super::interval_proof::{Middle, MovingSet};
+use super::segment::LinearMotion;
+use super::set_tree::Known;
+use super::way::{Way, WayKind};
+use crate::cobject::CObject;
+use crate::error::Result;
+use crate::lanes::{Instructions, Work, with_widest};
+use crate::query::{QueryContext, World};
+use crate::robot::BlockKind;
+use crate::space::Space;
+
+/// Sides of boxes no longer than this part of the whole box's are not halved: over them hardly anything moves by more than rounding.
+const SHORTEST_SIDE: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// The configurations tried when a box is not proved at once: contacts are cheaper to find by chance than by halving.
+const SAMPLES: usize = 16;
+
+/// The most undecided pairs that are asked which coordinate moves them most.
+const MAX_ASKED_PAIRS: usize = 64;
+
+/// A box of configurations: one interval for each coordinate, in which angles do not wrap.
+#[derive(Clone, Debug)]
+pub(super) struct Region {
+    pub low: Vec<f64>,
+    pub high: Vec<f64>,
+}
+
+/// The middle of a box, and its half widths.
+pub(super) struct Center {
+    pub q: Vec<f64>,
+    /// One entry per velocity: those of a free joint's position stand with its linear velocities.
+    pub half: Vec<f64>,
+}
+
+impl Region {
+    /// The half widths are rounded up: every configuration of the box is within them of the middle.
+    pub fn center(&self, space: &Space) -> Center {
+        let mut q = self.low.clone();
+        let mut half = vec![0.0; space.nv()];
+        for (k, c) in coordinates_of_velocities(space) {
+            let [low, high] = [self.low[c], self.high[c]];
+            if low < high {
+                q[c] = 0.5 * (low + high);
+                half[k] = (q[c] - low).max(high - q[c]).next_up();
+            }
+        }
+        Center { q, half }
+    }
+
+    /// The configuration at the given parts of the sides, from 0 to 1.
+    fn at(&self, part: impl Fn(usize) -> f64) -> Vec<f64> {
+        let ends = self.low.iter().zip(&self.high).enumerate();
+        ends.map(|(c, (&low, &high))| (low + part(c) * (high - low)).clamp(low, high))
+            .collect()
+    }
+
+    /// Both ends, then points that fill the box evenly: multiples of the powers of 1 / g, where g is the root of
+    /// g^(n+1) = g + 1 (Roberts 2018).
+    fn samples(&self) -> impl Iterator<Item = Vec<f64>> {
+        let dimensions = self.low.iter().zip(&self.high).filter(|(l, h)| l < h);
+        let dimensions = dimensions.count() as i32;
+        let mut ratio = 2.0f64;
+        for _ in 0..40 {
+            ratio = (1.0 + ratio).powf(1.0 / f64::from(dimensions + 1));
+        }
+        (0..SAMPLES).map(move |i| match i {
+            0 => self.low.clone(),
+            1 => self.high.clone(),
+            _ => {
+                let mut number = 0;
+                let parts: Vec<f64> = (self.low.iter().zip(&self.high))
+                    .map(|(low, high)| {
+                        number += i32::from(low < high);
+                        (0.5 + i as f64 * ratio.powi(-number)).fract()
+                    })
+                    .collect();
+                self.at(|c| parts[c])
+            }
+        })
+    }
+}
+
+/// The velocities whose coordinates may have a width, with these coordinates.
+pub(super) fn coordinates_of_velocities(space: &Space) -> impl Iterator<Item = (usize, usize)> {
+    space.blocks().iter().flat_map(|block| {
+        let count = match block.kind {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 0,
+            BlockKind::Placement => 3,
+        };
+        (0..count).map(|i| (block.velocity + i, block.coordinate + i))
+    })
+}
+
+/// How a proof over a box ended.
+#[derive(Debug)]
+pub(super) enum BoxProof {
+    /// No configuration of the box is in the set.
+    Free,
+    /// This one is, certainly.
+    Meets(Vec<f64>),
+    /// The work ended.
+    Undecided {
+        /// The middle of the box that was looked at last.
+        at: Vec<f64>,
+        /// The part of the volume that is proved.
+        proved: f64,
+    },
+}
+
+/// A box that is left to be proved.
+struct Rest {
+    region: Region,
+    part: Part,
+    /// The part of the whole box's volume.
+    volume: f64,
+}
+
+/// What a proof over a box is about.
+pub(super) struct RegionProof<'a> {
+    pub world: &'a World,
+    pub cobject: &'a CObject,
+    pub set: &'a MovingSet<'a>,
+    pub region: &'a Region,
+    pub max_boxes: usize,
+}
+
+/// Asked for a configuration: whether the set is certainly met there.
+pub(super) type ConfirmAt<'c> = dyn FnMut(&mut QueryContext, &[f64]) -> Result<bool> + 'c;
+
+/// Proves that no configuration of a box is in a set, or finds one that is.
+pub(super) fn prove_region(
+    proof: RegionProof,
+    context: &mut QueryContext,
+    confirm: &mut ConfirmAt,
+) -> Result<BoxProof> {
+    with_widest(Prover {
+        proof,
+        context,
+        confirm,
+    })
+}
+
+struct Prover<'a, 'c, 'd> {
+    proof: RegionProof<'a>,
+    context: &'a mut QueryContext,
+    confirm: &'c mut ConfirmAt<'d>,
+}
+
+impl Work for Prover<'_, '_, '_> {
+    type Output = Result<BoxProof>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> Result<BoxProof> {
+        let Self {
+            proof,
+            context,
+            confirm,
+        } = self;
+        let RegionProof {
+            world,
+            cobject,
+            set,
+            region,
+            max_boxes,
+        } = proof;
+        let space = cobject.space();
+        let whole_half = region.center(space).half;
+        let front = &mut Front::default();
+        let over = &mut OverPairs::new(set.pairs.len());
+        let memory = &mut Vec::new();
+        let mut known = vec![Known::Nothing; set.leaves.len()];
+        let mut todo = vec![Rest {
+            region: region.clone(),
+            part: front.start(&set.pairs, &set.crowds, !set.tree.is_plain_union()),
+            volume: 1.0,
+        }];
+        let mut proved = 0.0;
+        let mut boxes = 0;
+        while let Some(Rest {
+            region,
+            part,
+            volume,
+        }) = todo.pop()
+        {
+            let Center { q, half } = region.center(space);
+            if boxes == max_boxes || context.scratch.meter().is_exceeded() {
+                return Ok(BoxProof::Undecided { at: q, proved });
+            }
+            boxes += 1;
+            let way = &Way {
+                line: LinearMotion {
+                    world,
+                    cobject,
+                    q: &q,
+                    v: &half,
+                },
+                kind: WayKind::Box {
+                    low: &region.low,
+                    high: &region.high,
+                },
+            };
+            let motions = &way.link_motions();
+            let poses = &way.link_poses(0.0)?;
+            let piece = &mut BoxPiece::new(way, motions, poses);
+            known.fill(Known::Nothing);
+            let mut look = Look {
+                pairs: &set.pairs,
+                crowds: &set.crowds,
+                over,
+                piece,
+                front,
+                scratch: &mut context.scratch,
+                known: &mut known,
+                leaf: Default::default(),
+                met: None,
+            };
+            let at = Middle {
+                way: Some(way),
+                time: 0.0,
+            };
+            let whole = set.look_at_all(lanes, &mut look, &part, at, memory)?;
+            let left = look.left(&part);
+            if context.scratch.meter().is_exceeded() {
+                return Ok(BoxProof::Undecided { at: q, proved });
+            }
+            if whole == Known::Free {
+                proved += volume;
+                continue;
+            }
+            if whole == Known::Meets && confirm(context, &q)? {
+                return Ok(BoxProof::Meets(q));
+            }
+            if boxes == 1 {
+                for sample in region.samples() {
+                    if confirm(context, &sample)? {
+                        return Ok(BoxProof::Meets(sample));
+                    }
+                }
+            }
+            let mut shares = vec![0.0; space.nv()];
+            front.raise_shares(&left, set, piece, &mut shares);
+            let Some((c, _)) = widest(way, shares, &whole_half) else {
+                return Ok(BoxProof::Undecided { at: q, proved });
+            };
+            let [mut lower, mut upper] = [region.clone(), region];
+            lower.high[c] = q[c];
+            upper.low[c] = q[c];
+            for region in [upper, lower] {
+                todo.push(Rest {
+                    region,
+                    part: left,
+                    volume: 0.5 * volume,
+                });
+            }
+        }
+        Ok(BoxProof::Free)
+    }
+}
+
+impl Front {
+    fn raise_shares(&self, left: &Part, set: &MovingSet, piece: &mut BoxPiece, shares: &mut [f64]) {
+        let mut asked = 0;
+        let mut last = None;
+        for number in self.undecided(left, &set.crowds) {
+            if last == Some(number) {
+                continue;
+            }
+            last = Some(number);
+            piece.raise_shares(&set.pairs[number as usize], shares);
+            asked += 1;
+            if asked == MAX_ASKED_PAIRS {
+                return;
+            }
+        }
+    }
+}
+
+/// The coordinate with the largest share, with its velocity; where no pair tells, the one that moves the robot most. `None` if its side
+/// is too short to be halved.
+fn widest(way: &Way, mut shares: Vec<f64>, whole_half: &[f64]) -> Option<(usize, usize)> {
+    let space = way.line.cobject.space();
+    let (q, half) = (way.line.q, way.line.v);
+    if shares.iter().all(|share| *share == 0.0) {
+        let mut alone = vec![0.0; half.len()];
+        for (k, share) in shares.iter_mut().enumerate() {
+            alone[k] = half[k];
+            let moved = (0..space.link_count()).map(|link| space.motion_bound(link, q, &alone));
+            let moved = moved.filter(|moved| moved.is_finite());
+            *share = moved.fold(half[k], f64::max);
+            alone[k] = 0.0;
+        }
+    }
+    let can_be_halved = |k: usize, c: usize| {
+        half[k] > SHORTEST_SIDE * whole_half[k] && q[c] - half[k] < q[c] && q[c] < q[c] + half[k]
+    };
+    coordinates_of_velocities(space)
+        .filter(|&(k, c)| shares[k] > 0.0 && can_be_halved(k, c))
+        .map(|(k, c)| (c, k))
+        .max_by(|a, b| shares[a.1].total_cmp(&shares[b.1]))
+}

@@ -1,0 +1,424 @@
+//! Boxes of C-space: what is called free or inside is so at every sample, and what is mixed has both.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
+use cstk::error::ErrorKind;
+use cstk::motion::{RegionAnswer, RegionOptions, RegionOutcome};
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{Coordinate, JointKind, LinkDefinition};
+use cstk::space::Space;
+
+use helpers::pure::pure;
+use helpers::random::Random;
+use helpers::robots::{Screw, against, against_with, environment, link, robot, space};
+use helpers::shapes::cuboid;
+
+use crate::compound::{arm, compound};
+use crate::motions::scene;
+
+fn class(context: &mut QueryContext, cobject: &CObject, q: &[f64]) -> Class {
+    let at = Configuration::Coordinates(q);
+    context.classify(cobject, at).unwrap()
+}
+
+/// A configuration of a box: in each coordinate one of the ends, where bounds are tightest, or anything between.
+fn sample(random: &mut Random, [low, high]: [&[f64]; 2]) -> Vec<f64> {
+    let ends = low.iter().zip(high);
+    ends.map(|(&low, &high)| match random.below(3) {
+        0 => low,
+        1 => high,
+        _ => random.within(0.0, 1.0) * (high - low) + low,
+    })
+    .collect()
+}
+
+/// Checks what is said of a box by samples.
+fn check(
+    random: &mut Random,
+    context: &mut QueryContext,
+    cobject: &CObject,
+    [low, high]: [&[f64]; 2],
+    answer: &RegionAnswer,
+    samples: usize,
+) {
+    let is_inside =
+        |context: &mut QueryContext, q: &[f64]| class(context, cobject, q) == Class::Inside;
+    for (q, inside) in [(&answer.inside, true), (&answer.outside, false)] {
+        if let Some(q) = q {
+            assert_eq!(is_inside(context, q), inside, "{answer:?}");
+            let is_between = |c: usize| low[c] <= q[c] && q[c] <= high[c];
+            assert!((0..q.len()).all(is_between), "{q:?}: {low:?} to {high:?}");
+        }
+    }
+    assert_eq!(
+        answer.outcome == RegionOutcome::Mixed,
+        answer.inside.is_some() && answer.outside.is_some()
+    );
+    let claimed = match answer.outcome {
+        RegionOutcome::Free => false,
+        RegionOutcome::Inside => true,
+        _ => return,
+    };
+    assert_eq!(answer.proved, 1.0);
+    for _ in 0..samples {
+        let q = sample(random, [low, high]);
+        assert_eq!(
+            is_inside(context, &q),
+            claimed,
+            "{q:?} of {low:?} to {high:?}: {answer:?}"
+        );
+    }
+}
+
+/// A box around a random configuration; quaternions rest, and some other coordinates.
+fn random_box(random: &mut Random, space: &Space) -> [Vec<f64>; 2] {
+    let v: Vec<f64> = (0..space.nv()).map(|_| random.within(-2.0, 2.0)).collect();
+    let q = space.step(&space.neutral(), &v);
+    let size = [0.01, 0.05, 0.2, 0.5, 2.0][random.below(5)];
+    let half: Vec<f64> = (space.coordinates().iter())
+        .map(|coordinate| match coordinate {
+            Coordinate::Quaternion => 0.0,
+            _ if random.below(5) == 0 => 0.0,
+            _ => random.within(0.0, size),
+        })
+        .collect();
+    [-1.0, 1.0].map(|sign| q.iter().zip(&half).map(|(q, h)| q + sign * h).collect())
+}
+
+/// The number of boxes and of samples in each: `CSTK_REGIONS=10000 cargo test --release --test motions regions -- --nocapture` runs a
+/// campaign with 10,000 samples each.
+fn amount(quick: usize) -> (usize, usize) {
+    let campaign = std::env::var("CSTK_REGIONS").ok();
+    campaign.map_or((quick, 100), |count| (count.parse().unwrap(), 10_000))
+}
+
+/// Robots with all kinds of joints and shapes among objects: self-collision, held objects, margins, floors.
+#[test]
+fn free_and_inside_boxes_are_so_at_every_sample() {
+    let (count, samples) = amount(1000);
+    let mut random = Random::new(301);
+    let mut outcomes = [0usize; 4];
+    let context = &mut QueryContext::new();
+    let mut cobject = scene(&mut random);
+    for round in 0..count {
+        if round % 10 == 0 {
+            cobject = scene(&mut random);
+        }
+        let [low, high] = &random_box(&mut random, cobject.space());
+        let options = RegionOptions {
+            max_boxes: [1, 100, 400][random.below(3)],
+        };
+        let answer = context
+            .classify_region(&cobject, low, high, &options)
+            .unwrap();
+        outcomes[answer.outcome as usize] += 1;
+        check(
+            &mut random,
+            context,
+            &cobject,
+            [low, high],
+            &answer,
+            samples,
+        );
+    }
+    println!("free, inside, mixed, undecided: {outcomes:?}");
+    assert!(outcomes[0] > count / 10, "{outcomes:?}");
+    assert!(outcomes[2] > count / 20, "{outcomes:?}");
+}
+
+/// Intersections, differences and complements of induced and pure sets, with contact epsilons.
+#[test]
+fn boxes_of_compound_sets_are_what_samples_say() {
+    let (count, samples) = amount(1000);
+    let mut random = Random::new(303);
+    let mut outcomes = [0usize; 4];
+    let context = &mut QueryContext::new();
+    let mut set = None;
+    for round in 0..count {
+        if round % 5 == 0 {
+            let space = arm(&mut random);
+            set = Some(compound(&mut random, &space, 3));
+        }
+        let set = set.as_ref().unwrap();
+        let [low, high] = &random_box(&mut random, set.space());
+        let options = RegionOptions { max_boxes: 200 };
+        let answer = context.classify_region(set, low, high, &options).unwrap();
+        outcomes[answer.outcome as usize] += 1;
+        check(&mut random, context, set, [low, high], &answer, samples);
+    }
+    println!("free, inside, mixed, undecided: {outcomes:?}");
+    assert!(outcomes[0] > count / 10, "{outcomes:?}");
+    assert!(outcomes[1] > count / 50, "{outcomes:?}");
+    assert!(outcomes[2] > count / 40, "{outcomes:?}");
+}
+
+fn outcome(cobject: &CObject, low: &[f64], high: &[f64]) -> RegionOutcome {
+    let options = RegionOptions::default();
+    let answer = QueryContext::new().classify_region(cobject, low, high, &options);
+    answer.unwrap().outcome
+}
+
+/// A slider of a unit cube along x.
+fn slider() -> Arc<Space> {
+    space(vec![robot(
+        3,
+        vec![LinkDefinition {
+            body: Some(cuboid([1.0; 3]).body),
+            ..link(None, JointKind::Prismatic, Vec3::x())
+        }],
+    )])
+}
+
+/// A cube that meets a wall from -1 to 1: closed forms, and sides a hair's breadth away.
+#[test]
+fn a_slider_is_free_before_a_wall_and_inside_in_it() {
+    let space = slider();
+    let wall = cuboid([1.0; 3]).body;
+    let set = against(&space, &environment(&[(&wall, Pose::identity())]).0);
+    for (low, high, wanted) in [
+        (-5.0, -1.0 - 1e-9, RegionOutcome::Free),
+        (1.0 + 1e-9, 50.0, RegionOutcome::Free),
+        (-5.0, -0.999, RegionOutcome::Mixed),
+        (-0.9, 0.9, RegionOutcome::Inside),
+        (-1.0 + 1e-6, 1.0 - 1e-6, RegionOutcome::Inside),
+        (0.5, 1.001, RegionOutcome::Mixed),
+        (-1e3, 1e3, RegionOutcome::Mixed),
+        (0.0, 0.0, RegionOutcome::Inside),
+        (2.0, 2.0, RegionOutcome::Free),
+    ] {
+        assert_eq!(outcome(&set, &[low], &[high]), wanted, "{low} to {high}");
+    }
+    let outside = CObject::complement(&Arc::new(set)).unwrap();
+    assert_eq!(outcome(&outside, &[-0.9], &[0.9]), RegionOutcome::Free);
+    assert_eq!(outcome(&outside, &[1.1], &[9.0]), RegionOutcome::Inside);
+}
+
+/// A configuration in contact is not inside, nor outside its complement.
+#[test]
+fn contact_is_neither_inside_nor_outside() {
+    let space = slider();
+    let wall = cuboid([1.0; 3]).body;
+    let options = InducedOptions {
+        contact_epsilon: 0.5,
+        ..InducedOptions::default()
+    };
+    let set = against_with(
+        &space,
+        &environment(&[(&wall, Pose::identity())]).0,
+        options,
+    );
+    assert_eq!(outcome(&set, &[1.1], &[1.4]), RegionOutcome::Free);
+    assert_eq!(outcome(&set, &[-0.9], &[1.4]), RegionOutcome::Mixed);
+    let outside = CObject::complement(&Arc::new(set)).unwrap();
+    assert_eq!(outcome(&outside, &[1.1], &[1.4]), RegionOutcome::Free);
+    assert_eq!(outcome(&outside, &[1.4], &[2.0]), RegionOutcome::Mixed);
+    assert_eq!(outcome(&outside, &[1.6], &[2.0]), RegionOutcome::Inside);
+}
+
+/// Two rods of length 1 in the plane z = 0, and a wall from x = 1.5 on: the tip's x is cos a + cos (a + b).
+#[test]
+fn a_planar_arm_is_free_where_its_reach_is_short() {
+    let rod = cuboid([1.0, 1e-6, 1e-6]).body;
+    let links = vec![
+        link(None, JointKind::Revolute, Vec3::z()),
+        LinkDefinition {
+            at: Pose::from_translation(Vec3::new(0.5, 0.0, 0.0)),
+            body: Some(rod.clone()),
+            ..link(Some(0), JointKind::Fixed, Vec3::z())
+        },
+        LinkDefinition {
+            at: Pose::from_translation(Vec3::new(1.0, 0.0, 0.0)),
+            ..link(Some(0), JointKind::Revolute, Vec3::z())
+        },
+        LinkDefinition {
+            at: Pose::from_translation(Vec3::new(0.5, 0.0, 0.0)),
+            body: Some(rod),
+            ..link(Some(2), JointKind::Fixed, Vec3::z())
+        },
+    ];
+    let space = space(vec![robot(3, links)]);
+    let wall = cuboid([1.0, 10.0, 1.0]).body;
+    let pose = Pose::from_translation(Vec3::new(2.0, 0.0, 0.0));
+    let set = against(&space, &environment(&[(&wall, pose)]).0);
+    // The largest x over the box [a - h, a + h] x [b - h, b + h].
+    let mut random = Random::new(307);
+    let mut outcomes = [0usize; 4];
+    for _ in 0..300 {
+        let [a, b] = [(); 2].map(|()| random.within(-PI, PI));
+        let h = random.within(0.0, 0.4);
+        let cosine = |from: f64, to: f64| {
+            let has_top = (from / TAU).ceil() <= to / TAU;
+            if has_top {
+                1.0
+            } else {
+                from.cos().max(to.cos())
+            }
+        };
+        // Of a sum of cosines a bound, exact where both angles grow together.
+        let highest = cosine(a - h, a + h) + cosine(a + b - 2.0 * h, a + b + 2.0 * h);
+        let found = outcome(&set, &[a - h, b - h], &[a + h, b + h]);
+        outcomes[found as usize] += 1;
+        if highest < 1.49 {
+            assert_eq!(found, RegionOutcome::Free, "{a} {b} {h}");
+        }
+        let middle = a.cos() + (a + b).cos();
+        if middle > 1.51 {
+            assert_ne!(found, RegionOutcome::Free, "{a} {b} {h}");
+        }
+    }
+    println!("free, inside, mixed, undecided: {outcomes:?}");
+    assert!(outcomes[0] > 100 && outcomes[2] > 20, "{outcomes:?}");
+}
+
+/// Pure sets alone, where boxes have closed forms; on a circle a box runs upwards over the place where angles wrap.
+#[test]
+fn boxes_meet_pure_sets_when_they_should() {
+    let space = slider();
+    let ball = PureShape::Ball {
+        center: vec![3.0],
+        radius: 1.0,
+    };
+    let ball = pure(&space, ball, None);
+    assert_eq!(outcome(&ball, &[0.0], &[1.99]), RegionOutcome::Free);
+    assert_eq!(outcome(&ball, &[2.01], &[3.99]), RegionOutcome::Inside);
+    assert_eq!(outcome(&ball, &[1.9], &[2.1]), RegionOutcome::Mixed);
+
+    let turning = vec![link(None, JointKind::Revolute, Vec3::z())];
+    let circle = helpers::robots::space(vec![robot(3, turning)]);
+    assert_eq!(circle.coordinates(), [Coordinate::Circle]);
+    let arc = PureShape::Box {
+        low: vec![3.0],
+        high: vec![3.5],
+    };
+    let arc = pure(&circle, arc, None);
+    assert_eq!(
+        outcome(&arc, &[3.1 - TAU], &[3.4 - TAU]),
+        RegionOutcome::Inside
+    );
+    assert_eq!(outcome(&arc, &[3.6], &[2.9 + TAU]), RegionOutcome::Free);
+    assert_eq!(outcome(&arc, &[-3.0], &[3.2]), RegionOutcome::Mixed);
+}
+
+#[test]
+fn boxes_that_are_none_are_refused() {
+    let context = &mut QueryContext::new();
+    let space = slider();
+    let set = pure(
+        &space,
+        PureShape::HalfSpace {
+            normal: vec![1.0],
+            offset: 0.0,
+        },
+        None,
+    );
+    let options = RegionOptions::default();
+    let mut refused = |set: &CObject, low: &[f64], high: &[f64], kind: ErrorKind, culprit: &str| {
+        let error = context
+            .classify_region(set, low, high, &options)
+            .unwrap_err();
+        assert_eq!(error.kind, kind, "{error:?}");
+        assert!(error.message.contains(culprit), "{error:?}");
+    };
+    refused(
+        &set,
+        &[1.0],
+        &[0.0],
+        ErrorKind::InvalidArgument,
+        "coordinate 0",
+    );
+    refused(&set, &[f64::NAN], &[0.0], ErrorKind::NotFinite, "low");
+    refused(&set, &[0.0], &[f64::INFINITY], ErrorKind::NotFinite, "high");
+    refused(&set, &[0.0, 0.0], &[1.0], ErrorKind::WrongSize, "low");
+    refused(&set, &[0.0], &[], ErrorKind::WrongSize, "high");
+    let cube = cuboid([1.0; 3]).body;
+    let links = vec![LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Free, Vec3::x())
+    }];
+    let free = helpers::robots::space(vec![robot(3, links)]);
+    let far = Pose::from_translation(Vec3::new(9.0, 0.0, 0.0));
+    let among = against(&free, &environment(&[(&cube, far)]).0);
+    let low = free.neutral();
+    let turned = free.step(&low, &[0.0, 0.0, 0.0, 0.1, 0.0, 0.0]);
+    refused(
+        &among,
+        &low,
+        &turned,
+        ErrorKind::Unsupported,
+        "coordinate 3",
+    );
+    let shifted = free.step(&low, &[1.0; 6]);
+    let mut high = low.clone();
+    high[..3].copy_from_slice(&[1.0, 1.0, 1.0]);
+    assert_ne!(shifted, high);
+    assert_eq!(outcome(&among, &low, &high), RegionOutcome::Free);
+    refused(
+        &among,
+        &high,
+        &low,
+        ErrorKind::InvalidArgument,
+        "coordinate 0",
+    );
+}
+
+/// A custom joint moves no faster than it says: its boxes are proved by that alone.
+#[test]
+fn boxes_of_custom_joints_rest_on_their_speeds() {
+    let cube = cuboid([0.5; 3]).body;
+    let links = vec![LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Custom(Arc::new(Screw)), Vec3::x())
+    }];
+    let space = space(vec![robot(3, links)]);
+    let objects: Vec<Pose> = (0..4)
+        .map(|i| Pose::from_translation(Vec3::new(1.2, 0.3 * f64::from(i), 0.5)))
+        .collect();
+    let objects: Vec<_> = objects.iter().map(|pose| (&cube, *pose)).collect();
+    let set = against(&space, &environment(&objects).0);
+    let mut random = Random::new(311);
+    let context = &mut QueryContext::new();
+    let mut free = 0;
+    for _ in 0..200 {
+        let [low, high] = &random_box(&mut random, &space);
+        let options = RegionOptions { max_boxes: 400 };
+        let answer = context.classify_region(&set, low, high, &options).unwrap();
+        free += usize::from(answer.outcome == RegionOutcome::Free);
+        check(&mut random, context, &set, [low, high], &answer, 100);
+    }
+    assert!(free > 20, "{free}");
+}
+
+/// Angles of a thousand million radians are rounded to 1e-7: what is called free is so for the angles that queries compute.
+#[test]
+fn boxes_of_large_angles_are_proved_with_their_rounding() {
+    let mut random = Random::new(313);
+    let arm = cuboid([2.0, 0.1, 0.1]).body;
+    let links = vec![
+        link(None, JointKind::Revolute, Vec3::z()),
+        LinkDefinition {
+            at: Pose::from_translation(Vec3::new(1.0, 0.0, 0.0)),
+            body: Some(arm),
+            ..link(Some(0), JointKind::Fixed, Vec3::z())
+        },
+    ];
+    let plate = cuboid([0.4, 0.001, 0.4]).body;
+    let pose = Pose::from_translation(Vec3::new(1.9, 0.7, 0.0));
+    let space = space(vec![robot(3, links)]);
+    let set = against(&space, &environment(&[(&plate, pose)]).0);
+    let context = &mut QueryContext::new();
+    let mut free = 0;
+    for _ in 0..200 {
+        let low = [random.within(-1e9, 1e9).round() * TAU];
+        let high = [low[0] + random.within(0.0, 0.5)];
+        let options = RegionOptions::default();
+        let answer = context
+            .classify_region(&set, &low, &high, &options)
+            .unwrap();
+        free += usize::from(answer.outcome == RegionOutcome::Free);
+        check(&mut random, context, &set, [&low, &high], &answer, 100);
+    }
+    assert!(free > 20, "{free}");
+}
