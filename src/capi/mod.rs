@@ -39,6 +39,8 @@ pub mod pair;
 
 pub mod motion;
 
+pub mod region;
+
 pub mod slide;
 
 pub mod show;
