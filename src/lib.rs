@@ -92,7 +92,7 @@ pub mod cobject;
 // The queries at a configuration and of pairs of bodies, one file each.
 pub mod query;
 
-// Motions and paths proved free, their clearance, and the step that slides.
+// Motions, paths and boxes of C-space proved free, clearances, and the step that slides.
 pub mod motion;
 
 // Pictures as glTF files.
