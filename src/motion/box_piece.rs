@@ -126,7 +126,8 @@ impl<'a> BoxPiece<'a> {
         });
         let ChainRates { rates, .. } = self.motions.rates(link);
         let bend = 0.5 * (rates.turn[1] * radius + rates.origin[1]);
-        Some((along.sum::<f64>() + bend) * SUM_SLACK)
+        let farthest = self.twists.farthest_along(link, radius, direction);
+        Some(farthest.min(along.sum::<f64>() + bend) * SUM_SLACK)
     }
 }
 

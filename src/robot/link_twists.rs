@@ -111,6 +111,37 @@ impl<'a> LinkTwists<'a> {
         &self.poses[link]
     }
 
+    /// Bounds how far points within `radius` of a link's origin move along a unit direction of the world, to any configuration of the
+    /// box: nothing for a base that drives on a floor, along the floor's normal. Only of links whose motions are known.
+    ///
+    /// Let the joints move one after the other, from the root on. What is behind a joint is then still as in the middle, and what
+    /// is before it has turned the direction, as the joint's frame sees it, by no more than the sum of what each turn turns it.
+    pub fn farthest_along(&self, link: usize, radius: f64, direction: &Vec3) -> f64 {
+        let origin = self.poses[link].translation;
+        let mut path: SmallVec<[usize; 16]> = SmallVec::new();
+        let mut next = Some(link);
+        while let Some(index) = next {
+            path.push(index);
+            next = self.motions.link(index).0;
+        }
+        let mut farthest = 0.0;
+        let mut drift = 0.0;
+        for own in path.into_iter().rev().flat_map(|link| self.own_of(link)) {
+            let shift = own.linear.norm();
+            farthest += (own.linear.dot(direction).abs() + drift * shift).min(shift);
+            let turn = own.angular.norm();
+            let turned = (own.angular.cross(direction).norm() + drift * turn).min(turn);
+            farthest += turned * ((origin - own.point).norm() + radius);
+            drift += turned;
+        }
+        farthest
+    }
+
+    fn own_of(&self, link: usize) -> &[OwnTwist] {
+        let first = link.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.own[first as usize..self.ends[link] as usize]
+    }
+
     /// What the coordinates do to a body of a link, centred at a point of the world, as another link sees it, or the world. Joints
     /// that carry both do nothing; a coordinate that moves several joints is one entry.
     pub fn between(&self, link: usize, from: Option<usize>, center: &Vec3) -> RelativeTwists {
@@ -126,8 +157,7 @@ impl<'a> LinkTwists<'a> {
             let Some(index) = *side else {
                 break;
             };
-            let first = index.checked_sub(1).map_or(0, |before| self.ends[before]);
-            for own in &self.own[first as usize..self.ends[index] as usize] {
+            for own in self.own_of(index) {
                 let linear = sign * (own.linear + own.angular.cross(&(center - own.point)));
                 let angular = sign * own.angular;
                 match found.iter_mut().find(|f| f.velocity == own.velocity) {

@@ -527,3 +527,81 @@ fn a_box_grows_to_the_walls_and_to_the_range() {
             .all(|side| side.stop == SideStop::MaxSide)
     );
 }
+
+/// A base that drives a hair's breadth above a floor is free in one look, wherever it drives; one that may tip is not.
+#[test]
+fn a_base_over_a_floor_is_proved_by_its_motion_along_the_normal() {
+    let cube = cuboid([1.0; 3]).body;
+    let floor = |space: &Arc<Space>| {
+        let floor = PureShape::Floor {
+            links: vec![space.link_count() - 1],
+            normal: Vec3::z(),
+            offset: -0.5 - 1e-6,
+        };
+        pure(space, floor, None)
+    };
+    let base = LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Planar, Vec3::z())
+    };
+    let base = floor(&space(vec![robot(3, vec![base])]));
+    let options = RegionOptions { max_boxes: 1 };
+    let look = |set: &CObject, low: &[f64], high: &[f64]| {
+        let answer = QueryContext::new().classify_region(set, low, high, &options);
+        answer.unwrap().outcome
+    };
+    let found = look(&base, &[-50.0, -30.0, -2.0], &[70.0, 90.0, 2.0]);
+    assert_eq!(found, RegionOutcome::Free);
+    let tipping = vec![LinkDefinition {
+        body: Some(cube),
+        ..link(None, JointKind::Revolute, Vec3::x())
+    }];
+    let tipping = floor(&space(vec![robot(3, tipping)]));
+    assert_eq!(look(&tipping, &[-1e-7], &[1e-7]), RegionOutcome::Free);
+    assert_eq!(look(&tipping, &[-1e-5], &[1e-5]), RegionOutcome::Mixed);
+}
+
+/// Joints that follow another joint's coordinate move with it: fingers that open together, and a link that turns back.
+#[test]
+fn joints_that_share_a_coordinate_move_together() {
+    let mut random = Random::new(331);
+    let context = &mut QueryContext::new();
+    let mut outcomes = [0usize; 4];
+    for _ in 0..60 {
+        let mut bar = |parent: Option<usize>, coordinate, multiplier| LinkDefinition {
+            at: random.pose(0.5),
+            body: Some(cuboid([0.6, 0.2, 0.1]).body),
+            coordinate,
+            multiplier,
+            ..link(parent, JointKind::Revolute, random.unit())
+        };
+        let links = vec![
+            bar(None, None, 1.0),
+            bar(Some(0), None, 0.5),
+            bar(Some(0), Some(1), -1.5),
+            bar(Some(2), Some(0), -1.0),
+        ];
+        let space = space(vec![robot(3, links)]);
+        assert_eq!(space.nq(), 2);
+        let objects: Vec<_> = (0..5)
+            .map(|_| (cuboid([0.4; 3]).body, random.pose(1.5)))
+            .collect();
+        let objects: Vec<_> = objects.iter().map(|(body, pose)| (body, *pose)).collect();
+        let among = against(&space, &environment(&objects).0);
+        let itself = CObject::induced_links(
+            space.clone(),
+            &[[0, 3], [1, 2], [1, 3]],
+            InducedOptions::default(),
+        );
+        let set = CObject::union(&[Arc::new(among), Arc::new(itself.unwrap())]).unwrap();
+        for _ in 0..10 {
+            let [low, high] = &random_box(&mut random, &space);
+            let options = RegionOptions { max_boxes: 400 };
+            let answer = context.classify_region(&set, low, high, &options).unwrap();
+            outcomes[answer.outcome as usize] += 1;
+            check(&mut random, context, &set, [low, high], &answer, 100);
+        }
+    }
+    println!("free, inside, mixed, undecided: {outcomes:?}");
+    assert!(outcomes[0] > 60, "{outcomes:?}");
+}
