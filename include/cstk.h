@@ -20,6 +20,7 @@
  *   @ref at_configuration   Queries at a configuration
  *   @ref pair               Pair queries
  *   @ref motion             Motions
+ *   @ref region             Regions
  *   @ref slide              Slides
  *   @ref show               Pictures
  *
@@ -3799,6 +3800,230 @@ cstk_status cstk_motion_clearance(cstk_query *query,
                                   const cstk_clearance_options *clearance_options,
                                   double *nearest,
                                   cstk_clearance_result *out);
+
+/** @} */
+
+/**
+ * @defgroup region Regions
+ *
+ * Whole boxes of C-space, proved free or inside, and boxes grown around a configuration until contacts stop them. What is called
+ * free is so at every configuration of the box: bounds over parts of the box cover it, no sample decides.
+ *
+ * @code
+     cstk_region_result around;
+     double low[6], high[6];
+     check(cstk_region_grow(query, cobject, q, nq, NULL, 0, NULL, low, high, NULL, 0));
+     check(cstk_region_classify(query, cobject, low, high, nq, NULL, NULL, NULL, &around));
+     if (around.outcome == CSTK_REGION_FREE) {
+         printf("joint 0 may go from %g to %g, whatever the others do in the box\n", low[0], high[0]);
+     }
+ * @endcode
+ * @{
+ */
+
+/**
+ * What is known of a box. "Inside" is CSTK_CLASS_INSIDE, as cstk_classify says it.
+ */
+enum cstk_region_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Proved: no configuration of the box is inside the C-object.
+   */
+  CSTK_REGION_FREE = 0,
+  /**
+   * Proved: every configuration of the box is inside.
+   */
+  CSTK_REGION_INSIDE = 1,
+  /**
+   * One configuration of the box is inside, and another is not.
+   */
+  CSTK_REGION_MIXED = 2,
+  /**
+   * Neither was found with max_boxes parts, or within the limit of cstk_query_set_limit. (Where the class of a single
+   * configuration already needs more, the call ends with CSTK_ERROR_LIMIT.)
+   */
+  CSTK_REGION_UNDECIDED = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_region_outcome cstk_region_outcome;
+#else
+typedef int32_t cstk_region_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What stops a side of a grown box.
+ */
+enum cstk_side_stop
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * It was not to grow: its weight is 0, or it belongs to a quaternion or to the rotation of a free joint.
+   */
+  CSTK_SIDE_FIXED = 0,
+  /**
+   * The end of the coordinate's range; on a circle half a turn from q.
+   */
+  CSTK_SIDE_RANGE = 1,
+  /**
+   * max_side of the options.
+   */
+  CSTK_SIDE_MAX = 2,
+  /**
+   * There is contact at a configuration that the tolerance would add: `distance` says of what.
+   */
+  CSTK_SIDE_CONTACT = 3,
+  /**
+   * What the tolerance would add could not be proved free with max_boxes parts; `distance` is that in the part looked at
+   * last.
+   */
+  CSTK_SIDE_UNPROVED = 4,
+  /**
+   * The limit of cstk_query_set_limit ended the growth.
+   */
+  CSTK_SIDE_LIMITED = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_side_stop cstk_side_stop;
+#else
+typedef int32_t cstk_side_stop;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Options of cstk_region_classify. Write it with cstk_region_options_default first.
+ */
+typedef struct cstk_region_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The most parts that the box is halved into, at least 1. Default 1000.
+   */
+  uint64_t max_boxes;
+} cstk_region_options;
+
+/**
+ * Options of cstk_region_grow. Write it with cstk_growth_options_default first.
+ */
+typedef struct cstk_growth_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A side is stopped when it cannot grow by this times its weight, or by a quarter of what all sides could grow together, if that
+   * is less; above 0. Smaller values take more proofs. Default 0.01.
+   */
+  double tolerance;
+  /**
+   * No side goes farther from q than this times its weight; finite, above 0. Default 4.
+   */
+  double max_side;
+  /**
+   * The most parts that each proof halves its box into, at least 1. Default 200.
+   */
+  uint64_t max_boxes;
+} cstk_growth_options;
+
+/**
+ * What was found of a box.
+ */
+typedef struct cstk_region_result {
+  cstk_region_outcome outcome;
+  /**
+   * A configuration that is inside is known.
+   */
+  bool has_inside;
+  /**
+   * A configuration that is not inside is known.
+   */
+  bool has_outside;
+  uint8_t reserved_bytes[2];
+  /**
+   * The part of the box's volume that is proved to be as its middle is, from 0 to 1; 0 for a mixed box.
+   */
+  double proved;
+  uint64_t reserved[8];
+} cstk_region_result;
+
+/**
+ * A side of a grown box.
+ */
+typedef struct cstk_region_side {
+  cstk_side_stop stop;
+  /**
+   * `distance` is set: for contacts and what is unproved, unless lengths and units of C-space mix in the C-object.
+   */
+  bool has_distance;
+  uint8_t reserved_bytes[3];
+  /**
+   * The distance, with its witness, at a configuration that stops the side.
+   */
+  cstk_distance_result distance;
+  uint64_t reserved[4];
+} cstk_region_side;
+
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_region_options).
+ */
+cstk_status cstk_region_options_default(cstk_region_options *out, size_t size);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_growth_options).
+ */
+cstk_status cstk_growth_options_default(cstk_growth_options *out, size_t size);
+
+/**
+ * Proves that no configuration of a box is inside a C-object, or that all are, or finds one of each. `low` and `high` have `nq`
+ * doubles in the units of configurations, none of `low` above its partner; coordinates may be equal. On a circle the box is the arc
+ * from `low` upwards to `high`, which may pass the place where angles wrap. `options` may be NULL for the defaults; `inside` and
+ * `outside` may be NULL, or receive configurations of the box, `nq` doubles, where the result says that they are known.
+ *
+ * The entries of a quaternion must be equal in `low` and `high`, and no custom joint may move that does not state its speeds:
+ * CSTK_ERROR_UNSUPPORTED otherwise. The cost grows with the number of parts: a part takes some microseconds.
+ */
+cstk_status cstk_region_classify(cstk_query *query,
+                                 const cstk_cobject *cobject,
+                                 const double *low,
+                                 const double *high,
+                                 size_t nq,
+                                 const cstk_region_options *options,
+                                 double *inside,
+                                 double *outside,
+                                 cstk_region_result *out);
+
+/**
+ * Grows a box around q that is proved free: no configuration of it is inside the C-object, which q must not be. First all sides grow
+ * together, then each as far as it can, in turn. `low` and `high` receive its ends, `nq` doubles each; one of them may be q. Angles
+ * do not wrap: on a circle the box is the arc from `low` upwards to `high`. Quaternions stay as they are. The box is within the
+ * coordinates' ranges unless q is not. The same call has the same answer.
+ *
+ * `weights` has `nv` doubles, at least 0: a side of weight 2 grows twice as far as one of weight 1, one of weight 0 not at all.
+ * It may be NULL with an `nv` of 0: then each is 1, a radian or a length. `options` may be NULL for the defaults. `sides` may be
+ * NULL with a `side_count` of 0; else it receives what stops each side, twice as many as the space has velocities: the lower side of
+ * the first, its upper side, the lower side of the second, and so on; of a free joint's position, those of x, y and z stand with its
+ * linear velocities.
+ *
+ * CSTK_ERROR_INVALID_ARGUMENT where q is inside, CSTK_ERROR_UNSUPPORTED where a custom joint would move that does not state its
+ * speeds. The cost is that of some hundred calls of cstk_region_classify.
+ */
+cstk_status cstk_region_grow(cstk_query *query,
+                             const cstk_cobject *cobject,
+                             const double *q,
+                             size_t nq,
+                             const double *weights,
+                             size_t nv,
+                             const cstk_growth_options *options,
+                             double *low,
+                             double *high,
+                             cstk_region_side *sides,
+                             size_t side_count);
 
 /** @} */
 

@@ -56,7 +56,8 @@ unsafe impl OptionsStruct for cstk_region_options {
 pub struct cstk_growth_options {
     pub size: u32,
     pub cookie: u32,
-    /// A side is stopped when it cannot grow by this times its weight; above 0. Smaller values take more proofs. Default 0.01.
+    /// A side is stopped when it cannot grow by this times its weight, or by a quarter of what all sides could grow together, if that
+    /// is less; above 0. Smaller values take more proofs. Default 0.01.
     pub tolerance: f64,
     /// No side goes farther from q than this times its weight; finite, above 0. Default 4.
     pub max_side: f64,

@@ -11,10 +11,15 @@ use crate::space::Space;
 /// A side that was free grows by this much more the next time.
 const FASTER: f64 = 1.5;
 
+/// All sides together are tried down to this part of the largest side: a configuration nearer to contact gets a box that leads away
+/// from it.
+const SHORTEST_LENGTH: f64 = 1.0 / (1u64 << 24) as f64;
+
 /// How a box is grown. Lengths of sides are counted in weights: those of a velocity with weight 2 grow twice as far.
 #[derive(Clone, Copy, Debug)]
 pub struct GrowthOptions {
-    /// A side is stopped when it cannot grow by this much more; larger than 0.
+    /// A side is stopped when it cannot grow by this much more, or by a quarter of what all sides could grow together, if that is less;
+    /// larger than 0.
     pub tolerance: f64,
     /// No side goes farther than this from the configuration; finite, larger than 0.
     pub max_side: f64,
@@ -164,6 +169,8 @@ struct Growth<'a> {
     world: &'a World,
     cobject: &'a CObject,
     options: &'a GrowthOptions,
+    /// That of the options, or less in narrow places.
+    tolerance: f64,
     region: Region,
     sides: Vec<Side>,
 }
@@ -201,6 +208,7 @@ impl QueryContext {
             world,
             cobject,
             options,
+            tolerance: options.tolerance,
             region: Region {
                 low: q.to_vec(),
                 high: q.to_vec(),
@@ -231,17 +239,16 @@ impl Growth<'_> {
 
     /// Grows all sides by the same length, as far as powers of 2 and two bisections tell.
     fn together(&mut self, context: &mut QueryContext) -> Result<()> {
-        let tolerance = self.options.tolerance;
         let mut grown = None;
         let mut length = self.options.max_side;
-        while grown.is_none() && length >= tolerance {
+        while grown.is_none() && length >= SHORTEST_LENGTH * self.options.max_side {
             let region = self.all_moved_on(length);
             match self.prove(&region, context)? {
                 BoxProof::Free => grown = Some(region),
                 _ => length *= 0.5,
             }
         }
-        let start = if let Some(mut grown) = grown {
+        if let Some(mut grown) = grown {
             let mut more = 0.5 * length;
             if length < self.options.max_side {
                 for _ in 0..2 {
@@ -254,12 +261,10 @@ impl Growth<'_> {
                 }
             }
             self.region = grown;
-            0.25 * length
-        } else {
-            tolerance
-        };
+            self.tolerance = self.tolerance.min(0.25 * length);
+        }
         for side in &mut self.sides {
-            side.step = start.max(tolerance);
+            side.step = self.tolerance.max(0.25 * length);
         }
         Ok(())
     }
@@ -317,7 +322,7 @@ impl Growth<'_> {
         };
         // A step to the end may have been shorter than the side's.
         side.step = (0.5 * side.step).min(0.5 * (to - from).abs() / side.weight);
-        if side.step < self.options.tolerance {
+        if side.step < self.tolerance {
             side.stop = Some(failed.1);
         }
         side.failed = Some(failed);
