@@ -65,7 +65,6 @@ fn leaf(random: &mut Random, space: &Arc<Space>) -> Arc<CObject> {
             let options = InducedOptions {
                 margin: [0.0, 0.05][random.below(2)],
                 contact_epsilon: [0.0, 0.02][random.below(2)],
-                ..InducedOptions::default()
             };
             return Arc::new(against_with(space, &environment(&objects).0, options));
         }
