@@ -48,7 +48,7 @@ pub unsafe extern "C" fn cstk_pair_motion(
                 .transpose()?;
             let [moving_a, moving_b] =
                 [(&a, &poses_a), (&b, &poses_b)].map(|(body, poses)| PairMotion {
-                    body: &**body,
+                    body,
                     poses: [&poses[0], &poses[1]],
                 });
             let context = &mut state.context;
