@@ -274,7 +274,7 @@ static void pairs(const fixture *f) {
         {{start, end, far, NULL}, CSTK_ERROR_NULL_ARGUMENT, "end_b"},
         {{start, nan, far, far}, CSTK_ERROR_NOT_FINITE, "end_a"},
         {{start, end, nan, far}, CSTK_ERROR_NOT_FINITE, "start_b"},
-        {{skew, end, far, far}, CSTK_ERROR_INVALID_ARGUMENT, "start_a"},
+        {{skew, end, far, far}, CSTK_ERROR_NOT_A_ROTATION, "start_a"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         const double *const *poses = wrong[i].poses;
@@ -550,7 +550,10 @@ static void clearances(const fixture *f) {
     /* With hardly any work allowed. */
     CHECK_OK(cstk_query_set_limit(f->query, 1));
     CHECK_OK(ask_path(f, points, 2, FIXTURE_NQ, NULL, &path));
-    CHECK(path.result.motion.outcome == CSTK_MOTION_UNDECIDED && path.result.segment == 0);
+    /* What is far apart is proved free with no more. */
+    CHECK(path.result.motion.outcome == CSTK_MOTION_UNDECIDED ||
+          path.result.motion.outcome == motion.outcome);
+    CHECK(path.result.segment == 0);
     CHECK_REFUSED(out, ask_clearance(f, f->q, turned, FIXTURE_NQ, &options, &out),
                   CSTK_ERROR_LIMIT, "limit");
     CHECK_OK(cstk_query_set_limit(f->query, 0));
