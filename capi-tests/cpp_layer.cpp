@@ -214,7 +214,9 @@ static void queries() {
     REQUIRE(robot.jacobian(q, 1, {1, 0, 0})[0] == 1.0);
 
     const cstk_range ranges[] = {cstk::interval(-10, 10), cstk::circle()};
-    cstk::Space space({robot}, ranges);
+    cstk::Space space;
+    REQUIRE(!space);
+    space = cstk::Space({robot}, ranges);
     REQUIRE(space.nq() == 2 && space.nv() == 2 && space.link_count() == 2);
     REQUIRE(space.contains(q) && !space.contains(std::vector<double>{11, 0}));
 
@@ -261,6 +263,21 @@ static void queries() {
         query.motion(obstacles, q, far, cstk::motion_options(), &reached);
     REQUIRE(hits.outcome == CSTK_MOTION_HIT && hits.distance.distance == 0.0);
     REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
+    cstk_motion_result result;
+    const auto any = cstk::motion_options();
+    REQUIRE(!query.motion_certificate(obstacles, q, far, any, &result, &reached));
+    REQUIRE(result.outcome == CSTK_MOTION_HIT && reached.size() == q.size());
+    const std::vector<double> near = {q[0] + 0.25, q[1]};
+    cstk::Certificate proof = query.motion_certificate(obstacles, q, near);
+    proof.verify(obstacles, q, near);
+    REQUIRE(status_of([&] { proof.verify(obstacles, q, q); }) == CSTK_ERROR_NOT_PROVED);
+    proof.save("cpp_layer.certificate");
+    proof = cstk::Certificate::load("cpp_layer.certificate");
+    REQUIRE(std::remove("cpp_layer.certificate") == 0);
+    proof.verify(obstacles, q, near);
+    REQUIRE(proof.ends().first == q && proof.ends().second == near);
+    REQUIRE(proof.summary().entry_count > 0 && proof.entry(0).times[0] == 0.0);
+    REQUIRE(proof.primitives(0, 1).size() == proof.entry(0).primitive_counts[1]);
     std::vector<double> points = q;
     points.insert(points.end(), q.begin(), q.end());
     REQUIRE(query.motion_path(obstacles, points, 2).motion.outcome == CSTK_MOTION_FREE);

@@ -72,9 +72,11 @@ static void keep_handles(fixture *f) {
     f->live[NOUN_ENVIRONMENT] = f->environment;
     f->live[NOUN_COBJECT] = f->cobject;
     f->live[NOUN_QUERY] = f->query;
+    f->live[NOUN_CERTIFICATE] = f->certificate;
 }
 
 static void release_handles(void *const handles[NOUN_COUNT]) {
+    CHECK_OK(cstk_certificate_release(handles[NOUN_CERTIFICATE]));
     CHECK_OK(cstk_query_release(handles[NOUN_QUERY]));
     CHECK_OK(cstk_cobject_release(handles[NOUN_COBJECT]));
     CHECK_OK(cstk_environment_release(handles[NOUN_ENVIRONMENT]));
@@ -100,6 +102,13 @@ static void create_scene(fixture *f) {
     f->box = add_object(f->environment, f->body, 3.0, 0.5, 0.0);
     CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, NULL, &f->cobject));
     CHECK_OK(cstk_query_create(&f->query));
+    f->q[0] = 0.1;
+    f->q[1] = -0.2;
+    f->q[2] = 0.3;
+    cstk_motion_result rests;
+    CHECK_OK(cstk_motion_certificate(f->query, f->cobject, f->q, f->q, FIXTURE_NQ, NULL, NULL,
+                                     &rests, &f->certificate));
+    CHECK(f->certificate != NULL);
     keep_handles(f);
 }
 
@@ -110,9 +119,6 @@ void fixture_create(fixture *f) {
     memcpy(f->released, f->live, sizeof f->released);
     create_scene(f);
 
-    f->q[0] = 0.1;
-    f->q[1] = -0.2;
-    f->q[2] = 0.3;
     for (uint32_t i = 0; i < FIXTURE_LINKS; ++i) {
         double *pose = &f->link_poses[12 * i];
         CHECK_OK(cstk_robot_link_pose(f->robot, f->q, FIXTURE_NQ, i, pose));
@@ -164,6 +170,7 @@ void fixture_unchanged(const fixture *f) {
     environment_unchanged(f);
     builders_unchanged(f);
     mesh_unchanged(f);
+    CHECK_OK(cstk_certificate_verify(f->certificate, f->cobject, f->q, f->q, FIXTURE_NQ, 0));
     CHECK_OK(cstk_distance(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &again));
     CHECK(memcmp(&again.distance, &f->distance.distance, sizeof again.distance) == 0);
     CHECK(memcmp(again.r_point, f->distance.r_point, sizeof again.r_point) == 0);

@@ -15,6 +15,7 @@ typedef enum noun {
     NOUN_ENVIRONMENT,
     NOUN_COBJECT,
     NOUN_QUERY,
+    NOUN_CERTIFICATE,
     NOUN_COUNT
 } noun;
 
@@ -34,6 +35,8 @@ typedef struct fixture {
     uint64_t box;
     cstk_cobject *cobject;
     cstk_query *query;
+    /* That the arm, at rest at `q`, is free. */
+    cstk_certificate *certificate;
     double q[FIXTURE_NQ];
     double link_poses[12 * FIXTURE_LINKS];
     /* The answer at q when all was made. */

@@ -12,7 +12,7 @@ static void texts(void) {
     CHECK(cstk_last_error_message() != NULL);
     CHECK(strcmp(cstk_status_name(CSTK_OK), "CSTK_OK") == 0);
     CHECK(strcmp(cstk_status_name(CSTK_ERROR_INTERNAL), "CSTK_ERROR_INTERNAL") == 0);
-    const int32_t none[] = {-1, CSTK_ERROR_OUT_OF_MEMORY + 1, INT32_MIN, INT32_MAX};
+    const int32_t none[] = {-1, CSTK_ERROR_NOT_PROVED + 1, INT32_MIN, INT32_MAX};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; ++i) {
         CHECK(strcmp(cstk_status_name(none[i]), "unknown status") == 0);
     }

@@ -27,6 +27,7 @@ static void every_noun(void) {
     cstk_query_statistics done;
     cstk_body_statistics counts;
     cstk_mesh_view view;
+    cstk_certificate_summary summary;
     const double square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     cstk_link_def def;
     CHECK_OK(cstk_link_def_default(&def, sizeof def));
@@ -44,6 +45,8 @@ static void every_noun(void) {
                    cstk_space_contains(f.space, f.q, FIXTURE_NQ, &in_range));
     TWO_REFERENCES(environment, "environment", f.environment,
                    cstk_environment_get_state(f.environment, NULL, NULL));
+    TWO_REFERENCES(certificate, "certificate", f.certificate,
+                   cstk_certificate_get_summary(f.certificate, &summary));
     TWO_REFERENCES(query, "query", f.query, cstk_query_get_statistics(f.query, false, &done));
     TWO_REFERENCES(cobject, "cobject", f.cobject,
                    cstk_classify(other, f.cobject, f.q, FIXTURE_NQ, &class_of));
@@ -101,7 +104,7 @@ static void mesh_after_its_body(void) {
 }
 
 /* A union of two C-objects over an environment and its snapshot is used when all it was made of is
- * gone. */
+ * gone, and a certificate when its C-object is. */
 static void parts_before_the_whole(void) {
     fixture f;
     cstk_environment *snapshot = NULL;
@@ -128,6 +131,9 @@ static void parts_before_the_whole(void) {
     check_distance(&f, both);
     CHECK_OK(cstk_cobject_release(both));
     CHECK_OK(cstk_query_release(f.query));
+    cstk_certificate_summary summary;
+    CHECK_OK(cstk_certificate_get_summary(f.certificate, &summary));
+    CHECK_OK(cstk_certificate_release(f.certificate));
 }
 
 /* A context may outlive what it was asked about; its caches keep nothing that is followed later. */

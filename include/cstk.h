@@ -20,6 +20,7 @@
  *   @ref at_configuration   Queries at a configuration
  *   @ref pair               Pair queries
  *   @ref motion             Motions
+ *   @ref certificate        Certificates
  *   @ref region             Regions
  *   @ref slide              Slides
  *   @ref show               Pictures
@@ -207,6 +208,10 @@ enum cstk_status
    * There is not enough memory for the input.
    */
   CSTK_ERROR_OUT_OF_MEMORY = 23,
+  /**
+   * A certificate does not prove what is asked; the message names the entry.
+   */
+  CSTK_ERROR_NOT_PROVED = 24,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -3580,7 +3585,8 @@ typedef struct cstk_motion_options {
    */
   double tolerance;
   /**
-   * Nonzero: any contact on the motion will do, found in less time than the first. Default 0.
+   * Nonzero: yes or no; any contact on the motion will do, found in less time than the first, and no distance is told there.
+   * Default 0.
    */
   uint32_t any_contact;
   uint32_t reserved;
@@ -3592,8 +3598,8 @@ typedef struct cstk_motion_options {
 typedef struct cstk_motion_result {
   cstk_motion_outcome outcome;
   /**
-   * `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless lengths and units of
-   * C-space mix in the C-object.
+   * `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless any_contact was set or
+   * lengths and units of C-space mix in the C-object.
    */
   bool has_distance;
   uint8_t reserved_bytes[3];
@@ -3800,6 +3806,199 @@ cstk_status cstk_motion_clearance(cstk_query *query,
                                   const cstk_clearance_options *clearance_options,
                                   double *nearest,
                                   cstk_clearance_result *out);
+
+/** @} */
+
+/**
+ * @defgroup certificate Certificates
+ *
+ * A proof that a whole motion is free, kept for those who must trust the answer. A certificate lists what it claims: two bodies, or
+ * groups of their primitives, keep apart along a direction over an interval of time. cstk_certificate_verify checks a certificate by
+ * a short routine of its own, which uses forward kinematics and support points and nothing of what found the proof. Certificates are
+ * saved and loaded (docs/certificate-file.md), and are about content, not handles: they hold for robots, bodies and environments
+ * that were made anew alike.
+ *
+ * @code
+     cstk_certificate *certificate;
+     cstk_motion_result found;
+     check(cstk_motion_certificate(query, cobject, q, q, nq, NULL, NULL, &found, &certificate));
+     if (certificate != NULL) {
+         check(cstk_certificate_verify(certificate, cobject, q, q, nq, 0));
+         check(cstk_certificate_save(certificate, "edge.certificate"));
+     }
+     check(cstk_certificate_release(certificate));
+ * @endcode
+ * @{
+ */
+
+/**
+ * A proof that a motion keeps clear of a C-object. Immutable; threads may share it. It refers to no other object.
+ */
+typedef struct cstk_certificate cstk_certificate;
+
+/**
+ * What a certificate is of.
+ */
+typedef struct cstk_certificate_summary {
+  /**
+   * The number of coordinates of its motion.
+   */
+  size_t nq;
+  /**
+   * The number of its entries.
+   */
+  size_t entry_count;
+  /**
+   * Everything stays farther away than this; a length.
+   */
+  double threshold;
+  /**
+   * A SHA-256 digest of the robots, bodies, poses, margins and sets that it is about.
+   */
+  uint8_t fingerprint[32];
+  uint64_t reserved[8];
+} cstk_certificate_summary;
+
+/**
+ * One claim of a certificate: over an interval of time two groups of primitives stay farther apart than the threshold and the margin,
+ * since gap - displacement is larger. Along the direction their gap is at least `gap` at both ends of the interval, and in between
+ * no point of them moves off the line between its two places by more than `displacement`, seen from the body that carries the
+ * direction. Of a floor or a side of the world box, the second side is the plane; of a set given in C-space there are no bodies, and gap
+ * and displacement are of its distance.
+ */
+typedef struct cstk_certificate_entry {
+  /**
+   * The number of what the C-object asks about, in its order: body pairs, links over floors or in the world box, sets given
+   * in C-space. Several entries may be of one item.
+   */
+  uint32_t item;
+  /**
+   * The side in whose body's frame the direction rests: 0 or 1.
+   */
+  uint32_t carrier;
+  /**
+   * The links that carry the bodies of the two sides, r-side first; UINT32_MAX for what rests in the world.
+   */
+  uint32_t links[2];
+  /**
+   * The number of primitives of each side; cstk_certificate_get_primitives lists them.
+   */
+  uint32_t primitive_counts[2];
+  /**
+   * The interval, within 0 and 1.
+   */
+  double times[2];
+  /**
+   * Of length 1, from the second side to the first; 0 for a set given in C-space.
+   */
+  double direction[3];
+  /**
+   * With rounding counted; lengths.
+   */
+  double gap;
+  double displacement;
+  uint64_t reserved[4];
+} cstk_certificate_entry;
+
+
+/**
+ * The same as cstk_motion, with a certificate where the motion is free. `certificate` receives one, or NULL where the motion is not
+ * free. Making it takes longer than the proof of cstk_motion, by far for meshes.
+ *
+ * In rare cases the motion is free, and the certificate cannot show it: where it comes as near the threshold as rounding, the outcome
+ * is CSTK_MOTION_NEAR; where the limit of cstk_query_set_limit ended the making, CSTK_MOTION_UNDECIDED with times of 1.
+ *
+ * Certificates are of links against s-objects and one another, attached objects, margins and allowed pairs, solids, floors, the world box,
+ * limits, boxes, half-spaces and balls of C-space, and of unions of these. Of an intersection they show, one interval after another,
+ * that the motion keeps out of some part. CSTK_ERROR_UNSUPPORTED, naming the leaf, for complements, predicates, and bodies
+ * with a support function of the caller's, but for parts of intersections that are free without them; and as for cstk_motion.
+ * CSTK_ERROR_LIMIT for more than 4 million body pairs or steps of the proof.
+ */
+cstk_status cstk_motion_certificate(cstk_query *query,
+                                    const cstk_cobject *cobject,
+                                    const double *q0,
+                                    const double *q1,
+                                    size_t nq,
+                                    const cstk_motion_options *options,
+                                    double *reached,
+                                    cstk_motion_result *out,
+                                    cstk_certificate **certificate);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_certificate_retain(cstk_certificate *certificate);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_certificate_release(cstk_certificate *certificate);
+
+/**
+ * Checks that a certificate proves the motion from q0 to q1 free of a C-object in the state that its environments are in at the call,
+ * and farther away than `threshold` everywhere. CSTK_OK if it does. CSTK_ERROR_NOT_PROVED if it does not, with the entry that
+ * fails in the message: if the certificate was made for other bodies, poses, robots or sets, another motion or threshold, or if it
+ * was altered. `q0` and `q1` have `nq` doubles.
+ *
+ * What an entry claims is computed anew from the bodies' primitives at the link poses of both ends of its interval, with rounding
+ * counted; that the entries cover all primitives of all body pairs that the C-object asks about, at all times, is checked too. Maps of
+ * custom joints are called and must be what they were; the speeds that they state are taken for granted. All else as
+ * for cstk_motion.
+ */
+cstk_status cstk_certificate_verify(const cstk_certificate *certificate,
+                                    const cstk_cobject *cobject,
+                                    const double *q0,
+                                    const double *q1,
+                                    size_t nq,
+                                    double threshold);
+
+/**
+ * Writes what a certificate is of.
+ */
+cstk_status cstk_certificate_get_summary(const cstk_certificate *certificate,
+                                         cstk_certificate_summary *out);
+
+/**
+ * Writes the first and last configuration of the motion, `nq` doubles each; CSTK_ERROR_WRONG_SIZE if it has another number of
+ * coordinates.
+ */
+cstk_status cstk_certificate_get_ends(const cstk_certificate *certificate,
+                                      size_t nq,
+                                      double *q0,
+                                      double *q1);
+
+/**
+ * Writes an entry, counted from 0.
+ */
+cstk_status cstk_certificate_get_entry(const cstk_certificate *certificate,
+                                       size_t index,
+                                       cstk_certificate_entry *out);
+
+/**
+ * Lists the primitives of one side of an entry, 0 or 1, by their indices in the body. At most `max_count` are written to
+ * `primitives` (NULL if `max_count` is 0), and their full number to `count`.
+ */
+cstk_status cstk_certificate_get_primitives(const cstk_certificate *certificate,
+                                            size_t index,
+                                            uint32_t side,
+                                            size_t max_count,
+                                            uint32_t *primitives,
+                                            size_t *count);
+
+/**
+ * Saves a certificate to a file. An existing file is replaced only once everything is written. CSTK_ERROR_IO if the file
+ * cannot be written.
+ */
+cstk_status cstk_certificate_save(const cstk_certificate *certificate,
+                                  const char *file);
+
+/**
+ * Loads a certificate that cstk_certificate_save wrote. It proves nothing before cstk_certificate_verify accepts it, wherever the file
+ * comes from. CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is truncated, altered or no certificate file,
+ * CSTK_ERROR_UNSUPPORTED for another version of the format. The memory used is bounded by the size of the file.
+ */
+cstk_status cstk_certificate_load(const char *file,
+                                  cstk_certificate **out);
 
 /** @} */
 
@@ -4139,13 +4338,13 @@ cstk_status cstk_slide_options_default(cstk_slide_options *out, size_t size);
  * the world box. A robot within the desired distance is pushed out to it. The step is corrected at its end, and halved
  * until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
  *
- * The proof treats each body pair, and each link with a floor or the world box, separately: by its own distance, and by a
- * bound of how far the joints between the two can move them relative to each other, or of how far a link moves along the
- * normal of a plane between it and an obstacle. Pairs that no joint of the step moves relative to each other may touch.
- * For a pair that touches at q and moves, the gradients of its contacts are trusted for the first 1e-4 of max_shell (or of
- * the smallest link's radius); from there on it must be apart, unless the whole motion is shorter. Of two bodies with more
- * than 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than
- * the nearest.
+ * The proof is that of cstk_motion: each pair of primitives, and each link with a floor or the world box, is parted by
+ * bounds over intervals of the way, so that a robot slides along what is only a rounding error away. Pairs that no joint of
+ * the step moves relative to each other may touch. For a pair that touches at q and moves, the gradients of its contacts are
+ * trusted for the first 1e-4 of max_shell (or of the smallest link's radius); from there on it must be apart, unless the
+ * whole motion is shorter, or a plane separates the two bodies and the motion goes along it. Of two bodies with more than
+ * 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than the
+ * nearest.
  *
  * `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit
  * of time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more

@@ -815,6 +815,8 @@ inline cstk_range default_range() { return {CSTK_RANGE_DEFAULT, 0, 0, 0}; }
 
 class Space : public Handle<cstk_space, cstk_space_retain, cstk_space_release> {
 public:
+    /// Holds no space yet.
+    Space() = default;
     /// `world_box` is empty for everywhere, or low x, y, z, high x, y, z.
     explicit Space(const std::vector<Robot> &robots, Span<cstk_range> ranges = {},
                    Span<double> world_box = {})
@@ -1318,6 +1320,58 @@ inline std::optional<std::vector<double>> spring_step(const cstk_witness_list &l
     return found ? std::optional(std::move(out)) : std::nullopt;
 }
 
+/// A proof that a motion is free. Empty where Query::motion_certificate found the motion not free.
+class Certificate
+    : public Handle<cstk_certificate, cstk_certificate_retain, cstk_certificate_release> {
+public:
+    using Handle::Handle;
+
+    /// A certificate that save() wrote. It proves nothing before verify().
+    static Certificate load(const std::string &file) {
+        cstk_certificate *out = nullptr;
+        check(cstk_certificate_load(file.c_str(), &out));
+        return Certificate(out);
+    }
+
+    void save(const std::string &file) const { check(cstk_certificate_save(get(), file.c_str())); }
+
+    /// Throws CSTK_ERROR_NOT_PROVED, naming the entry, unless this proves the motion from q0 to q1 free.
+    void verify(const CObject &cobject, Span<double> q0, Span<double> q1, double threshold = 0) const {
+        const std::size_t nq = detail::same_size(q0, q1);
+        check(cstk_certificate_verify(get(), cobject.get(), q0.data(), q1.data(), nq, threshold));
+    }
+
+    cstk_certificate_summary summary() const {
+        cstk_certificate_summary out;
+        check(cstk_certificate_get_summary(get(), &out));
+        return out;
+    }
+
+    /// The first and the last configuration of the motion.
+    std::pair<std::vector<double>, std::vector<double>> ends() const {
+        const std::size_t nq = summary().nq;
+        std::pair<std::vector<double>, std::vector<double>> out{std::vector<double>(nq),
+                                                                std::vector<double>(nq)};
+        check(cstk_certificate_get_ends(get(), nq, out.first.data(), out.second.data()));
+        return out;
+    }
+
+    cstk_certificate_entry entry(std::size_t index) const {
+        cstk_certificate_entry out;
+        check(cstk_certificate_get_entry(get(), index, &out));
+        return out;
+    }
+
+    /// The primitives of one side of an entry, 0 or 1.
+    std::vector<std::uint32_t> primitives(std::size_t index, std::uint32_t side) const {
+        std::size_t count = 0;
+        check(cstk_certificate_get_primitives(get(), index, side, 0, nullptr, &count));
+        std::vector<std::uint32_t> out(count);
+        check(cstk_certificate_get_primitives(get(), index, side, count, out.data(), &count));
+        return out;
+    }
+};
+
 /// A query context; one per thread. Copies share the context.
 class Query : public Handle<cstk_query, cstk_query_retain, cstk_query_release> {
 public:
@@ -1438,13 +1492,35 @@ public:
                               const cstk_motion_options &options = motion_options(),
                               std::vector<double> *reached = nullptr) const {
         cstk_motion_result out;
-        std::vector<double> found(detail::same_size(q0, q1));
-        check(cstk_motion(get(), cobject.get(), q0.data(), q1.data(), q0.size(), &options,
-                          found.data(), &out));
+        const std::size_t nq = detail::same_size(q0, q1);
+        /* Planners ask for many motions and for few contacts: nothing is allocated for what is not wanted. */
+        std::vector<double> found(reached != nullptr ? nq : 0);
+        check(cstk_motion(get(), cobject.get(), q0.data(), q1.data(), nq, &options,
+                          reached != nullptr ? found.data() : nullptr, &out));
         if (reached != nullptr) {
             *reached = std::move(found);
         }
         return out;
+    }
+
+    /// The same with a certificate, which is empty where the motion is not free; `result`, if given, receives how it ends.
+    Certificate motion_certificate(const CObject &cobject, Span<double> q0, Span<double> q1,
+                                   const cstk_motion_options &options = motion_options(),
+                                   cstk_motion_result *result = nullptr,
+                                   std::vector<double> *reached = nullptr) const {
+        cstk_certificate *certificate = nullptr;
+        cstk_motion_result out;
+        std::vector<double> found(detail::same_size(q0, q1));
+        check(cstk_motion_certificate(get(), cobject.get(), q0.data(), q1.data(), q0.size(), &options,
+                                      found.data(), &out, &certificate));
+        Certificate made(certificate);
+        if (result != nullptr) {
+            *result = out;
+        }
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
+        return made;
     }
 
     /// The same for a path: `points` holds `count` configurations, one after the other.

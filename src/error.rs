@@ -45,6 +45,8 @@ pub enum ErrorKind {
     Limit,
     /// There is not enough memory for what the input asks for.
     OutOfMemory,
+    /// A certificate does not prove what is asked.
+    NotProved,
 }
 
 /// A failure: its kind and the sentence that names the culprit.

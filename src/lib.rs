@@ -46,6 +46,9 @@ pub mod pose;
 // The report's yaw, pitch, roll and their rates.
 pub mod euler;
 
+// Binary files with a header and checksums: their numbers, written and read one by one.
+mod sealed_file;
+
 // Conversions to parry's vectors, for convex hulls.
 mod parry_adapter;
 
@@ -94,6 +97,9 @@ pub mod query;
 
 // Motions, paths and boxes of C-space proved free, clearances, and the step that slides.
 pub mod motion;
+
+// Certificates of free motions: made, checked by a routine of their own, saved and loaded.
+pub mod certificate;
 
 // Pictures as glTF files.
 pub mod show;

@@ -1,26 +1,12 @@
 #include "scenes.hpp"
 
+#include "built_in.hpp"
+
 #include <cmath>
 
 namespace {
 
 const std::size_t tries = 12000;
-
-// The standard Denavit-Hartenberg parameters of the Puma 560 in metres and radians, and how far each joint goes either way, in degrees:
-// the arm of scenes/src/puma_arm.rs.
-struct PumaJoint {
-    double d, a, alpha, limit;
-};
-
-const PumaJoint puma_joints[] = {
-    {0.67183, 0, models::pi / 2, 160},      {0, 0.4318, 0, 110},
-    {0.15005, 0.0203, -models::pi / 2, 135}, {0.4318, 0, models::pi / 2, 266},
-    {0, 0, -models::pi / 2, 100},            {0, 0, 0, 266}};
-
-cstk::Body puma_body(const std::string &folder, int number) {
-    const std::string file = folder + "/link" + std::to_string(number) + ".stl";
-    return cstk::BodyBuilder().add_mesh_file(file).build();
-}
 
 cstk::Pose turned_about_z(double angle, const std::array<double, 3> &at) {
     return cstk::pose_from_euler({at[0], at[1], at[2], angle, 0, 0});
@@ -41,10 +27,10 @@ Obstacle mesh_obstacle(const models::Mesh &mesh, const cstk::Pose &pose) {
 // A table, two posts, a crate, a drum and a bumpy rock: the workcell of scenes/src/puma_arm.rs.
 std::vector<Obstacle> workcell() {
     const std::array<double, 3> post = {0.04, 0.04, 0.8};
-    return {box_obstacle(cstk::translation(0.55, 0, 0.3), {0.3, 0.6, 0.025}),
-            box_obstacle(cstk::translation(-0.33, 0.39, 0.8), post),
-            box_obstacle(cstk::translation(-0.33, -0.39, 0.8), post),
-            box_obstacle(turned_about_z(0.4, {0.52, 0.2, 0.45}), {0.15, 0.125, 0.1}),
+    return {problems::box(cstk::translation(0.55, 0, 0.3), {0.3, 0.6, 0.025}),
+            problems::box(cstk::translation(-0.33, 0.39, 0.8), post),
+            problems::box(cstk::translation(-0.33, -0.39, 0.8), post),
+            problems::box(turned_about_z(0.4, {0.52, 0.2, 0.45}), {0.15, 0.125, 0.1}),
             mesh_obstacle(models::cylinder("drum", 0.15, 0.5, 24),
                           cstk::translation(0.07, -0.52, 0.9)),
             mesh_obstacle(models::sphere("rock", 0.2, 20, 26, 0.18),
@@ -55,7 +41,7 @@ std::vector<Obstacle> workcell() {
 std::vector<Obstacle> boxes(double scale) {
     const std::size_t count = 12;
     Random random(7);
-    std::vector<Obstacle> made = {box_obstacle(cstk::translation(0, 0, -0.06 * scale),
+    std::vector<Obstacle> made = {problems::box(cstk::translation(0, 0, -0.06 * scale),
                                                {scale, scale, 0.04 * scale})};
     while (made.size() <= count) {
         const double away = scale * random.uniform(0.45, 0.95),
@@ -68,7 +54,7 @@ std::vector<Obstacle> boxes(double scale) {
                                           random.uniform(-3, 3),
                                           random.uniform(-1.5, 1.5),
                                           random.uniform(-3, 3)};
-        made.push_back(box_obstacle(cstk::pose_from_euler(at), {x, y, z}));
+        made.push_back(problems::box(cstk::pose_from_euler(at), {x, y, z}));
     }
     return made;
 }
@@ -77,7 +63,7 @@ std::vector<Obstacle> boxes(double scale) {
 std::vector<Obstacle> shelf(double scale) {
     std::vector<Obstacle> made;
     const auto add = [&](double x, double y, double z, double a, double b, double c) {
-        made.push_back(box_obstacle(cstk::translation(scale * x, scale * y, scale * z),
+        made.push_back(problems::box(cstk::translation(scale * x, scale * y, scale * z),
                                     {scale * a, scale * b, scale * c}));
     };
     add(0, 0, -0.06, 1, 1, 0.04);
@@ -120,28 +106,8 @@ cstk::Robot urdf_robot(const std::string &folder, const std::string &urdf) {
 
 } // namespace
 
-cstk::Robot puma_560(const std::string &folder) {
-    cstk::RobotBuilder builder;
-    cstk::Link base;
-    base.body = puma_body(folder, 0);
-    auto last = static_cast<std::int32_t>(builder.add_link(base));
-    int number = 0;
-    for (const PumaJoint &joint : puma_joints) {
-        cstk::Link turning, fixed;
-        turning.parent = last;
-        turning.joint = CSTK_JOINT_REVOLUTE;
-        turning.lower = -joint.limit * models::pi / 180;
-        turning.upper = -turning.lower;
-        fixed.parent = static_cast<std::int32_t>(builder.add_link(turning));
-        fixed.at = cstk::pose_from_euler({joint.a, 0, joint.d, 0, 0, joint.alpha});
-        fixed.body = puma_body(folder, ++number);
-        last = static_cast<std::int32_t>(builder.add_link(fixed));
-    }
-    return builder.build();
-}
-
 void add_puma_scene(const std::string &folder, Scenes &scenes) {
-    add_arm("Puma 560 workcell", puma_560(folder), workcell(), scenes);
+    add_arm("Puma 560 workcell", problems::puma_560(folder), workcell(), scenes);
 }
 
 void add_urdf_scenes(const std::string &folder, Scenes &scenes) {

@@ -35,6 +35,10 @@ template <class BV> struct Coal {
         return std::make_shared<coal::Box>(2 * half[0], 2 * half[1], 2 * half[2]);
     }
 
+    static Geometry cylinder(double radius, double length) {
+        return std::make_shared<coal::Cylinder>(radius, length);
+    }
+
     static void place(Object &object, const cstk::Pose &pose) {
         coal::Matrix3s rotation;
         coal::Vec3s translation;

@@ -14,6 +14,10 @@ template <class BV> struct Fcl {
         return std::make_shared<fcl::Box<double>>(2 * half[0], 2 * half[1], 2 * half[2]);
     }
 
+    static Geometry cylinder(double radius, double length) {
+        return std::make_shared<fcl::Cylinder<double>>(radius, length);
+    }
+
     static void place(Object &object, const cstk::Pose &pose) {
         object.setTransform(fcl_pose(pose));
         object.computeAABB();
@@ -48,9 +52,9 @@ template <class BV> struct Fcl {
 
 } // namespace
 
-std::vector<PeerWay> fcl_ways(const PeerScene &scene) {
+std::vector<PeerWay> fcl_ways(const PeerScene &scene, const std::string &only) {
     std::vector<PeerWay> ways;
-    add_ways<Fcl<fcl::OBBRSS<double>>>(scene, "OBBRSS", ways);
-    add_ways<Fcl<fcl::OBB<double>>>(scene, "OBB", ways);
+    add_ways<Fcl<fcl::OBBRSS<double>>>(scene, "OBBRSS", ways, only);
+    add_ways<Fcl<fcl::OBB<double>>>(scene, "OBB", ways, only);
     return ways;
 }

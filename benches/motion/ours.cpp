@@ -24,7 +24,7 @@ Variant proof(const Scene &scene, bool any_contact) {
     const auto ask = [=, &scene](const Segment &segment) {
         const Ends &ends = segment.ends;
         cstk_motion_result found;
-        cstk::check(cstk_motion(query.get(), scene.cobject.get(), ends.q0.data(), ends.q1.data(),
+        cstk::check(cstk_motion(query.get(), scene.contact.get(), ends.q0.data(), ends.q1.data(),
                                 ends.q0.size(), &options, nullptr, &found));
         const bool is_hit = found.outcome != CSTK_MOTION_FREE;
         return Verdict{is_hit, 0, is_hit ? std::optional(found.times[1]) : std::nullopt};
@@ -43,7 +43,7 @@ Variant sampling(const Scene &scene, const Step &step) {
         return sampled(scene.space, segment, step, *q, [&](const Numbers &at) {
             cstk_class found = CSTK_CLASS_OUTSIDE;
             cstk::check(
-                cstk_classify(query.get(), scene.cobject.get(), at.data(), at.size(), &found));
+                cstk_classify(query.get(), scene.contact.get(), at.data(), at.size(), &found));
             return found == CSTK_CLASS_INSIDE;
         });
     };

@@ -13,11 +13,17 @@
 
 /// A scene as triangles: what peers are built from.
 struct PeerScene {
+    struct Cylinder {
+        double radius, half_length;
+    };
+
     struct Obstacle {
         Surface surface;
         cstk::Pose pose;
         /// Of a box about the origin of its frame.
         std::optional<std::array<double, 3>> half_extents;
+        /// Of a cylinder about its z axis: always taken as a shape, and without a surface.
+        std::optional<Cylinder> cylinder = {};
     };
 
     /// Of each link, empty where it has no body.
@@ -40,7 +46,8 @@ struct PeerWay {
     std::unique_ptr<Peer> peer;
 };
 
-std::vector<PeerWay> fcl_ways(const PeerScene &scene);
+/// All, or the one of a name.
+std::vector<PeerWay> fcl_ways(const PeerScene &scene, const std::string &only = {});
 
 /// None where Coal is not there.
 std::vector<PeerWay> coal_ways(const PeerScene &scene);

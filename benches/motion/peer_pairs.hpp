@@ -14,7 +14,8 @@ enum class BroadPhase {
     tree,
 };
 
-/// The pair that met last comes first. `Library` has Object, Manager, Geometry, mesh(), box(), place(), overlap(), collide() and visit().
+/// The pair that met last comes first. `Library` has Object, Manager, Geometry, mesh(), box(), cylinder(), place(), overlap(),
+/// collide() and visit().
 template <class Library> class PeerPairs final : public Peer {
   public:
     PeerPairs(const PeerScene &scene, BroadPhase broad_phase, bool box_shapes)
@@ -25,9 +26,7 @@ template <class Library> class PeerPairs final : public Peer {
             }
         }
         for (const PeerScene::Obstacle &obstacle : scene.obstacles) {
-            const bool is_shape = box_shapes && obstacle.half_extents;
-            obstacles_.push_back(std::make_unique<Object>(
-                is_shape ? Library::box(*obstacle.half_extents) : Library::mesh(obstacle.surface)));
+            obstacles_.push_back(std::make_unique<Object>(geometry(obstacle, box_shapes)));
             Library::place(*obstacles_.back(), obstacle.pose);
             manager_.registerObject(obstacles_.back().get());
         }
@@ -73,6 +72,14 @@ template <class Library> class PeerPairs final : public Peer {
   private:
     using Object = typename Library::Object;
 
+    static typename Library::Geometry geometry(const PeerScene::Obstacle &obstacle, bool box_shapes) {
+        if (obstacle.cylinder) {
+            return Library::cylinder(obstacle.cylinder->radius, 2 * obstacle.cylinder->half_length);
+        }
+        return box_shapes && obstacle.half_extents ? Library::box(*obstacle.half_extents)
+                                                   : Library::mesh(obstacle.surface);
+    }
+
     bool meet(Object *a, Object *b) {
         const bool found = Library::overlap(*a, *b) && Library::collide(a, b);
         if (found) {
@@ -89,9 +96,10 @@ template <class Library> class PeerPairs final : public Peer {
     std::pair<Object *, Object *> last_ = {};
 };
 
-/// All ways with one kind of bounding volume.
+/// All ways with one kind of bounding volume, or the one of a name.
 template <class Library>
-void add_ways(const PeerScene &scene, const std::string &volumes, std::vector<PeerWay> &ways) {
+void add_ways(const PeerScene &scene, const std::string &volumes, std::vector<PeerWay> &ways,
+              const std::string &only = {}) {
     bool has_boxes = false;
     for (const PeerScene::Obstacle &obstacle : scene.obstacles) {
         has_boxes |= obstacle.half_extents.has_value();
@@ -104,8 +112,10 @@ void add_ways(const PeerScene &scene, const std::string &volumes, std::vector<Pe
             const std::string name = volumes +
                                      (broad_phase == BroadPhase::tree ? ", tree" : ", pairs") +
                                      (box_shapes ? ", box shapes" : "");
-            ways.push_back(
-                {name, std::make_unique<PeerPairs<Library>>(scene, broad_phase, box_shapes)});
+            if (only.empty() || name == only) {
+                ways.push_back(
+                    {name, std::make_unique<PeerPairs<Library>>(scene, broad_phase, box_shapes)});
+            }
         }
     }
 }

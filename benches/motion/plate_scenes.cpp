@@ -1,5 +1,7 @@
 #include "scenes.hpp"
 
+#include "built_in.hpp"
+
 namespace {
 
 // The plate, in metres: it stands on a radius of the arm's first joint.
@@ -36,7 +38,7 @@ Scene::Draw beside(double clearance) {
             along(scene.space, from, scene.space.difference(from, to), length);
         const auto is_clear = [&](double angle) {
             const Ends at = turned(drawn, angle);
-            return query.motion(scene.cobject, at.q0, at.q1, options).outcome == CSTK_MOTION_FREE;
+            return query.motion(scene.contact, at.q0, at.q1, options).outcome == CSTK_MOTION_FREE;
         };
         double clear = 0;
         if (!is_clear(clear)) {
@@ -64,12 +66,12 @@ Scene::Draw beside(double clearance) {
 
 void add_plate_scenes(const std::string &puma_folder, Scenes &scenes) {
     const std::size_t tries = 200;
-    const cstk::Robot robot = puma_560(puma_folder);
+    const cstk::Robot robot = problems::puma_560(puma_folder);
     const std::pair<const char *, double> clearances[] = {
         {"plate 1 mm beside", 1e-3}, {"plate 1 cm beside", 1e-2}, {"plate 10 cm beside", 0.1},
         {"plate 0.2 mm in", 0}};
     for (const auto &[name, clearance] : clearances) {
-        const std::vector<Obstacle> plate = {box_obstacle(
+        const std::vector<Obstacle> plate = {problems::box(
             cstk::translation(plate_center[0], plate_center[1], plate_center[2]), plate_half)};
         scenes.push_back(std::make_unique<Scene>(name, robot, plate, std::vector<LinkPair>(),
                                                  tries, beside(clearance)));

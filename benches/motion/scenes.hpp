@@ -21,6 +21,3 @@ void add_urdf_scenes(const std::string &folder, Scenes &scenes);
 
 /// The Puma 560 beside a thin plate that its motion keeps a clearance from, or reaches into by a little.
 void add_plate_scenes(const std::string &puma_folder, Scenes &scenes);
-
-/// The arm alone.
-cstk::Robot puma_560(const std::string &folder);

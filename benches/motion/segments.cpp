@@ -57,7 +57,7 @@ class Judge {
 
   private:
     bool is_inside(const Numbers &q) const {
-        return query_.classify(scene_.cobject, q) == CSTK_CLASS_INSIDE;
+        return query_.classify(scene_.contact, q) == CSTK_CLASS_INSIDE;
     }
 
     const Scene &scene_;
@@ -82,17 +82,17 @@ Segments draw_segments(const Scene &scene, double length, const DrawOptions &opt
     const auto is_full = [&](Kind kind) { return made.of(kind).size() >= options.count; };
     for (std::size_t i = 0; i < scene.tries && !(is_full(Kind::free) && is_full(Kind::hit)); ++i) {
         const std::optional<Ends> ends = scene.draw(length, random);
-        if (!ends || query.classify(scene.cobject, ends->q0) != CSTK_CLASS_OUTSIDE) {
+        if (!ends || query.classify(scene.contact, ends->q0) != CSTK_CLASS_OUTSIDE) {
             continue;
         }
         const cstk_motion_outcome quick =
-            query.motion(scene.cobject, ends->q0, ends->q1, any).outcome;
+            query.motion(scene.contact, ends->q0, ends->q1, any).outcome;
         const Kind kind = quick == CSTK_MOTION_FREE ? Kind::free : Kind::hit;
         if (is_full(kind)) {
             continue;
         }
         Numbers reached;
-        const cstk_motion_result proof = query.motion(scene.cobject, ends->q0, ends->q1,
+        const cstk_motion_result proof = query.motion(scene.contact, ends->q0, ends->q1,
                                                       cstk::motion_options(), &reached);
         const Segment segment = {*ends, length, highest_speed(scene, *ends), proof.times[1]};
         if (proof.outcome != CSTK_MOTION_FREE && proof.outcome != CSTK_MOTION_HIT) {

@@ -19,9 +19,9 @@ const Robot robots[] = {{"Panda", "panda_description/urdf/panda.urdf"},
 const Shells shells[] = {{0.1, 0.1}, {0.1, 0.02}};
 
 void print(const char *robot, const Shells &shells, const char *where, const Steps &steps) {
-    std::printf("| %s | %g | %g | %s | %zu | %zu | %.0f | %.0f |\n", robot, shells.obstacles,
-                shells.links, where, steps.times.size(), steps.blocked, steps.quantile(0.5),
-                steps.quantile(0.95));
+    std::printf("| %s | %g | %g | %s | %zu | %zu | %.1f | %.0f | %.0f |\n", robot, shells.obstacles,
+                shells.links, where, steps.times.size(), steps.blocked,
+                100 * steps.gone / steps.asked, steps.quantile(0.5), steps.quantile(0.95));
 }
 
 } // namespace
@@ -46,7 +46,8 @@ int main(int count, char **arguments) {
     }
     try {
         std::printf("| robot | shell of obstacles, m | shell of links, m | steps | count | blocked "
-                    "| median, us | 95 %%, us |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+                    "| gone, %% | median, us | 95 %%, us |\n"
+                    "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
         for (const Robot &robot : robots) {
             const Cell cell(folder, robot.urdf);
             for (const Shells &used : shells) {

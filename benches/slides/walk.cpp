@@ -21,23 +21,30 @@ std::vector<double> free_start(const Cell &cell, const cstk::Query &query,
     }
 }
 
+double length(const std::vector<double> &v) {
+    double square = 0;
+    for (double x : v) {
+        square += x * x;
+    }
+    return std::sqrt(square);
+}
+
 std::vector<double> direction(const Cell &cell, std::uint64_t &random) {
     const std::vector<double> from = cell.space.neutral(), to = cell.space.sample(random);
     std::vector<double> step = cell.space.difference(from, to);
-    double length = 0;
-    for (double x : step) {
-        length += x * x;
-    }
+    const double factor = step_length / length(step);
     for (double &x : step) {
-        x *= step_length / std::sqrt(length);
+        x *= factor;
     }
     return step;
 }
 
 } // namespace
 
-void Steps::add(double microseconds, cstk_slide_outcome outcome) {
+void Steps::add(double microseconds, cstk_slide_outcome outcome, double way) {
     times.push_back(microseconds);
+    gone += way;
+    asked += step_length;
     moved += outcome == CSTK_SLIDE_MOVED;
     blocked += outcome == CSTK_SLIDE_BLOCKED;
 }
@@ -63,10 +70,12 @@ Walks walk(const Cell &cell, const Shells &shells, std::size_t walks, std::uint6
         const std::vector<double> step = direction(cell, seed);
         for (std::size_t k = 0; k < steps_a_walk; ++k) {
             const bool is_near = query.within(cell.obstacles, q, shells.obstacles);
+            const std::vector<double> before = q;
             const Clock::time_point start = Clock::now();
             const cstk_slide_result result = query.slide(all, q, step, options);
             const std::chrono::duration<double, std::micro> time = Clock::now() - start;
-            (is_near ? made.sliding : made.free).add(time.count(), result.outcome);
+            const double way = length(cell.space.difference(before, q));
+            (is_near ? made.sliding : made.free).add(time.count(), result.outcome, way);
             if (result.outcome != CSTK_SLIDE_MOVED) {
                 break;
             }

@@ -10,8 +10,10 @@
 struct Steps {
     std::vector<double> times;
     std::size_t moved = 0, blocked = 0;
+    /// The lengths of the steps' ways, and of the steps asked for.
+    double gone = 0, asked = 0;
 
-    void add(double microseconds, cstk_slide_outcome outcome);
+    void add(double microseconds, cstk_slide_outcome outcome, double way);
     /// The time that a share of the steps stays below.
     double quantile(double share) const;
 };

@@ -3,17 +3,22 @@
 
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 use super::body::{Body, BodyStatistics};
-use super::file_reader::Reader;
-use super::file_writer::Writer;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::hierarchy::BuildTimes;
 use crate::pose::check_dimension;
+use crate::sealed_file::{FileFormat, Writer};
 use crate::whole_file::{read_whole, write_whole};
 
-const MAGIC: [u8; 8] = *b"cstkbody";
 pub const VERSION: u32 = 5;
-const HEADER_BYTES: usize = 32;
+
+const FORMAT: FileFormat = FileFormat {
+    magic: *b"cstkbody",
+    version: VERSION,
+    name: "body file",
+};
 
 /// The largest body file, 16 GiB: many times the size of the largest body from a mesh file (see `mesh_budget`).
 pub const MAX_FILE_BYTES: u64 = 1 << 34;
@@ -51,24 +56,23 @@ impl Body {
         payload.packed(&self.packed);
         payload.u32(self.statistics.is_solid.into());
         payload.solid(self.solid.as_ref());
-        let mut bytes = Writer::default();
-        bytes.0.extend(MAGIC);
-        bytes.u32(VERSION);
-        bytes.u32(HEADER_BYTES as u32);
-        bytes.count(payload.0.len());
-        bytes.u32(crc32fast::hash(&payload.0));
-        bytes.u32(crc32fast::hash(&bytes.0));
-        bytes.0.append(&mut payload.0);
-        Ok(bytes.0)
+        Ok(FORMAT.seal(payload.0))
+    }
+
+    /// The SHA-256 digest of what the body is, whatever its hierarchy: its primitives with their tags, and the solid that they
+    /// bound. Fails for a body with a support function of the caller.
+    pub fn digest(&self) -> Result<[u8; 32]> {
+        let mut content = Writer::default();
+        content.u32(self.dimension);
+        content.vector(&self.center);
+        content.primitives(&self.primitives)?;
+        content.solid(self.solid.as_ref());
+        Ok(Sha256::digest(content.0).into())
     }
 
     /// Reads a body from the content of a body file, and checks it.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        let payload = checked_payload(bytes)?;
-        let mut reader = Reader {
-            payload,
-            place: HEADER_BYTES,
-        };
+        let mut reader = FORMAT.open(bytes)?;
         let dimension = reader.u32()?;
         check_dimension(dimension).map_err(|_| reader.damaged("the dimension"))?;
         let center = reader.vector()?;
@@ -90,9 +94,7 @@ impl Body {
         let packed = reader.packed(&primitives, wrappers.ball(&primitives))?;
         statistics.is_solid = reader.flag()?;
         let solid = reader.solid(&primitives)?;
-        if !reader.payload.is_empty() {
-            return Err(reader.damaged("the end: more follows"));
-        }
+        reader.end()?;
         statistics.primitives = primitives.len() as u64;
         Ok(
             Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
@@ -101,60 +103,15 @@ impl Body {
     }
 }
 
-/// The content after the header, if the file is complete, undamaged and of this version.
-fn checked_payload(bytes: &[u8]) -> Result<&[u8]> {
-    let fail = |message: String| Err(Error::new(ErrorKind::Parse, message));
-    let Some((header, payload)) = bytes.split_at_checked(HEADER_BYTES) else {
-        return fail(if MAGIC.starts_with(&bytes[..bytes.len().min(8)]) {
-            format!("the file is truncated: {} bytes", bytes.len())
-        } else {
-            "the file is no body file of libcstk".into()
-        });
-    };
-    if header[..8] != MAGIC {
-        return fail("the file is no body file of libcstk".into());
-    }
-    let mut fields = Reader {
-        payload: &header[8..],
-        place: 8,
-    };
-    let (version, header_bytes) = (fields.u32()?, fields.u32()?);
-    let (length, sum, header_sum) = (fields.u64()?, fields.u32()?, fields.u32()?);
-    // Before the checksum: a newer version may have another header.
-    if version != VERSION {
-        return Err(Error::new(
-            ErrorKind::Unsupported,
-            format!("the file has format version {version}; this library reads {VERSION}"),
-        ));
-    }
-    if header_sum != crc32fast::hash(&header[..28]) || header_bytes as usize != HEADER_BYTES {
-        return fail("the file's header is damaged".into());
-    }
-    if (payload.len() as u64) < length {
-        return fail(format!(
-            "the file is truncated: {} of {length} bytes follow the header",
-            payload.len()
-        ));
-    }
-    if payload.len() as u64 > length {
-        return fail(format!(
-            "the file is damaged: {} bytes follow the header instead of {length}",
-            payload.len()
-        ));
-    }
-    if sum != crc32fast::hash(payload) {
-        return fail("the file is damaged: its checksum does not match".into());
-    }
-    Ok(payload)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::builder::BodyBuilder;
     use super::super::file_writer::{KINDS, LEAF};
     use super::*;
+    use crate::error::ErrorKind;
     use crate::hierarchy::{HierarchyOptions, WrapperKind};
     use crate::pose::Vec3;
+    use crate::sealed_file::HEADER_BYTES;
 
     fn steps(wrapper: WrapperKind) -> Body {
         let mut builder = BodyBuilder::new(3).unwrap();

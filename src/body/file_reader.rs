@@ -6,108 +6,19 @@ use super::file_writer::{
 };
 use super::solid::Solid;
 use crate::boxes::{NODE_BYTES, WideNode};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::hierarchy::grouping::Groups;
 use crate::hierarchy::packed::{PackedTree, is_cloud};
 use crate::hierarchy::wrapper::{Frame, WrapperTree, Wrappers};
 use crate::hierarchy::{Ball, HierarchyOptions, Node, SubsetTree, WrapperKind};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
-use crate::tolerance;
+use crate::sealed_file::Reader;
 
 /// The most levels of a tree: 2 log2 n for n = 2^31 leaves.
 const MAX_DEPTH: u32 = 62;
 
-/// Reads a payload that passed its checksum. Its content is still not trusted.
-pub struct Reader<'a> {
-    pub payload: &'a [u8],
-    /// The offset of the rest in the file, for messages.
-    pub place: usize,
-}
-
 impl Reader<'_> {
-    pub fn damaged(&self, what: &str) -> Error {
-        Error::new(
-            ErrorKind::Parse,
-            format!("{what} cannot be right (before byte {})", self.place),
-        )
-    }
-
-    pub fn take<const N: usize>(&mut self) -> Result<[u8; N]> {
-        let (taken, rest) = self
-            .payload
-            .split_first_chunk::<N>()
-            .ok_or_else(|| self.damaged("the length of the content"))?;
-        self.payload = rest;
-        self.place += N;
-        Ok(*taken)
-    }
-
-    pub fn u32(&mut self) -> Result<u32> {
-        Ok(u32::from_le_bytes(self.take()?))
-    }
-
-    pub fn u64(&mut self) -> Result<u64> {
-        Ok(u64::from_le_bytes(self.take()?))
-    }
-
-    pub fn f64(&mut self) -> Result<f64> {
-        let value = f64::from_le_bytes(self.take()?);
-        if value.is_finite() && value.abs() <= 4.0 * tolerance::LARGEST_COORDINATE {
-            Ok(value)
-        } else {
-            Err(self.damaged("a number"))
-        }
-    }
-
-    pub fn length(&mut self) -> Result<f64> {
-        let value = self.f64()?;
-        if value >= 0.0 {
-            Ok(value)
-        } else {
-            Err(self.damaged("a length"))
-        }
-    }
-
-    pub fn vector(&mut self) -> Result<Vec3> {
-        Ok(Vec3::new(self.f64()?, self.f64()?, self.f64()?))
-    }
-
-    /// Checks a count of items of at least `bytes` bytes each against the rest of the file, which bounds the memory needed.
-    pub fn fitting(&self, count: u64, bytes: usize) -> Result<usize> {
-        usize::try_from(count)
-            .ok()
-            .filter(|&count| count <= self.payload.len() / bytes)
-            .ok_or_else(|| self.damaged("a count"))
-    }
-
-    pub fn count(&mut self, bytes: usize) -> Result<usize> {
-        let count = self.u64()?;
-        self.fitting(count, bytes)
-    }
-
-    pub fn short_count(&mut self, bytes: usize) -> Result<usize> {
-        let count = self.u32()?;
-        self.fitting(count.into(), bytes)
-    }
-
-    pub fn index(&mut self, below: usize) -> Result<u32> {
-        let index = self.u32()?;
-        if (index as usize) < below {
-            Ok(index)
-        } else {
-            Err(self.damaged("an index"))
-        }
-    }
-
-    pub fn flag(&mut self) -> Result<bool> {
-        match self.u32()? {
-            0 => Ok(false),
-            1 => Ok(true),
-            _ => Err(self.damaged("a flag")),
-        }
-    }
-
     /// The radius and smooth set of a curved primitive.
     fn curve(&mut self) -> Result<Option<(f64, Option<Smooth>)>> {
         let kind = self.u32()?;
@@ -387,8 +298,8 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::file_writer::Writer;
     use super::*;
+    use crate::sealed_file::Writer;
 
     /// A chain of nodes is a valid tree but for its depth, and its wrappers would take far too long to build.
     #[test]

@@ -8,6 +8,7 @@ use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::hierarchy::{Node, WrapperKind};
 use crate::pose::{Mat3, Vec3};
 use crate::primitive::{Convex, PrimitiveGroup, Primitives, Smooth, SmoothKind};
+use crate::sealed_file::Writer;
 
 /// The leaf bit in the code of a node.
 pub const LEAF: u32 = 1 << 31;
@@ -37,32 +38,7 @@ pub const KINDS: [WrapperKind; 5] = [
     WrapperKind::MergedSphere,
 ];
 
-#[derive(Default)]
-pub struct Writer(pub Vec<u8>);
-
 impl Writer {
-    pub fn u32(&mut self, value: u32) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    pub fn u64(&mut self, value: u64) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    pub fn f64(&mut self, value: f64) {
-        self.0.extend(value.to_le_bytes());
-    }
-
-    pub fn count(&mut self, value: usize) {
-        self.u64(value as u64);
-    }
-
-    pub fn vector(&mut self, vector: &Vec3) {
-        for &x in vector.iter() {
-            self.f64(x);
-        }
-    }
-
     /// Fails for a support function and names the primitive.
     pub fn primitives(&mut self, primitives: &Primitives) -> Result<()> {
         self.count(primitives.len());

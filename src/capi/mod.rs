@@ -39,6 +39,8 @@ pub mod pair;
 
 pub mod motion;
 
+pub mod certificate;
+
 pub mod region;
 
 pub mod slide;

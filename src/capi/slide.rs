@@ -108,13 +108,13 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// the world box. A robot within the desired distance is pushed out to it. The step is corrected at its end, and halved
 /// until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
 ///
-/// The proof treats each body pair, and each link with a floor or the world box, separately: by its own distance, and by a
-/// bound of how far the joints between the two can move them relative to each other, or of how far a link moves along the
-/// normal of a plane between it and an obstacle. Pairs that no joint of the step moves relative to each other may touch.
-/// For a pair that touches at q and moves, the gradients of its contacts are trusted for the first 1e-4 of max_shell (or of
-/// the smallest link's radius); from there on it must be apart, unless the whole motion is shorter. Of two bodies with more
-/// than 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than
-/// the nearest.
+/// The proof is that of cstk_motion: each pair of primitives, and each link with a floor or the world box, is parted by
+/// bounds over intervals of the way, so that a robot slides along what is only a rounding error away. Pairs that no joint of
+/// the step moves relative to each other may touch. For a pair that touches at q and moves, the gradients of its contacts are
+/// trusted for the first 1e-4 of max_shell (or of the smallest link's radius); from there on it must be apart, unless the
+/// whole motion is shorter, or a plane separates the two bodies and the motion goes along it. Of two bodies with more than
+/// 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than the
+/// nearest.
 ///
 /// `slide_options` must not be NULL. `q` and `reached` have `nq` doubles and may be the same; `step`, a velocity for a unit
 /// of time, has `nv`. Unless the outcome is CSTK_SLIDE_MOVED, `reached` receives q. A slide may creep, gaining little more

@@ -38,4 +38,4 @@ pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
 pub use polytope_distance::DistanceScratch;
 pub use polytope_penetration::Penetration;
-pub use swept_gap::{Sweep, SweepTwist, swept_gap};
+pub use swept_gap::{Extension, Sweep, SweepTwist, swept_gap};

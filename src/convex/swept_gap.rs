@@ -15,24 +15,42 @@ pub struct SweepTwist {
     pub angular: Vec3,
 }
 
-/// How A moves, seen from B: by a sum of displacements, each times any factor from -1 to 1. For an interval of time there is one, the
-/// velocity at its middle times half its length; for a box of configurations there is one for each coordinate.
+/// Which way displacements go from where primitives and boxes are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extension {
+    /// Each displacement times any factor from -1 to 1.
+    BothWays,
+    /// The one displacement times any factor from 0 to 1.
+    OneWay,
+}
+
+/// How A moves, seen from B: by a sum of displacements. For an interval of time there is one, a velocity times a time; for a box of
+/// configurations there is one for each coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep<'a> {
     pub twists: &'a [SweepTwist],
-    /// What the acceleration may take off a gap along a direction that moves with A, and along one that rests with B.
+    pub extension: Extension,
+    /// What the acceleration may take off a gap where the displacement ends, along a direction that moves with A, and along one
+    /// that rests with B.
     pub bends: [f64; 2],
 }
 
 /// A lower bound of the gap through the interval along a unit direction from B to A: the better of those along the direction
 /// as it moves with A, and as it rests with B. Of A's point a the place along n at the end is n . a + n . (v + w x a), that is
-/// (n + n x w) . a + n . v, and linear in between but for the bend.
+/// (n + n x w) . a + n . v. In between it is linear but for the bend, which grows with the square of the time: the least is at an end
+/// of the interval.
 pub fn swept_gap(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &Vec3, sweep: &Sweep) -> f64 {
     let &[twist] = sweep.twists else {
         return gap_over_box(a, b, direction, sweep);
     };
     let turned = direction.cross(&twist.angular);
     let shift = direction.dot(&twist.linear);
+    if sweep.extension == Extension::OneWay {
+        let [of_a, of_b] = [least_along(a, direction), least_along(b, &-direction)];
+        let rests_with_b = least_along(a, &(direction + turned)) + of_b - sweep.bends[1];
+        let moves_with_a = of_a + least_along(b, &(turned - direction)) - sweep.bends[0];
+        return (of_a + of_b).min(rests_with_b.max(moves_with_a) + shift);
+    }
     let [ahead, behind] = [direction + turned, direction - turned];
     let rests_with_b = (least_along(a, &ahead) + shift).min(least_along(a, &behind) - shift)
         + least_along(b, &-direction)

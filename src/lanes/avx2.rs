@@ -140,6 +140,12 @@ impl Instructions for Avx2 {
     }
 
     #[inline(always)]
+    fn signed_as(self, a: __m256, sign: __m256) -> __m256 {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_xor_ps(a, _mm256_and_ps(_mm256_set1_ps(-0.0), sign)) }
+    }
+
+    #[inline(always)]
     fn min(self, a: __m256, b: __m256) -> __m256 {
         // SAFETY: the processor has the instruction.
         unsafe { _mm256_min_ps(a, b) }

@@ -30,6 +30,8 @@ pub trait Instructions: Copy {
     fn mul_add(self, a: Self::Numbers, b: Self::Numbers, c: Self::Numbers) -> Self::Numbers;
     fn sqrt(self, a: Self::Numbers) -> Self::Numbers;
     fn abs(self, a: Self::Numbers) -> Self::Numbers;
+    /// The first operand where the second is positive, and its opposite where that is negative.
+    fn signed_as(self, a: Self::Numbers, sign: Self::Numbers) -> Self::Numbers;
     /// The lane-wise minimum; the second operand where either is NaN.
     fn min(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     /// The lane-wise maximum; the second operand where either is NaN.

@@ -91,6 +91,11 @@ impl Instructions for Plain {
     }
 
     #[inline(always)]
+    fn signed_as(self, a: [f32; 8], sign: [f32; 8]) -> [f32; 8] {
+        zip(a, sign, |a, s| if s.is_sign_negative() { -a } else { a })
+    }
+
+    #[inline(always)]
     fn min(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
         zip(a, b, |a, b| if a < b { a } else { b })
     }

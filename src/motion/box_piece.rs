@@ -6,6 +6,7 @@ use super::moving_pure::Extent;
 use super::piece::{Displacement, ManyTwists, Moved, PairOver, Piece};
 use super::way::Way;
 use crate::body::Body;
+use crate::convex::Extension;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{ChainRates, LinkMotions, LinkTwists, MotionRates, RelativeTwists};
 use crate::space::Space;
@@ -168,6 +169,7 @@ impl PairInBox {
                     angular: by.angular,
                 })
                 .collect(),
+            extension: Extension::BothWays,
             bends,
             kinematics_error: self.kinematics_error,
         }

@@ -1,8 +1,8 @@
 //! The least distance along a whole motion. Distances at some times bound it from above; only proofs over the whole motion bound
 //! it from below.
 
+use super::linear_motion::LinearMotion;
 use super::motion::{MotionOptions, MotionOutcome, checked_difference};
-use super::segment::LinearMotion;
 use super::set_tree::SetTree;
 use super::way::Way;
 use crate::cobject::CObject;
@@ -253,12 +253,12 @@ impl QueryContext {
                     ..any_contact
                 },
             )?;
-            match (answer.outcome, answer.distance) {
-                (MotionOutcome::Free, _) if is_empty => {
+            match answer.outcome {
+                MotionOutcome::Free if is_empty => {
                     bounds.proved = Some(f64::INFINITY);
                     return Ok(ClearanceOutcome::Empty);
                 }
-                (MotionOutcome::Free, _) => {
+                MotionOutcome::Free => {
                     bounds.proved = Some(threshold);
                     if threshold >= options.max_distance {
                         return Ok(ClearanceOutcome::BeyondMax);
@@ -268,9 +268,8 @@ impl QueryContext {
                     }
                     failures = 0;
                 }
-                (MotionOutcome::Hit | MotionOutcome::Near, Some(distance)) => {
-                    let time = answer.times[1];
-                    let found = Sample { time, distance };
+                MotionOutcome::Hit | MotionOutcome::Near => {
+                    let found = self.sample(way, answer.times[1], f64::INFINITY)?;
                     if answer.outcome == MotionOutcome::Hit && threshold == 0.0 {
                         bounds.nearest = found;
                         return Ok(ClearanceOutcome::Hit);
@@ -282,7 +281,7 @@ impl QueryContext {
                     }
                     failures += 1;
                 }
-                _ => return Ok(ClearanceOutcome::Undecided),
+                MotionOutcome::Undecided => return Ok(ClearanceOutcome::Undecided),
             }
         }
         Ok(ClearanceOutcome::Near)

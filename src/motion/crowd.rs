@@ -4,6 +4,7 @@ use super::moving_pair::MovingPair;
 use super::piece::{Piece, TwistLists};
 use crate::body::Body;
 use crate::boxes::{EightBoxes, PackedBox};
+use crate::convex::Extension;
 use crate::lanes::{Instructions, each3};
 use crate::pair::{ROUNDING, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3};
@@ -35,6 +36,7 @@ struct RestingEight {
 pub(super) struct CrowdOver<L: TwistLists> {
     pub one: PackedBox,
     pub twists: L::Of<Twist32>,
+    pub extension: Extension,
     /// What acceleration may take off, along axes that rest with the objects and along those of the body.
     pub bends: [f32; 2],
     /// Boxes with a larger gap do not meet.
@@ -123,6 +125,7 @@ impl Crowd {
                     linear: each3(|k| at_origin[k] as f32),
                 }
             }),
+            extension: moved.extension,
             bends: [with_b, with_a],
             cutoff: ((pair.threshold + lowered) as f32).next_up(),
         }

@@ -1,7 +1,7 @@
 //! Motions on Bezier curves and B-splines through C-space.
 
+use super::linear_motion::LinearMotion;
 use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
-use super::segment::LinearMotion;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};

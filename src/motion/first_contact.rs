@@ -1,6 +1,6 @@
 //! When two primitives on a motion begin to meet.
 
-use super::moving_pair::{Interval, Kinematics, MovingPair};
+use super::moving_pair::{Interval, Kinematics, MovingPair, Span};
 use super::piece::{PairOver, Piece};
 use crate::error::Result;
 use crate::pair::Scratch;
@@ -9,7 +9,7 @@ use crate::pair::Scratch;
 const MAX_LOOKS: u32 = 24;
 
 /// Two primitives that meet at one time.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MeetingLeaves {
     pub pair: u32,
     pub places: [u32; 2],
@@ -88,7 +88,8 @@ impl MeetingLeaves {
         kinematics.start(time)?;
         let moment = &mut Interval {
             kinematics,
-            half: 0.0,
+            time,
+            span: Span::Around(0.0),
         };
         let PairOver::Near(over) = moment.over(pair) else {
             return Ok(Some(f64::INFINITY));

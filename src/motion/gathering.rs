@@ -4,12 +4,13 @@ use std::cmp::Ordering;
 
 use super::crowd::Crowd;
 use super::interval_proof::MovingLeaf;
+use super::linear_motion::STEP_FRACTION;
 use super::moving_pair::{Carried, MovingPair, RatesInWorld};
 use super::moving_pure::MovingPure;
-use super::segment::STEP_FRACTION;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
+use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
-use crate::cobject::{Induced, PureSet, PureShape};
+use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
 use crate::query::{CandidateFilter, Group, QueryContext, Scene, Target};
@@ -48,6 +49,8 @@ pub(super) struct Gathering<'a> {
     pub needs_start: bool,
     /// Of links' bodies in the world, where they were asked for.
     speeds: Vec<Option<f64>>,
+    /// Of a motion that is known not to begin inside: what touches at its start.
+    pub start: Option<&'a StartContacts>,
 }
 
 impl<'a> Gathering<'a> {
@@ -68,6 +71,7 @@ impl<'a> Gathering<'a> {
             pairs: Vec::new(),
             needs_start: false,
             speeds: Vec::new(),
+            start: None,
         }
     }
 
@@ -96,6 +100,11 @@ impl<'a> Gathering<'a> {
 
     fn pure(&self, set: &PureSet, complement: bool) -> Result<MovingLeaf> {
         let is_predicate = matches!(set.shape, PureShape::Predicate(_));
+        if let Some(start) = self.start {
+            return Ok(MovingLeaf::Pure(MovingPure::after_start(
+                self.way, set, start,
+            )?));
+        }
         Ok(match (self.keeps, complement) {
             (Keeps::Out, _) => {
                 MovingLeaf::Pure(MovingPure::new(self.way, set, complement, self.threshold)?)
@@ -121,9 +130,14 @@ impl<'a> Gathering<'a> {
         scene: &'a Scene,
         context: &mut QueryContext,
     ) -> Result<()> {
-        let line = &self.way.line;
-        let fastest = line.fastest_pair(&term[0]).unwrap_or(0.0);
-        if fastest.is_infinite() {
+        // How fast two links come near each other is found for each pair, in `add_pair`.
+        let are_links = matches!(term[0].pairs, BodyPairs::Links { .. });
+        let fastest = if are_links {
+            f64::INFINITY
+        } else {
+            self.way.line.fastest_pair(&term[0]).unwrap_or(0.0)
+        };
+        if fastest.is_infinite() && !are_links {
             return Err(unstated_speeds(&term[0]));
         }
         if fastest == 0.0 && self.is_plain {
@@ -144,16 +158,14 @@ impl<'a> Gathering<'a> {
         };
         let meter = context.scratch.meter_mut();
         let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
-        // Of a straight motion at most half lies between the middle and any other time.
-        let share = match self.way.kind {
-            WayKind::Line => 0.5,
-            WayKind::Curve { .. } | WayKind::Box { .. } => 1.0,
-        };
         // Those of one body together, what is near first.
         let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
         for (place, target) in found.iter().enumerate() {
-            let needed = share * self.speed(scene, target);
-            if STEP_FRACTION * (target.bound - threshold) <= needed {
+            let may_meet = are_links || {
+                let speed = self.speed(scene, target);
+                self.may_meet(target, threshold, speed)
+            };
+            if may_meet {
                 let (link, object, _) = target.parties();
                 order.push((link, object, OrderedBound(target.bound), place));
             }
@@ -191,7 +203,13 @@ impl<'a> Gathering<'a> {
         let line = &self.way.line;
         let speed = || line.rate(scene, target);
         let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
-        let pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+        let mut pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+        if let Some(start) = self.start {
+            pair.followed_from = start.pair_followed_from(&term[0], target);
+        }
+        if pair.followed_from >= 1.0 || !self.may_meet(target, threshold, pair.speed()) {
+            return Ok(());
+        }
         if self.is_plain {
             // What rests has no contact on the way that it has not at the start.
             self.needs_start |= pair.rests() || pair.has_solid();
@@ -235,6 +253,16 @@ impl Gathering<'_> {
             first += run.len() as u32;
         }
         crowds
+    }
+
+    /// Whether a pair whose distance at the middle has this bound may come within the threshold at any other time.
+    fn may_meet(&self, target: &Target, threshold: f64, speed: f64) -> bool {
+        // Of a straight motion at most half lies between the middle and any other time.
+        let share = match self.way.kind {
+            WayKind::Line => 0.5,
+            WayKind::Curve { .. } | WayKind::Box { .. } => 1.0,
+        };
+        STEP_FRACTION * (target.bound - threshold) <= share * speed
     }
 
     /// Bounds the change of a pair's distance in the whole time.

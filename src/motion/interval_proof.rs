@@ -3,9 +3,11 @@
 
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
-use super::front::{Front, LeafLook, Look, OverPairs, Part};
-use super::moving_pair::{Interval, Kinematics, MovingPair};
+use super::front::{Front, Part};
+use super::look::{LeafLook, Look, PairLook};
+use super::moving_pair::{Interval, Kinematics, MovingPair, Span};
 use super::moving_pure::{Moment, MovingPure};
+use super::over_pairs::OverPairs;
 use super::piece::{OneTwist, Piece};
 use super::set_tree::{Known, SetTree};
 use super::way::Way;
@@ -16,6 +18,10 @@ use crate::query::QueryContext;
 /// Intervals no longer than this, a part of the motion, are not halved: over them hardly anything moves by more than rounding.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
 
+/// The work on a pair that goes on in the halves of an interval, times the interval's length: see `PairLook`. By the motion benchmark
+/// from .5 to 16 within a tenth of each other on arms; without a limit hits of the UR10 take three times as long.
+const WORK_PER_LENGTH: f64 = 1.0;
+
 /// How an interval proof is to end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProofLimits {
@@ -23,6 +29,8 @@ pub(super) struct ProofLimits {
     pub tolerance: f64,
     /// Any contact ends the proof; else the first is looked for.
     pub any_contact: bool,
+    /// How many intervals may be looked at; where more are needed, the rest is undecided. The proof counts down.
+    pub intervals: usize,
 }
 
 /// How a proof ended.
@@ -75,8 +83,8 @@ pub(super) struct Middle<'a> {
 struct Undecided {
     times: [f64; 2],
     part: Part,
-    /// How long after its end a contact is expected, if one is.
-    before_contact: Option<f64>,
+    /// Primitives nearly meet at its end.
+    ends_near_contact: bool,
 }
 
 /// Asked for a time: whether the set is certainly met there.
@@ -87,7 +95,7 @@ pub(super) type Confirm<'c> = dyn FnMut(&mut QueryContext, f64) -> Result<bool> 
 pub(super) fn prove(
     set: &MovingSet,
     kinematics: &mut Kinematics,
-    limits: ProofLimits,
+    limits: &mut ProofLimits,
     context: &mut QueryContext,
     confirm: &mut Confirm,
 ) -> Result<Proof> {
@@ -103,7 +111,7 @@ pub(super) fn prove(
 struct Prover<'a, 'k, 'c, 'd> {
     set: &'a MovingSet<'a>,
     kinematics: &'a mut Kinematics<'k>,
-    limits: ProofLimits,
+    limits: &'a mut ProofLimits,
     context: &'a mut QueryContext,
     confirm: &'c mut Confirm<'d>,
 }
@@ -112,7 +120,7 @@ struct Prover<'a, 'k, 'c, 'd> {
 struct Outcome {
     whole: Known,
     left: Part,
-    /// Primitives that meet at its middle.
+    /// Primitives that meet where it was looked at.
     met: Option<MeetingLeaves>,
 }
 
@@ -140,11 +148,17 @@ impl Work for Prover<'_, '_, '_, '_> {
         let mut todo = vec![Undecided {
             times: [0.0, 1.0],
             part: lists.front.start(&set.pairs, &set.crowds, !is_plain),
-            before_contact: None,
+            ends_near_contact: false,
         }];
         let mut contact: Option<f64> = None;
+        // Narrowed twice, primitives within rounding of each other would be followed in the smallest steps.
+        let mut narrowed: Option<(MeetingLeaves, f64)> = None;
         while let Some(interval) = todo.pop() {
             let [start, end] = interval.times;
+            if self.limits.intervals == 0 {
+                return Ok(Proof::Undecided([start, end]));
+            }
+            self.limits.intervals -= 1;
             if let Some(contact) = contact {
                 if start >= contact {
                     continue;
@@ -163,32 +177,30 @@ impl Work for Prover<'_, '_, '_, '_> {
             if whole == Known::Free {
                 continue;
             }
-            if [start, end] == [0.0, 1.0]
-                && let Some(time) = self.sample()?
-            {
-                return Ok(Proof::Contact([0.0, time]));
+            if [start, end] == [0.0, 1.0] && (self.confirm)(self.context, 0.0)? {
+                return Ok(Proof::Contact([0.0, 0.0]));
             }
-            let middle = 0.5 * (start + end);
-            let meets =
-                whole == Known::Meets && (is_plain || (self.confirm)(self.context, middle)?);
+            let time = interval.compared_at();
+            let meets = whole == Known::Meets && (is_plain || (self.confirm)(self.context, time)?);
             if !meets {
                 // The first such interval ends the proof, so that a graze costs one descent.
                 if end - start <= SHORTEST_INTERVAL {
                     return Ok(Proof::Undecided([start, end]));
                 }
-                interval.part_at(interval.split(), left, &mut todo);
+                interval.halve(left, &mut todo);
                 continue;
             }
             if self.limits.any_contact || end - start <= self.limits.tolerance {
-                return Ok(Proof::Contact([start, middle]));
+                return Ok(Proof::Contact([start, time]));
             }
-            let (mut apart, mut meeting) = (middle, middle);
-            if let Some(met) = met {
+            let (mut apart, mut meeting) = (time, time);
+            if let Some(met) = met.filter(|met| narrowed != Some((*met, time))) {
                 let wanted = 0.5 * self.limits.tolerance;
                 let scratch = &mut self.context.scratch;
                 let pairs = &set.pairs;
                 [apart, meeting] =
-                    met.narrowed(pairs, self.kinematics, [start, middle], wanted, scratch)?;
+                    met.narrowed(pairs, self.kinematics, [start, time], wanted, scratch)?;
+                narrowed = Some((met, apart));
             }
             contact = Some(meeting);
             interval.before(apart, meeting, left, &mut todo);
@@ -201,45 +213,61 @@ impl Work for Prover<'_, '_, '_, '_> {
 }
 
 impl Undecided {
-    /// Where to part the interval: in the middle, or, before a contact, so that what is nearest to it is short: there the gap is about
-    /// as wide as the time to the contact is long.
-    fn split(&self) -> f64 {
+    /// The time at which bodies are compared.
+    fn compared_at(&self) -> f64 {
         let [start, end] = self.times;
-        let middle = 0.5 * (start + end);
-        match self.before_contact {
-            Some(rest) => middle.max(end - (rest * (end - start)).sqrt()),
-            None => middle,
+        if self.ends_near_contact {
+            end
+        } else {
+            0.5 * (start + end)
         }
+    }
+
+    fn span(&self) -> Span {
+        let [start, end] = self.times;
+        if self.ends_near_contact {
+            Span::Before(end - start)
+        } else {
+            Span::Around(0.5 * (end - start))
+        }
+    }
+
+    /// What is spent on a pair that goes on in the halves: the shorter the interval, the more. So long intervals are not searched in
+    /// vain, and what short ones decide is not decided again in too many still shorter ones.
+    fn max_work(&self) -> u32 {
+        let [start, end] = self.times;
+        (WORK_PER_LENGTH / (end - start)) as u32
     }
 
     /// Adds what comes before a contact at `meeting`; the primitives that meet there are apart up to `apart`.
     fn before(&self, apart: f64, meeting: f64, part: Part, todo: &mut Vec<Self>) {
         let [start, _] = self.times;
-        let with = |times: [f64; 2], before_contact: Option<f64>| Self {
+        let with = |times: [f64; 2], ends_near_contact: bool| Self {
             times,
             part,
-            before_contact,
+            ends_near_contact,
         };
         if start < apart && apart < meeting {
-            todo.push(with([apart, meeting], None));
-            todo.push(with([start, apart], Some(meeting - apart)));
+            todo.push(with([apart, meeting], false));
+            todo.push(with([start, apart], true));
         } else {
-            todo.push(with([start, meeting], None));
+            todo.push(with([start, meeting], false));
         }
     }
 
-    /// Adds both parts, the first of them last: it is looked at next.
-    fn part_at(&self, split: f64, part: Part, todo: &mut Vec<Self>) {
+    /// Adds both halves, the first of them last: it is looked at next.
+    fn halve(&self, part: Part, todo: &mut Vec<Self>) {
         let [start, end] = self.times;
+        let middle = 0.5 * (start + end);
         let later = Self {
-            times: [split, end],
+            times: [middle, end],
             part,
-            before_contact: self.before_contact,
+            ends_near_contact: self.ends_near_contact,
         };
         let first = Self {
-            times: [start, split],
+            times: [start, middle],
             part,
-            before_contact: self.before_contact.map(|rest| rest + (end - split)),
+            ends_near_contact: false,
         };
         todo.extend([later, first]);
     }
@@ -258,27 +286,25 @@ impl Prover<'_, '_, '_, '_> {
     where
         Self: 'l,
     {
-        let [start, end] = interval.times;
-        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let time = interval.compared_at();
         let (set, part) = (self.set, &interval.part);
         lists.known.fill(Known::Nothing);
-        self.kinematics.start(middle)?;
-        let at = Middle {
-            way: set.way,
-            time: middle,
-        };
+        self.kinematics.start(time)?;
+        let at = Middle { way: set.way, time };
         let mut look = Look {
             pairs: &set.pairs,
             crowds: &set.crowds,
             over: &mut lists.over,
             piece: &mut Interval {
                 kinematics: &mut *self.kinematics,
-                half,
+                time,
+                span: interval.span(),
             },
             front: &mut lists.front,
             scratch: &mut self.context.scratch,
             known: &mut lists.known,
             leaf: LeafLook::default(),
+            pair: PairLook::new(interval.max_work()),
             met: None,
         };
         let whole = set.look_at_all(lanes, &mut look, part, at, &mut lists.nodes)?;
@@ -286,21 +312,6 @@ impl Prover<'_, '_, '_, '_> {
         // Of other sets the contact of one leaf says little.
         let met = look.met.filter(|_| is_plain);
         Ok(Outcome { whole, left, met })
-    }
-
-    /// Asks for contact at the start, which decides all; and, where any contact will do, at some times more.
-    fn sample(&mut self) -> Result<Option<f64>> {
-        let times: &[f64] = if self.limits.any_contact {
-            &[0.0, 0.5, 0.25, 0.75, 1.0]
-        } else {
-            &[0.0]
-        };
-        for time in times {
-            if (self.confirm)(self.context, *time)? {
-                return Ok(Some(*time));
-            }
-        }
-        Ok(None)
     }
 }
 

@@ -2,15 +2,19 @@
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
 use super::gathering::{Gathering, Keeps};
-use super::interval_proof::{MovingSet, Proof, ProofLimits, prove};
+use super::interval_proof::{Confirm, MovingSet, Proof, ProofLimits, prove};
+use super::linear_motion::LinearMotion;
 use super::moving_pair::{Kinematics, MovingPair};
-use super::segment::LinearMotion;
 use super::set_tree::SetTree;
+use super::start_contacts::StartContacts;
 use super::way::Way;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::space::Space;
+
+/// Where any contact will do it is looked for here before a proof begins: an end may be where nobody has been yet.
+const SAMPLED_FIRST: [f64; 4] = [1.0, 0.5, 0.25, 0.75];
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +23,7 @@ pub struct MotionOptions {
     pub threshold: f64,
     /// How exactly the time of contact is to be known, of the motion's time from 0 to 1: from 1e-12 to 1.
     pub tolerance: f64,
-    /// Any contact will do; else the first is looked for.
+    /// Any contact will do, and no distance is told there; else the first is looked for.
     pub any_contact: bool,
 }
 
@@ -57,7 +61,8 @@ pub struct MotionAnswer {
     pub times: [f64; 2],
     /// The configuration at the second time.
     pub configuration: Vec<f64>,
-    /// The distance there, with its witness: of hits and of what is near, unless lengths and units of C-space mix in the set.
+    /// The distance there, with its witness: of hits and of what is near, unless any contact was asked for, or lengths and units of
+    /// C-space mix in the set.
     pub distance: Option<Distance>,
 }
 
@@ -108,11 +113,35 @@ impl QueryContext {
             q,
             v,
         });
+        if options.any_contact && moves_far(way) {
+            for time in SAMPLED_FIRST {
+                if self.has_contact(way, time, options)? {
+                    return self.answer(way, MotionOutcome::Hit, [0.0, time], options);
+                }
+            }
+        }
+        self.motion_on(way, options)
+    }
+
+    /// The same in a world, within the work of a call that [`Self::begin_motion`] began.
+    pub(crate) fn motion_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        [q, v]: [&[f64]; 2],
+        options: &MotionOptions,
+    ) -> Result<MotionAnswer> {
+        let way = &Way::straight(LinearMotion {
+            world,
+            cobject,
+            q,
+            v,
+        });
         self.motion_on(way, options)
     }
 
     /// Checks what all motions need; takes the world.
-    pub(super) fn begin_motion(
+    pub(crate) fn begin_motion(
         &mut self,
         cobject: &CObject,
         options: &MotionOptions,
@@ -126,17 +155,50 @@ impl QueryContext {
 
     /// Proves a motion free, or finds its contact.
     pub(super) fn motion_on(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
+        let confirm = &mut |context: &mut Self, t: f64| context.has_contact(way, t, options);
+        let limits = &mut ProofLimits {
+            tolerance: options.tolerance,
+            any_contact: options.any_contact,
+            intervals: usize::MAX,
+        };
+        match self.prove_way(way, options.threshold, limits, None, confirm)? {
+            Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0], options),
+            Proof::Contact(times) => self.answer(way, MotionOutcome::Hit, times, options),
+            Proof::Exceeded(time) => {
+                self.answer(way, MotionOutcome::Undecided, [time, time], options)
+            }
+            Proof::Undecided([start, end]) => {
+                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
+                for end in [end, (start + options.tolerance).min(1.0)] {
+                    if self.has_contact(way, end, options)? {
+                        return self.answer(way, MotionOutcome::Hit, [start, end], options);
+                    }
+                }
+                self.answer(way, MotionOutcome::Near, [start, end], options)
+            }
+        }
+    }
+
+    /// The proof of a motion. `start` is given for motions that are known not to begin inside.
+    pub(super) fn prove_way(
+        &mut self,
+        way: &Way,
+        threshold: f64,
+        limits: &mut ProofLimits,
+        start: Option<&StartContacts>,
+        confirm: &mut Confirm,
+    ) -> Result<Proof> {
         let motions = &way.link_motions();
         let tree = &SetTree::new(way.line.cobject);
         let q_middle = &way.at(0.5);
         let scene = &way.scene(q_middle)?;
-        let mut gathering = Gathering::new(way, motions, options.threshold, tree, Keeps::Out);
+        let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out);
+        gathering.start = start;
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }
-        let needs_start = gathering.needs_start;
-        if needs_start && self.has_contact(way, 0.0, options)? {
-            return self.answer(way, MotionOutcome::Hit, [0.0, 0.0]);
+        if gathering.needs_start && confirm(self, 0.0)? {
+            return Ok(Proof::Contact([0.0, 0.0]));
         }
         let crowds = gathering.crowds(scene);
         let Gathering { leaves, pairs, .. } = gathering;
@@ -147,27 +209,9 @@ impl QueryContext {
             pairs,
             crowds,
         };
-        let limits = ProofLimits {
-            tolerance: options.tolerance,
-            any_contact: options.any_contact,
-        };
         let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
         let kinematics = &mut Kinematics::new(motions, needs_poses.then_some(way));
-        let confirm = &mut |context: &mut Self, t: f64| context.has_contact(way, t, options);
-        match prove(set, kinematics, limits, self, confirm)? {
-            Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0]),
-            Proof::Contact(times) => self.answer(way, MotionOutcome::Hit, times),
-            Proof::Exceeded(time) => self.answer(way, MotionOutcome::Undecided, [time, time]),
-            Proof::Undecided([start, end]) => {
-                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
-                for end in [end, (start + options.tolerance).min(1.0)] {
-                    if self.has_contact(way, end, options)? {
-                        return self.answer(way, MotionOutcome::Hit, [start, end]);
-                    }
-                }
-                self.answer(way, MotionOutcome::Near, [start, end])
-            }
-        }
+        prove(set, kinematics, limits, self, confirm)
     }
 
     /// Whether there is contact at a time of the motion.
@@ -190,11 +234,12 @@ impl QueryContext {
         way: &Way,
         outcome: MotionOutcome,
         times: [f64; 2],
+        options: &MotionOptions,
     ) -> Result<MotionAnswer> {
         let configuration = way.at(times[1]);
         let distance = match outcome {
             MotionOutcome::Hit | MotionOutcome::Near
-                if way.line.cobject.require_one_metric().is_ok() =>
+                if !options.any_contact && way.line.cobject.require_one_metric().is_ok() =>
             {
                 let at = Configuration::Coordinates(&configuration);
                 Some(self.distance_in(way.line.world, way.line.cobject, at, f64::INFINITY)?)
@@ -210,8 +255,19 @@ impl QueryContext {
     }
 }
 
+/// Whether the last link, which is carried by the most joints, moves farther than its body reaches from the link's origin: over shorter
+/// motions samples tell little that the ends do not.
+fn moves_far(way: &Way) -> bool {
+    let LinearMotion { cobject, q, v, .. } = way.line;
+    let space = cobject.space();
+    let last = space.link_count().saturating_sub(1);
+    let body = space.link(last).and_then(|link| link.body.as_deref());
+    let radius = body.map_or(0.0, |body| body.radius_from_origin());
+    space.motion_bound_of_radius(last, radius, q, v) > radius
+}
+
 /// The velocity that leads from q0 to q1 in a unit of time.
-pub(super) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Result<Vec<f64>> {
+pub(crate) fn checked_difference(space: &Space, q0: &[f64], q1: &[f64]) -> Result<Vec<f64>> {
     for (q, name) in [(q0, "q0"), (q1, "q1")] {
         space
             .check_configuration(q)

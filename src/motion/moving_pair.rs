@@ -1,10 +1,12 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
 use super::moving_pure::Extent;
-use super::piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, Piece, TwistLists};
+use super::piece::{
+    Displacement, Followed, Moved, OneTwist, OverPiece, PairOver, Piece, TwistLists,
+};
 use super::way::Way;
 use crate::body::Body;
-use crate::convex::SweepTwist;
+use crate::convex::{Extension, SweepTwist};
 use crate::error::Result;
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
@@ -35,6 +37,8 @@ pub(super) struct MovingPair<'a> {
     pub threshold: f64,
     /// The leaf of the set tree that the pair belongs to.
     pub leaf: u32,
+    /// Intervals before this time need no proof.
+    pub followed_from: f64,
 }
 
 /// What is known of a pair's relative motion.
@@ -216,6 +220,7 @@ impl<'a> MovingPair<'a> {
             bounds,
             threshold,
             leaf,
+            followed_from: 0.0,
         })
     }
 
@@ -237,6 +242,14 @@ impl<'a> MovingPair<'a> {
         match &self.bounds {
             Bounds::Derivatives(rates) => rates.turn[0] == 0.0 && rates.origin[0] == 0.0,
             Bounds::Speed(speed) => *speed == 0.0,
+        }
+    }
+
+    /// Bounds the speed of A's points as B sees it, and so of the distance.
+    pub fn speed(&self) -> f64 {
+        match &self.bounds {
+            Bounds::Derivatives(rates) => rates.turn[0] * self.a.body.radius() + rates.origin[0],
+            Bounds::Speed(speed) => *speed,
         }
     }
 
@@ -266,50 +279,60 @@ impl<'a> MovingPair<'a> {
         matches!(self.bounds, Bounds::Speed(_))
     }
 
-    /// The pair over an interval of given half length.
+    /// The pair over an interval.
     ///
-    /// Let R be A's radius, h the half length, and w, v, alpha, a the angular velocity of A and the velocity of its centre at the
-    /// middle with their derivatives; T_k and P_k the bounds of [`MotionRates`] for a turned unit vector and for A's centre. A's
-    /// points leave the straight lines that their velocities at the middle make by at most h^2 / 2 times the largest
+    /// Let R be A's radius, h the span's reach, and w, v, alpha, a the angular velocity of A and the velocity of its centre at the
+    /// kinematics' time with their derivatives; T_k and P_k the bounds of [`MotionRates`] for a turned unit vector and for A's centre.
+    /// A's points leave the straight lines that their velocities at that time make by at most h^2 / 2 times the largest
     /// acceleration, which is at most T_2 R + P_2, and at most |a| + (|alpha| + |w|^2) R + h J / 3 with the third derivative
     /// J <= T_3 R + P_3. Seen from A, only points of B count that come within the threshold of A at some time; these are never
     /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
-    fn over_interval(&self, kinematics: &mut Kinematics, half: f64) -> PairOver<'a, OneTwist> {
+    fn over_interval(&self, kinematics: &mut Kinematics, span: Span) -> PairOver<'a, OneTwist> {
         let (relative, rates) = self.relative(kinematics);
         let kinematics_error = self.kinematics_error(&rates);
+        let reach = span.reach();
         let center_moves = |apart: &Vec3, distance: f64| match self.bounds {
             Bounds::Derivatives(_) => {
                 let [_, p2, p3] = rates.origin;
-                let acceleration = p2.min(relative.acceleration.norm() + half * p3 / 3.0);
-                let along = relative.velocity.dot(apart).abs() / distance.max(f64::MIN_POSITIVE);
-                half * along + 0.5 * half * half * acceleration
+                let acceleration = p2.min(relative.acceleration.norm() + reach * p3 / 3.0);
+                let parts = relative.velocity.dot(apart) / distance.max(f64::MIN_POSITIVE);
+                let bend = 0.5 * reach * reach * acceleration;
+                match span {
+                    Span::Around(_) => reach * parts.abs() + bend,
+                    Span::Before(_) => (reach * parts + bend).max(0.0),
+                }
             }
-            Bounds::Speed(speed) => half * speed,
+            Bounds::Speed(speed) => reach * speed,
         };
         if self.balls_stay_apart(&relative.poses, center_moves, kinematics_error) {
             return PairOver::Apart;
         }
-        if half * rates.turn[0] > MAX_TURN {
+        if reach * rates.turn[0] > MAX_TURN {
             return PairOver::TooLong;
         }
-        PairOver::Near(self.placed(self.moved_over_interval(&relative, &rates, half)))
+        PairOver::Near(self.placed(self.moved_over_interval(&relative, &rates, span)))
     }
 
     fn moved_over_interval(
         &self,
         relative: &Relative,
         rates: &MotionRates,
-        half: f64,
+        span: Span,
     ) -> Moved<OneTwist> {
+        let (time, extension) = match span {
+            Span::Around(half) => (half, Extension::BothWays),
+            Span::Before(length) => (-length, Extension::OneWay),
+        };
         Moved {
             poses: relative.poses,
             displacements: [Displacement {
-                linear: relative.velocity * half,
-                angular: relative.angular * half,
+                linear: relative.velocity * time,
+                angular: relative.angular * time,
             }],
-            bends: self.bends(relative, rates, half),
+            extension,
+            bends: self.bends(relative, rates, span.reach()),
             kinematics_error: self.kinematics_error(rates),
         }
     }
@@ -369,6 +392,7 @@ impl<'a> MovingPair<'a> {
                 displacement,
             },
             sweep_twists,
+            extension: moved.extension,
             sweep_bends: bends,
             pairing,
         }
@@ -379,16 +403,16 @@ impl<'a> MovingPair<'a> {
     }
 
     /// As [`Sweep::bends`], with more than the rounding of their sums.
-    fn bends(&self, relative: &Relative, rates: &MotionRates, half: f64) -> [f64; 2] {
+    fn bends(&self, relative: &Relative, rates: &MotionRates, reach: f64) -> [f64; 2] {
         match self.bounds {
             Bounds::Derivatives(_) => self
-                .accelerations(relative, rates, half)
-                .map(|x| 0.5 * half * half * x * (1.0 + 1e-9)),
-            Bounds::Speed(speed) => [half * speed * (1.0 + 1e-9); 2],
+                .accelerations(relative, rates, reach)
+                .map(|x| 0.5 * reach * reach * x * (1.0 + 1e-9)),
+            Bounds::Speed(speed) => [reach * speed * (1.0 + 1e-9); 2],
         }
     }
 
-    /// How A moves at the middle as B sees it, with the bounds of derivatives that are known.
+    /// How A moves as B sees it at the kinematics' time, with the bounds of derivatives that are known.
     fn relative(&self, kinematics: &mut Kinematics) -> (Relative, MotionRates) {
         let (states, rates) = match &self.bounds {
             Bounds::Derivatives(rates) => {
@@ -435,8 +459,8 @@ impl<'a> MovingPair<'a> {
         distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
     }
 
-    /// Bounds of the accelerations through the interval: of B's points as A sees them, and of A's as B sees them.
-    fn accelerations(&self, relative: &Relative, rates: &MotionRates, half: f64) -> [f64; 2] {
+    /// Bounds of the accelerations through an interval: of B's points as A sees them, and of A's as B sees them.
+    fn accelerations(&self, relative: &Relative, rates: &MotionRates, reach: f64) -> [f64; 2] {
         let Relative {
             velocity: v,
             acceleration: a,
@@ -449,12 +473,12 @@ impl<'a> MovingPair<'a> {
             ..
         } = *rates;
         let radius = self.a.body.radius();
-        let rho = radius + self.threshold + half * p1.min(v.norm() + half * p2);
+        let rho = radius + self.threshold + reach * p1.min(v.norm() + reach * p2);
         let turning = relative.angular_acceleration.norm() + w.norm_squared();
         let jerk_of_a = t3 * radius + p3;
         let jerk_of_b = t3 * rho + 3.0 * t2 * p1 + 3.0 * t1 * p2 + p3;
-        let of_a = a.norm() + turning * radius + half * jerk_of_a / 3.0;
-        let of_b = (a - 2.0 * w.cross(v)).norm() + turning * rho + half * jerk_of_b / 3.0;
+        let of_a = a.norm() + turning * radius + reach * jerk_of_a / 3.0;
+        let of_b = (a - 2.0 * w.cross(v)).norm() + turning * rho + reach * jerk_of_b / 3.0;
         [
             of_b.min(t2 * rho + 2.0 * t1 * p1 + p2),
             of_a.min(t2 * radius + p2),
@@ -462,26 +486,51 @@ impl<'a> MovingPair<'a> {
     }
 }
 
-/// An interval of a motion, whose middle the kinematics are at.
+/// Where an interval lies, seen from the time at which bodies are compared.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Span {
+    /// It goes as far to either side.
+    Around(f64),
+    /// It ends there: so long. What approaches all the while is nearest there, however it bends before.
+    Before(f64),
+}
+
+impl Span {
+    /// The longest time from there.
+    pub fn reach(self) -> f64 {
+        let (Self::Around(reach) | Self::Before(reach)) = self;
+        reach
+    }
+}
+
+/// An interval of a motion.
 pub(super) struct Interval<'k, 'a> {
     pub kinematics: &'k mut Kinematics<'a>,
-    /// Half its length.
-    pub half: f64,
+    /// The time at which bodies are compared, which the kinematics are at.
+    pub time: f64,
+    pub span: Span,
 }
 
 impl Piece for Interval<'_, '_> {
     type Lists = OneTwist;
 
     fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, OneTwist> {
-        pair.over_interval(self.kinematics, self.half)
+        match Followed::over_interval(pair.followed_from, self.time, self.span) {
+            Followed::Yes => pair.over_interval(self.kinematics, self.span),
+            Followed::InPart => PairOver::TooLong,
+            Followed::No => PairOver::Apart,
+        }
     }
 
     fn moved(&mut self, pair: &MovingPair) -> Moved<OneTwist> {
         let (relative, rates) = pair.relative(self.kinematics);
-        pair.moved_over_interval(&relative, &rates, self.half)
+        pair.moved_over_interval(&relative, &rates, self.span)
     }
 
     fn extent(&self) -> Extent<'_> {
-        Extent::Time(self.half)
+        Extent::Time {
+            time: self.time,
+            span: self.span,
+        }
     }
 }

@@ -2,7 +2,10 @@
 //! there.
 
 use super::box_piece::BoxPiece;
+use super::moving_pair::Span;
+use super::piece::Followed;
 use super::set_tree::Known;
+use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
@@ -25,6 +28,8 @@ pub(super) struct MovingPure {
 struct MovingPart {
     set: PureSet,
     rate: f64,
+    /// Intervals before this time need no proof.
+    followed_from: f64,
 }
 
 /// A piece of a motion, at its middle.
@@ -37,8 +42,12 @@ pub(super) struct Moment<'a> {
 /// How far a piece goes from its middle.
 #[derive(Clone, Copy)]
 pub(super) enum Extent<'a> {
-    /// An interval, of which this is half the length.
-    Time(f64),
+    /// An interval.
+    Time {
+        /// The time at which the set is measured.
+        time: f64,
+        span: Span,
+    },
     /// A box, which is all of the moment's way.
     Box(&'a BoxPiece<'a>),
 }
@@ -46,24 +55,35 @@ pub(super) enum Extent<'a> {
 impl MovingPure {
     /// Fails for sets of which no speed is known.
     pub fn new(way: &Way, set: &PureSet, complement: bool, threshold: f64) -> Result<Self> {
+        let parts = parts_of(way, set, complement || threshold > 0.0);
+        let parts = parts
+            .into_iter()
+            .map(|part| MovingPart::new(way, part, 0.0));
+        Ok(Self {
+            parts: parts.collect::<Result<_>>()?,
+            complement,
+            threshold,
+        })
+    }
+
+    /// Of a motion that is known not to begin inside, with both ends in the coordinates' ranges: what rests needs no proof.
+    pub fn after_start(way: &Way, set: &PureSet, start: &StartContacts) -> Result<Self> {
         let mut parts = Vec::new();
-        for part in parts_of(way, set, complement || threshold > 0.0) {
-            let rate = rate(way, &part);
-            if !rate.is_finite() {
-                return Err(Error::new(
-                    ErrorKind::Unsupported,
-                    format!(
-                        "of pure set {} no speed is known: a predicate that does not measure, or a custom joint without speeds",
-                        set.leaf.serial
-                    ),
-                ));
+        for (number, part) in set
+            .parts_on_way(way.line.cobject.space())
+            .into_iter()
+            .enumerate()
+        {
+            let from = start.part_followed_from(set, number);
+            let part = MovingPart::new(way, part, from)?;
+            if part.rate > 0.0 && from < 1.0 {
+                parts.push(part);
             }
-            parts.push(MovingPart { set: part, rate });
         }
         Ok(Self {
             parts,
-            complement,
-            threshold,
+            complement: false,
+            threshold: 0.0,
         })
     }
 
@@ -98,7 +118,32 @@ impl MovingPure {
 }
 
 impl MovingPart {
+    fn new(way: &Way, set: PureSet, followed_from: f64) -> Result<Self> {
+        let rate = rate(way, &set);
+        if !rate.is_finite() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "of pure set {} no speed is known: a predicate that does not measure, or a custom joint without speeds",
+                    set.leaf.serial
+                ),
+            ));
+        }
+        Ok(Self {
+            set,
+            rate,
+            followed_from,
+        })
+    }
+
     fn over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
+        if let Extent::Time { time, span } = moment.extent {
+            match Followed::over_interval(self.followed_from, time, span) {
+                Followed::Yes => {}
+                Followed::InPart => return Ok(Known::Nothing),
+                Followed::No => return Ok(Known::Free),
+            }
+        }
         let pure = self.at(moment, false);
         let lower = pure.bounded_distance()?.lower;
         // At the boundary of an open set, such as that beyond the joint limits, a configuration is outside.
@@ -158,7 +203,7 @@ impl MovingPart {
     /// Bounds how much the signed distance changes from the middle of a piece on.
     fn change(&self, moment: &Moment) -> f64 {
         match moment.extent {
-            Extent::Time(half) => self.rate * half * RATE_SLACK,
+            Extent::Time { span, .. } => self.rate * span.reach() * RATE_SLACK,
             Extent::Box(_) => rate(moment.way, &self.set) * RATE_SLACK,
         }
     }
@@ -181,7 +226,7 @@ impl MovingPart {
             return None;
         };
         let half = match moment.extent {
-            Extent::Time(half) => half,
+            Extent::Time { span, .. } => span.reach(),
             Extent::Box(piece) => {
                 let (body, _) = moment.scene.link(link)?;
                 return Some(piece.change_along(link, body, normal)? * RATE_SLACK);

@@ -30,7 +30,7 @@ pub struct PairMotionAnswer {
     pub times: [f64; 2],
     /// The poses of both bodies at the second time.
     pub poses: [Pose; 2],
-    /// The distance there, with its witness: of hits and of what is near.
+    /// The distance there, with its witness: of hits and of what is near, unless any contact was asked for.
     pub distance: Option<Distance>,
 }
 
@@ -89,9 +89,10 @@ impl QueryContext {
                 pairs: pair.into_iter().collect(),
                 crowds: Vec::new(),
             };
-            let limits = ProofLimits {
+            let limits = &mut ProofLimits {
                 tolerance: options.tolerance,
                 any_contact: options.any_contact,
+                intervals: usize::MAX,
             };
             let kinematics = &mut Kinematics::new(&motions, None);
             prove(set, kinematics, limits, self, &mut |context, t| {
@@ -119,11 +120,11 @@ impl QueryContext {
             poses_at(times[1])
         };
         let distance = match outcome {
-            MotionOutcome::Hit | MotionOutcome::Near => {
+            MotionOutcome::Hit | MotionOutcome::Near if !options.any_contact => {
                 let [at_a, at_b] = [(a.body, &poses[0]), (b.body, &poses[1])];
                 Some(self.bodies_distance(at_a, at_b, f64::INFINITY)?)
             }
-            MotionOutcome::Free | MotionOutcome::Undecided => None,
+            _ => None,
         };
         Ok(PairMotionAnswer {
             outcome,

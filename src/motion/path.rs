@@ -1,7 +1,7 @@
 //! Paths: polylines through configurations, each segment a motion, all in one state of the world.
 
+use super::linear_motion::LinearMotion;
 use super::motion::{MotionAnswer, MotionOptions, MotionOutcome};
-use super::segment::LinearMotion;
 use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};
@@ -165,7 +165,12 @@ impl QueryContext {
                 if !self.has_contact(way, t, path.options)? {
                     return Ok(None);
                 }
-                Ok(Some(self.answer(way, MotionOutcome::Hit, [0.0, t])?))
+                Ok(Some(self.answer(
+                    way,
+                    MotionOutcome::Hit,
+                    [0.0, t],
+                    path.options,
+                )?))
             });
             match found {
                 Ok(None) => {}

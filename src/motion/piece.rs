@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::moving_pair::MovingPair;
+use super::moving_pair::{MovingPair, Span};
 use super::moving_pure::Extent;
-use crate::convex::{Sweep, SweepTwist};
+use crate::convex::{Extension, Sweep, SweepTwist};
 use crate::pair::{Motion32, Pairing, SweptLimits, Twist32};
 use crate::pose::{Pose, Vec3};
 
@@ -53,6 +53,34 @@ pub(super) trait Piece {
     fn extent(&self) -> Extent<'_>;
 }
 
+/// Whether a proof follows a pair or a set through a piece. What touches at the start of a slide is followed from a later time on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Followed {
+    /// What comes before the time at which it is followed is known to be free.
+    No,
+    /// Through the later part, which the halves of the piece tell apart.
+    InPart,
+    Yes,
+}
+
+impl Followed {
+    /// What is followed from a time on, over an interval in which it is compared at another time.
+    #[inline(always)]
+    pub fn over_interval(from: f64, compared_at: f64, span: Span) -> Self {
+        let end = match span {
+            Span::Around(half) => compared_at + half,
+            Span::Before(_) => compared_at,
+        };
+        if from <= compared_at {
+            Self::Yes
+        } else if end <= from {
+            Self::No
+        } else {
+            Self::InPart
+        }
+    }
+}
+
 /// A displacement of a body: of its centre, and its turn in radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Displacement {
@@ -62,10 +90,11 @@ pub(super) struct Displacement {
 
 /// How A moves through a piece, as B sees it, with the components in the world's frame.
 pub(super) struct Moved<L: TwistLists> {
-    /// Of both bodies, in the world, at the middle.
+    /// Of both bodies, in the world, where they are compared.
     pub poses: [Pose; 2],
-    /// From the middle to the sides.
+    /// From where boxes and primitives are compared to the sides of the piece.
     pub displacements: L::Of<Displacement>,
+    pub extension: Extension,
     /// As [`Sweep::bends`].
     pub bends: [f64; 2],
     pub kinematics_error: f64,
@@ -89,6 +118,7 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
     pub motions: [Motion32; 2],
     /// In A's frame, and in B's.
     pub twists: [L::Of<Twist32>; 2],
+    pub extension: Extension,
     /// As [`Sweep::bends`], in units of the pair.
     pub bends: [f32; 2],
     /// In A's frame.
@@ -103,6 +133,7 @@ impl<L: TwistLists> OverPiece<'_, L> {
     pub fn sweep(&self) -> Sweep<'_> {
         Sweep {
             twists: self.sweep_twists.as_ref(),
+            extension: self.extension,
             bends: self.sweep_bends,
         }
     }

@@ -3,8 +3,8 @@
 
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::MovingSet;
+use super::linear_motion::LinearMotion;
 use super::region_proof::{BoxProof, Center, Region, RegionProof, prove_region};
-use super::segment::LinearMotion;
 use super::set_tree::SetTree;
 use super::way::{Way, WayKind};
 use crate::cobject::{CObject, Class};

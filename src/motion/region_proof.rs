@@ -2,9 +2,11 @@
 //! primitives, and all pure sets.
 
 use super::box_piece::BoxPiece;
-use super::front::{Front, Look, OverPairs, Part};
+use super::front::{Front, Part};
 use super::interval_proof::{Middle, MovingSet};
-use super::segment::LinearMotion;
+use super::linear_motion::LinearMotion;
+use super::look::{Look, PairLook};
+use super::over_pairs::OverPairs;
 use super::set_tree::Known;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
@@ -218,6 +220,7 @@ impl Work for Prover<'_, '_, '_> {
                 scratch: &mut context.scratch,
                 known: &mut known,
                 leaf: Default::default(),
+                pair: PairLook::new(u32::MAX),
                 met: None,
             };
             let at = Middle {

@@ -1,73 +1,19 @@
 //! The step that slides along contacts instead of running into them (Appendix A: `slide`).
 
+use std::cell::Cell;
+
 use super::half_spaces::dot;
-use super::segment::{LinearMotion, TouchAllowance};
+use super::interval_proof::{Proof, ProofLimits};
+use super::linear_motion::LinearMotion;
 use super::slide_contacts::Detail;
+use super::slide_options::SlideOptions;
 use super::slide_step::{Approach, LEAST_GAIN, nearest_movable, slide_step, spring_step};
+use super::start_contacts::{StartContacts, TouchAllowance};
 use super::step_limits::step_limits;
+use super::way::Way;
 use crate::cobject::{CObject, PureShape, Set};
-use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
-use crate::query::{
-    Configuration, ContactRecord, QueryContext, WitnessList, World, check_threshold,
-};
-
-/// Options of a slide. Distances are lengths.
-#[derive(Clone, Copy, Debug)]
-pub struct SlideOptions {
-    /// Contacts up to this distance constrain the step.
-    pub max_shell: f64,
-    /// The distance at which the robot slides; where it is nearer it is pushed out.
-    pub desired_distance: f64,
-    /// Lengthens the step along the contact to the length of the requested step, at most fourfold: the report's
-    /// `normalize?`.
-    pub normalize: bool,
-    /// A step is halved until it is accepted, or shorter than this fraction of the requested step.
-    pub floor: f64,
-    /// The most witnesses considered, the nearest first.
-    pub max_witnesses: usize,
-}
-
-impl SlideOptions {
-    /// The report's defaults: a desired distance of a tenth of the shell.
-    pub fn with_shell(max_shell: f64) -> Self {
-        Self {
-            max_shell,
-            desired_distance: max_shell / 10.0,
-            normalize: false,
-            floor: 1.0 / 1024.0,
-            max_witnesses: 256,
-        }
-    }
-
-    fn check(&self) -> Result<()> {
-        check_threshold(self.max_shell, "max_shell")?;
-        require_coordinates(&[self.max_shell], "max_shell")?;
-        check_threshold(self.desired_distance, "desired_distance")?;
-        if self.max_shell == 0.0 {
-            return Err(Error::invalid(
-                "max_shell is 0; a slide needs room to see contacts",
-            ));
-        }
-        if self.desired_distance > self.max_shell {
-            return Err(Error::invalid(format!(
-                "desired_distance {} is larger than max_shell {}",
-                self.desired_distance, self.max_shell
-            )));
-        }
-        require_finite(&[self.floor], "floor")?;
-        if !(f64::EPSILON..=1.0).contains(&self.floor) {
-            return Err(Error::invalid(format!(
-                "floor {} is not between {:e} and 1",
-                self.floor,
-                f64::EPSILON
-            )));
-        }
-        if self.max_witnesses == 0 {
-            return Err(Error::invalid("max_witnesses is 0"));
-        }
-        Ok(())
-    }
-}
+use crate::error::{Error, ErrorKind, Result};
+use crate::query::{Configuration, ContactRecord, QueryContext, WitnessList, World};
 
 /// How a slide ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,6 +70,8 @@ struct SlideRequest<'a> {
     /// The length of the requested step.
     length: f64,
     detail: Detail,
+    /// How many intervals proofs may still look at.
+    intervals_left: Cell<usize>,
 }
 
 impl QueryContext {
@@ -183,6 +131,7 @@ impl QueryContext {
             options,
             length,
             detail: Detail::Nearest,
+            intervals_left: Cell::new(MAX_INTERVALS_OF_SLIDE),
         };
         let mut reached = self.find_step(&request, step)?;
         // Contacts that were left out of large meshes may have blocked the step, so try again with all.
@@ -297,14 +246,57 @@ impl QueryContext {
             q,
             v: &way,
         };
+        let is_free = self.way_is_free(request, motion)?;
+        Ok(is_free.then_some(reached))
+    }
+
+    /// Whether the robot is proved to keep clear of the C-object on a motion from the start.
+    fn way_is_free(&mut self, request: &SlideRequest, motion: LinearMotion) -> Result<bool> {
+        let &SlideRequest {
+            cobject, options, ..
+        } = request;
         let allowance = TouchAllowance {
             distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(cobject)),
             max_count: options.max_witnesses,
         };
-        let is_free = self.motion_is_free(&motion, &allowance)?;
-        Ok(is_free.then_some(reached))
+        let mut start = StartContacts::default();
+        let clearances = request.here.contacts.iter().map(|c| c.clearance);
+        if clearances.fold(f64::INFINITY, f64::min) <= allowance.distance {
+            match self.start_contacts(&motion, &allowance)? {
+                Some(found) => start = found,
+                None => return Ok(false),
+            }
+        }
+        let left = request.intervals_left.get();
+        let given = left.min(MAX_INTERVALS);
+        let limits = &mut ProofLimits {
+            tolerance: 1.0,
+            any_contact: true,
+            intervals: given,
+        };
+        let way = &Way::straight(motion);
+        // The start is known not to be inside; what the proof meets later is contact enough.
+        let confirm = &mut |_: &mut Self, _| Ok(false);
+        let proof = self.prove_way(way, 0.0, limits, Some(&start), confirm);
+        request
+            .intervals_left
+            .set(left - (given - limits.intervals));
+        match proof {
+            Ok(Proof::Free) => Ok(true),
+            Ok(_) => self.scratch.meter().check().map(|()| false),
+            // Contacts may turn a step so that it moves a custom joint that does not state its speeds.
+            Err(error) if error.kind == ErrorKind::Unsupported => Ok(false),
+            Err(error) => Err(error),
+        }
     }
 }
+
+/// A way whose proof takes more intervals than this counts as blocked. Some thousands are needed by what turns 1e-9 above a floor from
+/// which no plane parts it, millions by joints and shapes of the caller's that state no more than speeds or farthest points.
+const MAX_INTERVALS: usize = 1 << 14;
+
+/// The same for all ways that a slide tries.
+const MAX_INTERVALS_OF_SLIDE: usize = 1 << 16;
 
 /// How far a touching robot may move before a distance must prove it free, as a fraction of the shell or of the smallest
 /// link.

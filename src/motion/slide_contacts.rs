@@ -1,6 +1,6 @@
 //! The contacts that constrain a slide: those of each leaf within its shell.
 
-use super::slide::SlideOptions;
+use super::slide_options::SlideOptions;
 use crate::cobject::{CObject, PureSet, Set};
 use crate::error::Result;
 use crate::query::{
@@ -96,41 +96,26 @@ impl ContactSearch<'_> {
             }
             // Searched alone, so its rank is 0: hits name their pair by rank.
             let target = &[Target { rank: 0, ..*target }];
-            let Some(request) = self.request_of(context, target, shell)? else {
-                continue;
+            let whole = self.request(shell);
+            let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
+            let is_cut = self.detail == Detail::Nearest && a.saturating_mul(b) > SMALL_PAIR;
+            let request = match is_cut {
+                true => WitnessRequest {
+                    band: BAND * shell,
+                    max_count: whole.max_count.min(MAX_OF_LARGE_PAIR),
+                    ..whole
+                },
+                false => whole,
             };
-            let list = context.list(group, scene, target, request)?;
+            let mut list = context.list(group, scene, target, request)?;
+            // All primitives that meet must be listed: some may overlap.
+            if is_cut && list.witnesses.first().is_some_and(|w| w.distance == 0.0) {
+                let epsilon = BAND * shell;
+                list = context.list(group, scene, target, WitnessRequest { epsilon, ..whole })?;
+            }
             self.add_list(list, shell);
         }
         Ok(())
-    }
-
-    /// Which witnesses to list of a body pair; `None` if the bodies are farther apart than the shell.
-    fn request_of(
-        &self,
-        context: &mut QueryContext,
-        target: &[Target; 1],
-        shell: f64,
-    ) -> Result<Option<WitnessRequest>> {
-        let whole = self.request(shell);
-        let [a, b] = target[0].sides.map(|(body, _)| body.primitives().len());
-        if self.detail == Detail::All || a.saturating_mul(b) <= SMALL_PAIR {
-            return Ok(Some(whole));
-        }
-        let Some((nearest, _)) = context.nearest(target, shell)?.hit else {
-            return Ok(None);
-        };
-        let epsilon = (nearest.distance + BAND * shell).min(shell);
-        // All primitives that meet must be listed: some may overlap.
-        let max_count = match nearest.distance > 0.0 {
-            true => whole.max_count.min(MAX_OF_LARGE_PAIR),
-            false => whole.max_count,
-        };
-        Ok(Some(WitnessRequest {
-            epsilon,
-            max_count,
-            ..whole
-        }))
     }
 
     /// Adds the contacts of a pure set. Floors and the world box are split by link: a link that rests on a floor must not

@@ -1,7 +1,7 @@
 //! What a robot does in a proof: a motion through C-space as a function of time, from 0 to 1, or any of the straight motions from the
 //! middle of a box of configurations to another of the box.
 
-use super::segment::LinearMotion;
+use super::linear_motion::LinearMotion;
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;

@@ -268,14 +268,21 @@ impl<'a> Pairing<'a> {
 
     /// The closest points of a hit, in A's centred frame, and what its contacts are computed from.
     pub fn closest(&self, hit: &Hit, scratch: &mut PrimitiveScratch) -> PrimitiveDistance {
-        let found = self
-            .closest_outlines(hit.places)
-            .map(PrimitiveDistance::of_hulls);
-        let mut found = found
-            .or_else(|| self.measure(hit.places, DistanceLimits::EXACT, scratch))
-            .expect("nothing is beyond infinity");
+        let found = self.closest_at(hit.places, scratch);
+        let mut found = found.expect("nothing is beyond infinity");
         found.closest.distance = hit.apart;
         found
+    }
+
+    /// The closest points of the primitives at two places, in A's centred frame.
+    pub(super) fn closest_at(
+        &self,
+        places: [u32; 2],
+        scratch: &mut PrimitiveScratch,
+    ) -> Option<PrimitiveDistance> {
+        let found = self.closest_outlines(places);
+        let found = found.map(PrimitiveDistance::of_hulls);
+        found.or_else(|| self.measure(places, DistanceLimits::EXACT, scratch))
     }
 
     /// The same for polygons that do not cross.

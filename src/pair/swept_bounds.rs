@@ -9,6 +9,10 @@
 //! m = n x w and c the centre of each. A small box beside a long one that turns keeps a small term so, and a translation is
 //! exact.
 //!
+//! Where boxes are compared at an end of the interval, they move one way ([`Extension::OneWay`]): with n from the eight to the one,
+//! n . u is taken for -|n . u|, and what is then left of the other terms when the boxes part takes nothing off. All of these
+//! terms are linear in time but for the bend, which grows with its square: the least gap is at one of the ends.
+//!
 //! A box of configurations has one such twist for each coordinate: the velocity times half the box's width in it. To first order a
 //! configuration of the box moves the points by a sum of these, each times a factor from -1 to 1, so that the terms above are summed
 //! over the twists.
@@ -22,9 +26,10 @@
 
 use super::box_bounds::{AXIS_FACTOR, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
+use crate::convex::Extension;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 
-/// Velocities at the middle of an interval times half its length, in units of the pair.
+/// Velocities times the time from where boxes are compared to the end of the interval, in units of the pair.
 #[derive(Clone, Copy, Debug)]
 pub struct Twist32 {
     pub angular: [f32; 3],
@@ -34,7 +39,7 @@ pub struct Twist32 {
 
 /// The largest gaps of eight boxes from one.
 pub struct SweptGaps<I: Instructions> {
-    /// At the middle of the interval.
+    /// Where they are compared.
     pub still: Lanes8<I>,
     /// Through all of it.
     pub swept: Lanes8<I>,
@@ -53,6 +58,7 @@ pub fn swept_gaps<I: Instructions>(
     eight: &EightBoxes<I>,
     one: &PackedBox,
     twists: &[Twist32],
+    extension: Extension,
     bends: [f32; 2],
 ) -> SweptGaps<I> {
     let [x, y, z] = splat(lanes, &one.center);
@@ -86,6 +92,16 @@ pub fn swept_gaps<I: Instructions>(
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
     };
+    let places_of_eight = [
+        lanes.dot(&axes[0], &apart),
+        lanes.dot(&axes[1], &apart),
+        lanes.dot(&axes[2], &apart),
+    ];
+    let places_of_one = [
+        lanes.along(&apart, first),
+        lanes.along(&apart, second),
+        lanes.along(&apart, third),
+    ];
     let mut of_one = [lanes.splat(bends[0]); 3];
     let mut of_eight = [lanes.splat(bends[1]); 3];
     for twist in twists {
@@ -96,7 +112,9 @@ pub fn swept_gaps<I: Instructions>(
             each3(|k| turned[k] * one.half[j])
         });
         for k in 0..3 {
-            of_one[k] = lanes.add(lanes.abs(lanes.along(&axes[k], &velocity)), of_one[k]);
+            let shift = lanes.along(&axes[k], &velocity);
+            let nearer = nearer(lanes, shift, places_of_eight[k], extension);
+            of_one[k] = lanes.add(nearer, of_one[k]);
             for side in &sides {
                 of_one[k] = lanes.add(of_one[k], lanes.abs(lanes.along(&axes[k], side)));
             }
@@ -107,7 +125,8 @@ pub fn swept_gaps<I: Instructions>(
             let origin = lanes.splat(dot(axis, &twist.linear));
             let first = lanes.mul_add(center[0], ax, origin);
             let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-            let moved = lanes.add(lanes.abs(at_center), of_eight[j]);
+            let nearer = nearer(lanes, at_center, places_of_one[j], extension);
+            let moved = lanes.add(nearer, of_eight[j]);
             let turned = [
                 lanes.along(&axes[0], &arm),
                 lanes.along(&axes[1], &arm),
@@ -117,18 +136,17 @@ pub fn swept_gaps<I: Instructions>(
         }
     }
     for k in 0..3 {
-        let place = lanes.abs(lanes.dot(&axes[k], &apart));
         let gap = lanes.sub(
-            place,
+            lanes.abs(places_of_eight[k]),
             extent_along(lanes, &products[k], &half, eight.half[k]),
         );
-        gaps.offer(lanes, gap, of_one[k]);
+        gaps.offer(lanes, gap, of_one[k], extension);
     }
-    for (j, axis) in one.axes.iter().enumerate() {
+    for j in 0..3 {
         let along = [products[0][j], products[1][j], products[2][j]];
-        let place = lanes.abs(lanes.along(&apart, axis));
         let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-        gaps.offer(lanes, lanes.sub(place, extent), of_eight[j]);
+        let gap = lanes.sub(lanes.abs(places_of_one[j]), extent);
+        gaps.offer(lanes, gap, of_eight[j], extension);
     }
     let upright = lanes.splat(AXIS_FACTOR);
     SweptGaps {
@@ -137,9 +155,28 @@ pub fn swept_gaps<I: Instructions>(
     }
 }
 
+/// What a shift of a centre takes off its distance from others along an axis, which is the size of `place`.
+#[inline(always)]
+fn nearer<I: Instructions>(
+    lanes: I,
+    shift: Lanes8<I>,
+    place: Lanes8<I>,
+    extension: Extension,
+) -> Lanes8<I> {
+    match extension {
+        Extension::BothWays => lanes.abs(shift),
+        Extension::OneWay => lanes.sub(lanes.splat(0.0), lanes.signed_as(shift, place)),
+    }
+}
+
 impl<I: Instructions> SweptGaps<I> {
+    /// Takes in the gap along one axis, and what the motion takes off it.
     #[inline(always)]
-    fn offer(&mut self, lanes: I, gap: Lanes8<I>, moved: Lanes8<I>) {
+    fn offer(&mut self, lanes: I, gap: Lanes8<I>, moved: Lanes8<I>, extension: Extension) {
+        let moved = match extension {
+            Extension::BothWays => moved,
+            Extension::OneWay => lanes.max(moved, lanes.splat(0.0)),
+        };
         self.still = lanes.max(self.still, gap);
         self.swept = lanes.max(self.swept, lanes.sub(gap, moved));
     }

@@ -2,11 +2,12 @@
 
 use super::Scratch;
 use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratch};
-use crate::convex::{PlacedPrimitive, Sweep, swept_gap};
+use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::SmoothKind;
+use crate::tolerance::EPSILON;
 
 /// What is asked of primitives over an interval.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +16,7 @@ pub struct SweptLimits {
     pub threshold: f64,
     /// What the rounding of a gap may take off.
     pub slack: f64,
-    /// No point of A moves farther than this, seen from B, from the middle of the interval to an end.
+    /// No point of A moves farther than this, seen from B, from where the primitives are compared.
     pub displacement: f64,
 }
 
@@ -29,6 +30,10 @@ pub enum SweptLeaves {
     /// They are apart at its middle, and more is not known. The direction in B's frame, from B to A, parts them there.
     Undecided([f32; 3]),
 }
+
+/// Closest points have errors of some EPSILON of the pair's size L, and the direction between them one of that over their distance d.
+/// What it tilts shows in a gap once d^2 is at most this times L and the motion's length.
+const HAIR: f64 = 1e4 * EPSILON;
 
 /// A look at two primitives, in the widest instructions.
 struct SweptPair<'a, 'p> {
@@ -150,8 +155,23 @@ impl Pairing<'_> {
         if self.stays_apart(places, &direction, sweep, needed, scratch) {
             return SweptLeaves::Free;
         }
+        let is_hair = apart.distance * apart.distance
+            <= HAIR * self.precision.size * limits.displacement.min(self.precision.size);
+        let normal = is_hair.then(|| self.contact_direction(places, scratch));
+        let direction = normal.flatten().unwrap_or(direction);
+        if is_hair && self.stays_apart(places, &direction, sweep, needed, scratch) {
+            return SweptLeaves::Free;
+        }
         let in_b = self.relative.rotation.tr_mul(&direction);
         SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
+    }
+
+    /// The normal of the contact of primitives that are apart, in A's frame: it comes from their features, and does not lose digits
+    /// where the closest points are only a rounding error apart.
+    fn contact_direction(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> Option<Vec3> {
+        let found = self.closest_at(places, scratch)?;
+        let [a, b] = self.placed(places, &mut scratch.buffer);
+        Some(first_contact(&a, &b, &found, &self.precision)?.normal)
     }
 
     /// The distance of the primitives at two places, 0 where they touch to within the pair's error.

@@ -123,6 +123,8 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
 pub struct Collect {
     pub body_pair: u32,
     pub margin: f64,
+    /// Pairs farther apart than the nearest by more than this are left out.
+    pub band: f64,
     list: Shortlist<Hit>,
     threshold: f64,
     counts_doubt: bool,
@@ -134,6 +136,7 @@ impl Collect {
         Self {
             body_pair: 0,
             margin: 0.0,
+            band: f64::INFINITY,
             list: Shortlist::new(max_count),
             threshold,
             counts_doubt,
@@ -147,16 +150,24 @@ impl Collect {
 
     /// Adds a hit that is within the threshold.
     pub fn take(&mut self, hit: Hit) {
+        self.threshold = self.threshold.min(hit.distance + self.band);
         if self.list.offer(hit) && self.list.is_truncated() {
             // Pairs farther than the last one kept do not matter any more; if none is kept, no pair does.
             let last = self.list.last();
-            self.threshold = last.map_or(f64::NEG_INFINITY, |last| last.distance);
+            let last = last.map_or(f64::NEG_INFINITY, |last| last.distance);
+            self.threshold = self.threshold.min(last);
         }
     }
 
     /// The pairs, nearest first, and whether there are more.
     pub fn finish(self) -> (Vec<Hit>, bool) {
-        self.list.finish()
+        let (mut hits, is_truncated) = self.list.finish();
+        // Some were found before the nearest.
+        if let Some(nearest) = hits.first() {
+            let limit = nearest.distance + self.band;
+            hits.retain(|hit| hit.distance <= limit);
+        }
+        (hits, is_truncated)
     }
 }
 

@@ -7,6 +7,7 @@ use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
 use super::context::{CacheKey, QueryContext};
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
+use crate::body::Body;
 use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
@@ -15,25 +16,25 @@ use crate::work_meter::WorkMeter;
 
 /// The r-side of a pair: a link's own body, or an s-object attached to the link.
 #[derive(Clone, Copy)]
-struct RSide {
-    link: usize,
+pub(super) struct RSide {
+    pub link: usize,
     /// The object's id, or 0.
-    attached: u64,
+    pub attached: u64,
 }
 
 /// An induced set of links against s-objects, with its number in the group and the snapshot that it sees.
-struct ObjectsTerm<'t, 's> {
-    links: &'t [usize],
-    objects: &'t SObjects,
-    allowed: &'t [AllowedPair],
-    options: &'t InducedOptions,
-    number: u32,
-    snapshot: &'s Snapshot,
+pub(super) struct ObjectsTerm<'t, 's> {
+    pub links: &'t [usize],
+    pub objects: &'t SObjects,
+    pub allowed: &'t [AllowedPair],
+    pub options: &'t InducedOptions,
+    pub number: u32,
+    pub snapshot: &'s Snapshot,
 }
 
 impl ObjectsTerm<'_, '_> {
     /// Whether the set contains a body pair; the link of `r` must be one of its links.
-    fn admits(&self, r: RSide, object: &SObject) -> bool {
+    pub fn admits(&self, r: RSide, object: &SObject) -> bool {
         let pair = AllowedPair {
             link: r.link,
             attached: r.attached,
@@ -154,23 +155,14 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     ) -> f64 {
         let (scene, term) = (self.scene, self.term);
         let &(number, body, pose) = named;
-        let (link, attached, r_data) = match number.checked_sub(scene.space().link_count()) {
-            None => (number, 0, body.data()),
-            Some(i) => {
-                let AttachedObject {
-                    object, attachment, ..
-                } = &scene.held()[i];
-                (attachment.link, object.id, object.data())
-            }
-        };
-        let r = RSide { link, attached };
+        let r = scene.r_side(number);
         if !term.admits(r, at.object) {
             return self.candidates.cutoff(term.options);
         }
         let target = || Target {
             options: *term.options,
             term: term.number,
-            data: [r_data, at.object.data()],
+            data: [scene.r_data(number, body), at.object.data()],
             s_carrier: at.carrier,
             ..scene.target(r, SSide::Object(at.object.id), [(body, pose), at.placement])
         };
@@ -213,29 +205,34 @@ impl<'a> Scene<'a> {
     /// another space, whose poses are unknown. Checking first makes the error independent of what the search visits.
     pub fn checked<'g>(&self, group: &'g Group) -> Result<CheckedGroup<'g>> {
         for term in group {
-            let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
-                continue;
-            };
-            let Some(snapshot) = self.world().snapshot(objects.environment()) else {
-                continue;
-            };
-            self.check_dimensions(links, snapshot)?;
-            let elsewhere = |object: &&SObject| {
-                let space = object
-                    .attachment
-                    .as_ref()
-                    .map(|attachment| attachment.space);
-                space != Some(self.space().serial()) && objects.contains(object.id)
-            };
-            if let Some(object) = snapshot.attached().find(elsewhere) {
-                let id = object.id;
-                return Err(Error::new(
-                    ErrorKind::Unsupported,
-                    format!("s-object {id} is attached to a link of another space"),
-                ));
-            }
+            self.check_term(term)?;
         }
         Ok(CheckedGroup(group))
+    }
+
+    /// The same of one induced set.
+    pub(super) fn check_term(&self, term: &Induced) -> Result<()> {
+        let BodyPairs::Objects { links, objects, .. } = &term.pairs else {
+            return Ok(());
+        };
+        let Some(snapshot) = self.world().snapshot(objects.environment()) else {
+            return Ok(());
+        };
+        self.check_dimensions(links, snapshot)?;
+        let elsewhere = |object: &&SObject| {
+            let space = object
+                .attachment
+                .as_ref()
+                .map(|attachment| attachment.space);
+            space != Some(self.space().serial()) && objects.contains(object.id)
+        };
+        match snapshot.attached().find(elsewhere) {
+            Some(SObject { id, .. }) => Err(Error::new(
+                ErrorKind::Unsupported,
+                format!("s-object {id} is attached to a link of another space"),
+            )),
+            None => Ok(()),
+        }
     }
 
     /// The candidates of a group, without duplicates, ranked by ids and sorted by bound.
@@ -346,8 +343,34 @@ impl<'a> Scene<'a> {
         offers.offer_attached(bodies, environment);
     }
 
+    /// What carries a number of [`Scene::r_sides`].
+    #[inline(always)]
+    pub(super) fn r_side(&self, number: usize) -> RSide {
+        match number.checked_sub(self.space().link_count()) {
+            None => RSide {
+                link: number,
+                attached: 0,
+            },
+            Some(i) => {
+                let held = &self.held()[i];
+                RSide {
+                    link: held.attachment.link,
+                    attached: held.object.id,
+                }
+            }
+        }
+    }
+
+    /// The user data of a body with a number of [`Scene::r_sides`].
+    fn r_data(&self, number: usize, body: &Body) -> usize {
+        match number.checked_sub(self.space().link_count()) {
+            None => body.data(),
+            Some(i) => self.held()[i].object.data(),
+        }
+    }
+
     /// The bodies of links and the s-objects attached to them, which are numbered after all links.
-    fn r_sides(
+    pub(super) fn r_sides(
         &self,
         links: &[usize],
         environment: u64,
@@ -366,7 +389,12 @@ impl<'a> Scene<'a> {
     }
 
     #[inline(always)]
-    fn target<'s>(&self, r: RSide, s_side: SSide, sides: [Placement<'s>; 2]) -> Target<'s> {
+    pub(super) fn target<'s>(
+        &self,
+        r: RSide,
+        s_side: SSide,
+        sides: [Placement<'s>; 2],
+    ) -> Target<'s> {
         Target {
             sides,
             key: CacheKey::Candidate {

@@ -9,6 +9,7 @@ mod combination;
 mod context;
 mod distance;
 mod distance_answer;
+mod every_pair;
 mod explain;
 mod find_link_pairs;
 mod leaves;
@@ -30,7 +31,7 @@ pub use answer::{
 pub(crate) use candidates::CandidateFilter;
 pub(crate) use combination::{Composition, composition};
 pub use context::QueryContext;
-pub(crate) use context::check_threshold;
+pub(crate) use context::{CacheKey, check_threshold};
 pub use explain::{Explanation, Verdict};
 pub use find_link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
 pub(crate) use pairs::check_dimensions;

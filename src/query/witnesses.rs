@@ -17,6 +17,8 @@ use crate::space::Space;
 #[derive(Clone, Copy)]
 pub(crate) struct WitnessRequest {
     pub epsilon: f64,
+    /// Only pairs at most this much farther apart than the nearest.
+    pub band: f64,
     pub max_count: usize,
     pub with_gradients: bool,
     pub contacts: ContactsListed,
@@ -28,6 +30,7 @@ impl WitnessRequest {
     pub fn within(epsilon: f64, max_count: usize) -> Self {
         Self {
             epsilon,
+            band: f64::INFINITY,
             max_count,
             with_gradients: false,
             contacts: ContactsListed::All,
@@ -125,7 +128,8 @@ impl QueryContext {
         candidates: &[Target],
         request: WitnessRequest,
     ) -> Result<WitnessList> {
-        let visitor = Collect::new(request.epsilon, request.max_count, request.counts_doubt);
+        let mut visitor = Collect::new(request.epsilon, request.max_count, request.counts_doubt);
+        visitor.band = request.band;
         let (hits, truncated) = self.collect(candidates, visitor)?;
         let state = scene.state().filter(|_| request.with_gradients);
         let mut list = WitnessList {
@@ -169,11 +173,26 @@ impl QueryContext {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
                     contained.into_iter().for_each(|hit| visitor.take(hit));
                 }
-                let _ = traverse(&pairing, None, &mut self.scratch, &mut visitor);
+                // Where the nearest pair bounds the search, the one remembered is a good beginning.
+                let first = (visitor.band < f64::INFINITY)
+                    .then(|| self.remembered(&target.key))
+                    .flatten();
+                let _ = traverse(&pairing, first, &mut self.scratch, &mut visitor);
             }
         }
         self.scratch.meter().check()?;
-        Ok(visitor.finish())
+        let is_banded = visitor.band < f64::INFINITY;
+        let (hits, truncated) = visitor.finish();
+        if let Some(nearest) = hits
+            .first()
+            .filter(|hit| is_banded && hit.contained.is_none())
+            && let Some(target) = targets
+                .iter()
+                .find(|target| target.rank == nearest.key.pair)
+        {
+            self.remember(target.key, nearest.places);
+        }
+        Ok((hits, truncated))
     }
 }
 

@@ -275,8 +275,8 @@ fn any_set(random: &mut Random, space: &Arc<Space>, q: &[f64]) -> CObject {
 #[test]
 fn no_way_that_was_moved_along_meets_anything() {
     let mut random = Random::new(67);
-    let (mut moved, mut blocked) = (0, 0);
-    for _ in 0..120 {
+    let (mut moved, mut near, mut blocked) = (0, 0, 0);
+    for _ in 0..160 {
         let space = any_space(&mut random);
         let start: Vec<f64> = (0..space.nv()).map(|_| random.within(-1.5, 1.5)).collect();
         let mut q = space.step(&space.neutral(), &start);
@@ -285,18 +285,24 @@ fn no_way_that_was_moved_along_meets_anything() {
         if class(&mut context, &cobject, &q) == Class::Inside {
             continue;
         }
-        let options = SlideOptions::with_shell(random.within(0.02, 0.3));
+        let mut options = SlideOptions::with_shell(random.within(0.02, 0.3));
+        options.desired_distance *= [1.0, 1.0, 1e-3, 1e-6, 0.0][random.below(5)];
         let size = [0.05, 0.3, 2.0][random.below(3)];
-        for _ in 0..6 {
-            let step: Vec<f64> = (0..space.nv())
-                .map(|_| random.within(-size, size))
-                .collect();
+        let mut step = Vec::new();
+        for k in 0..12 {
+            // Long enough in one direction to come near something and go on along it.
+            if k % 6 == 0 {
+                step = (0..space.nv())
+                    .map(|_| random.within(-size, size))
+                    .collect();
+            }
             let taken = context.slide(&cobject, &q, &step, &options).unwrap();
             if taken.outcome != SlideOutcome::Moved {
                 blocked += 1;
                 continue;
             }
             moved += 1;
+            near += usize::from(taken.distance_before < 1e-3 * options.max_shell);
             let way = space.displacement(&q, &taken.configuration);
             for k in 1..=1000 {
                 let part: Vec<f64> = way.iter().map(|x| x * f64::from(k) / 1000.0).collect();
@@ -308,4 +314,5 @@ fn no_way_that_was_moved_along_meets_anything() {
         }
     }
     assert!(moved > 100, "{moved} moved, {blocked} not");
+    assert!(near > 10, "{near} of {moved} from near contact");
 }

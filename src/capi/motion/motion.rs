@@ -24,7 +24,8 @@ pub struct cstk_motion_options {
     pub threshold: f64,
     /// How exactly the time of the first contact is found, as a part of the motion: 1e-12 to 1. Default 1e-6.
     pub tolerance: f64,
-    /// Nonzero: any contact on the motion will do, found in less time than the first. Default 0.
+    /// Nonzero: yes or no; any contact on the motion will do, found in less time than the first, and no distance is told there.
+    /// Default 0.
     pub any_contact: u32,
     pub reserved: u32,
 }
@@ -68,8 +69,8 @@ pub enum cstk_motion_outcome {
 #[derive(Clone, Copy)]
 pub struct cstk_motion_result {
     pub outcome: cstk_motion_outcome,
-    /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless lengths and units of
-    /// C-space mix in the C-object.
+    /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless any_contact was set or
+    /// lengths and units of C-space mix in the C-object.
     pub has_distance: bool,
     pub reserved_bytes: [u8; 3],
     /// See cstk_motion_outcome; 1 and 1 for a free motion.
@@ -136,7 +137,7 @@ pub unsafe extern "C" fn cstk_motion(
 }
 
 /// The destination of a configuration that the caller may leave out.
-pub(super) fn optional_configuration(
+pub(in crate::capi) fn optional_configuration(
     out: *mut f64,
     nq: usize,
     argument: &str,

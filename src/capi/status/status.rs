@@ -58,6 +58,8 @@ pub enum cstk_status {
     CSTK_ERROR_LIMIT = 22,
     /// There is not enough memory for the input.
     CSTK_ERROR_OUT_OF_MEMORY = 23,
+    /// A certificate does not prove what is asked; the message names the entry.
+    CSTK_ERROR_NOT_PROVED = 24,
 }
 
 impl From<ErrorKind> for cstk_status {
@@ -82,6 +84,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::OutOfMemory => Self::CSTK_ERROR_OUT_OF_MEMORY,
             ErrorKind::Callback => Self::CSTK_ERROR_CALLBACK_FAILED,
             ErrorKind::Limit => Self::CSTK_ERROR_LIMIT,
+            ErrorKind::NotProved => Self::CSTK_ERROR_NOT_PROVED,
         }
     }
 }
@@ -115,6 +118,7 @@ pub extern "C" fn cstk_status_name(status: i32) -> *const c_char {
         21 => c"CSTK_ERROR_NOT_CLOSED",
         22 => c"CSTK_ERROR_LIMIT",
         23 => c"CSTK_ERROR_OUT_OF_MEMORY",
+        24 => c"CSTK_ERROR_NOT_PROVED",
         _ => c"unknown status",
     };
     name.as_ptr()

@@ -1,0 +1,534 @@
+//! One piece's look at its part of the front: bounds through the piece decide pairs of boxes and primitives, or leave them to the halves.
+
+use super::crowd::Crowd;
+use super::first_contact::MeetingLeaves;
+use super::front::{Bundle, Front, Group, Leaves, Part};
+use super::moving_pair::MovingPair;
+use super::over_pairs::OverPairs;
+use super::piece::{PairOver, Piece};
+use super::set_tree::Known;
+use crate::hierarchy::packed::{NodeRef, PackedTree};
+use crate::lanes::Instructions;
+use crate::pair::{Scratch, SweptLeaves, swept_gaps};
+
+/// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the piece, others
+/// are opened. Larger values open boxes that a smaller piece would part; smaller ones look at the same boxes again. Not tuned by
+/// a benchmark yet.
+const OPEN_NODES_BELOW: f32 = 0.08;
+/// The same for pairs of primitives.
+const MEASURE_LEAVES_BELOW: f32 = 0.04;
+
+/// What a primitive pair costs, in groups of boxes.
+const MEASURE_COST: u32 = 4;
+
+/// The most primitive pairs of a complement whose depth is computed in one piece.
+const MAX_DEPTHS: u32 = 16;
+
+/// One piece's look at its part of the front.
+pub(super) struct Look<'l, 'p, P: Piece> {
+    pub pairs: &'p [MovingPair<'p>],
+    pub crowds: &'p [Crowd],
+    pub over: &'l mut OverPairs<'p, P::Lists>,
+    pub piece: &'l mut P,
+    pub front: &'l mut Front,
+    pub scratch: &'l mut Scratch,
+    /// What is known of the set tree's leaves.
+    pub known: &'l mut [Known],
+    /// The leaf that is looked at.
+    pub leaf: LeafLook,
+    /// The pair that is looked at.
+    pub pair: PairLook,
+    /// Primitives that meet where it is looked at.
+    pub met: Option<MeetingLeaves>,
+}
+
+/// A leaf that is looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LeafLook {
+    complement: bool,
+    /// It meets, or its complement is proved: what is left of it is not looked at.
+    is_decided: bool,
+    meets: bool,
+    /// Primitive pairs whose depth was computed.
+    depths: u32,
+    /// Where its undecided bundles, groups and leaves begin.
+    first: [usize; 3],
+}
+
+/// A pair that is looked at. Once something of it is left to the halves, all of it is looked at again: more than some work on the rest
+/// is left to them too.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PairLook {
+    number: u32,
+    /// Something is left.
+    is_left: bool,
+    /// The work done on it, and the most that is done on the rest.
+    work: u32,
+    max_work: u32,
+}
+
+impl PairLook {
+    pub fn new(max_work: u32) -> Self {
+        Self {
+            number: u32::MAX,
+            is_left: false,
+            work: 0,
+            max_work,
+        }
+    }
+
+    fn start(&mut self, number: u32) {
+        if number != self.number {
+            *self = Self {
+                number,
+                ..Self::new(self.max_work)
+            };
+        }
+    }
+
+    fn count(&mut self, number: u32, work: u32) {
+        self.start(number);
+        self.work = self.work.saturating_add(work);
+    }
+
+    /// Notes that something of a pair is left.
+    fn leave(&mut self, number: u32) {
+        self.start(number);
+        self.is_left = true;
+    }
+
+    fn is_left_to_halves(&self, number: u32) -> bool {
+        self.is_left && self.work > self.max_work && number == self.number
+    }
+}
+
+impl<P: Piece> Look<'_, '_, P> {
+    /// Prepares for a part of the front; fills in what was known before.
+    pub fn start(&mut self, part: &Part) {
+        self.front.truncate(part);
+        self.over.start();
+        for i in part.settled[0]..part.settled[1] {
+            let (leaf, known) = self.front.settled[i];
+            self.known[leaf as usize] = known;
+            self.front.settled.push((leaf, known));
+        }
+    }
+
+    /// Notes what holds of a leaf through the whole piece.
+    pub fn settle(&mut self, leaf: usize, known: Known) {
+        self.known[leaf] = known;
+        self.front.settled.push((leaf as u32, known));
+    }
+
+    /// What is left for the halves.
+    pub fn left(&self, part: &Part) -> Part {
+        self.front.part_after(part)
+    }
+
+    /// Looks at one leaf's share of a part, which begins at `cursor`; moves the cursor behind it. A leaf that is passed is left to
+    /// the halves as it is.
+    #[inline(always)]
+    pub fn look_at<I: Instructions>(
+        &mut self,
+        lanes: I,
+        leaf: usize,
+        [complement, is_passed]: [bool; 2],
+        part: &Part,
+        cursor: &mut Part,
+    ) {
+        let is_settled = self.known[leaf] != Known::Nothing;
+        self.leaf = LeafLook {
+            complement,
+            is_decided: is_passed,
+            first: [
+                self.front.bundles.len(),
+                self.front.groups.len(),
+                self.front.leaves.len(),
+            ],
+            ..LeafLook::default()
+        };
+        // Primitives first: they decide contacts.
+        while cursor.leaves[0] < part.leaves[1] {
+            let pair = self.front.leaves[cursor.leaves[0]];
+            if self.pairs[pair.pair as usize].leaf as usize != leaf {
+                break;
+            }
+            cursor.leaves[0] += 1;
+            if !is_settled {
+                self.visit(pair);
+            }
+        }
+        let first = cursor.groups[0];
+        while cursor.groups[0] < part.groups[1]
+            && self.pairs[self.front.groups[cursor.groups[0]].pair as usize].leaf as usize == leaf
+        {
+            cursor.groups[0] += 1;
+        }
+        if !is_settled {
+            let Front { groups, open, .. } = &mut *self.front;
+            open.extend_from_slice(&groups[first..cursor.groups[0]]);
+            while let Some(group) = self.front.open.pop() {
+                self.open(lanes, group);
+            }
+        }
+        let first = cursor.bundles[0];
+        while cursor.bundles[0] < part.bundles[1] {
+            let crowd = &self.crowds[self.front.bundles[cursor.bundles[0]].crowd as usize];
+            if self.pairs[crowd.first_pair as usize].leaf as usize != leaf {
+                break;
+            }
+            cursor.bundles[0] += 1;
+        }
+        if !is_settled {
+            for i in first..cursor.bundles[0] {
+                self.open_bundle(lanes, self.front.bundles[i]);
+                while let Some(group) = self.front.open.pop() {
+                    self.open(lanes, group);
+                }
+            }
+        }
+        let solids = cursor.solids[0];
+        while cursor.solids[0] < part.solids[1]
+            && self.pairs[self.front.solids[cursor.solids[0]] as usize].leaf as usize == leaf
+        {
+            cursor.solids[0] += 1;
+        }
+        if is_settled {
+            return;
+        }
+        self.look_at_solids([solids, cursor.solids[0]]);
+        if !is_passed {
+            self.conclude(leaf);
+        }
+    }
+
+    /// Notes what the look has shown of the leaf.
+    fn conclude(&mut self, leaf: usize) {
+        let LeafLook {
+            complement,
+            is_decided,
+            meets,
+            first,
+            ..
+        } = self.leaf;
+        let front = &mut *self.front;
+        let is_left = front.bundles.len() > first[0]
+            || front.groups.len() > first[1]
+            || front.leaves.len() > first[2];
+        self.known[leaf] = if complement {
+            if is_decided {
+                // It stays in the set: nothing of the leaf is looked at again.
+                front.bundles.truncate(first[0]);
+                front.groups.truncate(first[1]);
+                front.leaves.truncate(first[2]);
+                front.settled.push((leaf as u32, Known::Free));
+                Known::Free
+            } else if is_left || meets {
+                Known::Nothing
+            } else {
+                Known::Meets
+            }
+        } else if meets {
+            Known::Meets
+        } else if is_left {
+            Known::Nothing
+        } else {
+            Known::Free
+        };
+    }
+
+    /// Where the surfaces of a pair stay apart, a body that is inside the other at the middle is so through the piece.
+    fn look_at_solids(&mut self, solids: [usize; 2]) {
+        for i in solids[0]..solids[1] {
+            let number = self.front.solids[i];
+            let is_left = self.is_left(number);
+            if is_left || self.leaf.is_decided {
+                self.front.solids.push(number);
+                continue;
+            }
+            let over = self.over.of(number as usize, self.pairs, self.piece);
+            // Balls that stay apart hold nothing of each other.
+            let PairOver::Near(over) = over else {
+                continue;
+            };
+            if over.pairing.is_one_inside(self.scratch) {
+                self.leaf.meets = true;
+                self.leaf.is_decided = true;
+                self.front.solids.push(number);
+            }
+        }
+    }
+
+    /// Whether something of a pair is left to the halves.
+    fn is_left(&self, number: u32) -> bool {
+        let first = self.leaf.first;
+        let is_bundled = |bundle: &Bundle| {
+            let start = self.crowds[bundle.crowd as usize].first_pair + 8 * bundle.eight;
+            let lane = number.wrapping_sub(start);
+            lane < 8 && bundle.lanes >> lane & 1 == 1
+        };
+        let front = &*self.front;
+        front.bundles[first[0]..].iter().any(is_bundled)
+            || front.groups[first[1]..].iter().any(|g| g.pair == number)
+            || front.leaves[first[2]..].iter().any(|l| l.pair == number)
+    }
+
+    /// Whether nothing more is to be looked at of the leaf.
+    fn is_over(&self) -> bool {
+        self.leaf.is_decided || self.scratch.meter().is_exceeded()
+    }
+
+    /// Decides a pair of primitives, or leaves it to the halves.
+    fn visit(&mut self, mut pair: Leaves) {
+        if self.is_over() {
+            self.front.leaves.push(pair);
+            return;
+        }
+        let number = pair.pair as usize;
+        let over = self.over.of(number, self.pairs, self.piece);
+        let over = match over {
+            PairOver::Near(over) => over,
+            PairOver::Apart => return,
+            PairOver::TooLong => {
+                self.front.leaves.push(pair);
+                return;
+            }
+        };
+        if self.pair.is_left_to_halves(pair.pair) {
+            self.front.leaves.push(pair);
+            return;
+        }
+        self.pair.count(pair.pair, MEASURE_COST);
+        self.scratch.count_primitive_pair();
+        let found = over.pairing.swept_leaves(
+            pair.places,
+            &pair.direction,
+            &over.sweep(),
+            &over.limits,
+            self.scratch.for_primitives(),
+        );
+        if self.leaf.complement && found != SweptLeaves::Free && self.leaf.depths < MAX_DEPTHS {
+            self.leaf.depths += 1;
+            if over
+                .pairing
+                .stays_within(pair.places, &over.limits, self.scratch)
+            {
+                self.leaf.is_decided = true;
+                return;
+            }
+        }
+        match found {
+            SweptLeaves::Free => return,
+            SweptLeaves::Undecided(direction) => {
+                pair.direction = direction;
+                self.pair.leave(number as u32);
+            }
+            SweptLeaves::Meet => self.leaf.meets = true,
+        }
+        let meets = found == SweptLeaves::Meet;
+        self.front.leaves.push(pair);
+        if meets && !self.leaf.complement {
+            self.leaf.is_decided = true;
+            self.met = Some(MeetingLeaves {
+                pair: pair.pair,
+                places: pair.places,
+            });
+            // The half before it asks first what met.
+            let last = self.front.leaves.len() - 1;
+            self.front.leaves.swap(self.leaf.first[2], last);
+        }
+    }
+
+    /// Looks at the boxes of a bundle: those that stay apart fall away, near ones are opened, others left to the halves.
+    #[inline(always)]
+    fn open_bundle<I: Instructions>(&mut self, lanes: I, mut bundle: Bundle) {
+        if self.is_over() {
+            self.front.bundles.push(bundle);
+            return;
+        }
+        let crowd = &self.crowds[bundle.crowd as usize];
+        let known = self.over.crowd.as_ref().map(|(number, _)| *number);
+        if known != Some(bundle.crowd) {
+            let pair = &self.pairs[crowd.first_pair as usize];
+            let made = crowd.over(pair, self.piece);
+            self.over.crowd = Some((bundle.crowd, made));
+        }
+        let Some((_, over)) = &self.over.crowd else {
+            return;
+        };
+        let eight = crowd.boxes(lanes, bundle.eight);
+        let gaps = swept_gaps(
+            lanes,
+            &eight,
+            &over.one,
+            over.twists.as_ref(),
+            over.extension,
+            over.bends,
+        );
+        self.scratch
+            .meter_mut()
+            .count_nodes(u64::from(bundle.lanes.count_ones()));
+        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(bundle.lanes);
+        if near == 0 {
+            return;
+        }
+        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
+        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        let size = length(&over.one.half);
+        let mut left = 0u8;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize & 7;
+            near &= near - 1;
+            let pair = crowd.first_pair + 8 * bundle.eight + lane as u32;
+            let [a, b] = self.pairs[pair as usize].bodies();
+            let meeting = Meeting {
+                pair,
+                units: [a.packed().root(), b.packed().root()],
+                sizes: [size, halves[lane]],
+                taken_off: taken_off[lane],
+            };
+            if !self.go_on(&meeting) {
+                left |= 1 << lane;
+            }
+        }
+        if left != 0 {
+            bundle.lanes = left;
+            self.front.bundles.push(bundle);
+        }
+    }
+
+    /// Opens a pair of boxes, or visits the primitives in them. Of boxes that the motion moves far nothing is done.
+    fn go_on(&mut self, meeting: &Meeting) -> bool {
+        let Meeting {
+            pair,
+            units,
+            sizes,
+            taken_off,
+        } = *meeting;
+        let are_leaves = units[0].is_leaf() && units[1].is_leaf();
+        let limit = if are_leaves {
+            MEASURE_LEAVES_BELOW
+        } else {
+            OPEN_NODES_BELOW
+        };
+        if taken_off > limit * (sizes[0] + sizes[1]) || self.pair.is_left_to_halves(pair) {
+            return false;
+        }
+        let [a, b] = self.pairs[pair as usize].bodies();
+        let trees: [&PackedTree; 2] = [a.packed(), b.packed()];
+        if are_leaves {
+            self.visit(Leaves {
+                pair,
+                places: [trees[0].place(units[0]), trees[1].place(units[1])],
+                direction: [0.0; 3],
+            });
+            return true;
+        }
+        let opens_b = if units[0].is_leaf() || units[1].is_leaf() {
+            units[0].is_leaf()
+        } else {
+            sizes[1] > sizes[0]
+        };
+        let side = usize::from(opens_b);
+        let node = trees[side].index(units[side]);
+        self.front.open.push(Group {
+            pair,
+            node: node as u32,
+            other: units[1 - side],
+            opened: side as u8,
+            lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
+        });
+        true
+    }
+
+    /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.
+    #[inline(always)]
+    fn open<I: Instructions>(&mut self, lanes: I, mut group: Group) {
+        if self.is_over() {
+            self.front.groups.push(group);
+            return;
+        }
+        let number = group.pair as usize;
+        let [a, b] = self.pairs[number].bodies();
+        let over = self.over.of(number, self.pairs, self.piece);
+        let over = match over {
+            PairOver::Near(over) => over,
+            PairOver::Apart => return,
+            PairOver::TooLong => {
+                self.front.groups.push(group);
+                return;
+            }
+        };
+        let trees: [&PackedTree; 2] = [a.packed(), b.packed()];
+        let opened = usize::from(group.opened);
+        let (tree, other_tree) = (trees[opened], trees[1 - opened]);
+        let index = group.node as usize;
+        let node = tree.node(index);
+        let unit = over.motions[1 - opened].factor;
+        let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
+        let eight = node.boxes(lanes, unit);
+        let bends = [over.bends[opened], over.bends[1 - opened]];
+        let gaps = swept_gaps(
+            lanes,
+            &eight,
+            &one,
+            over.twists[opened].as_ref(),
+            over.extension,
+            bends,
+        );
+        self.scratch
+            .meter_mut()
+            .count_nodes(u64::from(group.lanes.count_ones()));
+        self.pair.count(group.pair, 1);
+        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(group.lanes);
+        if near == 0 {
+            return;
+        }
+        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
+        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        let other_size = length(&one.half);
+        let children = tree.children(index);
+        let mut left = 0u8;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize & 7;
+            near &= near - 1;
+            let (mut units, mut sizes) = (
+                [children.units[lane], group.other],
+                [halves[lane], other_size],
+            );
+            if opened == 1 {
+                units.swap(0, 1);
+                sizes.swap(0, 1);
+            }
+            let meeting = Meeting {
+                pair: group.pair,
+                units,
+                sizes,
+                taken_off: taken_off[lane],
+            };
+            if !self.go_on(&meeting) {
+                left |= 1 << lane;
+            }
+        }
+        if left != 0 {
+            self.pair.leave(group.pair);
+            group.lanes = left;
+            self.front.groups.push(group);
+        }
+    }
+}
+
+/// Two boxes that the piece does not part.
+struct Meeting {
+    pair: u32,
+    /// Of A and of B.
+    units: [NodeRef; 2],
+    /// Half the boxes' diagonals.
+    sizes: [f32; 2],
+    /// What the motion takes off their gap.
+    taken_off: f32,
+}
+
+fn length([x, y, z]: &[f32; 3]) -> f32 {
+    (x * x + y * y + z * z).sqrt()
+}

@@ -1,0 +1,381 @@
+//! What touches at the start of a slide. There no bound over an interval parts a pair, so that the interval proof follows it from
+//! a later time on; up to there its contacts must not come nearer, to first order. Where a plane that nothing crosses separates
+//! the two for the whole motion, it need not follow them at all.
+
+use super::half_spaces::dot;
+use super::linear_motion::{LinearMotion, STEP_FRACTION};
+use super::set_tree::{LeafContent, SetTree};
+use super::slide_step::Approach;
+use crate::cobject::{Induced, PureSet, PureShape};
+use crate::error::Result;
+use crate::pair::PrimitiveScratch;
+use crate::query::{
+    CacheKey, CandidateFilter, Group, PureAt, QueryContext, Scene, Target, WitnessList,
+    WitnessRequest, pure_witnesses,
+};
+
+/// How far a pair that touches at the start may move before the interval proof follows it.
+#[derive(Clone, Copy)]
+pub(super) struct TouchAllowance {
+    pub distance: f64,
+    /// A pair with more witnesses than this within the distance counts as not free.
+    pub max_count: usize,
+}
+
+/// A motion towards a plane of at most this fraction of [`TouchAllowance::distance`] is taken for rounding of a motion
+/// along it.
+const LEVEL: f64 = 1e-9;
+
+/// Bodies touch up to this distance, relative to their size and to where they are: more than what the interval proof takes off a gap
+/// for rounding.
+const TOUCHING: f64 = 1e-11;
+
+impl TouchAllowance {
+    /// How far below 0 the clearance of a contact may fall.
+    fn allowed(&self) -> f64 {
+        1e-3 * self.distance
+    }
+}
+
+/// The times, from 0 to 1, from which the interval proof follows what is near at the start. It does not follow what has time 1.
+#[derive(Default)]
+pub(super) struct StartContacts {
+    /// Of body pairs, each with the serial of its induced set.
+    pairs: Vec<(u64, CacheKey, f64)>,
+    /// Of the parts of pure sets, each with the serial of the set and its number in it.
+    parts: Vec<(u64, usize, f64)>,
+}
+
+impl StartContacts {
+    /// The time of a body pair of an induced set.
+    pub fn pair_followed_from(&self, term: &Induced, target: &Target) -> f64 {
+        let is_it = |(serial, key, _): &&_| (*serial, *key) == (term.leaf.serial, target.key);
+        self.pairs.iter().find(is_it).map_or(0.0, |found| found.2)
+    }
+
+    /// The time of a pure set's part: see [`PureSet::parts_on_way`].
+    pub fn part_followed_from(&self, set: &PureSet, part: usize) -> f64 {
+        let is_it = |(serial, number, _): &&_| (*serial, *number) == (set.leaf.serial, part);
+        self.parts.iter().find(is_it).map_or(0.0, |found| found.2)
+    }
+}
+
+/// What the robot must keep clear of: a body pair, or a pure set.
+trait Obstacle {
+    /// A safe lower bound of the distance in a scene; a distance above `limit` may be given as the limit.
+    fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64>;
+
+    /// The witnesses at the start within a distance, with gradients.
+    fn witnesses(
+        &self,
+        context: &mut QueryContext,
+        start: &Scene,
+        request: WitnessRequest,
+    ) -> Result<WitnessList>;
+
+    /// A plane fixed in the world that separates the robot from the obstacle, if one is known.
+    fn separation(
+        &self,
+        context: &mut QueryContext,
+        motion: &LinearMotion,
+        start: &Scene,
+    ) -> Option<Separation>;
+
+    /// Up to which distance the two touch.
+    fn touching(&self) -> f64;
+}
+
+/// A plane between a moving link and something at rest.
+struct Separation {
+    /// The gap between the two along the plane's normal.
+    gap: f64,
+    /// Bounds the link's motion along the normal over the whole motion.
+    rate: f64,
+}
+
+impl Separation {
+    /// Whether the plane separates the two during the whole motion.
+    fn lasts(&self) -> bool {
+        self.gap > 0.0 && STEP_FRACTION * self.gap >= self.rate
+    }
+}
+
+/// A body pair of an induced set, at the start.
+struct PairAtStart<'a> {
+    term: &'a Group,
+    target: Target<'a>,
+}
+
+/// An obstacle near the start.
+struct Near<'a> {
+    motion: &'a LinearMotion<'a>,
+    start: &'a Scene<'a>,
+    /// Bounds how much the distance falls in the whole motion.
+    rate: f64,
+    allowance: &'a TouchAllowance,
+}
+
+impl QueryContext {
+    /// From when on the interval proof of a motion is to follow what is near at its start, which is not inside. `None` where a
+    /// contact comes nearer than the allowance.
+    pub(super) fn start_contacts(
+        &mut self,
+        motion: &LinearMotion,
+        allowance: &TouchAllowance,
+    ) -> Result<Option<StartContacts>> {
+        let start = &motion.scene(motion.q)?;
+        let mut found = StartContacts::default();
+        for leaf in &SetTree::new(motion.cobject).leaves {
+            let goes_on = match leaf.content {
+                LeafContent::Induced(group) => {
+                    let mut terms = group.chunks(1);
+                    terms.try_fold(true, |goes_on, term| {
+                        Ok(goes_on
+                            && self.add_near_pairs(motion, start, term, allowance, &mut found)?)
+                    })?
+                }
+                LeafContent::Pure(set) => {
+                    self.add_near_parts(motion, start, set, allowance, &mut found)?
+                }
+            };
+            if !goes_on {
+                return Ok(None);
+            }
+        }
+        Ok(Some(found))
+    }
+
+    fn add_near_pairs(
+        &mut self,
+        motion: &LinearMotion,
+        start: &Scene,
+        term: &Group,
+        allowance: &TouchAllowance,
+        found: &mut StartContacts,
+    ) -> Result<bool> {
+        let checked = start.checked(term)?;
+        let filter = CandidateFilter::within(allowance.distance);
+        let meter = self.scratch.meter_mut();
+        let candidates = start.candidates(checked, filter, &mut self.candidates, meter)?;
+        for &target in &candidates {
+            if target.bound > allowance.distance {
+                continue;
+            }
+            // Searched alone, so its rank is 0: hits name their pair by rank.
+            let target = Target { rank: 0, ..target };
+            let near = Near {
+                motion,
+                start,
+                rate: motion.rate(start, &target),
+                allowance,
+            };
+            let Some(time) = near.followed_from(self, &PairAtStart { term, target })? else {
+                return Ok(false);
+            };
+            if time > 0.0 {
+                found.pairs.push((term[0].leaf.serial, target.key, time));
+            }
+        }
+        Ok(true)
+    }
+
+    fn add_near_parts(
+        &mut self,
+        motion: &LinearMotion,
+        start: &Scene,
+        set: &PureSet,
+        allowance: &TouchAllowance,
+        found: &mut StartContacts,
+    ) -> Result<bool> {
+        let space = motion.cobject.space();
+        for (number, part) in set.parts_on_way(space).iter().enumerate() {
+            let near = Near {
+                motion,
+                start,
+                rate: part.motion_bound(space, motion.q, motion.v),
+                allowance,
+            };
+            let Some(time) = near.followed_from(self, part)? else {
+                return Ok(false);
+            };
+            if time > 0.0 {
+                found.parts.push((set.leaf.serial, number, time));
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl Near<'_> {
+    /// From when on the interval proof is to follow the obstacle; `None` where a contact comes nearer.
+    fn followed_from(
+        &self,
+        context: &mut QueryContext,
+        obstacle: &impl Obstacle,
+    ) -> Result<Option<f64>> {
+        let &Self {
+            motion,
+            start,
+            rate,
+            allowance,
+        } = self;
+        // What does not move relative to the robot may be arbitrarily near.
+        if rate == 0.0 {
+            return Ok(Some(1.0));
+        }
+        let lower = obstacle.lower(context, start, allowance.distance)?;
+        if lower >= allowance.distance {
+            return Ok(Some(0.0));
+        }
+        let plane = obstacle.separation(context, motion, start);
+        if plane.as_ref().is_some_and(Separation::lasts) {
+            return Ok(Some(1.0));
+        }
+        if lower > obstacle.touching() {
+            return Ok(Some(0.0));
+        }
+        // A link that does not move towards a separating plane cannot come nearer, however far it slides.
+        let is_level = |plane: &Separation| {
+            plane.gap >= -allowance.allowed() && plane.rate <= LEVEL * allowance.distance
+        };
+        let nearer = plane.filter(is_level).map_or(rate, |plane| plane.rate);
+        let share = if nearer > allowance.distance {
+            allowance.distance / nearer
+        } else {
+            1.0
+        };
+        if !self.keeps_off(context, obstacle, share)? {
+            return Ok(None);
+        }
+        if share < 1.0 {
+            let at = motion.at(share);
+            let scene = &motion.scene(&at)?;
+            if obstacle.lower(context, scene, allowance.distance)? <= 0.0 {
+                return Ok(None);
+            }
+        }
+        Ok(Some(share))
+    }
+
+    /// Whether, to first order, no contact of a touching start comes nearer up to a time.
+    fn keeps_off(
+        &self,
+        context: &mut QueryContext,
+        obstacle: &impl Obstacle,
+        time: f64,
+    ) -> Result<bool> {
+        let allowance = self.allowance;
+        let request = WitnessRequest {
+            // Witnesses farther away cannot come to touch.
+            with_gradients: true,
+            counts_doubt: true,
+            ..WitnessRequest::within(allowance.distance / STEP_FRACTION, allowance.max_count)
+        };
+        let list = obstacle.witnesses(context, self.start, request)?;
+        let keeps_off = |a: &Approach| {
+            a.clearance + time * dot(a.gradient, self.motion.v) >= -allowance.allowed()
+        };
+        let is_known = !list.truncated && list.witnesses.iter().all(|w| w.contact_count > 0);
+        Ok(is_known && list.approaches().iter().all(keeps_off))
+    }
+}
+
+impl Obstacle for PairAtStart<'_> {
+    fn lower(&self, context: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
+        let Some(sides) = scene.sides_of(&self.term[0], &self.target.key) else {
+            return Ok(0.0);
+        };
+        let target = Target {
+            sides,
+            bound: f64::NEG_INFINITY,
+            ..self.target
+        };
+        Ok(context.nearest(&[target], limit)?.lower.min(limit))
+    }
+
+    fn witnesses(
+        &self,
+        context: &mut QueryContext,
+        start: &Scene,
+        request: WitnessRequest,
+    ) -> Result<WitnessList> {
+        context.list(self.term, start, &[self.target], request)
+    }
+
+    fn separation(
+        &self,
+        context: &mut QueryContext,
+        motion: &LinearMotion,
+        start: &Scene,
+    ) -> Option<Separation> {
+        let target = self.target;
+        let (link, None) = target.links() else {
+            return None;
+        };
+        let targets = &[target];
+        let (hit, _) = context.nearest(targets, f64::INFINITY).ok()?.hit?;
+        if hit.contained.is_some() {
+            return None;
+        }
+        let pairing = target.pairing();
+        let scratch = &mut PrimitiveScratch::default();
+        let closest = pairing.closest(&hit, scratch);
+        let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
+        let normal = contacts.first()?.normal;
+        Some(Separation {
+            gap: pairing.gap_along(&normal) - target.options.margin,
+            rate: motion.directed_rate(start, link, target.sides[0], &normal)?,
+        })
+    }
+
+    fn touching(&self) -> f64 {
+        let [(_, a), (_, b)] = self.target.sides;
+        let size = self.target.pairing().precision.size;
+        TOUCHING * (size + a.translation.norm() + b.translation.norm())
+    }
+}
+
+impl Obstacle for PureSet {
+    fn lower(&self, _: &mut QueryContext, scene: &Scene, limit: f64) -> Result<f64> {
+        let at = PureAt {
+            set: self,
+            complement: false,
+            scene,
+        };
+        Ok(at.bounded_distance()?.lower.min(limit))
+    }
+
+    fn witnesses(
+        &self,
+        _: &mut QueryContext,
+        start: &Scene,
+        request: WitnessRequest,
+    ) -> Result<WitnessList> {
+        pure_witnesses(&[(self, false)], start, request)
+    }
+
+    /// A floor is itself the plane.
+    fn separation(
+        &self,
+        _: &mut QueryContext,
+        motion: &LinearMotion,
+        start: &Scene,
+    ) -> Option<Separation> {
+        let PureShape::Floor { links, normal, .. } = &self.shape else {
+            return None;
+        };
+        let &[link] = &links[..] else {
+            return None;
+        };
+        let measure = self.measure(&start.space_state()).ok()??;
+        Some(Separation {
+            gap: measure.signed - measure.error,
+            rate: motion.directed_rate(start, link, start.link(link)?, normal)?,
+        })
+    }
+
+    /// Its lower bound has the rounding.
+    fn touching(&self) -> f64 {
+        0.0
+    }
+}
