@@ -1,0 +1,51 @@
+# cstk/fcl.hpp: programs written for FCL, built with it and with FCL 0.7, where that is installed, and their answers compared.
+find_package(Eigen3 3.3 CONFIG QUIET)
+if(NOT TARGET Eigen3::Eigen)
+  message(WARNING "Eigen not found: the tests of cstk/fcl.hpp are left out")
+  return()
+endif()
+find_package(fcl 0.7 CONFIG QUIET)
+set(port ${CMAKE_CURRENT_LIST_DIR}/fcl_port)
+
+add_executable(port_compare ${port}/compare.cpp)
+target_compile_options(port_compare PRIVATE ${strict})
+
+# Each program's own checks, and with FCL the comparison.
+function(add_port name)
+  set(program port_${name}_cstk)
+  add_executable(${program} ${port}/${name}.cpp)
+  target_compile_options(${program} PRIVATE -O2 ${strict})
+  target_link_libraries(${program} PRIVATE cstk::cstk Eigen3::Eigen Threads::Threads)
+  add_test(NAME ${program} COMMAND ${program} ${ARGN})
+  set_tests_properties(${program} PROPERTIES LABELS fcl TIMEOUT 300)
+endfunction()
+
+function(add_comparison name)
+  add_port(${name} ${ARGN})
+  if(fcl_FOUND)
+    add_executable(port_${name}_fcl ${port}/${name}.cpp)
+    target_compile_features(port_${name}_fcl PRIVATE cxx_std_17)
+    target_compile_definitions(port_${name}_fcl PRIVATE WITH_FCL)
+    target_compile_options(port_${name}_fcl PRIVATE -O2 -Wall -Wextra)
+    target_include_directories(port_${name}_fcl SYSTEM PRIVATE $<TARGET_PROPERTY:fcl,INTERFACE_INCLUDE_DIRECTORIES>)
+    target_link_libraries(port_${name}_fcl PRIVATE fcl)
+    add_test(NAME port_${name} COMMAND port_compare $<TARGET_FILE:port_${name}_fcl> $<TARGET_FILE:port_${name}_cstk> 0 ${ARGN})
+    set_tests_properties(port_${name} PROPERTIES LABELS fcl TIMEOUT 300)
+  endif()
+endfunction()
+
+add_comparison(pairs)
+add_comparison(models)
+add_comparison(managers)
+add_comparison(continuous)
+add_comparison(rigid 500)
+add_comparison(scene 300)
+add_port(known_cases)
+add_port(extensions)
+target_sources(port_extensions_cstk PRIVATE ${port}/second_file.cpp)
+
+# What is not covered fails to compile, with a hint.
+get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+add_test(NAME port_not_covered COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER} "-DINCLUDES=${cstk_include};${eigen}"
+  -DSOURCE=${port}/not_covered.cpp -P ${port}/not_covered.cmake)
+set_tests_properties(port_not_covered PROPERTIES LABELS fcl)

@@ -1,0 +1,273 @@
+// What FCL lacks or Coal adds: margins, lower bounds, functors, solids, depths of round shapes, errors, threads, single precision.
+#include "library.hpp"
+
+#include <thread>
+
+double distance_of_balls(double apart);
+
+namespace {
+
+void margins() {
+    const fcl::Boxd box(2, 2, 2);
+    const fcl::Sphered ball(1);
+    fcl::CollisionRequestd request(4, true);
+    request.security_margin = 0.5;
+    request.enable_distance_lower_bound = true;
+    fcl::CollisionResultd near, far;
+    expect(fcl::collide<double>(&box, at(0, 0, 0), &ball, at(2.25, 0.2, 0), request, near) == 1, "within the margin");
+    expect_near(near.getContact(0).penetration_depth, -0.25, 1e-12, "the depth is minus the distance within a margin");
+    expect_near(near.getContact(0).normal[0], 1, 1e-12, "normal within a margin");
+    expect_near(near.getContact(0).nearest_points[0][0], 1, 1e-12, "point of the box");
+    expect_near(near.getContact(0).nearest_points[1][0], 1.25, 1e-12, "point of the ball");
+    expect(fcl::collide<double>(&box, at(0, 0, 0), &ball, at(2.75, 0.2, 0), request, far) == 0, "beyond the margin");
+    expect_near(far.distance_lower_bound, 0.25, 1e-12, "lower bound beyond the margin");
+    request.distance_upper_bound = 0.6;
+    fcl::collide<double>(&box, at(0, 0, 0), &ball, at(9, 0.2, 0), request, far);
+    expect(far.distance_lower_bound >= 0.1 - 1e-12 && far.distance_lower_bound <= 7, "no bound beyond what was asked for");
+    bool refused = false;
+    request.security_margin = -0.1;
+    try {
+        fcl::collide<double>(&box, at(0, 0, 0), &ball, at(9, 0, 0), request, far);
+    } catch (const std::invalid_argument &) {
+        refused = true;
+    }
+    expect(refused, "negative margins are refused");
+    const fcl::ComputeCollision collider(&box, &ball);
+    const fcl::ComputeDistance measurer(&box, &ball);
+    fcl::CollisionResultd again;
+    fcl::DistanceResultd result;
+    expect(collider(at(0, 0, 0), at(1.5, 0, 0), fcl::CollisionRequestd(), again) == 1, "ComputeCollision");
+    expect_near(measurer(at(0, 0, 0), at(0, 5, 0), fcl::DistanceRequestd(), result), 3, 1e-12, "ComputeDistance");
+}
+
+// A ball inside a closed mesh: a surface does not meet it, a solid does.
+void solids() {
+    const fcl::Sphered ball(0.2);
+    for (const bool solid : {false, true}) {
+        Model cube;
+        cube.beginModel();
+        cube.set_solid(solid);
+        fcl::generateBVHModel(cube, fcl::Boxd(2, 2, 2), at(0, 0, 0));
+        fcl::CollisionResultd result;
+        fcl::DistanceResultd nearest;
+        const fcl::CollisionRequestd request(5, true);
+        expect((fcl::collide<double>(&cube, at(0, 0, 0), &ball, at(0, 0, 0), request, result) > 0) == solid, "a ball in a mesh");
+        fcl::distance<double>(&cube, at(0, 0, 0), &ball, at(0, 0, 0), fcl::DistanceRequestd(true, true), nearest);
+        expect_near(nearest.min_distance, solid ? -1 : 0.8, 1e-12, "distance of a ball in a mesh");
+    }
+    Model open;
+    open.beginModel();
+    open.set_solid();
+    open.addTriangle(Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0));
+    expect(open.endModel() == fcl::BVH_ERR_INCORRECT_DATA, "an open solid is refused");
+}
+
+// Triangles without area are kept: nothing passes through them.
+void thin_triangles() {
+    Model model;
+    model.beginModel();
+    model.addTriangle(Vector(0, 0, 0), Vector(1, 0, 0), Vector(2, 0, 0));
+    model.addTriangle(Vector(0, 0, 5), Vector(1, 0, 5), Vector(0, 1, 5));
+    expect(model.endModel() == fcl::BVH_OK, "a model with a triangle without area");
+    const fcl::Sphered ball(0.5);
+    fcl::DistanceResultd result;
+    fcl::distance<double>(&model, at(0, 0, 0), &ball, at(1.5, 2, 0), fcl::DistanceRequestd(), result);
+    expect_near(result.min_distance, 1.5, 1e-12, "distance from a triangle without area");
+    expect(result.b1 == 0, "its number");
+}
+
+// Depths of round shapes: closed forms, and no direction gives a smaller one.
+void depths() {
+    const fcl::Cylinderd cylinder(1, 2);
+    const fcl::Sphered ball(0.5);
+    const fcl::Ellipsoidd egg(1, 2, 3);
+    const fcl::CollisionRequestd request(1, true);
+    const auto depth = [&](const fcl::CollisionGeometryd &a, const Transform &ta, const fcl::CollisionGeometryd &b,
+                           const Transform &tb) {
+        fcl::CollisionResultd result;
+        fcl::collide<double>(&a, ta, &b, tb, request, result);
+        return result.isCollision() ? result.getContact(0) : fcl::Contactd();
+    };
+    expect_near(depth(cylinder, at(0, 0, 0), ball, at(1.2, 0, 0)).penetration_depth, 0.3, 1e-6, "a ball at a cylinder's side");
+    expect_near(depth(cylinder, at(0, 0, 0), ball, at(0.2, 0.1, 1.1)).penetration_depth, 0.4, 1e-6, "a ball on a cylinder's end");
+    expect_near(depth(egg, at(0, 0, 0), egg, at(0, 0, 0)).penetration_depth, 2, 2e-6, "two ellipsoids, one in the other");
+    models::Random random(61);
+    const fcl::Coned cone(0.8, 1.5);
+    const fcl::Boxd box(1, 1.5, 2);
+    const std::vector<const fcl::CollisionGeometryd *> shapes = {&cylinder, &egg, &cone, &box};
+    for (int i = 0; i < 200; ++i) {
+        const fcl::CollisionGeometryd *a = shapes[random.below(3)], *b = shapes[random.below(4)];
+        const Transform ta = random_transform(random, 0.3), tb = random_transform(random, 0.8);
+        const fcl::Contactd found = depth(*a, ta, *b, tb);
+        if (!(found.penetration_depth > 1e-3)) {
+            continue;
+        }
+        const std::string label = "depth " + std::to_string(i);
+        // The translation separates, and nothing shorter does along it.
+        for (const double part : {1 + 1e-5, 1 - 1e-3}) {
+            Transform moved = tb;
+            moved.translation() += part * found.penetration_depth * found.normal;
+            fcl::CollisionResultd result;
+            expect((fcl::collide(a, ta, b, moved, fcl::CollisionRequestd(), result) > 0) == (part < 1), label + ": the way out");
+        }
+        // Nor does any other way, by support points along random directions.
+        double least = found.penetration_depth;
+        for (int k = 0; k < 2000; ++k) {
+            const Vector n = Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+            const Vector top = ta * a->support_point(ta.linear().transpose() * n, 0);
+            const Vector bottom = tb * b->support_point(tb.linear().transpose() * -n, 0);
+            least = std::min(least, n.dot(top - bottom));
+        }
+        expect(found.penetration_depth - least <= 1e-6, label + ": no other direction is shorter");
+        expect_near((found.nearest_points[0] - found.nearest_points[1]).norm(), found.penetration_depth, 1e-3, label + ": points");
+    }
+}
+
+void refusals() {
+    const auto refused = [](const auto &action) {
+        try {
+            action();
+        } catch (const cstk::Error &) {
+            return true;
+        } catch (const std::invalid_argument &) {
+            return true;
+        }
+        return false;
+    };
+    const fcl::Boxd box(1, 1, 1);
+    const fcl::Sphered wrong(-1);
+    Transform nowhere = at(0, 0, 0);
+    nowhere.translation()[1] = std::nan("");
+    Transform scaled = at(0, 0, 0);
+    scaled.linear() *= 2;
+    const Model empty;
+    const fcl::Halfspaced floor(0, 0, 1, 0);
+    fcl::CollisionResultd result;
+    const auto ask = [&](const fcl::CollisionGeometryd &geometry, const Transform &tf) {
+        fcl::collide<double>(&box, at(0, 0, 0), &geometry, tf, fcl::CollisionRequestd(), result);
+    };
+    expect(refused([&] { ask(box, nowhere); }), "a transform that is not finite");
+    expect(refused([&] { ask(box, scaled); }), "a transform that is no rotation");
+    expect(refused([&] { ask(wrong, at(0, 0, 0)); }), "a negative radius");
+    expect(refused([&] { ask(empty, at(0, 0, 0)); }), "a model that was not ended");
+    expect(refused([&] {
+               fcl::ContinuousCollisionResultd moving;
+               fcl::continuousCollide<double>(&box, at(0, 0, 2), at(0, 0, 2), &floor, at(0, 0, 0), at(0, 0, 1),
+                                              fcl::ContinuousCollisionRequestd(), moving);
+           }),
+           "a half-space that moves");
+    // No manager hides an object that is nowhere.
+    const auto shared = std::make_shared<fcl::Boxd>(1, 1, 1);
+    fcl::CollisionObjectd here(shared, at(9, 9, 9)), lost(shared, nowhere);
+    fcl::DynamicAABBTreeCollisionManagerd manager;
+    manager.registerObjects({&here, &lost});
+    manager.setup();
+    fcl::DefaultCollisionData<double> data;
+    expect(refused([&] { manager.collide(&data, fcl::DefaultCollisionFunction<double>); }), "a manager with an object nowhere");
+}
+
+// As many contacts as there are, however many are asked for.
+void all_contacts() {
+    const auto model = model_of(models::torus(1, 0.3, 12, 8));
+    const fcl::Cylinderd cylinder(0.4, 3);
+    const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
+    fcl::CollisionResultd of_models, of_round;
+    const auto count = fcl::collide<double>(model.get(), at(0, 0, 0), model.get(), at(0.3, 0.1, 0.2), request, of_models);
+    expect(count > 10 && count == of_models.numContacts(), "all contacts of two models");
+    expect(fcl::collide<double>(model.get(), at(0, 0, 0), &cylinder, at(0.8, 0, 0), request, of_round) > 10, "and of a cylinder");
+    for (std::size_t i = 1; i < of_round.numContacts(); ++i) {
+        expect(of_round.getContact(i - 1).penetration_depth >= of_round.getContact(i).penetration_depth, "deepest first");
+    }
+    expect(&of_round.getContact(99999) == &of_round.getContact(of_round.numContacts() - 1), "the last for a number too large");
+}
+
+// What lies on a plane touches it, though rounding may have moved it.
+void lying() {
+    const fcl::Boxd box(0.1, 0.2, 0.3);
+    models::Random random(62);
+    for (int i = 0; i < 200; ++i) {
+        const Transform tf = random_transform(random, 10);
+        const fcl::Halfspaced floor(0, 0, 1, -0.15);
+        fcl::CollisionResultd result;
+        expect(fcl::collide<double>(&box, tf, &floor, tf, fcl::CollisionRequestd(), result) == 1, "a box that lies on a floor");
+    }
+}
+
+// A size that changes is seen by the next query.
+void changed_sizes() {
+    fcl::Boxd box(2, 2, 2);
+    const fcl::Sphered ball(1);
+    for (const double side : {2.0, 4.0}) {
+        box.side[0] = side;
+        fcl::DistanceResultd result;
+        fcl::distance<double>(&box, at(0, 0, 0), &ball, at(5, 0, 0), fcl::DistanceRequestd(), result);
+        expect_near(result.min_distance, 4 - side / 2, 1e-12, "distance of a box that has grown");
+    }
+    const fcl::Boxd flat(2, 2, 0);
+    fcl::DistanceResultd result;
+    fcl::distance<double>(&flat, at(0, 0, 0), &ball, at(0, 0, 3), fcl::DistanceRequestd(), result);
+    expect_near(result.min_distance, 2, 1e-12, "distance of a box without height");
+}
+
+// Threads share geometries, which are built at the first query.
+void threads() {
+    const fcl::Cylinderd cylinder(1, 2);
+    const fcl::Boxd box(1, 1, 1);
+    std::vector<std::thread> running;
+    std::vector<double> found(8);
+    for (double &answer : found) {
+        running.emplace_back([&] {
+            for (int i = 0; i < 200; ++i) {
+                fcl::DistanceResultd result;
+                fcl::distance<double>(&cylinder, at(0, 0, 0), &box, at(3, 0.1, 0.2), fcl::DistanceRequestd(), result);
+                answer = result.min_distance;
+            }
+        });
+    }
+    for (std::thread &thread : running) {
+        thread.join();
+    }
+    expect(std::all_of(found.begin(), found.end(), [&](double d) { return d == found[0] && d == 1.5; }), "threads agree");
+}
+
+// A tree of very many objects in a row, added one by one, taken out again.
+void rows() {
+    const auto ball = std::make_shared<fcl::Sphered>(0.4);
+    std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
+    fcl::DynamicAABBTreeCollisionManagerd manager;
+    for (int i = 0; i < 3000; ++i) {
+        objects.push_back(std::make_unique<fcl::CollisionObjectd>(ball, at(i, 0, 0)));
+        manager.registerObject(objects.back().get());
+    }
+    fcl::DefaultDistanceData<double> data;
+    manager.distance(&data, fcl::DefaultDistanceFunction<double>);
+    expect_near(data.result.min_distance, 0.2, 1e-12, "nearest of a row");
+    for (int i = 0; i < 3000; ++i) {
+        if (i % 3 != 0) {
+            manager.unregisterObject(objects[static_cast<std::size_t>(i)].get());
+        }
+    }
+    fcl::DefaultDistanceData<double> sparse;
+    manager.distance(&sparse, fcl::DefaultDistanceFunction<double>);
+    expect_near(sparse.result.min_distance, 2.2, 1e-12, "nearest of every third");
+    std::vector<fcl::CollisionObjectd *> left;
+    manager.getObjects(left);
+    expect(left.size() == 1000 && manager.size() == 1000, "a third is left");
+}
+
+} // namespace
+
+int main() {
+    margins();
+    solids();
+    thin_triangles();
+    depths();
+    refusals();
+    all_contacts();
+    lying();
+    changed_sizes();
+    threads();
+    rows();
+    expect_near(distance_of_balls(5), 3, 1e-6, "single precision, in another file");
+    return failures() == 0 ? 0 : 1;
+}

@@ -1,0 +1,20 @@
+# Compiles not_covered.cpp, which must fail, and looks for the hint of each of its calls in the messages.
+#   cmake -DCOMPILER=c++ -DINCLUDES=folder;folder -DSOURCE=not_covered.cpp -P not_covered.cmake
+list(TRANSFORM INCLUDES PREPEND -I)
+execute_process(COMMAND ${COMPILER} -std=c++17 -fsyntax-only -w ${INCLUDES} ${SOURCE}
+  RESULT_VARIABLE status ERROR_VARIABLE messages)
+if(status EQUAL 0)
+  message(FATAL_ERROR "it compiles")
+endif()
+file(READ ${SOURCE} text)
+string(REGEX MATCHALL "// HINT: [^\n]*" hints "${text}")
+if(NOT hints)
+  message(FATAL_ERROR "no hints in ${SOURCE}")
+endif()
+foreach(hint IN LISTS hints)
+  string(REPLACE "// HINT: " "" hint "${hint}")
+  string(REPLACE "[^\\n]" "[^\n]" hint "${hint}")
+  if(NOT messages MATCHES "error: [^\n]*${hint}")
+    message(SEND_ERROR "no error says: ${hint}\n${messages}")
+  endif()
+endforeach()
