@@ -2,7 +2,7 @@
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
 # picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
 # demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/workcell.png shows two arms that share a
-# workcell.
+# workcell; demo/planner.png paths that RRT-Connect found.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -51,7 +51,21 @@ tiles=(-label "both at home: OUTSIDE" demo/workcell_free.png
   -label "wrists meeting: INSIDE, arm against arm" demo/workcell_wrists.png)
 montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/workcell.png
 echo
+cmake -S planners -B build/planners -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+cmake --build build/planners --target rrt_connect_program
+panda=$(scripts/fetch_motion_bench_maker.sh)
+build/planners/rrt_connect --puma "$meshes" --panda "$panda" --problems 1 --pictures demo
+render windows -0.6,-4.4,1.6 0.5,0,0
+render "Puma 560 workcell" 3.0,-3.0,2.4 0.1,-0.1,0.7
+render cage -1.5,-1.9,2.0 0.4,0,0.4
+render bookshelf_thin -1.6,-2.0,1.9 0.3,0,0.5
+tiles=(-label "a rigid L through two windows" demo/windows.png
+  -label "Puma 560: from the table to below a drum" "demo/Puma 560 workcell.png"
+  -label "MotionBenchMaker: cage" demo/cage.png -label "MotionBenchMaker: bookshelf" demo/bookshelf_thin.png)
+montage -font "$font" "${tiles[@]}" -tile 4x1 -geometry 640x480+4+4 -pointsize 20 demo/planner.png
+echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
 echo "picture: $PWD/demo/motion.png"
 echo "picture: $PWD/demo/workcell.png"
+echo "picture: $PWD/demo/planner.png"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs all tests: formatting and lints, Rust, the models, then the C, C++ and FCL tests (with valgrind) and the examples
-# against the library as installed into a prefix.
+# Runs all tests: formatting and lints, Rust, the models, then the C, C++ and FCL tests (with valgrind), the examples and
+# the planners against the library as installed into a prefix.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh test
@@ -16,6 +16,7 @@ cargo run --quiet --locked --example generate_models -- --check
 echo "== the installed library"
 scripts/install.sh
 scripts/fetch_puma560.sh || echo "SKIPPED: the Puma 560 meshes could not be fetched" >&2
+scripts/fetch_motion_bench_maker.sh >/dev/null || echo "SKIPPED: MotionBenchMaker's problems could not be fetched" >&2
 scripts/fetch_pinocchio.sh >/dev/null || echo "SKIPPED: Pinocchio and the robots it comes with could not be fetched" >&2
 build_and_test() {
   cmake -S "$1" -B "$2" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
@@ -24,6 +25,8 @@ build_and_test() {
 }
 build_and_test examples-c build/examples
 build_and_test capi-tests build/capi-tests
+build_and_test planners build/planners
+build_and_test integrations/ompl build/ompl
 
 echo "== the reference pages"
 mkdir -p build/doxygen

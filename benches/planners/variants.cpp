@@ -1,0 +1,107 @@
+#include "variants.hpp"
+
+#include "fcl_cell.hpp"
+#include "planning.hpp"
+#include "rrt_connect.hpp"
+
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+
+#include <ctime>
+#include <memory>
+
+namespace {
+
+namespace ob = ompl::base;
+
+/// How long OMPL's planner may search, in seconds.
+const double time_limit = 20;
+/// Samples of a motion are this part of the space's extent apart: OMPL's default.
+const double ompl_spacing = 0.01;
+
+class FclChecker : public ob::StateValidityChecker {
+  public:
+    FclChecker(const ob::SpaceInformationPtr &information, const problems::Workcell &cell, const std::string &way)
+        : StateValidityChecker(information), space_(*information->getStateSpace()->as<cstk_ompl::StateSpace>()),
+          cell_(cell, way) {}
+
+    bool isValid(const ob::State *state) const override {
+        return space_.satisfiesBounds(state) && !cell_.meets(space_.configuration(state));
+    }
+
+  private:
+    const cstk_ompl::StateSpace &space_;
+    FclCell cell_;
+};
+
+/// Of this thread's processor time, which other programs do not lengthen.
+double processor_milliseconds() {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <class Work> double milliseconds(Work work) {
+    const double start = processor_milliseconds();
+    work();
+    return processor_milliseconds() - start;
+}
+
+Run by_ours(const Task &task) {
+    static const cstk::Query query;
+    const problems::Workcell &cell = *task.problem.workcell;
+    rrt_connect::Options options;
+    options.range = task.problem.range;
+    options.seed = task.seed;
+    rrt_connect::Plan plan;
+    const double time = milliseconds([&] {
+        plan = rrt_connect::plan(query, cell.space, cell.contact, task.problem.start, task.problem.goal, options);
+    });
+    return {plan.path, time, plan.checks};
+}
+
+Run by_ompl(ompl::geometric::SimpleSetup &setup, const Task &task) {
+    setup.getStateSpace()->as<cstk_ompl::StateSpace>()->set_seed(task.seed);
+    const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup.getSpaceInformation());
+    planner->setRange(task.problem.range);
+    setup.setPlanner(planner);
+    setup.setup();
+    bool solved = false;
+    const double time = milliseconds([&] { solved = setup.solve(time_limit) == ob::PlannerStatus::EXACT_SOLUTION; });
+    const ob::MotionValidatorPtr &motions = setup.getSpaceInformation()->getMotionValidator();
+    const std::size_t checks = motions->getValidMotionCount() + motions->getInvalidMotionCount();
+    return {solved ? configurations(setup.getSolutionPath()) : std::vector<problems::Configuration>(), time, checks};
+}
+
+Run by_ompl_proved(const Task &task) {
+    return by_ompl(*proved_setup(task.problem), task);
+}
+
+/// OMPL's own motion validator, which asks at samples.
+void set_sampled(ompl::geometric::SimpleSetup &setup) {
+    const ob::SpaceInformationPtr &information = setup.getSpaceInformation();
+    information->setStateValidityCheckingResolution(ompl_spacing);
+    information->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(information));
+}
+
+Run by_ompl_sampled(const Task &task) {
+    const auto setup = proved_setup(task.problem);
+    set_sampled(*setup);
+    return by_ompl(*setup, task);
+}
+
+Run by_ompl_fcl(const Task &task) {
+    const auto setup = proved_setup(task.problem);
+    set_sampled(*setup);
+    setup->setStateValidityChecker(
+        std::make_shared<FclChecker>(setup->getSpaceInformation(), *task.problem.workcell, task.fcl_way));
+    return by_ompl(*setup, task);
+}
+
+} // namespace
+
+std::vector<Variant> variants() {
+    return {{"RRT-Connect", "cstk proved", by_ours},
+            {"OMPL RRTConnect", "cstk proved", by_ompl_proved},
+            {"OMPL RRTConnect", "cstk sampled", by_ompl_sampled},
+            {"OMPL RRTConnect", "FCL sampled", by_ompl_fcl}};
+}

@@ -1,0 +1,14 @@
+// A query context for each thread.
+#pragma once
+
+#include <cstk.hpp>
+
+namespace cstk_ompl {
+
+/// OMPL's parallel planners ask from several threads; a query context serves one of them.
+inline const cstk::Query &thread_query() {
+    static thread_local const cstk::Query query;
+    return query;
+}
+
+} // namespace cstk_ompl

@@ -1,0 +1,26 @@
+// Problems that need no files, and the Puma 560, whose links are files.
+#pragma once
+
+#include "problem.hpp"
+
+#include <string>
+#include <vector>
+
+namespace problems {
+
+/// A rigid L passes through two walls, each with a window that it fits through only turned: 3 lengths and a rotation.
+Problem windows();
+
+/// An arm of 4 links in the plane, its joints without limits, reaches through a slot, and then through another behind it.
+Problem chambers();
+
+/// A Puma 560 in its workcell reaches from the table to below a drum. `folder` is what scripts/fetch_puma560.sh prints.
+Problem puma_cell(const std::string &folder);
+
+/// The arm alone: links, joints and limits.
+cstk::Robot puma_560(const std::string &folder);
+
+/// windows(), chambers() and, where the folder is not empty, puma_cell().
+std::vector<Problem> built_in(const std::string &puma_folder);
+
+} // namespace problems

@@ -1,0 +1,72 @@
+#include "rrt_connect.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace rrt_connect {
+
+namespace {
+
+/// The tree grows from its nearest node towards q, by one edge of at most `range`. Returns the node it came to.
+std::optional<std::size_t> extend(Tree &tree, std::size_t nearest, const Configuration &q, const cstk::Space &space,
+                                  EdgeProver &edges, double range) {
+    const double distance = space.distance(tree.at(nearest), q);
+    const Configuration end = distance > range ? space.interpolate(tree.at(nearest), q, range / distance) : q;
+    if (!edges.is_free(tree.at(nearest), end)) {
+        return {};
+    }
+    return tree.add(end, nearest);
+}
+
+/// The tree grows towards q until it is there or something is met. Returns the node at q.
+std::optional<std::size_t> connect(Tree &tree, const Configuration &q, const cstk::Space &space, EdgeProver &edges,
+                                   double range) {
+    std::optional<std::size_t> last = tree.nearest(q);
+    do {
+        last = extend(tree, *last, q, space, edges, range);
+    } while (last && tree.at(*last) != q);
+    return last;
+}
+
+/// Both trees have a node at the same configuration.
+std::vector<Configuration> joined(const Tree &from_start, std::size_t start_side, const Tree &from_goal,
+                                  std::size_t goal_side) {
+    std::vector<Configuration> path = from_start.path_to(start_side);
+    const std::vector<Configuration> rest = from_goal.path_to(goal_side);
+    path.insert(path.end(), rest.rbegin() + 1, rest.rend());
+    return path;
+}
+
+} // namespace
+
+Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
+          const Configuration &goal, const Options &options) {
+    EdgeProver edges(query, space, contact, options.spacing);
+    if (!edges.is_free(start) || !edges.is_free(goal)) {
+        return {};
+    }
+    Tree from_start(space, start), from_goal(space, goal);
+    Tree *growing = &from_start, *waiting = &from_goal;
+    std::uint64_t random = options.seed;
+    for (std::size_t i = 0; i < options.max_samples; ++i) {
+        // The smaller tree grows: it is the one in the narrower place.
+        if (growing->size() > waiting->size()) {
+            std::swap(growing, waiting);
+        }
+        // The goal is the first sample, so that a straight way is found at once.
+        const Configuration sample = i == 0 ? goal : space.sample(random);
+        const auto grown = extend(*growing, growing->nearest(sample), sample, space, edges, options.range);
+        if (!grown) {
+            continue;
+        }
+        const auto met = connect(*waiting, growing->at(*grown), space, edges, options.range);
+        if (met) {
+            const bool is_start = growing == &from_start;
+            return {joined(from_start, is_start ? *grown : *met, from_goal, is_start ? *met : *grown), edges.checks()};
+        }
+    }
+    return {{}, edges.checks()};
+}
+
+} // namespace rrt_connect

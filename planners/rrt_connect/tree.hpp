@@ -1,0 +1,54 @@
+// A tree of configurations, joined by free motions, that finds the nearest of them.
+#pragma once
+
+#include <cstk.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace rrt_connect {
+
+using Configuration = std::vector<double>;
+
+/// Nodes are numbered as they come; 0 is the root. Beside the motions that join them the nodes hold a vantage point tree (Yianilos,
+/// 1993), which asks no more of a space than its metric: Space::distance, which is one but for free joints (see
+/// cstk_space_distance).
+class Tree {
+  public:
+    Tree(const cstk::Space &space, const Configuration &root);
+
+    /// Adds a node that a motion joins to its parent; returns its number.
+    std::size_t add(const Configuration &q, std::size_t parent);
+
+    /// The number of the node nearest to q.
+    std::size_t nearest(const Configuration &q) const;
+
+    const Configuration &at(std::size_t node) const { return nodes_[node].q; }
+    std::size_t size() const { return nodes_.size(); }
+
+    /// From the root to the node.
+    std::vector<Configuration> path_to(std::size_t node) const;
+
+  private:
+    static const std::size_t none = static_cast<std::size_t>(-1);
+
+    struct Node {
+        Configuration q;
+        std::size_t parent;
+        /// Of the vantage point tree: what is at most `radius` away from q is inside, all else outside.
+        double radius = 0;
+        std::size_t inside = none, outside = none;
+    };
+
+    struct Nearest {
+        std::size_t node;
+        double distance;
+    };
+
+    void search(std::size_t node, const Configuration &q, Nearest &best) const;
+
+    cstk::Space space_;
+    std::vector<Node> nodes_;
+};
+
+} // namespace rrt_connect

@@ -1,0 +1,90 @@
+#include "grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sandros {
+
+namespace {
+
+const double pi = 3.14159265358979323846;
+
+/// The same angle between -pi and pi.
+double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
+
+} // namespace
+
+Grid::Grid(const Problem &problem, unsigned halvings) {
+    if (problem.space.nq() != problem.space.nv() || problem.axes.size() != problem.space.nq()) {
+        throw std::invalid_argument(problem.name +
+                                    ": there is one axis for each coordinate, and no quaternion");
+    }
+    for (const Axis &axis : problem.axes) {
+        const cstk_range range = problem.space.range(axis.coordinate);
+        const bool circle = range.kind == CSTK_RANGE_CIRCLE;
+        const double low = circle ? -pi : range.lower;
+        const double high = circle ? pi : range.upper;
+        if (!std::isfinite(high - low) || axis.cells == 0) {
+            throw std::invalid_argument(problem.name + ": coordinate " +
+                                        std::to_string(axis.coordinate) +
+                                        " has no range to cut into cells");
+        }
+        const std::size_t count = axis.cells << halvings;
+        axes_.push_back(
+            {axis.coordinate, count, low, (high - low) / static_cast<double>(count), circle});
+    }
+}
+
+std::size_t Grid::cell_of(std::size_t axis, const Configuration &q) const {
+    const CutAxis &cut = axes_[axis];
+    const double value = cut.circle ? wrapped(q[cut.coordinate]) : q[cut.coordinate];
+    const double place = std::floor((value - cut.low) / cut.width);
+    return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(cut.count - 1)));
+}
+
+bool Grid::adjacent(const Cells &a, const Cells &b) const {
+    const std::size_t common = std::min(a.size(), b.size());
+    std::size_t faces = 0;
+    for (std::size_t i = 0; i < common; ++i) {
+        const std::size_t apart = a[i] > b[i] ? a[i] - b[i] : b[i] - a[i];
+        if (apart == 0) {
+            continue;
+        }
+        const bool around = axes_[i].circle && apart + 1 == axes_[i].count;
+        if (++faces > 1 || (apart > 1 && !around)) {
+            return false;
+        }
+    }
+    return faces == 1;
+}
+
+Configuration Grid::low(const Cells &cells, const Configuration &rest) const {
+    Configuration q = rest;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        q[axes_[i].coordinate] = axes_[i].low + axes_[i].width * static_cast<double>(cells[i]);
+    }
+    return q;
+}
+
+Configuration Grid::high(const Cells &cells, const Configuration &rest) const {
+    Configuration q = rest;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        q[axes_[i].coordinate] = axes_[i].low + axes_[i].width * static_cast<double>(cells[i] + 1);
+    }
+    return q;
+}
+
+Configuration Grid::nearest_within(const Cells &cells, const Configuration &q) const {
+    Configuration nearest = q;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const CutAxis &cut = axes_[i];
+        const double middle = cut.low + cut.width * (static_cast<double>(cells[i]) + 0.5);
+        const double beside = q[cut.coordinate] - middle;
+        const double kept = (cut.circle ? wrapped(beside) : beside);
+        nearest[cut.coordinate] = middle + std::clamp(kept, -cut.width / 4, cut.width / 4);
+    }
+    return nearest;
+}
+
+} // namespace sandros

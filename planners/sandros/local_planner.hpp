@@ -1,0 +1,52 @@
+// L: moves the robot towards a subgoal, straight where it can, sliding along contacts where it
+// must.
+#ifndef SANDROS_LOCAL_PLANNER_HPP
+#define SANDROS_LOCAL_PLANNER_HPP
+
+#include "grid.hpp"
+
+#include <optional>
+
+namespace sandros {
+
+/// What the local planner asked of the library.
+struct LocalWork {
+    std::size_t motions = 0, slides = 0;
+};
+
+/// It looks ahead by one step and remembers nothing: the global planner knows what to do where it
+/// gives up. Every motion that it returns is proved free.
+class LocalPlanner {
+  public:
+    LocalPlanner(const Problem &problem, const cstk::CObject &obstacles, const cstk::Query &query);
+
+    /// The configurations after `from`, the last of them in the set; none if it was not reached.
+    std::optional<Path> reach(const Configuration &from, const Grid &grid, const Cells &cells);
+
+    /// The configurations after `from`, the last of them `to`; none if it was not reached.
+    std::optional<Path> reach(const Configuration &from, const Configuration &to);
+
+    /// The straight motion is free.
+    bool straight(const Configuration &from, const Configuration &to);
+
+    const LocalWork &work() const { return work_; }
+
+  private:
+    struct Walk;
+
+    template <typename Target> std::optional<Path> walk(const Configuration &from, Target target);
+    bool go_straight(Walk &walk, const Configuration &to);
+    bool slide(Walk &walk, const Configuration &to);
+
+    const cstk::Space space_;
+    const cstk::CObject obstacles_;
+    const cstk::Query query_;
+    const double step_;
+    cstk_slide_options slide_options_;
+    cstk_motion_options first_contact_, any_contact_;
+    LocalWork work_;
+};
+
+} // namespace sandros
+
+#endif

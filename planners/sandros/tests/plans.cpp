@@ -1,0 +1,107 @@
+// What the planner promises, on problems of its own: paths are proved, plans are the same each
+// time, a closed trap has no way out, and a finer resolution finds what a coarser one found. The
+// last takes half a minute of the windows: any argument adds them.
+#include "../path.hpp"
+#include "../planner.hpp"
+#include "../problems/problems.hpp"
+
+#include <cstdio>
+
+namespace {
+
+using namespace sandros;
+
+int failures = 0;
+
+void expect(bool holds, const std::string &what) {
+    if (!holds) {
+        std::printf("FAILED: %s\n", what.c_str());
+        ++failures;
+    }
+}
+
+Problem with_cells(Problem problem, std::size_t multiply, std::size_t divide) {
+    for (Axis &axis : problem.axes) {
+        axis.cells = std::max<std::size_t>(1, axis.cells * multiply / divide);
+    }
+    return problem;
+}
+
+PlanOptions halved(unsigned halvings) {
+    PlanOptions options;
+    options.halvings = halvings;
+    return options;
+}
+
+void paths_are_proved_and_the_same_each_time(const Problem &problem) {
+    const Plan made = plan(problem), again = plan(problem);
+    expect(made.outcome == Outcome::FOUND, problem.name + " is solved");
+    expect(made.path == again.path && made.work.checks() == again.work.checks(),
+           problem.name + ": the same problem has the same plan");
+    if (made.outcome == Outcome::FOUND) {
+        expect(made.path.front() == problem.start && made.path.back() == problem.goal,
+               problem.name + ": the path leads from start to goal");
+        expect(is_free(problem, made.path), problem.name + ": every motion is proved free");
+    }
+}
+
+/// Both where coarser resolutions are searched first, as the planner does, and where the finer grid
+/// is searched alone.
+void halving_loses_no_solution(const Problem &problem) {
+    const Problem coarse = with_cells(problem, 1, 2);
+    bool found = false, found_alone = false;
+    for (unsigned halvings = 0; halvings <= 2; ++halvings) {
+        const std::string name = problem.name + " halved " + std::to_string(halvings) + " times";
+        const bool now = plan(coarse, halved(halvings)).outcome == Outcome::FOUND;
+        const Problem fine = with_cells(coarse, std::size_t{1} << halvings, 1);
+        const bool alone = plan(fine).outcome == Outcome::FOUND;
+        std::printf("%s: %s, alone %s\n", name.c_str(), now ? "found" : "none",
+                    alone ? "found" : "none");
+        expect(now || !found, name + " finds what was found before");
+        expect(alone || !found_alone, name + " alone finds what was found before");
+        found = found || now;
+        found_alone = found_alone || alone;
+    }
+    expect(found, problem.name + " is solved at some resolution");
+}
+
+void a_closed_trap_has_no_way_out() {
+    for (const std::size_t divide : {4, 2, 1}) {
+        const Plan made = plan(with_cells(problems::bug_trap(false), 1, divide));
+        expect(made.outcome == Outcome::NO_PATH_AT_THIS_RESOLUTION && made.path.empty(),
+               "the closed trap, cells " + std::to_string(divide) +
+                   " times as large: " + name_of(made.outcome));
+    }
+}
+
+void bad_ends_are_refused() {
+    Problem inside = problems::bug_trap(true), beyond = inside;
+    inside.start = {-1.1, 0, 0};
+    beyond.goal[0] = 2.5;
+    for (const Problem &problem : {inside, beyond}) {
+        expect(plan(problem).outcome == Outcome::BAD_START_OR_GOAL, "a bad end is refused");
+    }
+    PlanOptions few;
+    few.max_subgoals = 50;
+    expect(plan(problems::bug_trap(false), few).outcome == Outcome::GAVE_UP,
+           "the search ends at max_subgoals");
+}
+
+} // namespace
+
+int main(int count, char **) {
+    const bool all = count > 1;
+    for (const Problem &problem : problems::generated()) {
+        if (problem.name == "bug_trap") {
+            continue;
+        }
+        paths_are_proved_and_the_same_each_time(problem);
+        if (all || problem.name != "windows") {
+            halving_loses_no_solution(problem);
+        }
+    }
+    a_closed_trap_has_no_way_out();
+    bad_ends_are_refused();
+    std::printf("%d failures\n", failures);
+    return failures == 0 ? 0 : 1;
+}
