@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::attachment::Attachment;
-use super::snapshot::{SObject, Snapshot};
+use super::places::SObject;
+use super::snapshot::Snapshot;
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
 use crate::index_set::IndexSet;

@@ -6,6 +6,7 @@ pub mod box_tree;
 #[allow(clippy::module_inception)]
 mod environment;
 mod object_tree;
+mod places;
 mod snapshot;
 mod tree_limits;
 mod visit_near;
@@ -14,6 +15,6 @@ pub use attachment::Attachment;
 pub use bounds::Bounds;
 pub use environment::{Change, Environment};
 pub use object_tree::ObjectTree;
-
-pub use snapshot::{SObject, Snapshot};
+pub use places::SObject;
+pub use snapshot::Snapshot;
 pub use visit_near::{Named, NearScratch};

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::bounds::{Bounds, slack};
-use super::snapshot::{Place, Places};
+use super::places::{Place, Places};
 use super::tree_limits::{FAR, TreeLimits};
 use crate::boxes::Extent;
 use crate::environment::box_tree::{BoxTree, BoxTreeChanges, Boxes, OrientedBox};

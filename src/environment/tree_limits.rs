@@ -2,7 +2,7 @@
 //! object that is very far away, or has a very large error, would loosen the bounds of all others.
 
 use super::bounds::{Bounds, slack};
-use super::snapshot::Places;
+use super::places::Places;
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
 

@@ -2,8 +2,7 @@
 //! second derivative on the straight way from the middle of the box to any other configuration of it.
 
 use super::moving_pair::{Carried, MAX_TURN, MovingPair, RatesInWorld};
-use super::moving_pure::Extent;
-use super::piece::{Displacement, ManyTwists, Moved, PairOver, Piece};
+use super::over_piece::{Displacement, ManyTwists, Moved, PairOver};
 use super::way::Way;
 use crate::body::Body;
 use crate::convex::Extension;
@@ -176,10 +175,9 @@ impl PairInBox {
     }
 }
 
-impl Piece for BoxPiece<'_> {
-    type Lists = ManyTwists;
-
-    fn over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
+impl BoxPiece<'_> {
+    /// A pair through the box.
+    pub fn pair_over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
         let found = self.in_box(pair);
         let center_moves = |apart: &Vec3, distance: f64| found.center_moves(apart, distance);
         if pair.balls_stay_apart(&found.poses, center_moves, found.kinematics_error) {
@@ -194,12 +192,9 @@ impl Piece for BoxPiece<'_> {
         PairOver::Near(pair.placed(found.moved(radius, pair.threshold)))
     }
 
-    fn moved(&mut self, pair: &MovingPair) -> Moved<ManyTwists> {
+    /// How A moves through the box.
+    pub fn pair_moved(&mut self, pair: &MovingPair) -> Moved<ManyTwists> {
         let radius = pair.bodies()[0].radius();
         self.in_box(pair).moved(radius, pair.threshold)
-    }
-
-    fn extent(&self) -> Extent<'_> {
-        Extent::Box(self)
     }
 }

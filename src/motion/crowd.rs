@@ -1,7 +1,8 @@
 //! A body that moves among objects that rest: the boxes around them are looked at eight at a time before any pair is.
 
 use super::moving_pair::MovingPair;
-use super::piece::{Piece, TwistLists};
+use super::over_piece::TwistLists;
+use super::piece::Piece;
 use crate::body::Body;
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::convex::Extension;

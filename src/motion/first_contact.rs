@@ -1,7 +1,9 @@
 //! When two primitives on a motion begin to meet.
 
-use super::moving_pair::{Interval, Kinematics, MovingPair, Span};
-use super::piece::{PairOver, Piece};
+use super::moving_pair::{Interval, Kinematics, MovingPair};
+use super::over_piece::PairOver;
+use super::piece::Piece;
+use super::span::Span;
 use crate::error::Result;
 use crate::pair::Scratch;
 

@@ -1,9 +1,7 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
-use super::moving_pure::Extent;
-use super::piece::{
-    Displacement, Followed, Moved, OneTwist, OverPiece, PairOver, Piece, TwistLists,
-};
+use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
+use super::span::Span;
 use super::way::Way;
 use crate::body::Body;
 use crate::convex::{Extension, SweepTwist};
@@ -289,7 +287,7 @@ impl<'a> MovingPair<'a> {
     /// farther than rho = R + threshold + h |centre's velocity| from A's centre meanwhile, and by the product rule accelerate by
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
-    fn over_interval(&self, kinematics: &mut Kinematics, span: Span) -> PairOver<'a, OneTwist> {
+    pub fn over_interval(&self, kinematics: &mut Kinematics, span: Span) -> PairOver<'a, OneTwist> {
         let (relative, rates) = self.relative(kinematics);
         let kinematics_error = self.kinematics_error(&rates);
         let reach = span.reach();
@@ -313,6 +311,12 @@ impl<'a> MovingPair<'a> {
             return PairOver::TooLong;
         }
         PairOver::Near(self.placed(self.moved_over_interval(&relative, &rates, span)))
+    }
+
+    /// How A moves over an interval.
+    pub fn moved(&self, kinematics: &mut Kinematics, span: Span) -> Moved<OneTwist> {
+        let (relative, rates) = self.relative(kinematics);
+        self.moved_over_interval(&relative, &rates, span)
     }
 
     fn moved_over_interval(
@@ -486,51 +490,10 @@ impl<'a> MovingPair<'a> {
     }
 }
 
-/// Where an interval lies, seen from the time at which bodies are compared.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Span {
-    /// It goes as far to either side.
-    Around(f64),
-    /// It ends there: so long. What approaches all the while is nearest there, however it bends before.
-    Before(f64),
-}
-
-impl Span {
-    /// The longest time from there.
-    pub fn reach(self) -> f64 {
-        let (Self::Around(reach) | Self::Before(reach)) = self;
-        reach
-    }
-}
-
 /// An interval of a motion.
 pub(super) struct Interval<'k, 'a> {
     pub kinematics: &'k mut Kinematics<'a>,
     /// The time at which bodies are compared, which the kinematics are at.
     pub time: f64,
     pub span: Span,
-}
-
-impl Piece for Interval<'_, '_> {
-    type Lists = OneTwist;
-
-    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, OneTwist> {
-        match Followed::over_interval(pair.followed_from, self.time, self.span) {
-            Followed::Yes => pair.over_interval(self.kinematics, self.span),
-            Followed::InPart => PairOver::TooLong,
-            Followed::No => PairOver::Apart,
-        }
-    }
-
-    fn moved(&mut self, pair: &MovingPair) -> Moved<OneTwist> {
-        let (relative, rates) = pair.relative(self.kinematics);
-        pair.moved_over_interval(&relative, &rates, self.span)
-    }
-
-    fn extent(&self) -> Extent<'_> {
-        Extent::Time {
-            time: self.time,
-            span: self.span,
-        }
-    }
 }

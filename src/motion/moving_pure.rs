@@ -2,9 +2,8 @@
 //! there.
 
 use super::box_piece::BoxPiece;
-use super::moving_pair::Span;
-use super::piece::Followed;
 use super::set_tree::Known;
+use super::span::{Followed, Span};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{Class, PureSet, PureShape};

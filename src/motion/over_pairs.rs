@@ -2,7 +2,8 @@
 
 use super::crowd::CrowdOver;
 use super::moving_pair::MovingPair;
-use super::piece::{PairOver, Piece, TwistLists};
+use super::over_piece::{PairOver, TwistLists};
+use super::piece::Piece;
 
 /// Pairs over one piece, made when they are first asked for.
 pub(super) struct OverPairs<'a, L: TwistLists> {

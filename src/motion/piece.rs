@@ -1,43 +1,10 @@
-//! A piece of what the robot does, an interval of a motion or a box of configurations, and what is known of a body pair through it.
+//! A piece of what the robot does: an interval of a motion, or a box of configurations.
 
-use smallvec::SmallVec;
-
-use super::moving_pair::{MovingPair, Span};
+use super::box_piece::BoxPiece;
+use super::moving_pair::{Interval, MovingPair};
 use super::moving_pure::Extent;
-use crate::convex::{Extension, Sweep, SweepTwist};
-use crate::pair::{Motion32, Pairing, SweptLimits, Twist32};
-use crate::pose::{Pose, Vec3};
-
-/// The lists that hold one entry for each twist of a piece. An interval has one twist, and its list is an array, so that loops over it
-/// cost nothing.
-pub(super) trait TwistLists {
-    type Of<T>: AsRef<[T]>;
-
-    fn map<T, U>(list: &Self::Of<T>, entry: impl FnMut(&T) -> U) -> Self::Of<U>;
-}
-
-/// Of intervals.
-pub(super) struct OneTwist;
-
-/// Of boxes of configurations.
-pub(super) struct ManyTwists;
-
-impl TwistLists for OneTwist {
-    type Of<T> = [T; 1];
-
-    #[inline(always)]
-    fn map<T, U>([only]: &[T; 1], mut entry: impl FnMut(&T) -> U) -> [U; 1] {
-        [entry(only)]
-    }
-}
-
-impl TwistLists for ManyTwists {
-    type Of<T> = SmallVec<[T; 8]>;
-
-    fn map<T, U>(list: &SmallVec<[T; 8]>, entry: impl FnMut(&T) -> U) -> SmallVec<[U; 8]> {
-        list.iter().map(entry).collect()
-    }
-}
+use super::over_piece::{ManyTwists, Moved, OneTwist, PairOver, TwistLists};
+use super::span::Followed;
 
 /// A piece of what the robot does.
 pub(super) trait Piece {
@@ -53,88 +20,41 @@ pub(super) trait Piece {
     fn extent(&self) -> Extent<'_>;
 }
 
-/// Whether a proof follows a pair or a set through a piece. What touches at the start of a slide is followed from a later time on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Followed {
-    /// What comes before the time at which it is followed is known to be free.
-    No,
-    /// Through the later part, which the halves of the piece tell apart.
-    InPart,
-    Yes,
-}
+impl Piece for Interval<'_, '_> {
+    type Lists = OneTwist;
 
-impl Followed {
-    /// What is followed from a time on, over an interval in which it is compared at another time.
-    #[inline(always)]
-    pub fn over_interval(from: f64, compared_at: f64, span: Span) -> Self {
-        let end = match span {
-            Span::Around(half) => compared_at + half,
-            Span::Before(_) => compared_at,
-        };
-        if from <= compared_at {
-            Self::Yes
-        } else if end <= from {
-            Self::No
-        } else {
-            Self::InPart
+    fn over<'a>(&mut self, pair: &MovingPair<'a>) -> PairOver<'a, OneTwist> {
+        match Followed::over_interval(pair.followed_from, self.time, self.span) {
+            Followed::Yes => pair.over_interval(self.kinematics, self.span),
+            Followed::InPart => PairOver::TooLong,
+            Followed::No => PairOver::Apart,
+        }
+    }
+
+    fn moved(&mut self, pair: &MovingPair) -> Moved<OneTwist> {
+        pair.moved(self.kinematics, self.span)
+    }
+
+    fn extent(&self) -> Extent<'_> {
+        Extent::Time {
+            time: self.time,
+            span: self.span,
         }
     }
 }
 
-/// A displacement of a body: of its centre, and its turn in radians.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Displacement {
-    pub linear: Vec3,
-    pub angular: Vec3,
-}
+impl Piece for BoxPiece<'_> {
+    type Lists = ManyTwists;
 
-/// How A moves through a piece, as B sees it, with the components in the world's frame.
-pub(super) struct Moved<L: TwistLists> {
-    /// Of both bodies, in the world, where they are compared.
-    pub poses: [Pose; 2],
-    /// From where boxes and primitives are compared to the sides of the piece.
-    pub displacements: L::Of<Displacement>,
-    pub extension: Extension,
-    /// As [`Sweep::bends`].
-    pub bends: [f64; 2],
-    pub kinematics_error: f64,
-}
+    fn over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
+        self.pair_over(pair)
+    }
 
-/// What is known of a pair at the beginning of a piece.
-#[allow(clippy::large_enum_variant)]
-pub(super) enum PairOver<'a, L: TwistLists> {
-    /// The balls around the bodies stay apart.
-    Apart,
-    /// The piece is too long for bounds of boxes to be of use.
-    TooLong,
-    /// Boxes and primitives may be looked at.
-    Near(OverPiece<'a, L>),
-}
+    fn moved(&mut self, pair: &MovingPair) -> Moved<ManyTwists> {
+        self.pair_moved(pair)
+    }
 
-/// A pair through a piece.
-pub(super) struct OverPiece<'a, L: TwistLists> {
-    pub pairing: Pairing<'a>,
-    /// Into A's frame, and into B's.
-    pub motions: [Motion32; 2],
-    /// In A's frame, and in B's.
-    pub twists: [L::Of<Twist32>; 2],
-    pub extension: Extension,
-    /// As [`Sweep::bends`], in units of the pair.
-    pub bends: [f32; 2],
-    /// In A's frame.
-    pub sweep_twists: L::Of<SweepTwist>,
-    pub sweep_bends: [f64; 2],
-    pub limits: SweptLimits,
-    /// Boxes with a larger gap do not meet, in units of the pair.
-    pub cutoff: f32,
-}
-
-impl<L: TwistLists> OverPiece<'_, L> {
-    pub fn sweep(&self) -> Sweep<'_> {
-        Sweep {
-            twists: self.sweep_twists.as_ref(),
-            extension: self.extension,
-            bends: self.sweep_bends,
-        }
+    fn extent(&self) -> Extent<'_> {
+        Extent::Box(self)
     }
 }

@@ -3,8 +3,9 @@
 use std::ops::Deref;
 
 use super::answer::SSide;
+use super::cache_key::CacheKey;
 use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
-use super::context::{CacheKey, QueryContext};
+use super::context::QueryContext;
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;

@@ -1,6 +1,7 @@
 //! A query context: one thread's caches and scratch memory.
 
-use super::answer::{ContactsListed, SSide};
+use super::answer::ContactsListed;
+use super::cache_key::CacheKey;
 use super::candidates::CandidateScratch;
 use super::combination::Answers;
 use super::scene::{Configuration, Scene, SceneMemory};
@@ -12,21 +13,6 @@ use crate::pair::Scratch;
 use crate::work_meter::Statistics;
 use foldhash::fast::RandomState;
 use std::collections::HashMap;
-
-/// Identifies a body pair across queries: two parties of a space, or two bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum CacheKey {
-    Bodies(u64, u64),
-    Candidate {
-        space: u64,
-        r_link: usize,
-        /// The s-object attached to the link that is the r-side, or 0.
-        r_object: u64,
-        s_side: SSide,
-        /// The serial of the s-side's body: an id keeps its body for good, but a key must not outlive what it names.
-        body: u64,
-    },
-}
 
 /// One thread's scratch memory, and the witnesses of earlier queries for warm starts (§2.3.4). It changes how long an
 /// answer takes, never the answer. One thread at a time may use it.

@@ -3,6 +3,7 @@
 
 mod answer;
 mod body_pairs;
+mod cache_key;
 mod candidates;
 mod classify;
 mod combination;
@@ -28,10 +29,11 @@ pub use answer::{
     ContactRecord, ContactsListed, Distance, DistanceKind, PenetrationList, PrimitivePenetration,
     PurePlace, SSide, Witness, WitnessList,
 };
+pub(crate) use cache_key::CacheKey;
 pub(crate) use candidates::CandidateFilter;
 pub(crate) use combination::{Composition, composition};
 pub use context::QueryContext;
-pub(crate) use context::{CacheKey, check_threshold};
+pub(crate) use context::check_threshold;
 pub use explain::{Explanation, Verdict};
 pub use find_link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
 pub(crate) use pairs::check_dimensions;

@@ -1,7 +1,8 @@
 //! Queries on two bodies at two poses: the level of FCL and Coal.
 
 use super::answer::{ContactRecord, Distance, WitnessList};
-use super::context::{CacheKey, QueryContext, check_threshold};
+use super::cache_key::CacheKey;
+use super::context::{QueryContext, check_threshold};
 use super::distance_answer::NearestPair;
 use super::target::{Placement, Target};
 use crate::body::Body;

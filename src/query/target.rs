@@ -1,7 +1,7 @@
 //! A body pair as the target of a search.
 
 use super::answer::SSide;
-use super::context::CacheKey;
+use super::cache_key::CacheKey;
 use crate::body::Body;
 use crate::cobject::InducedOptions;
 use crate::pair::Pairing;

@@ -2,6 +2,7 @@
 //! stored in chunks; clones of the tree share the chunks that neither has changed.
 
 use super::four_boxes::FourBoxes;
+use super::oriented_box::OrientedBox;
 use crate::boxes::{Extent, WideNode};
 use crate::cow_vec::CowVec;
 use crate::hierarchy::grouping::{Forest, levels_for, split_within};
@@ -9,20 +10,6 @@ use crate::hierarchy::packed::power_of_two;
 use crate::hierarchy::{Node, SubsetTree};
 use crate::lanes::F64x4;
 use crate::pose::Vec3;
-
-/// The oriented box of a body: the points center + sum c_i axis_i with |c_i| <= half_i. The third axis is the cross product
-/// of the first two, which are orthonormal to within 2^-12 (see [`PackedBox`]).
-///
-/// [`PackedBox`]: crate::boxes::PackedBox
-#[derive(Clone, Copy, Debug)]
-pub struct OrientedBox {
-    /// The centre, in the world.
-    pub center: Vec3,
-    /// The first two axes.
-    pub axes: [Vec3; 2],
-    /// Half the side along each axis.
-    pub half: Vec3,
-}
 
 /// The boxes that a tree is built over, each with a place as its index.
 pub trait Boxes {
@@ -263,16 +250,6 @@ impl BoxFrame {
             }
         }
         true
-    }
-}
-
-impl From<&Extent> for OrientedBox {
-    fn from(extent: &Extent) -> Self {
-        Self {
-            center: extent.center(),
-            axes: [Vec3::x(), Vec3::y()],
-            half: extent.size() * 0.5,
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Packs oriented boxes into nodes, four at a time.
 
-use super::box_tree::OrientedBox;
+use super::oriented_box::OrientedBox;
 use crate::boxes::{MAX_AXIS, MAX_PLACE, WideNode};
 use crate::lanes::{F64x4, Points64, cross64, dot64, each3};
 

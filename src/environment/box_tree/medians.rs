@@ -1,7 +1,8 @@
 //! Rebuilds the tree in haste: each set of boxes is split at the median of the centres.
 
 use super::box_split::FULL;
-use super::box_tree::{BOX, BoxFrame, BoxTree, Boxes, NOWHERE, OrientedBox};
+use super::box_tree::{BOX, BoxFrame, BoxTree, Boxes, NOWHERE};
+use super::oriented_box::OrientedBox;
 use crate::boxes::Extent;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;

@@ -6,7 +6,9 @@ mod box_tree;
 mod changes;
 mod four_boxes;
 mod medians;
+mod oriented_box;
 mod refit;
 
-pub use box_tree::{BOX, BoxTree, Boxes, OrientedBox};
+pub use box_tree::{BOX, BoxTree, Boxes};
 pub use changes::BoxTreeChanges;
+pub use oriented_box::OrientedBox;

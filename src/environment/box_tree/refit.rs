@@ -1,8 +1,9 @@
 //! Refits the boxes of nodes after boxes below them changed.
 
 use super::box_split::FULL;
-use super::box_tree::{BOX, BoxFrame, BoxNode, Boxes, NOWHERE, OrientedBox};
+use super::box_tree::{BOX, BoxFrame, BoxNode, Boxes, NOWHERE};
 use super::changes::{BoxTreeChanges, Child};
+use super::oriented_box::OrientedBox;
 use crate::index_set::IndexSet;
 use crate::lanes::{Instructions, Work, with_widest};
 

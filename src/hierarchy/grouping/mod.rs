@@ -2,6 +2,7 @@
 
 mod adjacent;
 mod binned_split;
+mod clusters;
 mod convex_patches;
 mod convex_pieces;
 mod coplanar_pieces;
@@ -18,9 +19,10 @@ mod regions;
 mod shared_edges;
 
 pub use binned_split::{levels_for, split_within};
+pub use clusters::Groups;
 pub use convex_pieces::convex_pieces;
 pub use cost::Cost;
 pub use forest::Forest;
-pub use grouping::{Groups, group};
+pub use grouping::group;
 pub use parts::{Part, parts};
 pub use point_groups::{PointGroups, PointSet};

@@ -2,8 +2,8 @@
 //! regions are grouped in parallel.
 
 use super::binned_split::{Branch, Cut, cut, split_within};
+use super::clusters::group_by_clusters;
 use super::forest::Forest;
-use super::grouping::group_few;
 use super::parts::Part;
 use crate::boxes::Extent;
 use crate::error::Result;
@@ -53,7 +53,7 @@ fn group_region(
     };
     let mut ignored = |_| Ok(());
     let mut progress = Progress::new(&mut ignored);
-    let groups = group_few(primitives, parts, members, &[], &one_thread, &mut progress);
+    let groups = group_by_clusters(primitives, parts, members, &[], &one_thread, &mut progress);
     groups.expect("nothing ends the work").subsets
 }
 
