@@ -191,6 +191,78 @@ static void euler_angles() {
     REQUIRE(is_invalid([&] { cstk::jacobian_to_euler(angles, {1, 2, 3}); }));
 }
 
+/* A cube on a rail that meets another 2.5 ahead of q. */
+static void motions(const cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
+                    const std::vector<double> &q) {
+    std::vector<double> reached;
+    const cstk_motion_result rests = query.motion(obstacles, q, q);
+    REQUIRE(rests.outcome == CSTK_MOTION_FREE);
+    const std::vector<double> far = {q[0] + 100, q[1]};
+    const cstk_motion_result hits =
+        query.motion(obstacles, q, far, cstk::motion_options(), &reached);
+    REQUIRE(hits.outcome == CSTK_MOTION_HIT && hits.distance.distance == 0.0);
+    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
+    cstk_motion_result result;
+    const auto any = cstk::motion_options();
+    REQUIRE(!query.motion_certificate(obstacles, q, far, any, &result, &reached));
+    REQUIRE(result.outcome == CSTK_MOTION_HIT && reached.size() == q.size());
+    const std::vector<double> near = {q[0] + 0.25, q[1]};
+    cstk::Certificate proof = query.motion_certificate(obstacles, q, near);
+    proof.verify(obstacles, q, near);
+    REQUIRE(status_of([&] { proof.verify(obstacles, q, q); }) == CSTK_ERROR_NOT_PROVED);
+    proof.save("cpp_layer.certificate");
+    proof = cstk::Certificate::load("cpp_layer.certificate");
+    REQUIRE(std::remove("cpp_layer.certificate") == 0);
+    proof.verify(obstacles, q, near);
+    REQUIRE(proof.ends().first == q && proof.ends().second == near);
+    REQUIRE(proof.summary().entry_count > 0 && proof.entry(0).times[0] == 0.0);
+    REQUIRE(proof.primitives(0, 1).size() == proof.entry(0).primitive_counts[1]);
+    std::vector<double> points = q;
+    points.insert(points.end(), q.begin(), q.end());
+    REQUIRE(query.motion_path(obstacles, points, 2).motion.outcome == CSTK_MOTION_FREE);
+    points.insert(points.end(), far.begin(), far.end());
+    const cstk_path_result meets =
+        query.motion_path(obstacles, points, 3, cstk::motion_options(), {}, &reached);
+    REQUIRE(meets.segment == 1 && meets.motion.outcome == CSTK_MOTION_HIT);
+    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
+    const auto stop = [](double) { return false; };
+    REQUIRE(status_of([&] {
+                query.motion_path(obstacles, points, 3, cstk::motion_options(), stop);
+            }) == CSTK_ERROR_CANCELLED);
+    const cstk_clearance_result nearest =
+        query.motion_clearance(obstacles, q, q, cstk::clearance_options(1e-6), &reached);
+    REQUIRE(nearest.outcome == CSTK_CLEARANCE_KNOWN && reached == q);
+    REQUIRE(nearest.lower <= 2.5 && nearest.upper >= nearest.lower);
+
+    const std::vector<double> curve = {q[0], q[1], q[0] + 1, q[1], q[0], q[1]};
+    REQUIRE(query.motion_curve(obstacles, curve, 3).outcome == CSTK_MOTION_FREE);
+    const std::vector<double> knots = {0, 0, 1, 1}, line = {q[0], q[1], q[0] + 100, q[1]};
+    const auto options = cstk::motion_options();
+    const cstk_motion_result spline =
+        query.motion_spline(obstacles, 1, knots, line, 2, options, &reached);
+    REQUIRE(spline.outcome == CSTK_MOTION_HIT && std::fabs(reached[0] - 3) < 1e-3);
+    REQUIRE(is_invalid([&] { query.motion_curve(obstacles, {1, 2, 3}, 2); }));
+
+    std::pair<cstk::Pose, cstk::Pose> poses;
+    const cstk::Pose here = cstk::identity(), there = cstk::translation(5, 0, 0);
+    const cstk_motion_result pair =
+        query.pair_motion(body, here, there, body, there, there, options, &poses);
+    REQUIRE(pair.outcome == CSTK_MOTION_HIT && std::fabs(poses.first[3] - 4) < 1e-3);
+    REQUIRE(poses.second == there);
+
+    const std::vector<double> low = {-1, -1}, high = {2.9, 1}, beyond = {3.5, 1};
+    REQUIRE(query.region_classify(obstacles, low, high).outcome == CSTK_REGION_FREE);
+    std::vector<double> inside, outside;
+    const cstk_region_result mixed = query.region_classify(obstacles, low, beyond,
+                                                           cstk::region_options(), &inside, &outside);
+    REQUIRE(mixed.outcome == CSTK_REGION_MIXED && inside.size() == 2 && outside.size() == 2);
+    REQUIRE(query.classify(obstacles, inside) == CSTK_CLASS_INSIDE);
+    REQUIRE(query.classify(obstacles, outside) != CSTK_CLASS_INSIDE);
+    const cstk::GrownRegion grown = query.region_grow(obstacles, q, std::vector<double>{1, 1});
+    REQUIRE(grown.low[0] < q[0] && grown.high[0] > 2.9 && grown.high[0] < 3 + 1e-9);
+    REQUIRE(grown.sides.size() == 4);
+}
+
 static void queries() {
     cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
     cstk::RobotBuilder builder;
@@ -255,45 +327,7 @@ static void queries() {
     const cstk_slide_result slide =
         query.slide(obstacles, moving, std::vector<double>{0.1, 0}, cstk::slide_options(0.5));
     REQUIRE(slide.outcome == CSTK_SLIDE_MOVED && std::fabs(moving[0] - 0.6) < 1e-15);
-    std::vector<double> reached;
-    const cstk_motion_result rests = query.motion(obstacles, q, q);
-    REQUIRE(rests.outcome == CSTK_MOTION_FREE);
-    const std::vector<double> far = {q[0] + 100, q[1]};
-    const cstk_motion_result hits =
-        query.motion(obstacles, q, far, cstk::motion_options(), &reached);
-    REQUIRE(hits.outcome == CSTK_MOTION_HIT && hits.distance.distance == 0.0);
-    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
-    cstk_motion_result result;
-    const auto any = cstk::motion_options();
-    REQUIRE(!query.motion_certificate(obstacles, q, far, any, &result, &reached));
-    REQUIRE(result.outcome == CSTK_MOTION_HIT && reached.size() == q.size());
-    const std::vector<double> near = {q[0] + 0.25, q[1]};
-    cstk::Certificate proof = query.motion_certificate(obstacles, q, near);
-    proof.verify(obstacles, q, near);
-    REQUIRE(status_of([&] { proof.verify(obstacles, q, q); }) == CSTK_ERROR_NOT_PROVED);
-    proof.save("cpp_layer.certificate");
-    proof = cstk::Certificate::load("cpp_layer.certificate");
-    REQUIRE(std::remove("cpp_layer.certificate") == 0);
-    proof.verify(obstacles, q, near);
-    REQUIRE(proof.ends().first == q && proof.ends().second == near);
-    REQUIRE(proof.summary().entry_count > 0 && proof.entry(0).times[0] == 0.0);
-    REQUIRE(proof.primitives(0, 1).size() == proof.entry(0).primitive_counts[1]);
-    std::vector<double> points = q;
-    points.insert(points.end(), q.begin(), q.end());
-    REQUIRE(query.motion_path(obstacles, points, 2).motion.outcome == CSTK_MOTION_FREE);
-    points.insert(points.end(), far.begin(), far.end());
-    const cstk_path_result meets =
-        query.motion_path(obstacles, points, 3, cstk::motion_options(), {}, &reached);
-    REQUIRE(meets.segment == 1 && meets.motion.outcome == CSTK_MOTION_HIT);
-    REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
-    const auto stop = [](double) { return false; };
-    REQUIRE(status_of([&] {
-                query.motion_path(obstacles, points, 3, cstk::motion_options(), stop);
-            }) == CSTK_ERROR_CANCELLED);
-    const cstk_clearance_result nearest =
-        query.motion_clearance(obstacles, q, q, cstk::clearance_options(1e-6), &reached);
-    REQUIRE(nearest.outcome == CSTK_CLEARANCE_KNOWN && reached == q);
-    REQUIRE(nearest.lower <= 2.5 && nearest.upper >= nearest.lower);
+    motions(query, obstacles, body, q);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);
