@@ -13,9 +13,6 @@
 #include <memory>
 #include <vector>
 
-/// Samples of a motion are this part of the space's extent apart, before it is proved.
-inline const double sample_spacing = 0.02;
-
 inline ompl::base::ScopedState<> state_at(const ompl::base::StateSpacePtr &space, const problems::Configuration &q) {
     ompl::base::ScopedState<> state(space);
     space->as<cstk_ompl::StateSpace>()->set(state.get(), q);
@@ -28,7 +25,6 @@ inline std::shared_ptr<ompl::geometric::SimpleSetup> proved_setup(const problems
     const auto space = std::make_shared<cstk_ompl::StateSpace>(cell.space);
     auto setup = std::make_shared<ompl::geometric::SimpleSetup>(space);
     const ompl::base::SpaceInformationPtr &information = setup->getSpaceInformation();
-    information->setStateValidityCheckingResolution(sample_spacing);
     setup->setStateValidityChecker(std::make_shared<cstk_ompl::ValidityChecker>(information, cell.contact));
     information->setMotionValidator(std::make_shared<cstk_ompl::MotionValidator>(information, cell.contact));
     setup->setStartAndGoalStates(state_at(space, problem.start), state_at(space, problem.goal));

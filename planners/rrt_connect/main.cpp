@@ -91,7 +91,7 @@ Solution solve(const Problem &problem, std::uint64_t seed, const cstk::Query &qu
         rrt_connect::plan(query, cell.space, cell.contact, problem.start, problem.goal, options);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     std::vector<problems::Configuration> path = plan.path;
-    rrt_connect::EdgeProver edges(query, cell.space, cell.contact, options.spacing);
+    rrt_connect::EdgeProver edges(query, cell.contact);
     rrt_connect::shorten(path, cell.space, edges, cuts, seed);
     return {plan, time.count(), rrt_connect::length(cell.space, plan.path), path, rrt_connect::length(cell.space, path)};
 }

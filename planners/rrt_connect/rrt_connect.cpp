@@ -42,7 +42,7 @@ std::vector<Configuration> joined(const Tree &from_start, std::size_t start_side
 
 Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
           const Configuration &goal, const Options &options) {
-    EdgeProver edges(query, space, contact, options.spacing);
+    EdgeProver edges(query, contact);
     if (!edges.is_free(start) || !edges.is_free(goal)) {
         return {};
     }
@@ -56,8 +56,14 @@ Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObjec
         }
         // The goal is the first sample, so that a straight way is found at once.
         const Configuration sample = i == 0 ? goal : space.sample(random);
-        const auto grown = extend(*growing, growing->nearest(sample), sample, space, edges, options.range);
+        const std::size_t nearest = growing->nearest(sample);
+        const double distance = space.distance(growing->at(nearest), sample);
+        if (growing->is_blocked(nearest) && distance > options.domain * options.range) {
+            continue;
+        }
+        const auto grown = extend(*growing, nearest, sample, space, edges, options.range);
         if (!grown) {
+            growing->block(nearest);
             continue;
         }
         const auto met = connect(*waiting, growing->at(*grown), space, edges, options.range);

@@ -12,9 +12,11 @@
 namespace rrt_connect {
 
 struct Options {
-    /// The longest edge, and how far apart its samples are at most, as Space::distance measures: radians and lengths together.
+    /// The longest edge, as Space::distance measures: radians and lengths together.
     double range = 1;
-    double spacing = 0.25;
+    /// A node from which a motion was not free is asked for samples at most so many ranges away alone (Yershova, Jaillet, Simeon and
+    /// LaValle, 2005): farther ones lead into the same obstacle.
+    double domain = 2.5;
     /// Without a path after so many samples the search is given up.
     std::size_t max_samples = 100000;
     std::uint64_t seed = 1;

@@ -24,6 +24,11 @@ class Tree {
     std::size_t nearest(const Configuration &q) const;
 
     const Configuration &at(std::size_t node) const { return nodes_[node].q; }
+
+    /// Marks a node from which a motion was not free.
+    void block(std::size_t node) { nodes_[node].is_blocked = true; }
+    bool is_blocked(std::size_t node) const { return nodes_[node].is_blocked; }
+
     std::size_t size() const { return nodes_.size(); }
 
     /// From the root to the node.
@@ -35,6 +40,7 @@ class Tree {
     struct Node {
         Configuration q;
         std::size_t parent;
+        bool is_blocked = false;
         /// Of the vantage point tree: what is at most `radius` away from q is inside, all else outside.
         double radius = 0;
         std::size_t inside = none, outside = none;

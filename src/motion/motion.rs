@@ -13,8 +13,10 @@ use crate::error::{Error, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::space::Space;
 
-/// Where any contact will do it is looked for here before a proof begins: an end may be where nobody has been yet.
-const SAMPLED_FIRST: [f64; 4] = [1.0, 0.5, 0.25, 0.75];
+/// Where any contact will do, so many parts of a motion at most are looked at before a proof begins: most motions that planners ask
+/// for are not free, and one configuration inside says so sooner than a proof fails. Tuned with `scripts/bench.sh planners`: more
+/// cost motions that are free more than they save others.
+const MAX_SAMPLED_PARTS: u32 = 8;
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -113,8 +115,8 @@ impl QueryContext {
             q,
             v,
         });
-        if options.any_contact && moves_far(way) {
-            for time in SAMPLED_FIRST {
+        if options.any_contact {
+            for time in times_sampled_first(way) {
                 if self.has_contact(way, time, options)? {
                     return self.answer(way, MotionOutcome::Hit, [0.0, time], options);
                 }
@@ -255,15 +257,28 @@ impl QueryContext {
     }
 }
 
-/// Whether the last link, which is carried by the most joints, moves farther than its body reaches from the link's origin: over shorter
-/// motions samples tell little that the ends do not.
-fn moves_far(way: &Way) -> bool {
+/// The end of a motion, where nobody may have been yet, its middle, the quarters and eighths, as long as the last link with a
+/// body, which the most joints carry, moves farther between two of them than its body reaches from the link's origin: what lies nearer
+/// together tells little that its neighbours do not.
+fn times_sampled_first(way: &Way) -> impl Iterator<Item = f64> {
     let LinearMotion { cobject, q, v, .. } = way.line;
     let space = cobject.space();
-    let last = space.link_count().saturating_sub(1);
-    let body = space.link(last).and_then(|link| link.body.as_deref());
-    let radius = body.map_or(0.0, |body| body.radius_from_origin());
-    space.motion_bound_of_radius(last, radius, q, v) > radius
+    let last_body = (0..space.link_count()).rev().find_map(|link| {
+        Some((
+            link,
+            space.link(link)?.body.as_deref()?.radius_from_origin(),
+        ))
+    });
+    let (last, radius) = last_body.unwrap_or((0, 0.0));
+    let length = space.motion_bound_of_radius(last, radius, q, v);
+    let is_asked = move |&parts: &u32| {
+        parts <= MAX_SAMPLED_PARTS && length > radius * f64::from(parts.max(2)) / 2.0
+    };
+    let levels = std::iter::successors(Some(1), |parts| Some(2 * parts)).take_while(is_asked);
+    levels.flat_map(|parts| {
+        let odd = (1..=parts).step_by(2);
+        odd.map(move |part| f64::from(part) / f64::from(parts))
+    })
 }
 
 /// The velocity that leads from q0 to q1 in a unit of time.
