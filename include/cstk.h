@@ -3470,9 +3470,10 @@ cstk_status cstk_pair_penetration(cstk_query *query,
 /**
  * @defgroup motion Motions
  *
- * A whole motion between two configurations, on a path through several or on a curve, proved free or followed to its first
- * contact; the same of two bodies without a robot; and the least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
- * (§2.3.1; Figure 1 shows what sampling misses).
+ * A whole motion between two configurations, on a path through several, on a curve or as a function of yours
+ * gives it, proved free or followed to its first contact; the same of two bodies without a robot; and the least distance along a
+ * motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
+ * what sampling misses).
  *
  * @code
      cstk_motion_result found;
@@ -3628,6 +3629,19 @@ typedef struct cstk_path_result {
 } cstk_path_result;
 
 /**
+ * Writes a motion's configuration at time `t`, from 0 to 1, into `q`, and the first and second derivatives of its coordinates by the
+ * time into `rates` and `accelerations`: `nq` doubles each. Anything but 0 (CSTK_OK) ends the call with
+ * CSTK_ERROR_CALLBACK_FAILED. It must give the same at the same time, and must not throw. It is called on the thread that made the
+ * call; it may call the library with other query contexts.
+ */
+typedef int32_t (*cstk_motion_fn)(double t,
+                                  double *q,
+                                  double *rates,
+                                  double *accelerations,
+                                  size_t nq,
+                                  void *user);
+
+/**
  * Options of a clearance. Write it with cstk_clearance_options_default first, then set `tolerance`. Distances are lengths, or in
  * units of C-space for pure sets without a scale.
  */
@@ -3762,6 +3776,28 @@ cstk_status cstk_motion_spline(cstk_query *query,
                                const cstk_motion_options *options,
                                double *reached,
                                cstk_motion_result *out);
+
+/**
+ * Proves that a motion that `function` gives keeps clear of a C-object, or finds its first contact, as cstk_motion does on a segment.
+ * `user` is passed to `function`. `max_rates` and `max_accelerations` have `nq` doubles each, at least 0: bounds of the absolute
+ * first and second derivatives of every coordinate for all times from 0 to 1. The configuration and its first derivative are
+ * continuous; the second may jump. What is proved holds if these bounds do. They are compared with what `function` gives wherever it
+ * is asked, at times in any order, and CSTK_ERROR_INVALID_ARGUMENT names the time and the coordinate that exceeds them.
+ *
+ * Coordinates on circles are not taken the shorter way round. Coordinates of joints with quaternions must not change, and their
+ * max_rates be 0: CSTK_ERROR_UNSUPPORTED otherwise. `options`, `reached` and `out` as for cstk_motion. CSTK_ERROR_WRONG_SIZE if `nq`
+ * is not that of the space.
+ */
+cstk_status cstk_motion_function(cstk_query *query,
+                                 const cstk_cobject *cobject,
+                                 cstk_motion_fn function,
+                                 void *user,
+                                 const double *max_rates,
+                                 const double *max_accelerations,
+                                 size_t nq,
+                                 const cstk_motion_options *options,
+                                 double *reached,
+                                 cstk_motion_result *out);
 
 /**
  * Proves that two bodies that move keep farther apart than the threshold, or finds their first contact. From time 0 to 1 each body

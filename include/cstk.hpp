@@ -331,6 +331,31 @@ struct Report {
     }
 };
 
+/* The same of a function that gives a motion. */
+template <typename F> struct Motion {
+    F &function;
+    std::exception_ptr thrown;
+
+    void check(cstk_status status) const {
+        if (thrown) {
+            std::rethrow_exception(thrown);
+        }
+        cstk::check(status);
+    }
+
+    static std::int32_t call(double t, double *q, double *rates, double *accelerations, std::size_t,
+                             void *user) noexcept {
+        Motion &motion = *static_cast<Motion *>(user);
+        try {
+            motion.function(t, q, rates, accelerations);
+            return 0;
+        } catch (...) {
+            motion.thrown = std::current_exception();
+            return 1;
+        }
+    }
+};
+
 } // namespace detail
 
 /// One reference to an object of the library; empty when default-constructed or moved from.
@@ -1562,6 +1587,26 @@ public:
         std::vector<double> found(detail::parts_of(points, count));
         check(cstk_motion_spline(get(), cobject.get(), degree, knots.data(), knots.size(),
                                  points.data(), count, found.size(), &options, found.data(), &out));
+        if (reached != nullptr) {
+            *reached = std::move(found);
+        }
+        return out;
+    }
+
+    /// The same on a motion that `function` gives: function(t, q, rates, accelerations) writes the configuration at time t and the
+    /// derivatives of its coordinates, each list as long as max_rates. The proof holds if the bounds do.
+    template <typename F>
+    cstk_motion_result motion_function(const CObject &cobject, F &&function,
+                                       Span<double> max_rates, Span<double> max_accelerations,
+                                       const cstk_motion_options &options = motion_options(),
+                                       std::vector<double> *reached = nullptr) const {
+        cstk_motion_result out;
+        const std::size_t nq = detail::same_size(max_rates, max_accelerations);
+        std::vector<double> found(nq);
+        detail::Motion<F> motion{function, nullptr};
+        motion.check(cstk_motion_function(get(), cobject.get(), &detail::Motion<F>::call, &motion,
+                                          max_rates.data(), max_accelerations.data(), nq, &options,
+                                          found.data(), &out));
         if (reached != nullptr) {
             *reached = std::move(found);
         }

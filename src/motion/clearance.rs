@@ -185,13 +185,13 @@ impl QueryContext {
             lower: lower.min(nearest.upper()),
             upper: nearest.upper(),
             time: nearest.time,
-            configuration: way.at(nearest.time),
+            configuration: way.at(nearest.time)?,
             distance: nearest.distance,
         })
     }
 
     fn sample(&mut self, way: &Way, time: f64, max_distance: f64) -> Result<Sample> {
-        let q = &way.at(time);
+        let q = &way.at(time)?;
         let at = Configuration::Coordinates(q);
         let distance = self.distance_in(way.line.world, way.line.cobject, at, max_distance)?;
         Ok(Sample { time, distance })

@@ -260,7 +260,7 @@ impl Gathering<'_> {
         // Of a straight motion at most half lies between the middle and any other time.
         let share = match self.way.kind {
             WayKind::Line => 0.5,
-            WayKind::Curve { .. } | WayKind::Box { .. } => 1.0,
+            WayKind::Curve { .. } | WayKind::Stated(_) | WayKind::Box { .. } => 1.0,
         };
         STEP_FRACTION * (target.bound - threshold) <= share * speed
     }

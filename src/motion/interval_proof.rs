@@ -360,7 +360,7 @@ impl MovingSet<'_> {
         let (true, Some(way)) = (is_asked, middle.way) else {
             return Ok(());
         };
-        let q = way.at(middle.time);
+        let q = way.at(middle.time)?;
         let scene = &way.scene(&q)?;
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Pure(pure) = leaf

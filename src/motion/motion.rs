@@ -192,7 +192,7 @@ impl QueryContext {
     ) -> Result<Proof> {
         let motions = &way.link_motions();
         let tree = &SetTree::new(way.line.cobject);
-        let q_middle = &way.at(0.5);
+        let q_middle = &way.at(0.5)?;
         let scene = &way.scene(q_middle)?;
         let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out);
         gathering.start = start;
@@ -212,7 +212,7 @@ impl QueryContext {
             crowds,
         };
         let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
-        let kinematics = &mut Kinematics::new(motions, needs_poses.then_some(way));
+        let kinematics = &mut Kinematics::new(motions, Some(way), needs_poses);
         prove(set, kinematics, limits, self, confirm)
     }
 
@@ -223,7 +223,7 @@ impl QueryContext {
         t: f64,
         options: &MotionOptions,
     ) -> Result<bool> {
-        let q = way.at(t);
+        let q = way.at(t)?;
         if options.threshold == 0.0 {
             return Ok(self.classify_in(way.line.world, way.line.cobject, &q)? == Class::Inside);
         }
@@ -238,7 +238,7 @@ impl QueryContext {
         times: [f64; 2],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let configuration = way.at(times[1]);
+        let configuration = way.at(times[1])?;
         let distance = match outcome {
             MotionOutcome::Hit | MotionOutcome::Near
                 if !options.any_contact && way.line.cobject.require_one_metric().is_ok() =>

@@ -2,7 +2,7 @@
 
 use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
 use super::span::Span;
-use super::way::Way;
+use super::way::{Way, WayKind};
 use crate::body::Body;
 use crate::convex::{Extension, SweepTwist};
 use crate::error::Result;
@@ -125,17 +125,20 @@ fn at_center(mut chain: ChainRates, body: &Carried<usize>) -> MotionRates {
 pub(super) struct Kinematics<'a> {
     motions: &'a LinkMotions,
     states: LinkStates,
-    /// Where poses alone are needed too, since no velocities are known.
+    /// `None` for bodies without a robot.
     way: Option<&'a Way<'a>>,
+    /// Poses alone are needed too, since not all velocities are known.
+    needs_poses: bool,
     poses: Option<Vec<Pose>>,
 }
 
 impl<'a> Kinematics<'a> {
-    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>) -> Self {
+    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>, needs_poses: bool) -> Self {
         Self {
             motions,
             states: LinkStates::default(),
             way,
+            needs_poses,
             poses: None,
         }
     }
@@ -143,7 +146,15 @@ impl<'a> Kinematics<'a> {
     /// Begins a new time.
     pub fn start(&mut self, time: f64) -> Result<()> {
         self.states.start(self.motions, time);
-        if let Some(way) = self.way {
+        let Some(way) = self.way else {
+            return Ok(());
+        };
+        if let WayKind::Stated(motion) = way.kind {
+            let given = self.states.given_mut();
+            given.clear();
+            given.extend(motion.at(time)?.coordinates());
+        }
+        if self.needs_poses {
             self.poses = Some(way.link_poses(time)?);
         }
         Ok(())

@@ -253,8 +253,9 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
         // Between configurations in range, coordinates that move alone are in range.
         let is_in_range = |q: &[f64]| space.beyond_limits(q).is_none();
         let stays = match way.kind {
-            WayKind::Line => is_in_range(way.line.q) && is_in_range(&way.at(1.0)),
+            WayKind::Line => is_in_range(way.line.q) && is_in_range(&way.line.at(1.0)),
             WayKind::Curve { controls } => controls.chunks_exact(way.line.q.len()).all(is_in_range),
+            WayKind::Stated(motion) => motion.farthest().iter().all(|q| is_in_range(q)),
             WayKind::Box { low, high } => is_in_range(low) && is_in_range(high),
         };
         if is_whole || !stays {

@@ -94,7 +94,7 @@ impl QueryContext {
                 any_contact: options.any_contact,
                 intervals: usize::MAX,
             };
-            let kinematics = &mut Kinematics::new(&motions, None);
+            let kinematics = &mut Kinematics::new(&motions, None, false);
             prove(set, kinematics, limits, self, &mut |context, t| {
                 meets(context, t)
             })?

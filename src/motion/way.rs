@@ -2,6 +2,7 @@
 //! middle of a box of configurations to another of the box.
 
 use super::linear_motion::LinearMotion;
+use super::stated_motion::StatedMotion;
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;
@@ -10,7 +11,7 @@ use crate::robot::{LinkMotions, bezier};
 /// A motion, or the motions in a box, in one state of the world.
 #[derive(Clone, Copy)]
 pub(super) struct Way<'a> {
-    /// The motion itself; of a curve, one from the same start whose velocities no coordinate exceeds, with signs that lead away
+    /// The motion itself; of a curve or a function, one from the same start whose velocities no coordinate exceeds, with signs that lead away
     /// from zero; of a box, from its middle with its half widths for velocities. Bounds of this motion that hold whatever the signs
     /// of its velocities hold for all.
     pub line: LinearMotion<'a>,
@@ -24,6 +25,8 @@ pub(super) enum WayKind<'a> {
         /// The control points, one configuration after another.
         controls: &'a [f64],
     },
+    /// As a function gives it.
+    Stated(&'a StatedMotion<'a>),
     Box {
         /// The lowest coordinates.
         low: &'a [f64],
@@ -41,16 +44,17 @@ impl<'a> Way<'a> {
     }
 
     /// The configuration at a time; of a box the one in its middle.
-    pub fn at(&self, t: f64) -> Vec<f64> {
-        match self.kind {
+    pub fn at(&self, t: f64) -> Result<Vec<f64>> {
+        Ok(match self.kind {
             WayKind::Line => self.line.at(t),
+            WayKind::Stated(motion) => motion.at(t)?.q,
             WayKind::Curve { controls } => {
                 let nq = self.line.q.len();
                 let coordinate = |c: usize| bezier(controls.iter().skip(c).step_by(nq).copied(), t);
                 (0..nq).map(coordinate).collect()
             }
             WayKind::Box { .. } => self.line.q.to_vec(),
-        }
+        })
     }
 
     /// The world at a configuration.
@@ -60,7 +64,7 @@ impl<'a> Way<'a> {
 
     /// The poses of all links at a time.
     pub fn link_poses(&self, t: f64) -> Result<Vec<Pose>> {
-        self.line.cobject.space().link_poses(&self.at(t))
+        self.line.cobject.space().link_poses(&self.at(t)?)
     }
 
     /// The motions of all links.
@@ -69,6 +73,7 @@ impl<'a> Way<'a> {
         match self.kind {
             WayKind::Line => space.link_motions(self.line.q, self.line.v),
             WayKind::Curve { controls } => space.link_motions_on_curve(controls),
+            WayKind::Stated(motion) => motion.link_motions(),
             WayKind::Box { .. } => space.link_motions_in_box(self.line.q, self.line.v),
         }
     }

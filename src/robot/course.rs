@@ -12,6 +12,13 @@ pub(super) enum Course {
     Line { start: f64, rate: f64 },
     /// A Bezier curve, by the place and the number of its control points in a list.
     Curve { first: u32, count: u32 },
+    /// `multiplier x + offset` of a coordinate x that a function gives, with its bounds from this place on in a list.
+    Given {
+        coordinate: u32,
+        multiplier: f64,
+        offset: f64,
+        bounds: u32,
+    },
     /// Of a box of configurations: `center + s rate`, with any s from -1 to 1 that the velocity of this number takes.
     Range {
         center: f64,
@@ -22,11 +29,17 @@ pub(super) enum Course {
 
 /// A value with its first two derivatives.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CourseState {
+pub struct CourseState {
+    /// The value.
     pub value: f64,
+    /// Its first derivative.
     pub rate: f64,
+    /// Its second derivative.
     pub acceleration: f64,
 }
+
+/// The bound of a third derivative of which nothing is stated: above what the others say, and far from overflow in products.
+const UNSTATED: f64 = 1e100;
 
 /// Bounds from time 0 to 1.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +51,9 @@ pub(super) struct CourseBounds {
 }
 
 impl Course {
-    /// The value and its derivatives at time t; of a range what is at its centre.
+    /// The value and its derivatives at time t, at which a function gives these coordinates; of a range what is at its centre.
     #[inline]
-    pub fn at(&self, t: f64, controls: &[f64]) -> CourseState {
+    pub fn at(&self, t: f64, controls: &[f64], given: &[CourseState]) -> CourseState {
         match *self {
             Self::Line { start, rate } => CourseState {
                 value: start + rate * t,
@@ -50,6 +63,19 @@ impl Course {
             Self::Curve { first, count } => {
                 let (first, count) = (first as usize, count as usize);
                 bezier_at(&controls[first..first + count], t)
+            }
+            Self::Given {
+                coordinate,
+                multiplier,
+                offset,
+                ..
+            } => {
+                let given = given[coordinate as usize];
+                CourseState {
+                    value: multiplier * given.value + offset,
+                    rate: multiplier * given.rate,
+                    acceleration: multiplier * given.acceleration,
+                }
             }
             Self::Range { center, .. } => CourseState {
                 value: center,
@@ -78,6 +104,14 @@ impl Course {
                 CourseBounds {
                     farthest,
                     derivatives,
+                }
+            }
+            Self::Given { bounds, .. } => {
+                let [farthest, rate, acceleration] =
+                    [0, 1, 2].map(|k| controls[bounds as usize + k]);
+                CourseBounds {
+                    farthest,
+                    derivatives: [rate, acceleration, UNSTATED],
                 }
             }
             // The way from the centre to any value in the range.

@@ -49,6 +49,17 @@ pub enum CoordinateCourses<'a> {
         /// The robot's first coordinate in the space.
         first: usize,
     },
+    /// As a function gives it, from q on; coordinates of quaternions and custom joints must rest.
+    Given {
+        /// The configuration at time 0, of the whole space.
+        q: &'a [f64],
+        /// Bounds of the first derivative of each coordinate.
+        max_rates: &'a [f64],
+        /// Bounds of the second.
+        max_accelerations: &'a [f64],
+        /// The robot's first coordinate in the space.
+        first: usize,
+    },
     /// Straight from a configuration to any other in a box around it; coordinates of quaternions must rest.
     Box {
         /// The middle of the box.
@@ -65,7 +76,7 @@ pub enum CoordinateCourses<'a> {
 pub struct LinkMotions {
     links: Vec<LinkMotion>,
     elements: Vec<Element>,
-    /// Of all curves.
+    /// The control points of all curves, and the bounds of what functions give.
     controls: Vec<f64>,
 }
 
@@ -88,6 +99,8 @@ pub struct MotionState {
 #[derive(Debug, Default)]
 pub struct LinkStates {
     time: f64,
+    /// The space's coordinates at this time, where a function gives them.
+    given: Vec<CourseState>,
     states: Vec<MotionState>,
     /// Which of them are of this time.
     is_known: Vec<bool>,
@@ -171,6 +184,11 @@ impl LinkStates {
         self.states.resize(motions.links.len(), MotionState::REST);
     }
 
+    /// Where the coordinates of the time that began are to be put, for motions that a function gives.
+    pub fn given_mut(&mut self) -> &mut Vec<CourseState> {
+        &mut self.given
+    }
+
     /// A link's state. Only of links whose motion is known.
     pub fn of(&mut self, motions: &LinkMotions, link: usize) -> &MotionState {
         if !self.is_known[link] {
@@ -182,7 +200,7 @@ impl LinkStates {
             }
             let mut state = next.map_or(MotionState::REST, |index| self.states[index]);
             for index in path.into_iter().rev() {
-                motions.advance(&mut state, index, self.time);
+                motions.advance(&mut state, index, self.time, &self.given);
                 self.states[index] = state;
                 self.is_known[index] = true;
             }
@@ -215,13 +233,17 @@ impl LinkMotions {
     }
 
     /// From a link's state in the world of its parent to its own.
-    fn advance(&self, state: &mut MotionState, link: usize, t: f64) {
+    fn advance(&self, state: &mut MotionState, link: usize, t: f64, given: &[CourseState]) {
         let [first, end] = self.links[link].elements;
         for element in &self.elements[first..end] {
             match element {
                 Element::Fixed(pose) => state.push_fixed(pose),
-                Element::Turn { axis, angle } => state.turn(axis, &angle.at(t, &self.controls)),
-                Element::Shift { axis, length } => state.shift(axis, &length.at(t, &self.controls)),
+                Element::Turn { axis, angle } => {
+                    state.turn(axis, &angle.at(t, &self.controls, given));
+                }
+                Element::Shift { axis, length } => {
+                    state.shift(axis, &length.at(t, &self.controls, given));
+                }
             }
         }
     }
@@ -385,6 +407,27 @@ impl LinkMotions {
                     count: (self.controls.len() - begin) as u32,
                 }
             }
+            CoordinateCourses::Given {
+                q,
+                max_rates,
+                max_accelerations,
+                first,
+            } => {
+                let own = first + coordinate;
+                let (rate, begin) = (multiplier.abs() * max_rates[own], self.controls.len());
+                let start = multiplier * q[own] + offset;
+                self.controls.extend([
+                    start.abs() + rate,
+                    rate,
+                    multiplier.abs() * max_accelerations[own],
+                ]);
+                Course::Given {
+                    coordinate: own as u32,
+                    multiplier,
+                    offset,
+                    bounds: begin as u32,
+                }
+            }
             CoordinateCourses::Box { q, half, first } => Course::Range {
                 center: multiplier * q[coordinate] + offset,
                 rate: multiplier * half[velocity],
@@ -421,6 +464,13 @@ impl CoordinateCourses<'_> {
                 let mut points = controls.chunks_exact(*nq);
                 points.all(|point| point[own.clone()] == controls[own.clone()])
             }
+            Self::Given {
+                max_rates, first, ..
+            } => {
+                let from = first + joint.coordinate;
+                let own = &max_rates[from..from + joint.kind.nq()];
+                own.iter().all(|rate| *rate == 0.0)
+            }
         }
     }
 
@@ -429,14 +479,16 @@ impl CoordinateCourses<'_> {
         match self {
             Self::Line { q, .. } | Self::Box { q, .. } => q,
             Self::Curve {
-                controls, first, ..
-            } => &controls[*first..],
+                controls: q, first, ..
+            }
+            | Self::Given { q, first, .. } => &q[*first..],
         }
     }
 }
 
 impl Link {
-    /// Adds what the link's joint does. `false` where that is not known: custom joints that move, and quaternions on a curve.
+    /// Adds what the link's joint does. `false` where that is not known: custom joints that move, and quaternions on a
+    /// curve.
     fn push_motion(&self, motions: &mut LinkMotions, courses: &CoordinateCourses) -> bool {
         let joint = &self.joint;
         motions.elements.push(Element::Fixed(self.at));

@@ -346,6 +346,27 @@ impl Space {
         motions
     }
 
+    /// All links on a motion from q that a function gives, with bounds of the first two derivatives of each coordinate; those of
+    /// quaternions and custom joints rest.
+    pub fn link_motions_given(
+        &self,
+        q: &[f64],
+        max_rates: &[f64],
+        max_accelerations: &[f64],
+    ) -> LinkMotions {
+        let mut motions = LinkMotions::default();
+        for (index, robot) in self.robots.iter().enumerate() {
+            let courses = CoordinateCourses::Given {
+                q,
+                max_rates,
+                max_accelerations,
+                first: self.coordinates_of(index).start,
+            };
+            robot.append_motions(&mut motions, &courses);
+        }
+        motions
+    }
+
     /// The parent of a link; `None` for the world.
     pub fn parent(&self, link: usize) -> Option<usize> {
         let first = self.offsets[self.robot_of(link)].link;

@@ -16,3 +16,4 @@ mod slide;
 mod slide_near;
 mod slide_paths;
 mod slide_proofs;
+mod stated_motion;

@@ -1,8 +1,9 @@
 //! Motions.
 //!
-//! A whole motion between two configurations, on a path through several or on a curve, proved free or followed to its first
-//! contact; the same of two bodies without a robot; and the least distance along a motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is
-//! (§2.3.1; Figure 1 shows what sampling misses).
+//! A whole motion between two configurations, on a path through several, on a curve or as a function of yours
+//! gives it, proved free or followed to its first contact; the same of two bodies without a robot; and the least distance along a
+//! motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
+//! what sampling misses).
 //!
 //! ```c
 //! cstk_motion_result found;
@@ -25,6 +26,8 @@ pub mod motion;
 pub mod path;
 
 pub mod curve;
+
+pub mod function;
 
 pub mod pair_motion;
 

@@ -1,0 +1,198 @@
+//! Motions as functions of time, with bounds that their makers state.
+
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
+use crate::robot::{BlockKind, CourseState, LinkMotions};
+use crate::space::Space;
+
+/// What a function gives may exceed its bounds by so much, relative: the rounding of both. Proofs use bounds that are larger by it.
+const STATED_SLACK: f64 = 1e-9;
+
+/// A motion through C-space as a function of the time from 0 to 1.
+pub trait MotionFunction {
+    /// Writes what the motion is at a time.
+    fn at(&self, t: f64, moment: &mut MotionMoment) -> Result<()>;
+}
+
+/// A motion at one time: an entry per coordinate in each list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionMoment {
+    /// The configuration.
+    pub q: Vec<f64>,
+    /// Its first derivative, per unit of time.
+    pub rates: Vec<f64>,
+    /// Its second derivative.
+    pub accelerations: Vec<f64>,
+}
+
+impl MotionMoment {
+    /// Each coordinate with its derivatives.
+    pub(super) fn coordinates(&self) -> impl Iterator<Item = CourseState> {
+        let derivatives = self.rates.iter().zip(&self.accelerations);
+        let all = self.q.iter().zip(derivatives);
+        all.map(|(&value, (&rate, &acceleration))| CourseState {
+            value,
+            rate,
+            acceleration,
+        })
+    }
+}
+
+/// What the maker of a function states of it, for all times from 0 to 1: an entry per coordinate in each list.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionBounds<'a> {
+    /// No first derivative has a larger absolute value.
+    pub max_rates: &'a [f64],
+    /// No second derivative has; where the first jumps there is none.
+    pub max_accelerations: &'a [f64],
+}
+
+/// A function with its bounds.
+pub(super) struct StatedMotion<'a> {
+    space: &'a Space,
+    function: &'a dyn MotionFunction,
+    /// The configuration at time 0.
+    pub start: Vec<f64>,
+    max_rates: Vec<f64>,
+    max_accelerations: Vec<f64>,
+}
+
+impl<'a> StatedMotion<'a> {
+    pub fn new(
+        space: &'a Space,
+        function: &'a dyn MotionFunction,
+        bounds: &MotionBounds,
+    ) -> Result<Self> {
+        let larger = |given: &[f64], name: &str| {
+            check_bounds(given, space.nq(), name)?;
+            Ok(given
+                .iter()
+                .map(|bound| bound * (1.0 + STATED_SLACK))
+                .collect())
+        };
+        let mut motion = Self {
+            space,
+            function,
+            start: Vec::new(),
+            max_rates: larger(bounds.max_rates, "max_rates")?,
+            max_accelerations: larger(bounds.max_accelerations, "max_accelerations")?,
+        };
+        for block in space.blocks() {
+            let first = block.coordinate;
+            let quaternion = match block.kind {
+                BlockKind::Line => continue,
+                BlockKind::Rotation => first..first + 4,
+                BlockKind::Placement => first..first + 7,
+            };
+            if let Some(c) = quaternion.into_iter().find(|&c| motion.max_rates[c] != 0.0) {
+                return Err(Error::new(
+                    ErrorKind::Unsupported,
+                    format!(
+                        "coordinate {c} belongs to a joint with a quaternion, which cannot move as a function of coordinates: \
+                         max_rates must be 0"
+                    ),
+                ));
+            }
+        }
+        motion.start = motion.asked(0.0)?.q;
+        Ok(motion)
+    }
+
+    /// What the function gives, with coordinates and derivatives that are numbers.
+    fn asked(&self, t: f64) -> Result<MotionMoment> {
+        let unwritten = || vec![f64::NAN; self.space.nq()];
+        let mut moment = MotionMoment {
+            q: unwritten(),
+            rates: unwritten(),
+            accelerations: unwritten(),
+        };
+        self.function.at(t, &mut moment)?;
+        let named = |error: Error| error.within(format_args!("the motion at time {t}"));
+        self.space.check_configuration(&moment.q).map_err(named)?;
+        require_coordinates(&moment.rates, "rate").map_err(named)?;
+        require_coordinates(&moment.accelerations, "acceleration").map_err(named)?;
+        Ok(moment)
+    }
+
+    /// The motion at a time. Fails where it is not within its bounds.
+    pub fn at(&self, t: f64) -> Result<MotionMoment> {
+        let moment = self.asked(t)?;
+        for c in 0..self.space.nq() {
+            let (from, to) = (self.start[c], moment.q[c]);
+            // What is to rest has to; the rest is rounded.
+            let size = from.abs().max(to.abs()) + self.max_rates[c];
+            let rounding = if self.max_rates[c] == 0.0 {
+                0.0
+            } else {
+                16.0 * f64::EPSILON * size
+            };
+            let exceeds = |what: &str, value: f64, bound: &str| {
+                Err(Error::invalid(format!(
+                    "the motion at time {t}: {what} of coordinate {c} is {value}, more than {bound} says"
+                )))
+            };
+            if (to - from).abs() > self.max_rates[c] * t + rounding {
+                return exceeds("the change", to - from, "max_rates");
+            }
+            if moment.rates[c].abs() > self.max_rates[c] {
+                return exceeds("the rate", moment.rates[c], "max_rates");
+            }
+            if moment.accelerations[c].abs() > self.max_accelerations[c] {
+                let value = moment.accelerations[c];
+                return exceeds("the acceleration", value, "max_accelerations");
+            }
+        }
+        Ok(moment)
+    }
+
+    pub fn link_motions(&self) -> LinkMotions {
+        let Self {
+            start,
+            max_rates,
+            max_accelerations,
+            ..
+        } = self;
+        let space = self.space;
+        space.link_motions_given(start, max_rates, max_accelerations)
+    }
+
+    /// Two configurations between which the motion stays.
+    pub fn farthest(&self) -> [Vec<f64>; 2] {
+        [-1.0, 1.0].map(|sign| {
+            let coordinates = self.start.iter().zip(&self.max_rates);
+            coordinates.map(|(x, rate)| x + sign * rate).collect()
+        })
+    }
+
+    /// The largest speed of every coordinate, with signs that lead away from zero.
+    pub fn speeds(&self) -> Vec<f64> {
+        let mut speeds = vec![0.0; self.space.nv()];
+        for block in self.space.blocks() {
+            if block.kind == BlockKind::Line {
+                let c = block.coordinate;
+                speeds[block.velocity] = self.max_rates[c].copysign(self.start[c]);
+            }
+        }
+        speeds
+    }
+}
+
+/// Refuses lists that bound nothing.
+fn check_bounds(given: &[f64], nq: usize, name: &str) -> Result<()> {
+    if given.len() != nq {
+        return Err(Error::new(
+            ErrorKind::WrongSize,
+            format!(
+                "{name} has {} entries, but the space has {nq} coordinates",
+                given.len()
+            ),
+        ));
+    }
+    require_coordinates(given, name)?;
+    match given.iter().position(|bound| *bound < 0.0) {
+        Some(c) => Err(Error::invalid(format!(
+            "{name}[{c}] is {}, less than 0",
+            given[c]
+        ))),
+        None => Ok(()),
+    }
+}
