@@ -87,16 +87,14 @@ static cstk_cobject *union_over_links(const scene *s, const uint32_t *links, siz
     return all;
 }
 
-/* Builds robot and space, and releases what they keep. */
+/* Builds robot and space; releases the builder. */
 static void finish_robot(scene *s, cstk_robot_builder *builder, const cstk_range *ranges,
                          size_t range_count, const double *world) {
-    cstk_robot *robot = NULL;
-    check(cstk_robot_build(builder, &robot));
+    check(cstk_robot_build(builder, &s->robot));
     check(cstk_robot_builder_release(builder));
-    const cstk_robot *robots[] = {robot};
+    const cstk_robot *robots[] = {s->robot};
     check(cstk_space_create(robots, 1, ranges, range_count, world, &s->space));
     check(cstk_space_get_size(s->space, &s->nq, NULL, NULL));
-    check(cstk_robot_release(robot));
 }
 
 scene appendix_scene(const char *models) {
@@ -183,4 +181,5 @@ void release_scene(scene *s) {
     check(cstk_cobject_release(s->cobject));
     check(cstk_environment_release(s->environment));
     check(cstk_space_release(s->space));
+    check(cstk_robot_release(s->robot));
 }

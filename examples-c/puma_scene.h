@@ -1,4 +1,4 @@
-/* The two scenes of puma_slider.c: the arm of the report's Appendix A, and a Puma 560. */
+/* The two scenes of puma_slider.c and puma_shortcut.c: the arm of the report's Appendix A, and a Puma 560. */
 #ifndef PUMA_SCENE_H
 #define PUMA_SCENE_H
 
@@ -9,6 +9,7 @@ enum { MAX_JOINTS = 6 };
 /* A robot, its surroundings, and a motion that would run into them. */
 typedef struct scene {
     const char *name;
+    cstk_robot *robot;
     cstk_space *space;
     cstk_environment *environment;
     cstk_cobject *cobject; /* the union of the links' induced C-objects */

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
 # picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
-# demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/workcell.png shows two arms that share a
-# workcell; demo/planner.png paths that RRT-Connect found.
+# demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/shortcut.png a Puma 560's shortcut that is not free, and two that
+# are; demo/workcell.png shows two arms that share a workcell; demo/planner.png paths that RRT-Connect found.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -43,6 +43,14 @@ echo
 build/examples/motion demo/motion.svg
 rsvg-convert --width 1240 demo/motion.svg --output demo/motion.png
 echo
+build/examples/puma_shortcut "$meshes" demo
+for frame in contact free; do
+  render "shortcut_$frame" 3.0,-1.9,2.0 0.25,0.1,0.65
+done
+tiles=(-label "straight on: the first contact, and the way there" demo/shortcut_contact.png
+  -label "two shortcuts, proved free" demo/shortcut_free.png)
+montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/shortcut.png
+echo
 build/examples/workcell demo
 for frame in free wrists; do
   render "workcell_$frame" 0.45,-2.5,1.3 0,0,0.32
@@ -67,5 +75,6 @@ echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
 echo "picture: $PWD/demo/motion.png"
+echo "picture: $PWD/demo/shortcut.png"
 echo "picture: $PWD/demo/workcell.png"
 echo "picture: $PWD/demo/planner.png"
