@@ -47,6 +47,8 @@ pub enum ErrorKind {
     OutOfMemory,
     /// A certificate does not prove what is asked.
     NotProved,
+    /// A fault of the library itself, which was contained.
+    Internal,
 }
 
 /// A failure: its kind and the sentence that names the culprit.

@@ -12,6 +12,9 @@ pub mod tolerance;
 // What can go wrong: a kind and a message that names the culprit.
 pub mod error;
 
+// Panics of the library's own code become errors, and are not printed.
+mod contained;
+
 // Addresses of the caller's that answers hand back.
 #[doc(hidden)]
 pub mod user_data;
@@ -100,6 +103,9 @@ pub mod motion;
 
 // Certificates of free motions: made, checked by a routine of their own, saved and loaded.
 pub mod certificate;
+
+// Many questions in one call, on several threads, in one state of the world.
+pub mod batch;
 
 // Pictures as glTF files.
 pub mod show;

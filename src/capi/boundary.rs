@@ -1,11 +1,10 @@
 //! The guard that every exported function runs in: errors and panics become a status and this thread's message.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::ffi::{CString, c_char};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
 
 use crate::capi::status::status::cstk_status;
+use crate::contained::contained;
 use crate::error::Error;
 
 /// A failure at the boundary: the status and the message.
@@ -32,47 +31,24 @@ impl From<Error> for Failure {
 
 thread_local! {
     static MESSAGE: RefCell<CString> = RefCell::default();
-    static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Runs a call. A failure, or a panic, is recorded as this thread's last error.
 pub fn guard(call: impl FnOnce() -> Result<(), Failure>) -> cstk_status {
-    silence_guarded_panics();
-    let outer = GUARDED.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(call));
-    GUARDED.set(outer);
-    let failure = match outcome {
+    let failure = match contained(call) {
         Ok(Ok(())) => return cstk_status::CSTK_OK,
         Ok(Err(failure)) => failure,
-        Err(payload) => {
-            let text = payload
-                .downcast_ref::<&str>()
-                .map(|text| text.to_string())
-                .or_else(|| payload.downcast_ref::<String>().cloned())
-                .unwrap_or_default();
-            Failure::new(
-                cstk_status::CSTK_ERROR_INTERNAL,
-                format!("internal fault: {text}"),
-            )
-        }
+        Err(panic) => panic.into(),
     };
-    let text = CString::new(failure.message.replace('\0', " ")).unwrap_or_default();
-    // While a thread exits its message may be gone already; the status remains.
-    let _ = MESSAGE.try_with(|message| message.replace(text));
+    keep_message(failure.message);
     failure.status
 }
 
-/// The library never prints: a panic inside the guard reaches the caller as a status and needs no report on stderr.
-fn silence_guarded_panics() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        let previous = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |info| {
-            if !GUARDED.try_with(Cell::get).unwrap_or(false) {
-                previous(info);
-            }
-        }));
-    });
+/// Records this thread's last error.
+pub fn keep_message(message: String) {
+    let text = CString::new(message.replace('\0', " ")).unwrap_or_default();
+    // While a thread exits its message may be gone already; the status remains.
+    let _ = MESSAGE.try_with(|message| message.replace(text));
 }
 
 /// The message of this thread's last failed call; empty if none has failed.

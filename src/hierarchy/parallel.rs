@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use crate::contained::contained;
 use crate::error::Result;
 
 /// Reports the progress of one part of a longer job to the caller's function. An error from that function cancels the job.
@@ -67,9 +68,11 @@ pub fn map<T: Send>(
         let helpers: Vec<_> = (1..threads.min(count))
             .map(|_| {
                 scope.spawn(|| {
-                    let mut done = Vec::new();
-                    while work(&mut done) {}
-                    done
+                    contained(|| {
+                        let mut done = Vec::new();
+                        while work(&mut done) {}
+                        done
+                    })
                 })
             })
             .collect();
@@ -83,7 +86,8 @@ pub fn map<T: Send>(
         }
         for helper in helpers {
             match helper.join() {
-                Ok(part) => done.extend(part),
+                Ok(Ok(part)) => done.extend(part),
+                Ok(Err(panic)) => outcome = outcome.and(Err(panic)),
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }

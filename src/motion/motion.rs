@@ -69,6 +69,15 @@ pub struct MotionAnswer {
 }
 
 impl MotionOptions {
+    /// Checks them, and that the C-object can be asked about this threshold.
+    pub(crate) fn check_for(&self, cobject: &CObject) -> Result<()> {
+        self.check()?;
+        if self.threshold > 0.0 {
+            cobject.require_one_metric()?;
+        }
+        Ok(())
+    }
+
     pub(super) fn check(&self) -> Result<()> {
         check_threshold(self.threshold, "threshold")?;
         if !self.threshold.is_finite() {
@@ -98,6 +107,25 @@ impl QueryContext {
         self.motion_along(cobject, q0, &v, options)
     }
 
+    /// The same in a given world, with checked options.
+    pub(crate) fn motion_between_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        [q0, q1]: [&[f64]; 2],
+        options: &MotionOptions,
+    ) -> Result<MotionAnswer> {
+        let v = &checked_difference(cobject.space(), q0, q1)?;
+        cobject.space().check_velocity(v, "velocity")?;
+        let line = LinearMotion {
+            world,
+            cobject,
+            q: q0,
+            v,
+        };
+        self.sampled_or_proved(&Way::straight(line), options)
+    }
+
     /// The same from q with velocity v for a unit of time.
     pub fn motion_along(
         &mut self,
@@ -115,6 +143,11 @@ impl QueryContext {
             q,
             v,
         });
+        self.sampled_or_proved(way, options)
+    }
+
+    /// The answer of a whole straight motion: by a sample where any contact will do and one has it, else by the proof.
+    fn sampled_or_proved(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
         if options.any_contact {
             for time in times_sampled_first(way) {
                 if self.has_contact(way, time, options)? {
@@ -148,10 +181,7 @@ impl QueryContext {
         cobject: &CObject,
         options: &MotionOptions,
     ) -> Result<World> {
-        options.check()?;
-        if options.threshold > 0.0 {
-            cobject.require_one_metric()?;
-        }
+        options.check_for(cobject)?;
         Ok(self.look(cobject))
     }
 

@@ -50,6 +50,17 @@ impl QueryContext {
         world
     }
 
+    /// Begins an item of a batch, whose world is taken: its work is counted from 0. Under a limit nothing of earlier items is
+    /// remembered, so that the work of an item, and whether it reaches the limit, is its own.
+    pub(crate) fn start_item(&mut self, limit: Option<u64>) {
+        if limit.is_some() {
+            self.clear();
+        }
+        let meter = self.scratch.meter_mut();
+        meter.limit = limit;
+        meter.start_call();
+    }
+
     /// Runs a query on its scene, which is built in memory that the context keeps.
     pub(super) fn with_scene<T>(
         &mut self,

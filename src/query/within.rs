@@ -7,6 +7,7 @@ use super::context::{QueryContext, check_threshold};
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
+use super::world::World;
 use crate::cobject::{CObject, Set};
 use crate::error::Result;
 use crate::pair::{Pairing, Within, traverse, visit_pair};
@@ -18,7 +19,18 @@ impl QueryContext {
         check_threshold(threshold, "threshold")?;
         cobject.require_one_metric()?;
         let world = self.look(cobject);
-        self.with_scene(cobject, &world, at, |context, scene| {
+        self.within_in(&world, cobject, at, threshold)
+    }
+
+    /// The same in a given world, with a checked threshold and metric.
+    pub(crate) fn within_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        at: Configuration,
+        threshold: f64,
+    ) -> Result<bool> {
+        self.with_scene(cobject, world, at, |context, scene| {
             context.set_within(cobject, scene, threshold)
         })
     }

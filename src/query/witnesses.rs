@@ -147,7 +147,8 @@ impl QueryContext {
             list.push(target, &pairing, hit, leaf, request.contacts, &mut scratch);
             if let Some(state) = state {
                 for contact in &list.contacts[first..] {
-                    push_gradient(scene.space(), state, target, contact, &mut list.gradients)?;
+                    let rows = &mut list.gradients;
+                    push_gradient(scene.space(), state, target.links(), contact, rows)?;
                 }
             }
         }
@@ -351,11 +352,11 @@ impl ContactRecord {
     }
 }
 
-/// Appends one row: the derivative of the contact's distance, eq. (39). Both witness points are those at the configuration.
-fn push_gradient(
+/// Appends one row: the derivative of the distance of a contact of the two links' bodies, eq. (39). Both witness points are those at the configuration.
+pub(super) fn push_gradient(
     space: &Space,
     state: RobotState,
-    target: &Target,
+    (r_link, s_link): (usize, Option<usize>),
     contact: &ContactRecord,
     rows: &mut Vec<f64>,
 ) -> Result<()> {
@@ -363,7 +364,6 @@ fn push_gradient(
     rows.resize(first + space.nv(), 0.0);
     let row = &mut rows[first..];
     let [on_r, on_s] = &contact.points;
-    let (r_link, s_link) = target.links();
     space.add_gradient(state, r_link, on_r, &contact.normal, row)?;
     if let Some(s) = s_link {
         space.add_gradient(state, s, on_s, &-contact.normal, row)?;

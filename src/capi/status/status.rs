@@ -44,7 +44,7 @@ pub enum cstk_status {
     CSTK_ERROR_PARSE = 15,
     /// A result could not be certified.
     CSTK_ERROR_NOT_CONVERGED = 16,
-    /// The caller's progress function stopped the call.
+    /// The caller's progress function stopped the call; of an item of a batch: it was not reached.
     CSTK_ERROR_CANCELLED = 17,
     /// The object is in use by another thread, or by the call whose callback makes this one.
     CSTK_ERROR_BUSY = 18,
@@ -85,6 +85,7 @@ impl From<ErrorKind> for cstk_status {
             ErrorKind::Callback => Self::CSTK_ERROR_CALLBACK_FAILED,
             ErrorKind::Limit => Self::CSTK_ERROR_LIMIT,
             ErrorKind::NotProved => Self::CSTK_ERROR_NOT_PROVED,
+            ErrorKind::Internal => Self::CSTK_ERROR_INTERNAL,
         }
     }
 }
