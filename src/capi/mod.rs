@@ -45,4 +45,6 @@ pub mod region;
 
 pub mod slide;
 
+pub mod batch;
+
 pub mod show;

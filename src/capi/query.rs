@@ -31,6 +31,7 @@ use crate::pose::Pose;
 use crate::query::{
     ContactsListed, LinkPair, PairVerdict, PenetrationList, QueryContext, WitnessList,
 };
+use crate::work_meter::Statistics;
 
 /// One thread's caches and scratch memory, and the owner of the arrays in its results. A context serves one thread at a
 /// time; other calls meanwhile return CSTK_ERROR_BUSY. Create one per thread. Caches change how long an answer takes, never
@@ -291,14 +292,20 @@ pub unsafe extern "C" fn cstk_query_get_statistics(
             if reset {
                 state.context.reset_statistics();
             }
-            out.write(cstk_query_statistics {
-                node_pairs: done.node_pairs,
-                primitive_pairs: done.primitive_pairs,
-                cache_hits: done.cache_hits,
-                primitive_distances: done.primitive_distances,
-                reserved: [0; 4],
-            });
+            out.write(done.into());
             Ok(())
         })
     })
+}
+
+impl From<Statistics> for cstk_query_statistics {
+    fn from(done: Statistics) -> Self {
+        Self {
+            node_pairs: done.node_pairs,
+            primitive_pairs: done.primitive_pairs,
+            cache_hits: done.cache_hits,
+            primitive_distances: done.primitive_distances,
+            reserved: [0; 4],
+        }
+    }
 }

@@ -1,0 +1,203 @@
+//! The arrays of a caller that a batch reads and fills.
+
+use std::mem::MaybeUninit;
+
+use crate::batch::{BatchSummary, Slots};
+use crate::capi::batch::batch::cstk_batch_result;
+use crate::capi::boundary::{Failure, keep_message};
+use crate::capi::input::{Output, slice};
+use crate::capi::status::status::cstk_status;
+use crate::error::{Error, ErrorKind};
+
+/// An array with `width` entries for each item. An array that the caller left out is empty.
+pub struct Entries<'a, T> {
+    items: &'a mut [MaybeUninit<T>],
+    width: usize,
+}
+
+impl<'a, T: Copy> Entries<'a, T> {
+    /// Of `count` items.
+    pub unsafe fn checked(
+        items: *mut T,
+        count: usize,
+        width: usize,
+        argument: &str,
+    ) -> Result<Self, Failure> {
+        let entries = product(count, width, argument)?;
+        if entries == 0 {
+            return Ok(Self::absent());
+        }
+        Output::checked(items, argument)?;
+        if entries > isize::MAX as usize / size_of::<T>() {
+            return Err(too_many(count, width, argument));
+        }
+        // SAFETY: not null, aligned, and the caller states that so many items are writable and that nobody else uses them.
+        let items = unsafe { std::slice::from_raw_parts_mut(items.cast(), entries) };
+        Ok(Self { items, width })
+    }
+
+    /// NULL is allowed: then nothing is written.
+    pub unsafe fn optional(
+        items: *mut T,
+        count: usize,
+        width: usize,
+        argument: &str,
+    ) -> Result<Self, Failure> {
+        if items.is_null() {
+            return Ok(Self::absent());
+        }
+        // SAFETY: as the caller states.
+        unsafe { Self::checked(items, count, width, argument) }
+    }
+
+    fn absent() -> Self {
+        Self {
+            items: &mut [],
+            width: 0,
+        }
+    }
+
+    pub fn is_absent(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// Writes the entries of an item.
+    pub fn write(&mut self, item: usize, values: impl IntoIterator<Item = T>) {
+        let places = self.items.iter_mut().skip(item * self.width);
+        for (place, value) in places.take(self.width).zip(values) {
+            place.write(value);
+        }
+    }
+}
+
+impl<T: Copy + Send> Slots for Entries<'_, T> {
+    fn split(self, count: usize) -> (Self, Self) {
+        let (first, rest) = self.items.split_at_mut(self.width * count);
+        let width = self.width;
+        let part = |items| Self { items, width };
+        (part(first), part(rest))
+    }
+}
+
+/// The statuses of the items. All are CSTK_ERROR_CANCELLED, not reached, when a batch begins.
+pub struct Statuses<'a>(Entries<'a, cstk_status>);
+
+impl Statuses<'_> {
+    pub fn write(&mut self, item: usize, status: cstk_status) {
+        self.0.write(item, [status]);
+    }
+
+    /// The status of an item that failed.
+    pub fn refuse(&mut self, item: usize, error: &Error) {
+        self.write(item, error.kind.into());
+    }
+}
+
+impl Slots for Statuses<'_> {
+    fn begin(&mut self) {
+        for place in self.0.items.iter_mut() {
+            place.write(cstk_status::CSTK_ERROR_CANCELLED);
+        }
+    }
+
+    fn split(self, count: usize) -> (Self, Self) {
+        let (first, rest) = self.0.split(count);
+        (Self(first), Self(rest))
+    }
+}
+
+/// The outputs that all batches share, checked.
+pub struct Outcome {
+    statuses: *mut cstk_status,
+    count: usize,
+    out: Output<cstk_batch_result>,
+}
+
+impl Outcome {
+    /// The checked outputs, and the statuses as slots of a batch.
+    pub unsafe fn checked<'a>(
+        statuses: *mut cstk_status,
+        count: usize,
+        out: *mut cstk_batch_result,
+    ) -> Result<(Self, Statuses<'a>), Failure> {
+        let out = Output::checked(out, "out")?;
+        // SAFETY: as the caller states.
+        let entries = unsafe { Entries::checked(statuses, count, 1, "statuses")? };
+        let outcome = Self {
+            statuses,
+            count,
+            out,
+        };
+        Ok((outcome, Statuses(entries)))
+    }
+
+    /// Counts, and writes the result of a batch that was worked off. What was answered beyond the first hit does not count.
+    pub fn write(self, summary: BatchSummary) -> Result<(), Failure> {
+        let statuses: &mut [cstk_status] = if self.count == 0 {
+            &mut []
+        } else {
+            // SAFETY: checked; written throughout when the batch began, and its borrow has ended.
+            unsafe { std::slice::from_raw_parts_mut(self.statuses, self.count) }
+        };
+        if let Some(hit) = summary.first_hit {
+            statuses[hit + 1..].fill(cstk_status::CSTK_ERROR_CANCELLED);
+        }
+        let count = |wanted: fn(cstk_status) -> bool| {
+            statuses.iter().filter(|&&status| wanted(status)).count()
+        };
+        let answered = count(|status| status == cstk_status::CSTK_OK);
+        let unreached = count(|status| status == cstk_status::CSTK_ERROR_CANCELLED);
+        let first_failed = summary.first_failure.map_or(0, |(item, error)| {
+            keep_message(error.message);
+            item
+        });
+        self.out.write(cstk_batch_result {
+            answered,
+            failed: statuses.len() - answered - unreached,
+            first_failed,
+            first_hit: summary.first_hit.unwrap_or(0),
+            has_hit: summary.first_hit.is_some(),
+            reserved_bytes: [0; 7],
+            environment_version: summary.version,
+            reserved: [0; 4],
+        });
+        Ok(())
+    }
+}
+
+/// The numbers of `count` items of `width` each.
+pub unsafe fn numbers<'a>(
+    values: *const f64,
+    count: usize,
+    width: usize,
+    argument: &str,
+) -> Result<&'a [f64], Failure> {
+    let entries = product(count, width, argument)?;
+    // SAFETY: as the caller states.
+    unsafe { slice(values, entries, argument) }
+}
+
+/// `count` poses of 12 numbers each.
+pub unsafe fn poses<'a>(
+    values: *const f64,
+    count: usize,
+    argument: &str,
+) -> Result<&'a [[f64; 12]], Failure> {
+    // SAFETY: as the caller states.
+    let numbers = unsafe { numbers(values, count, 12, argument)? };
+    Ok(numbers.as_chunks().0)
+}
+
+fn product(count: usize, width: usize, argument: &str) -> Result<usize, Failure> {
+    let entries = count.checked_mul(width);
+    entries.ok_or_else(|| too_many(count, width, argument))
+}
+
+#[cold]
+fn too_many(count: usize, width: usize, argument: &str) -> Failure {
+    Error::new(
+        ErrorKind::WrongSize,
+        format!("{argument} cannot have {count} times {width} entries"),
+    )
+    .into()
+}

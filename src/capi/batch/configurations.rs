@@ -1,0 +1,248 @@
+//! Batches of configurations.
+
+use std::ffi::c_void;
+
+use super::arrays::{Entries, Outcome, Statuses, numbers};
+use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
+use crate::batch::{Batch, BatchJob, BatchSummary, Configurations, ItemAnswer};
+use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result};
+use crate::capi::boundary::{Failure, guard};
+use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::status::callbacks::cstk_progress_fn;
+use crate::capi::status::status::cstk_status;
+use crate::cobject::CObject;
+use crate::error::{Error, ErrorKind};
+use crate::query::Distance;
+use crate::space::Space;
+
+/// The configurations of a call, checked but for their numbers.
+pub(super) unsafe fn configurations<'a>(
+    space: &Space,
+    q: *const f64,
+    count: usize,
+    nq: usize,
+    argument: &str,
+) -> Result<Configurations<'a>, Failure> {
+    require_width(nq, space.nq(), "nq", "coordinates")?;
+    // SAFETY: as the caller states.
+    let q = unsafe { numbers(q, count, nq, argument)? };
+    Ok(Configurations { q, count })
+}
+
+fn require_width(given: usize, expected: usize, name: &str, what: &str) -> Result<(), Failure> {
+    if given == expected {
+        return Ok(());
+    }
+    let message = format!("{name} is {given}, but the space has {expected} {what}");
+    Err(Error::new(ErrorKind::WrongSize, message).into())
+}
+
+/// Writes an answer and its status, or the status of what failed.
+pub(super) fn put<A, T: Copy>(
+    (answers, statuses): &mut (Entries<T>, Statuses),
+    item: usize,
+    answer: ItemAnswer<A>,
+    convert: impl FnOnce(A) -> T,
+) {
+    match answer {
+        Ok(answer) => {
+            answers.write(item, [convert(answer)]);
+            statuses.write(item, cstk_status::CSTK_OK);
+        }
+        Err(error) => statuses.refuse(item, error),
+    }
+}
+
+/// cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for
+/// the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that was begun, and `user` is passed to
+/// it. `classes` and `statuses` receive `count` entries each, in order. A count of 0 is a batch without items; its arrays may be NULL.
+/// Configurations that lie near each other in the order of `q`, those of a path say, are answered in less time.
+///
+/// CSTK_ERROR_WRONG_SIZE if `nq` is not that of the space, or count * nq too large; CSTK_ERROR_CANCELLED where `progress` says so.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_classify_batch(
+    batch: *mut cstk_batch,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    count: usize,
+    nq: usize,
+    options: *const cstk_batch_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    classes: *mut cstk_class,
+    statuses: *mut cstk_status,
+    out: *mut cstk_batch_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+    guard(|| unsafe {
+        with_batch(
+            batch,
+            options,
+            progress,
+            user,
+            |batch, options, progress| {
+                let cobject = handle::share::<CObject>(cobject, "cobject")?;
+                let at = configurations(cobject.space(), q, count, nq, "q")?;
+                let classes = Entries::checked(classes, count, 1, "classes")?;
+                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                let job = BatchJob {
+                    options,
+                    slots: (classes, statuses),
+                    progress,
+                };
+                outcome.write(batch.classify(&cobject, at, job, |slots, item, class| {
+                    put(slots, item, class, cstk_class::from)
+                })?)
+            },
+        )
+    })
+}
+
+/// cstk_within for `count` configurations; `within` and `statuses` receive `count` entries each. All else as for cstk_classify_batch.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_within_batch(
+    batch: *mut cstk_batch,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    count: usize,
+    nq: usize,
+    threshold: f64,
+    options: *const cstk_batch_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    within: *mut bool,
+    statuses: *mut cstk_status,
+    out: *mut cstk_batch_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+    guard(|| unsafe {
+        with_batch(
+            batch,
+            options,
+            progress,
+            user,
+            |batch, options, progress| {
+                let cobject = handle::share::<CObject>(cobject, "cobject")?;
+                let at = configurations(cobject.space(), q, count, nq, "q")?;
+                let within = Entries::checked(within, count, 1, "within")?;
+                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                let job = BatchJob {
+                    options,
+                    slots: (within, statuses),
+                    progress,
+                };
+                let answer = batch.within(&cobject, at, threshold, job, |slots, item, within| {
+                    put(slots, item, within, |within| within)
+                });
+                outcome.write(answer?)
+            },
+        )
+    })
+}
+
+/// Where distances go: the number alone, and all that cstk_distance tells.
+pub(super) type DistanceSlots<'a> = (
+    Entries<'a, f64>,
+    (Entries<'a, cstk_distance_result>, Statuses<'a>),
+);
+
+/// Writes a distance where it is wanted.
+pub(super) fn put_distance(
+    (numbers, (results, statuses)): &mut DistanceSlots,
+    item: usize,
+    answer: ItemAnswer<Distance>,
+) {
+    match answer {
+        Ok(distance) => {
+            numbers.write(item, [distance.distance]);
+            if !results.is_absent() {
+                results.write(item, [(&distance).into()]);
+            }
+            statuses.write(item, cstk_status::CSTK_OK);
+        }
+        Err(error) => statuses.refuse(item, error),
+    }
+}
+
+/// cstk_distance for `count` configurations. `distances` and `results` receive `count` entries each: the field `distance`, and the whole
+/// answer. `gradients` receives count * nv doubles, nv being the number of the space's velocities: row i is the gradient of
+/// results[i].contact, as cstk_gradients has it for the nearest pair with CSTK_CONTACTS_NEAREST, and 0 where has_contact is false.
+/// What is not wanted may be NULL, `nv` then 0 without gradients. All else as for cstk_classify_batch.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance_batch(
+    batch: *mut cstk_batch,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    count: usize,
+    nq: usize,
+    max_distance: f64,
+    options: *const cstk_batch_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    distances: *mut f64,
+    results: *mut cstk_distance_result,
+    gradients: *mut f64,
+    nv: usize,
+    statuses: *mut cstk_status,
+    out: *mut cstk_batch_result,
+) -> cstk_status {
+    // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
+    guard(|| unsafe {
+        with_batch(
+            batch,
+            options,
+            progress,
+            user,
+            |batch, options, progress| {
+                let cobject = handle::share::<CObject>(cobject, "cobject")?;
+                let at = configurations(cobject.space(), q, count, nq, "q")?;
+                let numbers = Entries::optional(distances, count, 1, "distances")?;
+                let results = Entries::optional(results, count, 1, "results")?;
+                let width = if gradients.is_null() {
+                    0
+                } else {
+                    cobject.space().nv()
+                };
+                require_width(nv, width, "nv", "velocities, with gradients")?;
+                let gradients = Entries::optional(gradients, count, nv, "gradients")?;
+                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                let slots = (numbers, (results, statuses));
+                let summary = if gradients.is_absent() {
+                    let job = BatchJob {
+                        options,
+                        slots,
+                        progress,
+                    };
+                    batch.distance(&cobject, at, max_distance, job, put_distance)?
+                } else {
+                    let job = BatchJob {
+                        options,
+                        slots: (gradients, slots),
+                        progress,
+                    };
+                    graded(batch, &cobject, at, max_distance, job)?
+                };
+                outcome.write(summary)
+            },
+        )
+    })
+}
+
+/// Distances with gradients.
+fn graded(
+    batch: &mut Batch,
+    cobject: &CObject,
+    at: Configurations,
+    max_distance: f64,
+    job: BatchJob<(Entries<f64>, DistanceSlots)>,
+) -> Result<BatchSummary, Error> {
+    batch.distance_with_gradient(cobject, at, max_distance, job, |slots, item, answer| {
+        let (gradients, slots) = slots;
+        let distance = answer.map(|(distance, row)| {
+            gradients.write(item, row.iter().copied().chain(std::iter::repeat(0.0)));
+            distance
+        });
+        put_distance(slots, item, distance);
+    })
+}
