@@ -23,6 +23,7 @@
  *   @ref certificate        Certificates
  *   @ref region             Regions
  *   @ref slide              Slides
+ *   @ref batch              Batches
  *   @ref show               Pictures
  *
  * WORDS. Numbers like (§4.4) refer to the report the library succeeds: Xavier and LaFarge, A Configuration Space Toolkit for
@@ -181,7 +182,7 @@ enum cstk_status
    */
   CSTK_ERROR_NOT_CONVERGED = 16,
   /**
-   * The caller's progress function stopped the call.
+   * The caller's progress function stopped the call; of an item of a batch: it was not reached.
    */
   CSTK_ERROR_CANCELLED = 17,
   /**
@@ -4423,6 +4424,250 @@ cstk_status cstk_spring_step(const cstk_witness_list *list,
                              double desired_distance,
                              double *out,
                              bool *found);
+
+/** @} */
+
+/**
+ * @defgroup batch Batches
+ *
+ * Many configurations, motions or pairs of poses in one call, on several threads, all in the state that the environments are in at the
+ * call. Answers stand in order of the items, equal to those of single calls bit for bit, whatever the number of threads.
+ * 
+ * Every item has a status. One that fails (a NaN among its coordinates, say) fails alone: the others are answered, and the call returns
+ * CSTK_OK; cstk_last_error_message() then names the first that failed. Entries of items with another status than CSTK_OK mean nothing.
+ * Where progress or the first hit ends a batch, the items that were not reached have CSTK_ERROR_CANCELLED, and those with CSTK_OK are
+ * answered: unlike other calls, a batch that its progress function cancels has written to its arrays. A call that fails otherwise has
+ * written nothing.
+ * 
+ * The arrays are the caller's: they must not overlap, and nobody else may use them during the call. Callbacks of C-objects and bodies
+ * are called from the batch's threads, several at once.
+ *
+ * @code
+     double configurations[1000 * 6] = {0};
+     cstk_class classes[1000];
+     cstk_status statuses[1000];
+     cstk_batch_result done;
+     cstk_batch *batch;
+     check(cstk_batch_create(&batch));
+     check(cstk_classify_batch(batch, cobject, configurations, 1000, 6, NULL, NULL, NULL, classes, statuses, &done));
+     if (done.failed > 0) {
+         fprintf(stderr, "%s\n", cstk_last_error_message());
+     }
+     check(cstk_batch_release(batch));
+ * @endcode
+ * @{
+ */
+
+/**
+ * The caches and scratch memory of a batch's threads, kept from one call to the next: once warm, calls allocate a little for their
+ * threads and nothing for their items (but for motions and gradients of pure sets). A batch serves one call at a time; other calls
+ * meanwhile return CSTK_ERROR_BUSY. Caches change how long answers take, never the answers.
+ */
+typedef struct cstk_batch cstk_batch;
+
+/**
+ * How a batch is worked off. Write it with cstk_batch_options_default first. Answers depend on `limit` alone.
+ */
+typedef struct cstk_batch_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The number of threads, the caller's among them, at most 1024; 0, the default, for as many as the machine runs at once. Few
+   * items have fewer.
+   */
+  uint32_t threads;
+  /**
+   * Nonzero: the batch ends at its first hit, the one with the lowest number. All items before it are answered, those after it have
+   * the status CSTK_ERROR_CANCELLED. Default 0.
+   */
+  uint32_t stop_at_hit;
+  /**
+   * Limits the work of each item as cstk_query_set_limit does: an item that needs more has the status CSTK_ERROR_LIMIT (a motion
+   * mostly the outcome CSTK_MOTION_UNDECIDED). Each item is then asked as by a new context, so that nothing depends on other items
+   * or threads; that takes longer. 0, the default, for no limit.
+   */
+  uint64_t limit;
+} cstk_batch_options;
+
+/**
+ * How a batch ended.
+ */
+typedef struct cstk_batch_result {
+  /**
+   * How many items have the status CSTK_OK.
+   */
+  size_t answered;
+  /**
+   * How many have another, but for those that were not reached.
+   */
+  size_t failed;
+  /**
+   * The first of these, if `failed` is not 0. cstk_last_error_message() tells why it failed.
+   */
+  size_t first_failed;
+  /**
+   * The first hit, if `has_hit` is set.
+   */
+  size_t first_hit;
+  /**
+   * stop_at_hit was set, and there was a hit: of cstk_classify_batch CSTK_CLASS_INSIDE, of cstk_within_batch and
+   * cstk_pair_within_batch true, of distances 0, of motions any outcome but CSTK_MOTION_FREE.
+   */
+  bool has_hit;
+  uint8_t reserved_bytes[7];
+  /**
+   * The version of the environment that all items saw, the largest of several; 0 without an environment.
+   */
+  uint64_t environment_version;
+  uint64_t reserved[4];
+} cstk_batch_result;
+
+
+/**
+ * Creates a batch, without threads: they come and go with each call.
+ */
+cstk_status cstk_batch_create(cstk_batch **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_batch_retain(cstk_batch *batch);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_batch_release(cstk_batch *batch);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_batch_options).
+ */
+cstk_status cstk_batch_options_default(cstk_batch_options *out, size_t size);
+
+/**
+ * Writes the work done by all threads of the batch since it was created, or since the last call with `reset`; `reset` sets the counts
+ * to 0. What the threads remember, and with it the work, may differ from run to run.
+ */
+cstk_status cstk_batch_get_statistics(cstk_batch *batch,
+                                      bool reset,
+                                      cstk_query_statistics *out);
+
+/**
+ * cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for
+ * the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that was begun, and `user` is passed to
+ * it. `classes` and `statuses` receive `count` entries each, in order. A count of 0 is a batch without items; its arrays may be NULL.
+ * Configurations that lie near each other in the order of `q`, those of a path say, are answered in less time.
+ *
+ * CSTK_ERROR_WRONG_SIZE if `nq` is not that of the space, or count * nq too large; CSTK_ERROR_CANCELLED where `progress` says so.
+ */
+cstk_status cstk_classify_batch(cstk_batch *batch,
+                                const cstk_cobject *cobject,
+                                const double *q,
+                                size_t count,
+                                size_t nq,
+                                const cstk_batch_options *options,
+                                cstk_progress_fn progress,
+                                void *user,
+                                cstk_class *classes,
+                                cstk_status *statuses,
+                                cstk_batch_result *out);
+
+/**
+ * cstk_within for `count` configurations; `within` and `statuses` receive `count` entries each. All else as for cstk_classify_batch.
+ */
+cstk_status cstk_within_batch(cstk_batch *batch,
+                              const cstk_cobject *cobject,
+                              const double *q,
+                              size_t count,
+                              size_t nq,
+                              double threshold,
+                              const cstk_batch_options *options,
+                              cstk_progress_fn progress,
+                              void *user,
+                              bool *within,
+                              cstk_status *statuses,
+                              cstk_batch_result *out);
+
+/**
+ * cstk_distance for `count` configurations. `distances` and `results` receive `count` entries each: the field `distance`, and the whole
+ * answer. `gradients` receives count * nv doubles, nv being the number of the space's velocities: row i is the gradient of
+ * results[i].contact, as cstk_gradients has it for the nearest pair with CSTK_CONTACTS_NEAREST, and 0 where has_contact is false.
+ * What is not wanted may be NULL, `nv` then 0 without gradients. All else as for cstk_classify_batch.
+ */
+cstk_status cstk_distance_batch(cstk_batch *batch,
+                                const cstk_cobject *cobject,
+                                const double *q,
+                                size_t count,
+                                size_t nq,
+                                double max_distance,
+                                const cstk_batch_options *options,
+                                cstk_progress_fn progress,
+                                void *user,
+                                double *distances,
+                                cstk_distance_result *results,
+                                double *gradients,
+                                size_t nv,
+                                cstk_status *statuses,
+                                cstk_batch_result *out);
+
+/**
+ * cstk_motion for `count` motions, number i from q0 + i * nq to q1 + i * nq: both have count * nq doubles. Of the segments of a path
+ * with n points, `q1` is q0 + nq and `count` n - 1. `motion_options` are those of cstk_motion, and may be NULL for the defaults.
+ * `reached` may be NULL, or receives count * nq doubles, the configurations at times[1]; unlike cstk_motion's it must be an array of
+ * its own. `results` and `statuses` receive `count` entries each. All else as for cstk_classify_batch.
+ */
+cstk_status cstk_motion_batch(cstk_batch *batch,
+                              const cstk_cobject *cobject,
+                              const double *q0,
+                              const double *q1,
+                              size_t count,
+                              size_t nq,
+                              const cstk_motion_options *motion_options,
+                              const cstk_batch_options *options,
+                              cstk_progress_fn progress,
+                              void *user,
+                              double *reached,
+                              cstk_motion_result *results,
+                              cstk_status *statuses,
+                              cstk_batch_result *out);
+
+/**
+ * cstk_pair_within for `count` pairs of poses: `poses_a` and `poses_b` have 12 * count doubles each. With threshold 0, whether the bodies
+ * meet. `within` and `statuses` receive `count` entries each. A pose that is none fails its own item alone. All else as for
+ * cstk_classify_batch.
+ */
+cstk_status cstk_pair_within_batch(cstk_batch *batch,
+                                   const cstk_body *body_a,
+                                   const double *poses_a,
+                                   const cstk_body *body_b,
+                                   const double *poses_b,
+                                   size_t count,
+                                   double threshold,
+                                   const cstk_batch_options *options,
+                                   cstk_progress_fn progress,
+                                   void *user,
+                                   bool *within,
+                                   cstk_status *statuses,
+                                   cstk_batch_result *out);
+
+/**
+ * cstk_pair_distance for `count` pairs of poses: `poses_a` and `poses_b` have 12 * count doubles each. `distances` and `results` receive
+ * `count` entries each, the field `distance` and the whole answer; what is not wanted may be NULL. All else as for
+ * cstk_pair_within_batch.
+ */
+cstk_status cstk_pair_distance_batch(cstk_batch *batch,
+                                     const cstk_body *body_a,
+                                     const double *poses_a,
+                                     const cstk_body *body_b,
+                                     const double *poses_b,
+                                     size_t count,
+                                     double max_distance,
+                                     const cstk_batch_options *options,
+                                     cstk_progress_fn progress,
+                                     void *user,
+                                     double *distances,
+                                     cstk_distance_result *results,
+                                     cstk_status *statuses,
+                                     cstk_batch_result *out);
 
 /** @} */
 
