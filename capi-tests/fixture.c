@@ -73,9 +73,11 @@ static void keep_handles(fixture *f) {
     f->live[NOUN_COBJECT] = f->cobject;
     f->live[NOUN_QUERY] = f->query;
     f->live[NOUN_CERTIFICATE] = f->certificate;
+    f->live[NOUN_BATCH] = f->batch;
 }
 
 static void release_handles(void *const handles[NOUN_COUNT]) {
+    CHECK_OK(cstk_batch_release(handles[NOUN_BATCH]));
     CHECK_OK(cstk_certificate_release(handles[NOUN_CERTIFICATE]));
     CHECK_OK(cstk_query_release(handles[NOUN_QUERY]));
     CHECK_OK(cstk_cobject_release(handles[NOUN_COBJECT]));
@@ -109,6 +111,7 @@ static void create_scene(fixture *f) {
     CHECK_OK(cstk_motion_certificate(f->query, f->cobject, f->q, f->q, FIXTURE_NQ, NULL, NULL,
                                      &rests, &f->certificate));
     CHECK(f->certificate != NULL);
+    CHECK_OK(cstk_batch_create(&f->batch));
     keep_handles(f);
 }
 

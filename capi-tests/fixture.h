@@ -16,6 +16,7 @@ typedef enum noun {
     NOUN_COBJECT,
     NOUN_QUERY,
     NOUN_CERTIFICATE,
+    NOUN_BATCH,
     NOUN_COUNT
 } noun;
 
@@ -37,6 +38,7 @@ typedef struct fixture {
     cstk_query *query;
     /* That the arm, at rest at `q`, is free. */
     cstk_certificate *certificate;
+    cstk_batch *batch;
     double q[FIXTURE_NQ];
     double link_poses[12 * FIXTURE_LINKS];
     /* The answer at q when all was made. */

@@ -47,6 +47,7 @@ static void every_noun(void) {
                    cstk_environment_get_state(f.environment, NULL, NULL));
     TWO_REFERENCES(certificate, "certificate", f.certificate,
                    cstk_certificate_get_summary(f.certificate, &summary));
+    TWO_REFERENCES(batch, "batch", f.batch, cstk_batch_get_statistics(f.batch, false, &done));
     TWO_REFERENCES(query, "query", f.query, cstk_query_get_statistics(f.query, false, &done));
     TWO_REFERENCES(cobject, "cobject", f.cobject,
                    cstk_classify(other, f.cobject, f.q, FIXTURE_NQ, &class_of));
@@ -131,6 +132,7 @@ static void parts_before_the_whole(void) {
     check_distance(&f, both);
     CHECK_OK(cstk_cobject_release(both));
     CHECK_OK(cstk_query_release(f.query));
+    CHECK_OK(cstk_batch_release(f.batch));
     cstk_certificate_summary summary;
     CHECK_OK(cstk_certificate_get_summary(f.certificate, &summary));
     CHECK_OK(cstk_certificate_release(f.certificate));
@@ -166,6 +168,9 @@ static void many_times(void) {
         cstk_environment *environment = NULL;
         cstk_environment *snapshot = NULL;
         cstk_query *query = NULL;
+        cstk_batch *batch = NULL;
+        CHECK_OK(cstk_batch_create(&batch));
+        CHECK_OK(cstk_batch_release(batch));
         CHECK_OK(cstk_body_builder_create(3, &builder));
         CHECK_OK(cstk_body_builder_release(builder));
         CHECK_OK(cstk_environment_create(&environment));

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds |
-# motion | planners [--csv FILE] | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points
-# alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion and planners [--quick] [--seed N]
-# [--only TEXT], the last for the scenes whose names hold a text (of objects, for the rows whose scene and name do; of shapes, for
+# motion | planners [--csv FILE] | batches | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points
+# alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion, planners and batches [--quick] [--seed N]
+# [--only TEXT], the last for the scenes whose names hold a text (of objects and batches, for the rows whose scene and name do; of shapes, for
 # the rows whose group, bodies, poses and query do: "shapes box and box random collide"); accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners | batches | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | batches [--quick] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -72,6 +72,15 @@ if [ "$name" = planners ]; then
   cmake -S benches/planners -B build/planners_bench -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
   cmake --build build/planners_bench -j2 --target planners >/dev/null
   exec build/planners_bench/planners ${puma:+--puma "$puma"} ${panda:+--panda "$panda"} "${arguments[@]}"
+fi
+if [ "$name" = batches ]; then
+  # The program names what is left out.
+  puma=$(scripts/fetch_puma560.sh) || puma=
+  panda=$(scripts/fetch_motion_bench_maker.sh) || panda=
+  CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
+  cmake -S benches/batches -B build/batches -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  cmake --build build/batches -j2 --target batches >/dev/null
+  exec build/batches/batches ${puma:+--puma "$puma"} ${panda:+--panda "$panda"} "${arguments[@]}"
 fi
 if [ "$name" = robots ]; then
   robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: Pinocchio and its robots could not be fetched" >&2; exit 77; }

@@ -226,7 +226,7 @@ fn all_items_see_one_state() {
 fn limits_hold_for_each_item_alone() {
     let arm = Arm::new(25);
     let q = arm.configurations(400, 26);
-    let limit = Some(60);
+    let limit = Some(25);
     let alone = |q: &[f64]| {
         let mut context = QueryContext::new();
         context.set_limit(limit);

@@ -93,7 +93,7 @@ impl Arm {
         let mut all: Vec<f64> = Vec::new();
         for i in 0..count {
             for k in 0..NQ {
-                all.push(if i < count / 2 {
+                all.push(if i < count.div_ceil(2) {
                     random.within(-3.1, 3.1)
                 } else {
                     all[all.len() - NQ] + 0.02 * (k as f64 - 3.0)
