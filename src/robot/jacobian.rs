@@ -1,6 +1,8 @@
 //! The basic Jacobian, eq. (32)–(33), column by column. (Eq. (32) is printed with its columns out of order: they run from
 //! 0.)
 
+use smallvec::SmallVec;
+
 use super::{JointKind, Robot, Twist};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3, turned_axes};
@@ -44,7 +46,7 @@ impl Robot {
         point: &Vec3,
         mut visit: impl FnMut(Column),
     ) -> Result<()> {
-        let mut twists: Vec<Twist> = Vec::new();
+        let mut twists: SmallVec<[Twist; 6]> = SmallVec::new();
         let mut next = Some(link);
         while let Some(index) = next {
             let link = &self.links()[index];

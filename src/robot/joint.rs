@@ -3,6 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use smallvec::SmallVec;
+
 use super::custom_joint::{CustomJoint, Twist};
 use crate::error::Result;
 use crate::euler::{AngularFrame, euler_rates};
@@ -123,7 +125,7 @@ impl Joint {
         q: &[f64],
         frame: &Mat3,
         link: &Pose,
-        columns: &mut Vec<Twist>,
+        columns: &mut SmallVec<[Twist; 6]>,
     ) -> Result<()> {
         let own = &q[self.coordinate..self.coordinate + self.kind.nq()];
         let shift = |matrix: &Mat3, k: usize| Twist {
@@ -159,12 +161,12 @@ impl Joint {
                 columns.extend((0..3).map(|k| turn(&rates, k)));
             }
             JointKind::Custom(joint) => {
-                let first = columns.len();
-                joint.jacobian(own, columns)?;
-                for twist in &mut columns[first..] {
-                    twist.linear = frame * twist.linear;
-                    twist.angular = frame * twist.angular;
-                }
+                let mut given = Vec::new();
+                joint.jacobian(own, &mut given)?;
+                columns.extend(given.into_iter().map(|twist| Twist {
+                    linear: frame * twist.linear,
+                    angular: frame * twist.angular,
+                }));
             }
         }
         Ok(())

@@ -204,50 +204,49 @@ fn motions_are_those_of_single_queries() {
     }
 }
 
+/// The answers of new contexts at each pair of poses.
+fn single_pairs(
+    [rows_a, rows_b]: [&[[f64; 12]]; 2],
+    ask: impl Fn(&mut QueryContext, &Pose, &Pose) -> String,
+) -> Vec<String> {
+    let read = |row| Pose::from_row_major(row).unwrap();
+    let pairs = rows_a.iter().zip(rows_b);
+    let answers = pairs.map(|(a, b)| ask(&mut QueryContext::new(), &read(a), &read(b)));
+    answers.collect()
+}
+
 #[test]
 fn pairs_are_those_of_single_queries() {
     let arm = Arm::new(13);
     let mut random = Random::new(14);
     let nothing = &mut |_| Ok(());
-    let mut poses = || -> Vec<Pose> { (0..300).map(|_| random.pose(0.4)).collect() };
-    let (on_a, on_b) = (poses(), poses());
-    let rows =
-        |poses: &[Pose]| -> Vec<[f64; 12]> { poses.iter().map(Pose::to_row_major).collect() };
-    let (rows_a, rows_b) = (rows(&on_a), rows(&on_b));
+    let mut rows =
+        || -> Vec<[f64; 12]> { (0..300).map(|_| random.pose(0.4).to_row_major()).collect() };
+    let (rows_a, rows_b) = (rows(), rows());
+    let body = &*arm.body;
     let pairs = PosePairs {
-        bodies: [&arm.body, &arm.body],
+        bodies: [body, body],
         poses: [&rows_a, &rows_b],
     };
-    let single = |mut ask: Box<dyn FnMut(&Pose, &Pose) -> String>| -> Vec<String> {
-        let poses = rows_a.iter().zip(&rows_b);
-        let read = |row| Pose::from_row_major(row).unwrap();
-        poses.map(|(a, b)| ask(&read(a), &read(b))).collect()
-    };
-    let body = arm.body.clone();
-    let within = single(Box::new(move |a, b| {
-        let context = &mut QueryContext::new();
-        text(context.pair_within((&body, a), (&body, b), 0.0).unwrap())
-    }));
+    let within = single_pairs(pairs.poses, |context, a, b| {
+        text(context.pair_within((body, a), (body, b), 0.0).unwrap())
+    });
     compare(&within, |batch, threads, found| {
         let options = on_threads(threads);
-        batch
-            .pair_within(pairs, 0.0, quiet(&options, found, nothing), keep)
-            .unwrap();
+        let job = quiet(&options, found, nothing);
+        batch.pair_within(pairs, 0.0, job, keep).unwrap();
     });
-    let body = arm.body.clone();
-    let distances = single(Box::new(move |a, b| {
-        let context = &mut QueryContext::new();
+    let infinity = f64::INFINITY;
+    let distances = single_pairs(pairs.poses, |context, a, b| {
         text(
             context
-                .pair_distance((&body, a), (&body, b), f64::INFINITY)
+                .pair_distance((body, a), (body, b), infinity)
                 .unwrap(),
         )
-    }));
+    });
     compare(&distances, |batch, threads, found| {
         let options = on_threads(threads);
         let job = quiet(&options, found, nothing);
-        batch
-            .pair_distance(pairs, f64::INFINITY, job, keep)
-            .unwrap();
+        batch.pair_distance(pairs, infinity, job, keep).unwrap();
     });
 }

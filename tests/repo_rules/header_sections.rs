@@ -160,7 +160,9 @@ pub fn header() -> String {
             example,
             ..
         } = section;
-        let lines = introduction.lines().map(|line| format!("{}\n", format!(" * {line}").trim_end()));
+        let lines = introduction
+            .lines()
+            .map(|line| format!("{}\n", format!(" * {line}").trim_end()));
         let introduction: String = lines.collect();
         let lines = example.lines().map(|line| format!("     {line}\n"));
         let example: String = lines.collect();
