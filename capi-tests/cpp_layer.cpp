@@ -320,6 +320,19 @@ static void batches(const cstk::Query &query, const cstk::CObject &obstacles, co
     REQUIRE(batch.statistics(true).primitive_pairs > 0);
 }
 
+static void maps(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
+    const auto stop = [](double) { return false; };
+    const cstk::Map map = cstk::Map::build(obstacles, q, {cstk::map_axis(0, 0, 10, 10)});
+    REQUIRE(map.view().cell_count == 10 && map.view().values[4] == CSTK_CLASS_INSIDE);
+    REQUIRE(map.view().values[0] == query.classify(obstacles, std::vector<double>{0.5, q[1]}));
+    map.save("cpp_layer.npy");
+    REQUIRE(std::remove("cpp_layer.npy") == 0);
+    REQUIRE(status_of([&] { map.show("cpp_layer.png"); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] {
+                cstk::Map::build(obstacles, q, {cstk::map_axis(0, 0, 1, 9)}, cstk::map_options(), stop);
+            }) == CSTK_ERROR_CANCELLED);
+}
+
 static void queries() {
     cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
     cstk::RobotBuilder builder;
@@ -386,6 +399,7 @@ static void queries() {
     REQUIRE(slide.outcome == CSTK_SLIDE_MOVED && std::fabs(moving[0] - 0.6) < 1e-15);
     motions(query, obstacles, body, q);
     batches(query, obstacles, body, q);
+    maps(query, obstacles, q);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);

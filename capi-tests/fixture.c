@@ -74,9 +74,11 @@ static void keep_handles(fixture *f) {
     f->live[NOUN_QUERY] = f->query;
     f->live[NOUN_CERTIFICATE] = f->certificate;
     f->live[NOUN_BATCH] = f->batch;
+    f->live[NOUN_MAP] = f->map;
 }
 
 static void release_handles(void *const handles[NOUN_COUNT]) {
+    CHECK_OK(cstk_map_release(handles[NOUN_MAP]));
     CHECK_OK(cstk_batch_release(handles[NOUN_BATCH]));
     CHECK_OK(cstk_certificate_release(handles[NOUN_CERTIFICATE]));
     CHECK_OK(cstk_query_release(handles[NOUN_QUERY]));
@@ -112,6 +114,8 @@ static void create_scene(fixture *f) {
                                      &rests, &f->certificate));
     CHECK(f->certificate != NULL);
     CHECK_OK(cstk_batch_create(&f->batch));
+    const cstk_map_axis axis = {0, 0, 0, 0.2, 1, {0, 0}};
+    CHECK_OK(cstk_map_build(f->cobject, f->q, FIXTURE_NQ, &axis, 1, NULL, NULL, NULL, &f->map));
     keep_handles(f);
 }
 

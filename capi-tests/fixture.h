@@ -17,6 +17,7 @@ typedef enum noun {
     NOUN_QUERY,
     NOUN_CERTIFICATE,
     NOUN_BATCH,
+    NOUN_MAP,
     NOUN_COUNT
 } noun;
 
@@ -39,6 +40,8 @@ typedef struct fixture {
     /* That the arm, at rest at `q`, is free. */
     cstk_certificate *certificate;
     cstk_batch *batch;
+    /* Of one cell. */
+    cstk_map *map;
     double q[FIXTURE_NQ];
     double link_poses[12 * FIXTURE_LINKS];
     /* The answer at q when all was made. */

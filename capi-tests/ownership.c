@@ -27,6 +27,7 @@ static void every_noun(void) {
     cstk_query_statistics done;
     cstk_body_statistics counts;
     cstk_mesh_view view;
+    cstk_map_view cells;
     cstk_certificate_summary summary;
     const double square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     cstk_link_def def;
@@ -47,6 +48,7 @@ static void every_noun(void) {
                    cstk_environment_get_state(f.environment, NULL, NULL));
     TWO_REFERENCES(certificate, "certificate", f.certificate,
                    cstk_certificate_get_summary(f.certificate, &summary));
+    TWO_REFERENCES(map, "map", f.map, cstk_map_get_view(f.map, &cells));
     TWO_REFERENCES(batch, "batch", f.batch, cstk_batch_get_statistics(f.batch, false, &done));
     TWO_REFERENCES(query, "query", f.query, cstk_query_get_statistics(f.query, false, &done));
     TWO_REFERENCES(cobject, "cobject", f.cobject,
@@ -133,6 +135,10 @@ static void parts_before_the_whole(void) {
     CHECK_OK(cstk_cobject_release(both));
     CHECK_OK(cstk_query_release(f.query));
     CHECK_OK(cstk_batch_release(f.batch));
+    cstk_map_view cells;
+    CHECK_OK(cstk_map_get_view(f.map, &cells));
+    CHECK(cells.cell_count == 1 && cells.values[0] == CSTK_CLASS_OUTSIDE);
+    CHECK_OK(cstk_map_release(f.map));
     cstk_certificate_summary summary;
     CHECK_OK(cstk_certificate_get_summary(f.certificate, &summary));
     CHECK_OK(cstk_certificate_release(f.certificate));

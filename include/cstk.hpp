@@ -245,6 +245,20 @@ inline cstk_batch_options batch_options(std::uint32_t threads = 0, bool stop_at_
     return options;
 }
 
+/// Options of maps.
+inline cstk_map_options map_options(cstk_map_kind kind = CSTK_MAP_CLASSES, std::uint32_t threads = 0) {
+    cstk_map_options options;
+    check(cstk_map_options_default(&options, sizeof options));
+    options.kind = kind;
+    options.threads = threads;
+    return options;
+}
+
+/// An interval of a coordinate, cut into cells.
+inline cstk_map_axis map_axis(std::uint32_t coordinate, double low, double high, std::size_t cells) {
+    return {coordinate, 0, low, high, cells, {0, 0}};
+}
+
 /// The default options of cstk_region_classify.
 inline cstk_region_options region_options() {
     cstk_region_options options;
@@ -1744,6 +1758,35 @@ private:
         check(cstk_query_create(&out));
         return out;
     }
+};
+
+/// What is free on a grid over some coordinates.
+class Map : public Handle<cstk_map, cstk_map_retain, cstk_map_release> {
+public:
+    using Handle::Handle;
+
+    /// The coordinates without an axis are those of q.
+    static Map build(const CObject &cobject, Span<double> q, Span<cstk_map_axis> axes,
+                     const cstk_map_options &options = map_options(), Progress progress = {}) {
+        detail::Report report{std::move(progress), nullptr};
+        cstk_map *out = nullptr;
+        report.check(cstk_map_build(cobject.get(), q.data(), q.size(), axes.data(), axes.size(),
+                                    &options, report.function(), &report, &out));
+        return Map(out);
+    }
+
+    /// Its arrays are valid as long as the map.
+    cstk_map_view view() const {
+        cstk_map_view out;
+        check(cstk_map_get_view(get(), &out));
+        return out;
+    }
+
+    /// Writes an array of NumPy's (.npy).
+    void save(const std::string &file) const { check(cstk_map_save(get(), file.c_str())); }
+
+    /// Writes a picture (.png) of a map with two axes.
+    void show(const std::string &file) const { check(cstk_map_show(get(), file.c_str())); }
 };
 
 /// The answers of a batch, one for each item. Those of items with another status than CSTK_OK mean nothing.

@@ -107,6 +107,9 @@ pub mod certificate;
 // Many questions in one call, on several threads, in one state of the world.
 pub mod batch;
 
+// Maps of C-space: what is free on a grid over some coordinates, saved for NumPy and as pictures.
+pub mod map;
+
 // Pictures as glTF files.
 pub mod show;
 

@@ -1,7 +1,7 @@
 //! Where the answers of a batch go: arrays that threads fill run by run.
 
 /// Arrays with room for the answers of consecutive items. They are cut into runs, each filled by one thread. Implemented for slices,
-/// which are absent where they are empty, and for pairs of such arrays.
+/// which are absent where they are empty, for pairs of such arrays, and for none.
 pub trait Slots: Send + Sized {
     /// Called once, on the whole, when the batch has been found in order and begins.
     fn begin(&mut self) {}
@@ -14,6 +14,12 @@ impl<T: Send> Slots for &mut [T] {
     fn split(self, count: usize) -> (Self, Self) {
         let count = count.min(self.len());
         self.split_at_mut(count)
+    }
+}
+
+impl Slots for () {
+    fn split(self, _: usize) -> (Self, Self) {
+        ((), ())
     }
 }
 

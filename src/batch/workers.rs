@@ -221,7 +221,21 @@ impl Batch {
         })
     }
 
-    /// The same where the answer needs nothing of the thread's.
+    /// Runs a part of a longer job for each item, on any number of threads.
+    pub(crate) fn work_off(
+        &mut self,
+        job: BatchJob<()>,
+        count: usize,
+        work: impl Fn(&mut QueryContext, usize) -> Result<()> + Sync,
+    ) -> Result<BatchSummary> {
+        let ask = |worker: &mut Worker, item: &mut Item<()>| {
+            work(&mut worker.context, item.number)?;
+            Ok(false)
+        };
+        self.run(job, count, 1, ask, |(), _, _| ())
+    }
+
+    /// Asks `count` items where the answer needs nothing of the thread's.
     pub(super) fn answer_each<S: Slots, T>(
         &mut self,
         job: BatchJob<S>,

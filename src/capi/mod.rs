@@ -47,4 +47,6 @@ pub mod slide;
 
 pub mod batch;
 
+pub mod map;
+
 pub mod show;

@@ -73,9 +73,20 @@ impl QueryContext {
         high: &[f64],
         options: &RegionOptions,
     ) -> Result<RegionAnswer> {
+        let world = &self.look(cobject);
+        self.classify_region_in(world, cobject, [low, high], options)
+    }
+
+    /// The same in a given world.
+    pub(crate) fn classify_region_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        [low, high]: [&[f64]; 2],
+        options: &RegionOptions,
+    ) -> Result<RegionAnswer> {
         options.check()?;
         let region = &checked(cobject.space(), low, high)?;
-        let world = &self.look(cobject);
         let Center { q, .. } = region.center(cobject.space());
         let is_inside = self.classify_in(world, cobject, &q)? == Class::Inside;
         let keeps = if is_inside { Keeps::In } else { Keeps::Out };

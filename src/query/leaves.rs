@@ -13,6 +13,15 @@ pub(super) struct Leaves<'a> {
     pub pure: Vec<(&'a PureSet, bool)>,
 }
 
+impl CObject {
+    /// Whether no configuration is in contact with it: it has neither contact epsilons nor pure sets, which may be open.
+    pub(crate) fn never_touches(&self) -> bool {
+        let Leaves { groups, pure } = Leaves::of(self);
+        let mut terms = groups.iter().flatten();
+        pure.is_empty() && terms.all(|term| term.options.contact_epsilon == 0.0)
+    }
+}
+
 impl<'a> Leaves<'a> {
     /// The leaves in order. Two complements around a leaf cancel out. Induced sets are listed without regard to complements:
     /// their witnesses are the same pairs.

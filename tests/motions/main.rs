@@ -7,6 +7,7 @@ mod clearance;
 mod compound;
 mod curves;
 mod forged;
+mod maps;
 mod motions;
 mod pair_motion;
 mod path;

@@ -1,0 +1,462 @@
+//! Maps of C-space: their cells are what brute force says of them, and their cost follows the boundary.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use cstk::cobject::{CObject, Class, InducedOptions};
+use cstk::error::{Error, ErrorKind};
+use cstk::map::{Map, MapAxis, MapKind, MapOptions, MapValues};
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext};
+use cstk::robot::{BlockKind, JointKind, LinkDefinition};
+use cstk::space::Space;
+
+use helpers::random::Random;
+use helpers::robots::{against, against_with, environment, link, robot, space};
+use helpers::shapes::cuboid;
+
+use crate::compound::{arm, compound};
+use crate::random_scenes::{class, scene};
+
+fn map(cobject: &CObject, q: &[f64], axes: &[MapAxis], options: &MapOptions) -> Map {
+    Map::build(cobject, q, axes, options, &mut |_| Ok(())).unwrap()
+}
+
+fn of_kind(kind: MapKind) -> MapOptions {
+    MapOptions {
+        kind,
+        threads: 1,
+        ..MapOptions::default()
+    }
+}
+
+/// The cells of a map in the order of its values.
+fn cells(axes: &[MapAxis]) -> Vec<Vec<usize>> {
+    axes.iter().fold(vec![Vec::new()], |cells, axis| {
+        let longer = cells
+            .iter()
+            .flat_map(|cell| (0..axis.cells).map(move |place| [&cell[..], &[place]].concat()));
+        longer.collect()
+    })
+}
+
+/// The configuration of a cell, `at` telling where in the cell: 0.5 is its middle.
+fn place(q: &[f64], axes: &[MapAxis], cell: &[usize], at: f64) -> Vec<f64> {
+    let mut q = q.to_vec();
+    for (axis, &place) in axes.iter().zip(cell) {
+        let part = (place as f64 + at) / axis.cells as f64;
+        q[axis.coordinate] = axis.low + (axis.high - axis.low) * part;
+    }
+    q
+}
+
+/// The coordinates that an axis may be over.
+fn coordinates(space: &Space) -> Vec<usize> {
+    let blocks = space.blocks().iter().flat_map(|block| {
+        let count = match block.kind {
+            BlockKind::Line => 1,
+            BlockKind::Rotation => 0,
+            BlockKind::Placement => 3,
+        };
+        (0..count).map(|i| block.coordinate + i)
+    });
+    blocks.collect()
+}
+
+/// A random scene, some of its coordinates, and where the others are.
+fn random_grid(random: &mut Random) -> (Arc<CObject>, Vec<f64>, Vec<MapAxis>) {
+    let cobject = if random.below(2) == 0 {
+        Arc::new(scene(random))
+    } else {
+        let space = arm(random);
+        compound(random, &space, 3)
+    };
+    let space = cobject.space();
+    let v: Vec<f64> = (0..space.nv()).map(|_| random.within(-1.5, 1.5)).collect();
+    let q = space.step(&space.neutral(), &v);
+    let mut free = coordinates(space);
+    let mut axes = Vec::new();
+    let mut room: usize = 1500;
+    while axes.len() < 4 && !free.is_empty() && room > 1 {
+        let coordinate = free.swap_remove(random.below(free.len()));
+        let cells = 1 + random.below(room.min(60));
+        room /= cells;
+        let half = [0.05, 0.4, 1.5][random.below(3)];
+        axes.push(MapAxis {
+            coordinate,
+            low: q[coordinate] - half,
+            high: q[coordinate] + half,
+            cells,
+        });
+    }
+    (cobject, q, axes)
+}
+
+fn case_count() -> u64 {
+    let given = std::env::var("CSTK_MAPS").ok();
+    given.and_then(|count| count.parse().ok()).unwrap_or(60)
+}
+
+/// Every cell of random maps beside the same question asked of its middle, and of samples of it.
+#[test]
+fn maps_are_what_brute_force_says() {
+    let context = &mut QueryContext::new();
+    let mut seen = [0; 4];
+    for seed in 0..case_count() {
+        let random = &mut Random::new(9000 + seed);
+        let (cobject, q, axes) = random_grid(random);
+        if axes.is_empty() {
+            continue;
+        }
+        let cells = cells(&axes);
+        let classes = map(&cobject, &q, &axes, &of_kind(MapKind::Classes));
+        let MapValues::Classes(values) = classes.values() else {
+            panic!("classes are classes");
+        };
+        for (cell, &value) in cells.iter().zip(values) {
+            let expected = class(context, &cobject, &place(&q, &axes, cell, 0.5));
+            assert_eq!(value, expected as u8, "seed {seed}, cell {cell:?}");
+        }
+        let proved = map(&cobject, &q, &axes, &of_kind(MapKind::Cells));
+        let MapValues::Cells(values) = proved.values() else {
+            panic!("cells are cells");
+        };
+        for (cell, &value) in cells.iter().zip(values) {
+            seen[usize::from(value)] += 1;
+            for at in [0.01, 0.25, 0.5, 0.75, 0.99] {
+                let q = place(&q, &axes, cell, at);
+                let is_inside = class(context, &cobject, &q) == Class::Inside;
+                assert!(value != 0 || !is_inside, "seed {seed}, cell {cell:?}");
+                assert!(value != 1 || is_inside, "seed {seed}, cell {cell:?}");
+            }
+        }
+        if cobject.require_one_metric().is_err() {
+            continue;
+        }
+        let measured = map(&cobject, &q, &axes, &of_kind(MapKind::Distances));
+        let MapValues::Distances(values) = measured.values() else {
+            panic!("distances are distances");
+        };
+        for (cell, value) in cells.iter().zip(values) {
+            let q = place(&q, &axes, cell, 0.5);
+            let at = Configuration::Coordinates(&q);
+            let expected = context.distance(&cobject, at, f64::INFINITY).unwrap();
+            assert_eq!(value.to_bits(), expected.distance.to_bits(), "seed {seed}");
+        }
+    }
+    assert!(seen[0] > 1000 && seen[1] > 100 && seen[2] > 100, "{seen:?}");
+}
+
+/// Two links in the plane of z = 0 among some boxes.
+fn arm_among_boxes() -> CObject {
+    let body = cuboid([1.0, 0.1, 0.1]).body;
+    let links: Vec<LinkDefinition> = (0..2usize)
+        .map(|i| LinkDefinition {
+            at: Pose::from_translation(Vec3::x() * i as f64),
+            body: Some(body.clone()),
+            ..link(i.checked_sub(1), JointKind::Revolute, Vec3::z())
+        })
+        .collect();
+    let block = cuboid([0.4, 0.6, 0.4]).body;
+    let places = [[1.3, 0.7], [-0.9, 1.1], [0.2, -1.4]];
+    let placed = places.map(|[x, y]| (&block, Pose::from_translation(Vec3::new(x, y, 0.0))));
+    let (environment, _) = environment(&placed);
+    against(&space(vec![robot(3, links)]), &environment)
+}
+
+fn turns(cells: usize) -> [MapAxis; 2] {
+    [0, 1].map(|coordinate| MapAxis {
+        coordinate,
+        low: -PI,
+        high: PI,
+        cells,
+    })
+}
+
+/// The cells whose value differs from that of the cell after them, along either axis.
+fn boundary(values: &[u8], side: usize) -> usize {
+    let differs = |i: &usize| {
+        let (row, column) = (i / side, i % side);
+        let right = column + 1 < side && values[i + 1] != values[*i];
+        right || (row + 1 < side && values[i + side] != values[*i])
+    };
+    (0..values.len()).filter(differs).count()
+}
+
+#[test]
+fn the_cost_of_a_map_follows_the_boundary() {
+    let cobject = arm_among_boxes();
+    let mut costs = Vec::new();
+    for side in [128, 256, 512] {
+        let made = map(
+            &cobject,
+            &[0.0; 2],
+            &turns(side),
+            &of_kind(MapKind::Classes),
+        );
+        let MapValues::Classes(values) = made.values() else {
+            panic!("classes are classes");
+        };
+        let cost = (made.proofs() + made.questions()) as f64;
+        println!(
+            "{side}^2: {} proofs, {} configurations, {} boundary cells",
+            made.proofs(),
+            made.questions(),
+            boundary(values, side)
+        );
+        costs.push(cost / boundary(values, side) as f64);
+        assert!(side < 512 || cost < 0.1 * (side * side) as f64, "{cost}");
+    }
+    assert!(costs[2] < 1.2 * costs[0], "{costs:?}");
+}
+
+#[test]
+fn maps_do_not_depend_on_threads() {
+    let cobject = arm_among_boxes();
+    for kind in [MapKind::Classes, MapKind::Cells, MapKind::Distances] {
+        let maps = [1, 2, 7].map(|threads| {
+            let options = MapOptions {
+                threads,
+                ..of_kind(kind)
+            };
+            map(&cobject, &[0.0; 2], &turns(60), &options)
+        });
+        for other in &maps[1..] {
+            assert_eq!(other.values(), maps[0].values());
+            assert_eq!(other.proofs(), maps[0].proofs());
+            assert_eq!(other.questions(), maps[0].questions());
+        }
+    }
+}
+
+/// Where contact is a class of its own, it is found in the middle of what is proved free.
+#[test]
+fn contacts_are_on_the_map() {
+    let free = arm_among_boxes();
+    let environment = free.environments()[0].clone();
+    let options = InducedOptions {
+        contact_epsilon: 0.1,
+        ..InducedOptions::default()
+    };
+    let cobject = against_with(&free.space().clone(), &environment, options);
+    let made = map(&cobject, &[0.0; 2], &turns(100), &of_kind(MapKind::Classes));
+    let MapValues::Classes(values) = made.values() else {
+        panic!("classes are classes");
+    };
+    let context = &mut QueryContext::new();
+    for (cell, &value) in cells(&turns(100)).iter().zip(values) {
+        let q = place(&[0.0; 2], &turns(100), cell, 0.5);
+        assert_eq!(value, class(context, &cobject, &q) as u8);
+    }
+    assert!(values.iter().filter(|&&value| value == 1).count() > 100);
+}
+
+#[test]
+fn a_map_is_cancelled_and_refused() {
+    let cobject = Arc::new(arm_among_boxes());
+    let q = [0.0; 2];
+    let mut heard = Vec::new();
+    let axes = turns(40);
+    let mut hear = |fraction: f64| {
+        heard.push(fraction);
+        Ok(())
+    };
+    Map::build(&cobject, &q, &axes, &MapOptions::default(), &mut hear).unwrap();
+    assert!(heard.is_sorted() && heard.first() == Some(&0.0) && heard.last() == Some(&1.0));
+    let mut end = |fraction: f64| match fraction {
+        late if late > 0.3 => Err(Error::new(ErrorKind::Cancelled, "enough")),
+        _ => Ok(()),
+    };
+    let ended = Map::build(&cobject, &q, &axes, &MapOptions::default(), &mut end);
+    assert_eq!(ended.unwrap_err().kind, ErrorKind::Cancelled);
+    let refused = |axes: &[MapAxis], options: &MapOptions| {
+        let nothing = &mut |_| Ok(());
+        Map::build(&cobject, &q, axes, options, nothing)
+            .unwrap_err()
+            .kind
+    };
+    let good = MapOptions::default();
+    let [a, b] = axes;
+    assert_eq!(refused(&[], &good), ErrorKind::WrongSize);
+    assert_eq!(refused(&[a; 7], &good), ErrorKind::WrongSize);
+    assert_eq!(refused(&[a, a], &good), ErrorKind::InvalidArgument);
+    for (axis, kind) in [
+        (MapAxis { coordinate: 2, ..b }, ErrorKind::NotFound),
+        (MapAxis { cells: 0, ..b }, ErrorKind::InvalidArgument),
+        (MapAxis { low: b.high, ..b }, ErrorKind::InvalidArgument),
+        (MapAxis { low: f64::NAN, ..b }, ErrorKind::NotFinite),
+        (
+            MapAxis {
+                high: f64::INFINITY,
+                ..b
+            },
+            ErrorKind::NotFinite,
+        ),
+        (MapAxis { high: 1e300, ..b }, ErrorKind::InvalidArgument),
+        (
+            MapAxis {
+                cells: usize::MAX,
+                ..b
+            },
+            ErrorKind::WrongSize,
+        ),
+        (
+            MapAxis {
+                cells: usize::MAX / 64,
+                ..b
+            },
+            ErrorKind::OutOfMemory,
+        ),
+    ] {
+        assert_eq!(refused(&[a, axis], &good), kind, "{axis:?}");
+    }
+    let no_boxes = MapOptions {
+        max_boxes: 0,
+        ..good
+    };
+    assert_eq!(refused(&[a, b], &no_boxes), ErrorKind::InvalidArgument);
+    let no_distance = MapOptions {
+        max_distance: -1.0,
+        ..of_kind(MapKind::Distances)
+    };
+    assert_eq!(refused(&[a, b], &no_distance), ErrorKind::InvalidArgument);
+}
+
+/// The bytes are those that NumPy's format, version 1.0, asks for.
+#[test]
+fn saved_maps_are_arrays_of_numpy() {
+    let cobject = arm_among_boxes();
+    let [a, b] = turns(1);
+    let axes = [MapAxis { cells: 3, ..a }, MapAxis { cells: 5, ..b }];
+    let folder = tempfile::tempdir().unwrap();
+    for (kind, descr, size) in [(MapKind::Classes, "|u1", 1), (MapKind::Distances, "<f8", 8)] {
+        let made = map(&cobject, &[0.0; 2], &axes, &of_kind(kind));
+        let file = folder.path().join("map.npy");
+        made.save(&file).unwrap();
+        let bytes = std::fs::read(&file).unwrap();
+        assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
+        let end = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+        assert_eq!(end % 64, 0);
+        let header = std::str::from_utf8(&bytes[10..end]).unwrap();
+        let start = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (3, 5, ), }}");
+        assert!(
+            header.starts_with(&start) && header.ends_with('\n'),
+            "{header}"
+        );
+        assert!(header[start.len()..].trim().is_empty());
+        assert_eq!(bytes.len() - end, 15 * size);
+        match made.values() {
+            MapValues::Distances(values) => {
+                for (bytes, value) in bytes[end..].chunks_exact(8).zip(values) {
+                    assert_eq!(f64::from_le_bytes(bytes.try_into().unwrap()), *value);
+                }
+            }
+            MapValues::Classes(values) | MapValues::Cells(values) => {
+                assert_eq!(&bytes[end..], values);
+            }
+        }
+    }
+}
+
+/// The chunks of a PNG file: their kinds and contents, with sums checked bit by bit.
+fn chunks(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    while let Some((head, rest)) = bytes.split_at_checked(8) {
+        let length = u32::from_be_bytes(head[..4].try_into().unwrap()) as usize;
+        let mut sum = u32::MAX;
+        for byte in head[4..].iter().chain(&rest[..length]) {
+            sum ^= u32::from(*byte);
+            for _ in 0..8 {
+                sum = (sum >> 1) ^ (0xEDB8_8320 * (sum & 1));
+            }
+        }
+        let expected = u32::from_be_bytes(rest[length..length + 4].try_into().unwrap());
+        assert_eq!(!sum, expected);
+        found.push((
+            String::from_utf8(head[4..].to_vec()).unwrap(),
+            rest[..length].to_vec(),
+        ));
+        bytes = &rest[length + 4..];
+    }
+    found
+}
+
+/// What a zlib stream of stored blocks holds.
+fn stored(stream: &[u8]) -> Vec<u8> {
+    assert_eq!(&stream[..2], [0x78, 0x01]);
+    let (mut at, mut held) = (2, Vec::new());
+    loop {
+        let length = u16::from_le_bytes([stream[at + 1], stream[at + 2]]);
+        assert_eq!(
+            !length,
+            u16::from_le_bytes([stream[at + 3], stream[at + 4]])
+        );
+        let end = at + 5 + usize::from(length);
+        held.extend_from_slice(&stream[at + 5..end]);
+        if stream[at] == 1 {
+            let (mut low, mut high) = (1u64, 0u64);
+            for &byte in &held {
+                low = (low + u64::from(byte)) % 65521;
+                high = (high + low) % 65521;
+            }
+            assert_eq!(stream[end..], (high << 16 | low).to_be_bytes()[4..]);
+            return held;
+        }
+        at = end;
+    }
+}
+
+#[test]
+fn pictures_of_maps_show_their_cells() {
+    let cobject = arm_among_boxes();
+    let [a, b] = turns(1);
+    // Several blocks of a zlib stream.
+    let axes = [MapAxis { cells: 600, ..a }, MapAxis { cells: 130, ..b }];
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("map.png");
+    for kind in [MapKind::Classes, MapKind::Cells, MapKind::Distances] {
+        let made = map(&cobject, &[0.0; 2], &axes, &of_kind(kind));
+        made.show(&file).unwrap();
+        let bytes = std::fs::read(&file).unwrap();
+        assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+        let chunks = chunks(&bytes[8..]);
+        let (first, header) = &chunks[0];
+        assert_eq!((&first[..], header.len()), ("IHDR", 13));
+        assert_eq!(
+            header[..8],
+            [
+                0,
+                0,
+                600u16.to_be_bytes()[0],
+                600u16.to_be_bytes()[1],
+                0,
+                0,
+                0,
+                130
+            ]
+        );
+        assert_eq!(chunks.last().unwrap().0, "IEND");
+        let all: Vec<u8> = chunks
+            .iter()
+            .filter(|(kind, _)| kind == "IDAT")
+            .flat_map(|(_, content)| content.clone())
+            .collect();
+        let rows = stored(&all);
+        assert_eq!(rows.len(), 130 * 601);
+        for (i, cell) in cells(&axes).iter().enumerate() {
+            let pixel = rows[(129 - cell[1]) * 601 + 1 + cell[0]];
+            match made.values() {
+                MapValues::Classes(values) | MapValues::Cells(values) => {
+                    assert_eq!(pixel, values[i]);
+                }
+                MapValues::Distances(values) => assert_eq!(pixel == 0, values[i] == 0.0),
+            }
+        }
+        if let Some(kept) = std::env::var_os("CSTK_MAP_PICTURES") {
+            let kept = std::path::Path::new(&kept).join(format!("{kind:?}.png"));
+            std::fs::copy(&file, kept).unwrap();
+        }
+    }
+    let line = map(&cobject, &[0.0; 2], &axes[..1], &of_kind(MapKind::Classes));
+    assert_eq!(line.show(&file).unwrap_err().kind, ErrorKind::Unsupported);
+}
