@@ -1,8 +1,10 @@
 //! Batches of configurations: class, within, distance.
 
-use super::batch::{Batch, BatchJob, BatchSummary, ItemAnswer};
+use super::batch::Batch;
+use super::job::{BatchJob, BatchSummary, ItemAnswer};
+use super::run::Item;
 use super::slots::Slots;
-use super::workers::{Item, Worker};
+use super::worker::Worker;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};

@@ -4,13 +4,18 @@
 #[allow(clippy::module_inception)]
 mod batch;
 mod configurations;
+mod job;
 mod motions;
+mod options;
 mod pairs;
+mod run;
 mod slots;
-mod workers;
+mod worker;
 
-pub use batch::{Batch, BatchJob, BatchOptions, BatchSummary, ItemAnswer};
+pub use batch::Batch;
 pub use configurations::Configurations;
+pub use job::{BatchJob, BatchSummary, ItemAnswer};
 pub use motions::Segments;
+pub use options::BatchOptions;
 pub use pairs::PosePairs;
 pub use slots::Slots;

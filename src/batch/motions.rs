@@ -1,7 +1,8 @@
 //! Batches of straight motions.
 
-use super::batch::{Batch, BatchJob, BatchSummary, ItemAnswer};
+use super::batch::Batch;
 use super::configurations::Configurations;
+use super::job::{BatchJob, BatchSummary, ItemAnswer};
 use super::slots::Slots;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, Result};

@@ -1,6 +1,7 @@
 //! Batches of pose pairs: two bodies at many poses.
 
-use super::batch::{Batch, BatchJob, BatchSummary, ItemAnswer};
+use super::batch::Batch;
+use super::job::{BatchJob, BatchSummary, ItemAnswer};
 use super::slots::Slots;
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};

@@ -210,6 +210,8 @@ fn files_of_a_folder_import_one_way() {
         "query",
         "motion",
         "certificate",
+        "batch",
+        "map",
     ];
     for folder in folders {
         let inside = root().join("src").join(folder);

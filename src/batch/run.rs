@@ -3,8 +3,11 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::batch::{Batch, BatchJob, BatchOptions, BatchSummary, ItemAnswer};
+use super::batch::Batch;
+use super::job::{BatchJob, BatchSummary, ItemAnswer};
+use super::options::BatchOptions;
 use super::slots::Slots;
+use super::worker::Worker;
 use crate::contained::contained;
 use crate::error::{Error, Result};
 use crate::query::QueryContext;
@@ -15,14 +18,6 @@ const MAX_RUN: usize = 64;
 const RUNS_PER_THREAD: usize = 16;
 /// The stack of a thread, in bytes: that of a program's main thread. C-objects may be nested deeply.
 const STACK_SIZE: usize = 8 << 20;
-
-/// What a thread keeps.
-#[derive(Default)]
-pub(super) struct Worker {
-    pub context: QueryContext,
-    /// A row of a gradient.
-    pub row: Vec<f64>,
-}
 
 /// An item, with its slot: `slots` are those of its run.
 pub(super) struct Item<'s, S> {
