@@ -39,7 +39,7 @@ pub struct cstk_region_options {
 
 // SAFETY: repr(C), two u32, a u64: no padding.
 unsafe impl OptionsStruct for cstk_region_options {
-    const COOKIE: u32 = 0x4353_0503;
+    const COOKIE: u32 = 0x4353_0505;
     const NAME: &'static str = "cstk_region_options";
     fn defaults() -> Self {
         Self {

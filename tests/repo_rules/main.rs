@@ -4,6 +4,7 @@ mod exports_guarded;
 mod header;
 mod header_sections;
 mod module_order;
+mod unique_numbers;
 
 use std::path::{Path, PathBuf};
 
