@@ -324,8 +324,13 @@ static int32_t listen(double fraction, void *user) {
 }
 
 static void progress(const fixture *f) {
+    cstk_batch_options options;
+    CHECK_OK(cstk_batch_options_default(&options, sizeof options));
+    /* On one thread every run is reported. */
+    options.threads = 1;
     EACH_CALL(i, all_calls) {
         inputs in = good_inputs(f);
+        in.options = &options;
         listener heard = {&in, 0, -1};
         in.progress = listen;
         in.user = &heard;

@@ -166,7 +166,7 @@ fn progress_rises_and_cancels() {
         };
         let job = quiet(&options, &mut found[..], &mut hear);
         batch.classify(&arm.contact, at(&q), job, keep).unwrap();
-        assert!(heard.is_sorted() && heard.len() > 3);
+        assert!(heard.is_sorted() && heard.len() >= 2);
         assert_eq!([heard[0], heard[heard.len() - 1]], [0.0, 1.0]);
         for stop in 0..heard.len() {
             let mut calls = 0;
