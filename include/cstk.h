@@ -24,6 +24,7 @@
  *   @ref region             Regions
  *   @ref slide              Slides
  *   @ref batch              Batches
+ *   @ref map                Maps
  *   @ref show               Pictures
  *
  * WORDS. Numbers like (§4.4) refer to the report the library succeeds: Xavier and LaFarge, A Configuration Space Toolkit for
@@ -4432,13 +4433,13 @@ cstk_status cstk_spring_step(const cstk_witness_list *list,
  *
  * Many configurations, motions or pairs of poses in one call, on several threads, all in the state that the environments are in at the
  * call. Answers stand in order of the items, equal to those of single calls bit for bit, whatever the number of threads.
- * 
+ *
  * Every item has a status. One that fails (a NaN among its coordinates, say) fails alone: the others are answered, and the call returns
  * CSTK_OK; cstk_last_error_message() then names the first that failed. Entries of items with another status than CSTK_OK mean nothing.
  * Where progress or the first hit ends a batch, the items that were not reached have CSTK_ERROR_CANCELLED, and those with CSTK_OK are
  * answered: unlike other calls, a batch that its progress function cancels has written to its arrays. A call that fails otherwise has
  * written nothing.
- * 
+ *
  * The arrays are the caller's: they must not overlap, and nobody else may use them during the call. Callbacks of C-objects and bodies
  * are called from the batch's threads, several at once.
  *
@@ -4668,6 +4669,200 @@ cstk_status cstk_pair_distance_batch(cstk_batch *batch,
                                      cstk_distance_result *results,
                                      cstk_status *statuses,
                                      cstk_batch_result *out);
+
+/** @} */
+
+/**
+ * @defgroup map Maps
+ *
+ * What is free on a grid over one to six coordinates, the others held: the class or the distance at the middle of every cell, or what is
+ * proved of every whole cell. Maps are built coarse to fine, so that the cost of classes and proofs follows the boundary of the set, not
+ * the number of cells, and saved as arrays of NumPy's.
+ *
+ * @code
+     cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, {0}}, {1, 0, -3.14, 3.14, 512, {0}}};
+     cstk_map *map;
+     cstk_map_view view;
+     check(cstk_map_build(cobject, q, nq, axes, 2, NULL, NULL, NULL, &map));
+     check(cstk_map_get_view(map, &view));
+     if (view.values[3 * 512 + 7] == CSTK_CLASS_OUTSIDE) {
+         printf("free in row 3, column 7\n");
+     }
+     check(cstk_map_save(map, "map.npy"));
+     check(cstk_map_show(map, "map.png"));
+     check(cstk_map_release(map));
+ * @endcode
+ * @{
+ */
+
+/**
+ * What a map tells of its cells.
+ */
+enum cstk_map_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The cstk_class at the middle of each cell, as cstk_classify has it. Where a C-object has contact epsilons or pure sets, what is
+   * proved not to be inside may be in contact, and is asked cell by cell.
+   */
+  CSTK_MAP_CLASSES = 0,
+  /**
+   * The distance at the middle of each cell, as cstk_distance has it; every cell is asked.
+   */
+  CSTK_MAP_DISTANCES = 1,
+  /**
+   * The cstk_region_outcome of each whole cell, as cstk_region_classify has it: free or inside is proved at every configuration of the
+   * cell.
+   */
+  CSTK_MAP_CELLS = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_map_kind cstk_map_kind;
+#else
+typedef int32_t cstk_map_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * A map of C-space. Immutable; threads may share it. It refers to no other object.
+ */
+typedef struct cstk_map cstk_map;
+
+/**
+ * Options of a map. Write it with cstk_map_options_default first.
+ */
+typedef struct cstk_map_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * A cstk_map_kind. Default CSTK_MAP_CLASSES.
+   */
+  int32_t kind;
+  /**
+   * The number of threads, the caller's among them, at most 1024; 0, the default, for as many as the machine runs at once. The map
+   * does not depend on it.
+   */
+  uint32_t threads;
+  /**
+   * Distances above this are not computed: infinity stands for them. Default infinity.
+   */
+  double max_distance;
+  /**
+   * The most parts that the proof of a single cell halves it into, at least 1. Default 64.
+   */
+  uint64_t max_boxes;
+} cstk_map_options;
+
+/**
+ * An interval of a coordinate, cut into equal cells. The middle of cell i is low + (high - low) * ((i + 0.5) / cells).
+ */
+typedef struct cstk_map_axis {
+  /**
+   * The coordinate's number in the space; none of a quaternion's.
+   */
+  uint32_t coordinate;
+  uint32_t reserved_word;
+  /**
+   * Where the first cell begins and the last ends; finite, `low` below `high`. On a circle they may pass the place where angles
+   * wrap.
+   */
+  double low;
+  double high;
+  /**
+   * How many cells there are, at least 1.
+   */
+  size_t cells;
+  uint64_t reserved[2];
+} cstk_map_axis;
+
+/**
+ * The arrays of a map; they are valid as long as the map.
+ */
+typedef struct cstk_map_view {
+  cstk_map_kind kind;
+  uint32_t reserved_word;
+  /**
+   * The axes, in the order given.
+   */
+  const cstk_map_axis *axes;
+  size_t axis_count;
+  /**
+   * One entry a cell, row-major: of the last axis neighbours follow one another. NULL for distances.
+   */
+  const uint8_t *values;
+  /**
+   * The same of distances; NULL for other kinds.
+   */
+  const double *distances;
+  size_t cell_count;
+  /**
+   * How many boxes it took to prove, and how many configurations were asked one by one.
+   */
+  uint64_t proofs;
+  uint64_t questions;
+  uint64_t reserved[4];
+} cstk_map_view;
+
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_map_options).
+ */
+cstk_status cstk_map_options_default(cstk_map_options *out, size_t size);
+
+/**
+ * Builds a map of a C-object. `axes` are `axis_count` intervals of different coordinates, 1 to 6; the other coordinates are those of
+ * `q`, `nq` doubles. `options` may be NULL for the defaults. `progress` may be NULL; it is called on this thread, and `user` is passed
+ * to it. All cells see the state that the environments are in at the call. Callbacks of C-objects and bodies are called from the map's
+ * threads, several at once.
+ *
+ * The map holds a byte a cell, or 8 of distances. CSTK_ERROR_WRONG_SIZE for too many axes or cells, CSTK_ERROR_OUT_OF_MEMORY where the
+ * values do not fit into memory, CSTK_ERROR_CANCELLED where `progress` says so; CSTK_ERROR_UNSUPPORTED for coordinates of a
+ * quaternion, for distances where lengths and units of C-space mix, and, but for distances, for custom joints that move without stating
+ * their speeds.
+ */
+cstk_status cstk_map_build(const cstk_cobject *cobject,
+                           const double *q,
+                           size_t nq,
+                           const cstk_map_axis *axes,
+                           size_t axis_count,
+                           const cstk_map_options *options,
+                           cstk_progress_fn progress,
+                           void *user,
+                           cstk_map **out);
+
+/**
+ * Writes the arrays of a map.
+ */
+cstk_status cstk_map_get_view(const cstk_map *map, cstk_map_view *out);
+
+/**
+ * Writes the values to a file that NumPy's load reads (.npy): an array with as many dimensions as the map has axes, of 8-bit unsigned
+ * numbers, or of doubles for distances. The file is written whole or not at all; CSTK_ERROR_IO if that fails.
+ */
+cstk_status cstk_map_save(const cstk_map *map,
+                          const char *file);
+
+/**
+ * Writes a picture of a map with two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are white
+ * (outside), orange (contact) and dark red (inside); cells white (free), dark red (inside), light gray (mixed) and gray (undecided). A
+ * distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell. The
+ * file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes.
+ */
+cstk_status cstk_map_show(const cstk_map *map,
+                          const char *file);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_map_retain(cstk_map *map);
+
+/**
+ * Drops a reference. NULL is a no-op.
+ */
+cstk_status cstk_map_release(cstk_map *map);
 
 /** @} */
 
