@@ -477,8 +477,11 @@ static void first_hits(const fixture *f) {
     CHECK(!out.done.has_hit && out.done.answered == COUNT);
     options.stop_at_hit = 0;
     options.limit = 1;
-    CHECK_OK(distance(&in, &out));
-    CHECK(out.done.failed > 0 && out.statuses[out.done.first_failed] == CSTK_ERROR_LIMIT);
+    in.limit = INFINITY;
+    CHECK_OK(pair_distance(&in, &out));
+    CHECK(out.done.failed == COUNT && out.done.answered == 0 && out.done.first_failed == 0);
+    CHECK(out.statuses[COUNT - 1] == CSTK_ERROR_LIMIT);
+    CHECK(strstr(cstk_last_error_message(), "limit of 1") != NULL);
 }
 
 int main(void) {

@@ -69,7 +69,7 @@ static void bad_axes(const fixture *f) {
                   CSTK_ERROR_OUT_OF_MEMORY, "");
 }
 
-static void bad_options(const fixture *f) {
+static void refused_options(const fixture *f) {
     cstk_map *map;
     cstk_map_options good;
     CHECK_FAILS(cstk_map_options_default(NULL, sizeof good), CSTK_ERROR_NULL_ARGUMENT, "out");
@@ -183,7 +183,7 @@ int main(void) {
     fixture_create(&f);
     bad_arguments(&f);
     bad_axes(&f);
-    bad_options(&f);
+    refused_options(&f);
     bad_maps(&f);
     cancelled(&f);
     answers(&f);

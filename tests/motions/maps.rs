@@ -153,7 +153,7 @@ fn maps_are_what_brute_force_says() {
 
 /// Two links in the plane of z = 0 among some boxes.
 fn arm_among_boxes() -> CObject {
-    let body = cuboid([1.0, 0.1, 0.1]).body;
+    let body = cuboid([1.0, 0.4, 0.1]).body;
     let links: Vec<LinkDefinition> = (0..2usize)
         .map(|i| LinkDefinition {
             at: Pose::from_translation(Vec3::x() * i as f64),
@@ -187,11 +187,15 @@ fn boundary(values: &[u8], side: usize) -> usize {
     (0..values.len()).filter(differs).count()
 }
 
+/// Once the cells are small beside the bodies: before, hardly a block is proved inside. CSTK_MAP_SIDE says up to how many cells a side.
 #[test]
 fn the_cost_of_a_map_follows_the_boundary() {
     let cobject = arm_among_boxes();
     let mut costs = Vec::new();
-    for side in [128, 256, 512] {
+    let given = std::env::var("CSTK_MAP_SIDE").ok();
+    let largest = given.and_then(|side| side.parse().ok()).unwrap_or(1024);
+    let sides = std::iter::successors(Some(256), |side| Some(2 * side));
+    for side in sides.take_while(|&side| side <= largest) {
         let made = map(
             &cobject,
             &[0.0; 2],
@@ -209,9 +213,9 @@ fn the_cost_of_a_map_follows_the_boundary() {
             boundary(values, side)
         );
         costs.push(cost / boundary(values, side) as f64);
-        assert!(side < 512 || cost < 0.1 * (side * side) as f64, "{cost}");
+        assert!(side < 1024 || cost < 0.1 * (side * side) as f64, "{cost}");
     }
-    assert!(costs[2] < 1.2 * costs[0], "{costs:?}");
+    assert!(costs.iter().all(|cost| *cost < 1.2 * costs[0]), "{costs:?}");
 }
 
 #[test]
