@@ -139,6 +139,12 @@ where
         let Some((own, others)) = workers.split_first_mut() else {
             return Ok(());
         };
+        if others.is_empty() {
+            while self.work(own) {
+                progress(self.fraction())?;
+            }
+            return Ok(());
+        }
         let (outcome, helped) = std::thread::scope(|scope| {
             let helpers = others.iter_mut().map_while(|worker| {
                 let work = || contained(|| while self.work(worker) {});
