@@ -215,7 +215,9 @@ fn the_cost_of_a_map_follows_the_boundary() {
         costs.push(cost / boundary(values, side) as f64);
         assert!(side < 1024 || cost < 0.1 * (side * side) as f64, "{cost}");
     }
-    assert!(costs.iter().all(|cost| *cost < 1.2 * costs[0]), "{costs:?}");
+    // Blocks are halved: how their sizes fit the bodies makes the cost of a boundary cell waver by a third. That of all cells together
+    // grows sixteen times from the first map to the third.
+    assert!(costs.iter().all(|cost| *cost < 1.5 * costs[0]), "{costs:?}");
 }
 
 #[test]
