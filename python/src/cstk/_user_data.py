@@ -1,0 +1,53 @@
+"""Objects of the caller's behind the void pointers of C.
+
+A pointer is a number that is never used again, not an address: an answer that outlives its body asks for nothing freed.
+"""
+
+import itertools
+from typing import Any, Dict, Optional
+
+from ._native import ffi
+
+_numbers = itertools.count(1)
+_kept: Dict[int, Any] = {}
+
+
+@ffi.callback("void(void *)")
+def drop(user: Any) -> None:
+    """The library's last reference is gone."""
+    _kept.pop(int(ffi.cast("uintptr_t", user)), None)
+
+
+def keep(value: Any) -> Any:
+    """The pointer that stands for an object until drop."""
+    number = next(_numbers)
+    _kept[number] = value
+    return ffi.cast("void *", number)
+
+
+def data_of(pointer: Any) -> Any:
+    """The object that a pointer stands for; None for NULL, and once it was dropped."""
+    return _kept.get(int(ffi.cast("uintptr_t", pointer)))
+
+
+class Kept:
+    """Keeps an object while a call takes it over: it is dropped again unless the call succeeds."""
+
+    def __init__(self, value: Optional[Any]) -> None:
+        self.pointer = ffi.NULL if value is None else keep(value)
+        self.destroy = ffi.NULL if value is None else drop
+
+    def __enter__(self) -> "Kept":
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        if error is not None:
+            self.drop()
+
+    def drop(self) -> None:
+        _kept.pop(int(ffi.cast("uintptr_t", self.pointer)), None)
+
+
+def kept_count() -> int:
+    """The number of objects that the library holds; for tests of leaks."""
+    return len(_kept)

@@ -1,0 +1,162 @@
+"""Environments: s-objects, the obstacles, changed while other threads query."""
+
+from dataclasses import dataclass
+from typing import Any, Optional, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._arrays import index, integers, pointer, pose
+from ._handle import Handle, pointer_of
+from ._native import ffi, lib
+from ._options import options
+from ._user_data import Kept
+from .body import Body
+from .enums import ChangeKind
+from .errors import check
+from .records import ObjectInfo
+from .space import Space
+
+
+@dataclass(frozen=True)
+class Change:
+    """One change of an environment, for Environment.apply. Made by the class methods."""
+
+    kind: ChangeKind
+    id: int = 0
+    body: Optional[Body] = None
+    pose: Optional[ArrayLike] = None
+    data: Any = None
+    space: Optional[Space] = None
+    link: int = 0
+    touch_links: ArrayLike = ()
+
+    @classmethod
+    def add(cls, body: Body, pose: Optional[ArrayLike] = None, data: Any = None) -> "Change":
+        """Adds a body at a pose in the world; witnesses return `data`."""
+        return cls(ChangeKind.ADD, body=body, pose=pose, data=data)
+
+    @classmethod
+    def move(cls, id: int, pose: ArrayLike) -> "Change":
+        """Moves an object; an attached object is detached."""
+        return cls(ChangeKind.MOVE, id, pose=pose)
+
+    @classmethod
+    def delete(cls, id: int) -> "Change":
+        """Deletes an object."""
+        return cls(ChangeKind.DELETE, id)
+
+    @classmethod
+    def attach(cls, id: int, space: Space, link: int, pose: ArrayLike, touch_links: ArrayLike = ()) -> "Change":
+        """Fixes an object to a link of a space, `pose` in the link's frame. The links in `touch_links` (the fingers) may meet it."""
+        return cls(ChangeKind.ATTACH, id, pose=pose, space=space, link=link, touch_links=touch_links)
+
+
+class Environment(Handle):
+    """A set of obstacles. Each query sees one consistent state, whatever other threads change meanwhile."""
+
+    __slots__ = ()
+    _noun = "environment"
+
+    def __init__(self) -> None:
+        self._created()
+
+    def add(self, body: Body, pose: Optional[ArrayLike] = None, data: Any = None) -> int:
+        """Adds an object; returns its id."""
+        return int(self.apply([Change.add(body, pose, data)])[0])
+
+    def move(self, id: int, pose: ArrayLike) -> None:
+        """Moves an object; an attached object is detached."""
+        self.apply([Change.move(id, pose)])
+
+    def delete(self, id: int) -> None:
+        """Deletes an object."""
+        self.apply([Change.delete(id)])
+
+    def attach(self, id: int, space: Space, link: int, pose: ArrayLike, touch_links: ArrayLike = ()) -> None:
+        """Fixes an object to a link of a space: see Change.attach."""
+        self.apply([Change.attach(id, space, link, pose, touch_links)])
+
+    def apply(self, changes: Sequence[Change]) -> NDArray[np.uint64]:
+        """Applies all changes as one, or none; returns the ids they are about. Many in one call cost much less than one by one."""
+        ids = np.zeros(len(changes), np.uint64)
+        array = ffi.new("cstk_environment_change[]", max(1, len(changes)))
+        alive = []
+        kept = []
+        try:
+            for i, change in enumerate(changes):
+                if not isinstance(change, Change):
+                    raise TypeError(f"changes[{i}] must be a cstk.Change, not {type(change).__name__}")
+                kept.append(Kept(change.data))
+                structure, links = _structure(f"changes[{i}]" if len(changes) > 1 else "", change, kept[-1])
+                alive.append(links)
+                array[i] = structure[0]
+            ids_out = pointer(ids, "uint64_t")
+            check(lib.cstk_environment_apply(self._pointer, array, len(changes), ids_out, ffi.NULL))
+        except BaseException:
+            for data in kept:
+                data.drop()
+            raise
+        return ids
+
+    def snapshot(self) -> "Environment":
+        """An environment that stays as this one is now."""
+        out = ffi.new("cstk_environment **")
+        check(lib.cstk_environment_snapshot(self._pointer, out))
+        return Environment._take(out[0])
+
+    @property
+    def object_count(self) -> int:
+        out = ffi.new("size_t *")
+        check(lib.cstk_environment_get_state(self._pointer, out, ffi.NULL))
+        return int(out[0])
+
+    @property
+    def version(self) -> int:
+        """The number of successful changes."""
+        out = ffi.new("uint64_t *")
+        check(lib.cstk_environment_get_state(self._pointer, ffi.NULL, out))
+        return int(out[0])
+
+    def objects(self) -> NDArray[np.uint64]:
+        """The ids of all objects, in the order in which they came."""
+        ids = np.empty(self.object_count, np.uint64)
+        count = ffi.new("size_t *")
+        check(lib.cstk_environment_get_objects(self._pointer, ids.size, pointer(ids, "uint64_t"), count))
+        # Others may have gone meanwhile.
+        return ids[: count[0]]
+
+    def object_info(self, id: int) -> ObjectInfo:
+        """The pose, the attachment and the data of an object."""
+        out = ffi.new("cstk_object_info *")
+        check(lib.cstk_environment_get_object_info(self._pointer, index("id", id, 64), out))
+        return ObjectInfo(out)
+
+    def object_pose(self, id: int) -> NDArray[np.float64]:
+        """The pose of an object: in the world, or in the frame of the link that it is attached to."""
+        out = np.eye(4)
+        pose_out = ffi.from_buffer("double[]", out)
+        check(lib.cstk_environment_get_object_pose(self._pointer, index("id", id, 64), pose_out))
+        return out
+
+
+def _structure(where: str, change: Change, kept: Kept) -> Any:
+    """What C takes of a change, and the array that must outlive it."""
+    dot = f"{where}." if where else ""
+    links = integers(f"{dot}touch_links", change.touch_links, np.uint32)
+    given = options(
+        "environment_change",
+        kind=ChangeKind(change.kind),
+        id=index(f"{dot}id", change.id, 64),
+        pose=None if change.pose is None else pose(f"{dot}pose", change.pose).ravel().tolist(),
+        link=index(f"{dot}link", change.link),
+        touch_links=pointer(links, "uint32_t"),
+        touch_count=links.size,
+        data=kept.pointer,
+        destroy=kept.destroy,
+    )
+    if change.kind == ChangeKind.ADD:
+        given.body = pointer_of(Body, f"{dot}body", change.body)
+    if change.kind == ChangeKind.ATTACH:
+        given.space = pointer_of(Space, f"{dot}space", change.space)
+    return given, links
