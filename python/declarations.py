@@ -148,13 +148,18 @@ def docstring(text: str, indent: str) -> str:
     return f'{indent}"""' + f"\n{indent}".join(lines).replace(f"\n{indent}\n", "\n\n") + f'\n{indent}"""\n'
 
 
+def listed(names: list[str]) -> str:
+    return "[" + "".join(f'\n    "{name}",' for name in names) + "\n]"
+
+
 BEGINNING = '"""{about} Written by declarations.py from include/cstk.h; do not edit."""\n\n'
 
 
 def enums_module(all_enums: list[Definition], all_structs: list[Definition]) -> str:
     """One IntEnum for each enum but the statuses, which are exceptions (errors.py)."""
     out = BEGINNING.format(about="The enumerations of the C API, without their prefixes.")
-    out += "from enum import IntEnum\n"
+    named = [camel(enum.name) for enum in all_enums if enum.name != "cstk_status"]
+    out += f"from enum import IntEnum\n\n__all__ = {listed(named)}\n"
     for enum in all_enums:
         if enum.name == "cstk_status":
             continue
@@ -238,8 +243,10 @@ def records_module(all_enums: list[Definition], all_structs: list[Definition]) -
     out += "from typing import Any, Optional, Tuple\n\nimport numpy as np\nfrom numpy.typing import NDArray\n\n"
     out += "from ._record import Record, pose_from, vector_from\nfrom ._native import lib\nfrom ._user_data import data_of\n"
     bodies = "".join(record_class(struct, all_enums, all_structs) for struct in all_structs if is_record(struct))
+    named = [camel(struct.name) for struct in all_structs if is_record(struct)]
     used = sorted({camel(e.name) for e in all_enums if re.search(rf"\b{camel(e.name)}\(", bodies)})
-    out += f"from .enums import {', '.join(used)}\n\nNONE: int = lib.CSTK_NONE\n"
+    out += f"from .enums import {', '.join(used)}\n\n__all__ = {listed(['NONE', *named])}\n\nNONE: int = lib.CSTK_NONE\n"
+    out += '"""Means "none" in the arrays of answers; properties give None for it."""\n'
     return out + bodies
 
 

@@ -16,6 +16,8 @@ Doubles = NDArray[np.float64]
 
 def numbers(name: str, value: ArrayLike) -> Doubles:
     """An array of doubles, row by row in memory: the given one where it is that already."""
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
+        return value
     try:
         array = np.asarray(value)
     except ValueError as error:
@@ -69,6 +71,7 @@ def poses(name: str, value: ArrayLike) -> Doubles:
     array = numbers(name, value)
     if array.ndim == 3 and array.shape[1:] == (4, 4):
         if not (array[:, 3] == (0, 0, 0, 1)).all():
+            finite(name, array)
             raise InvalidArgumentError(f"{name}: the last row of a 4 x 4 pose is 0, 0, 0, 1")
         return np.ascontiguousarray(array[:, :3])
     if array.ndim == 3 and array.shape[1:] == (3, 4):
@@ -82,7 +85,8 @@ def pose(name: str, value: ArrayLike) -> Doubles:
     if array.shape == (12,) or array.shape == (3, 4):
         return array
     if array.shape == (4, 4):
-        if not (array[3] == (0, 0, 0, 1)).all():
+        if array[3].tolist() != [0, 0, 0, 1]:
+            finite(name, array)
             raise InvalidArgumentError(f"{name}: the last row of a 4 x 4 pose is 0, 0, 0, 1")
         return array[:3]
     raise WrongSizeError(f"{name} has shape {array.shape}; needed: (4, 4) or (3, 4)")

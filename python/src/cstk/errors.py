@@ -8,6 +8,35 @@ from typing import Dict, Optional, Type
 from ._callback_errors import take_callback_error
 from ._native import ffi, lib
 
+__all__ = [
+    "Error",
+    "NullArgumentError",
+    "WrongHandleError",
+    "ReleasedError",
+    "NotInitialisedError",
+    "InvalidArgumentError",
+    "NotFiniteError",
+    "WrongSizeError",
+    "EmptyError",
+    "DegenerateError",
+    "NotConvexError",
+    "NotPlanarError",
+    "NotARotationError",
+    "NotFoundError",
+    "UnsupportedError",
+    "IoError",
+    "ParseError",
+    "NotConvergedError",
+    "CancelledError",
+    "BusyError",
+    "InternalError",
+    "CallbackFailedError",
+    "NotClosedError",
+    "LimitError",
+    "OutOfMemoryError",
+    "NotProvedError",
+]
+
 
 class Error(Exception):
     """A call that failed. `status` is the number that C programs see, `status_name` its name."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, empty, numbers, pose, scalar, vector
+from ._arrays import doubles, empty, finite, numbers, pose, scalar, vector
 from ._native import lib
 from .enums import AngularFrame
 from .errors import WrongSizeError, check
@@ -26,7 +26,7 @@ def translation(x: float, y: float, z: float) -> Array:
     """The pose that shifts by x, y, z."""
     out = np.eye(4)
     out[:3, 3] = (scalar("x", x), scalar("y", y), scalar("z", z))
-    return out
+    return finite("translation", out)
 
 
 def _pose_of(call: Any, *arguments: Any) -> Array:

@@ -1,0 +1,132 @@
+"""Lists of answers: copies of the arrays that a query context wrote, which no later call changes."""
+
+from typing import Any, Iterator, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._native import ffi
+from ._record import Records
+from .enums import Class
+from .records import Contact, DistanceResult, LinkPair, Penetration, Verdict, Witness
+
+Array = NDArray[np.float64]
+
+
+class WitnessList:
+    """Witnesses, nearest first, with their contacts. It is a sequence of its witnesses."""
+
+    __slots__ = ("_c", "witnesses", "contacts", "gradients")
+
+    witnesses: Records[Witness]
+    contacts: Records[Contact]
+    """Of all witnesses, one after the other; contacts_of() gives those of one."""
+    gradients: Optional[Array]
+    """(contacts, nv), one row for each contact: the derivative of its distance. None for lists without gradients."""
+
+    def __init__(self, given: Any) -> None:
+        self.witnesses = Records.copied(Witness, given.witnesses, given.witness_count)
+        self.contacts = Records.copied(Contact, given.contacts, given.contact_count)
+        self.gradients = None
+        # A copy for slide_step and spring_step, with the arrays that belong to this list.
+        self._c = ffi.new("cstk_witness_list *")
+        ffi.memmove(self._c, ffi.addressof(given), ffi.sizeof("cstk_witness_list"))
+        self._c.witnesses = self.witnesses._c
+        self._c.contacts = self.contacts._c
+        if given.nv:
+            self.gradients = np.empty((given.contact_count, given.nv))
+            if given.contact_count:
+                ffi.memmove(ffi.from_buffer(self.gradients), given.gradients, self.gradients.nbytes)
+            self._c.gradients = ffi.from_buffer("double[]", self.gradients)
+
+    @property
+    def truncated(self) -> bool:
+        """There are more witnesses than max_count; these are the nearest."""
+        return bool(self._c.truncated)
+
+    @property
+    def contacts_left_out(self) -> bool:
+        """Query.set_contacts has left out contacts: slide_step and spring_step refuse the list."""
+        return bool(self._c.contacts_left_out)
+
+    @property
+    def environment_version(self) -> int:
+        """The version of the environment that the query saw, the largest of several."""
+        return int(self._c.environment_version)
+
+    def contacts_of(self, number: int) -> "list[Contact]":
+        """The contacts of a witness."""
+        witness = self.witnesses[number]
+        return list(self.contacts[witness.first_contact : witness.first_contact + witness.contact_count])
+
+    def __len__(self) -> int:
+        return len(self.witnesses)
+
+    def __getitem__(self, number: int) -> Witness:
+        return self.witnesses[number]
+
+    def __iter__(self) -> Iterator[Witness]:
+        return iter(self.witnesses)
+
+    def __repr__(self) -> str:
+        return f"<cstk.WitnessList of {len(self.witnesses)} witnesses, {len(self.contacts)} contacts>"
+
+
+class PseudoNormal:
+    """Class, distance, witnesses and gradients at one configuration: Appendix A's cstk-pseudo-normal."""
+
+    __slots__ = ("point_class", "distance", "list")
+
+    def __init__(self, given: Any) -> None:
+        self.point_class = Class(given.point_class)
+        self.distance = DistanceResult(given.distance, given)
+        self.list = WitnessList(given.list)
+
+
+class Explanation:
+    """A class, and the leaves and witnesses that decide it."""
+
+    __slots__ = ("point_class", "leaves", "list")
+
+    def __init__(self, given: Any) -> None:
+        self.point_class = Class(given.point_class)
+        self.leaves = Records.copied(Verdict, given.leaves, given.leaf_count)
+        self.list = WitnessList(given.list)
+
+
+class LinkPairs:
+    """All pairs of links with bodies."""
+
+    __slots__ = ("pairs", "tested")
+
+    pairs: Records[LinkPair]
+    tested: NDArray[np.uint32]
+    """The pairs to test, (n, 2), as CObject.induced_links takes them."""
+
+    def __init__(self, given: Any) -> None:
+        self.pairs = Records.copied(LinkPair, given.pairs, given.count)
+        self.tested = np.empty((given.tested_count, 2), np.uint32)
+        if given.tested_count:
+            ffi.memmove(ffi.from_buffer(self.tested), given.tested, self.tested.nbytes)
+
+
+class PenetrationList:
+    """Primitive pairs that meet, deepest first."""
+
+    __slots__ = ("penetrations", "of_whole_bodies", "truncated")
+
+    def __init__(self, given: Any) -> None:
+        self.penetrations = Records.copied(Penetration, given.penetrations, given.count)
+        self.of_whole_bodies = bool(given.of_whole_bodies)
+        """Each body is one convex primitive, so that the first entry separates the bodies."""
+        self.truncated = bool(given.truncated)
+        """More pairs meet than max_count; these are the deepest."""
+
+    def __len__(self) -> int:
+        return len(self.penetrations)
+
+    def __getitem__(self, number: int) -> Penetration:
+        return self.penetrations[number]
+
+    def __iter__(self) -> Iterator[Penetration]:
+        return iter(self.penetrations)

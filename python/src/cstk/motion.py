@@ -1,0 +1,232 @@
+"""Motions: proved free, or followed to their first contact. Nothing is sampled."""
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._arrays import doubles, empty, index, pose, rows, same_length, scalar, vector
+from ._handle import Handle, pointer_of
+from ._native import ffi, lib
+from ._options import options
+from ._progress import Progress, reporting
+from .body import Body
+from .certificate import Certificate
+from .cobject import CObject
+from .enums import MotionOutcome
+from .errors import check
+from .records import ClearanceResult, MotionResult, PathResult
+
+Array = NDArray[np.float64]
+
+
+class Motion(MotionResult):
+    """How a motion ends, and where. It is true where the motion is proved free."""
+
+    __slots__ = ("reached",)
+    reached: Array
+    """The configuration at times[1]; of a pair, both poses, (2, 4, 4)."""
+
+    def __init__(self, structure: Any, reached: Array) -> None:
+        super().__init__(structure)
+        self.reached = reached
+
+    def __bool__(self) -> bool:
+        return bool(self._c.outcome == MotionOutcome.FREE)
+
+
+class Path(PathResult):
+    """How a path ends, and where. It is true where the path is proved free."""
+
+    __slots__ = ("reached",)
+    reached: Array
+    """The configuration at motion.times[1] of the segment."""
+
+    def __init__(self, structure: Any, reached: Array) -> None:
+        super().__init__(structure)
+        self.reached = reached
+
+    def __bool__(self) -> bool:
+        return bool(self._c.motion.outcome == MotionOutcome.FREE)
+
+
+class Clearance(ClearanceResult):
+    """The least distance along a motion, between proved bounds."""
+
+    __slots__ = ("nearest",)
+    nearest: Array
+    """The configuration at `time`."""
+
+    def __init__(self, structure: Any, nearest: Array) -> None:
+        super().__init__(structure)
+        self.nearest = nearest
+
+
+def _options(threshold: float, tolerance: Optional[float], any_contact: bool) -> Any:
+    return options(
+        "motion_options",
+        threshold=scalar("threshold", threshold),
+        tolerance=None if tolerance is None else scalar("tolerance", tolerance),
+        any_contact=int(any_contact),
+    )
+
+
+def _ends(q0: ArrayLike, q1: ArrayLike) -> Tuple[Any, Any, int]:
+    a, b = vector("q0", q0), vector("q1", q1)
+    return doubles(a), doubles(b), same_length("q0", a, "q1", b)
+
+
+class Motions(Handle):
+    """The part of Query that asks about whole motions.
+
+    A distance of at most `threshold` counts as contact; `tolerance` is how exactly the time of the first contact is found, as a part
+    of the motion (default 1e-6); with `any_contact` any contact will do, found in less time than the first.
+    """
+
+    __slots__ = ()
+
+    def motion(
+        self,
+        cobject: CObject,
+        q0: ArrayLike,
+        q1: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Motion:
+        """Proves the motion from q0 to q1 free, that of Space.interpolate, or finds its first contact."""
+        *ends, nq = _ends(q0, q1)
+        reached, reached_out = empty(nq)
+        out = ffi.new("cstk_motion_result *")
+        given = _options(threshold, tolerance, any_contact)
+        place = pointer_of(CObject, "cobject", cobject)
+        check(lib.cstk_motion(self._pointer, place, *ends, nq, given, reached_out, out))
+        return Motion(out, reached)
+
+    def motion_certificate(
+        self,
+        cobject: CObject,
+        q0: ArrayLike,
+        q1: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Tuple[Motion, Optional[Certificate]]:
+        """The same with a certificate, or None where the motion is not free."""
+        *ends, nq = _ends(q0, q1)
+        reached, reached_out = empty(nq)
+        out, certificate = ffi.new("cstk_motion_result *"), ffi.new("cstk_certificate **")
+        given = _options(threshold, tolerance, any_contact)
+        place = pointer_of(CObject, "cobject", cobject)
+        check(lib.cstk_motion_certificate(self._pointer, place, *ends, nq, given, reached_out, out, certificate))
+        return Motion(out, reached), Certificate._take(certificate[0]) if certificate[0] != ffi.NULL else None
+
+    def motion_path(
+        self,
+        cobject: CObject,
+        points: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+        progress: Optional[Progress] = None,
+    ) -> Path:
+        """The same for a path through `points`, (n, nq), segment by segment, in one state of the environments."""
+        array = rows("points", points)
+        reached, reached_out = empty(array.shape[1])
+        out = ffi.new("cstk_path_result *")
+        given = _options(threshold, tolerance, any_contact)
+        arguments = self._pointer, pointer_of(CObject, "cobject", cobject), doubles(array), *array.shape, given
+        reporting(lambda function, user: lib.cstk_motion_path(*arguments, function, user, reached_out, out), progress)
+        return Path(out, reached)
+
+    def motion_curve(
+        self,
+        cobject: CObject,
+        points: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Motion:
+        """The same on a Bezier curve with control points (n, nq), 1 to 17 of them."""
+        array = rows("points", points)
+        reached, reached_out = empty(array.shape[1])
+        out = ffi.new("cstk_motion_result *")
+        given = _options(threshold, tolerance, any_contact)
+        place = pointer_of(CObject, "cobject", cobject)
+        check(lib.cstk_motion_curve(self._pointer, place, doubles(array), *array.shape, given, reached_out, out))
+        return Motion(out, reached)
+
+    def motion_spline(
+        self,
+        cobject: CObject,
+        degree: int,
+        knots: ArrayLike,
+        points: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Motion:
+        """The same on a B-spline with control points (n, nq) and n + degree + 1 knots."""
+        array, ticks = rows("points", points), vector("knots", knots)
+        reached, reached_out = empty(array.shape[1])
+        out = ffi.new("cstk_motion_result *")
+        given = _options(threshold, tolerance, any_contact)
+        place = pointer_of(CObject, "cobject", cobject)
+        spline = index("degree", degree, 64), doubles(ticks), ticks.size, doubles(array), *array.shape
+        check(lib.cstk_motion_spline(self._pointer, place, *spline, given, reached_out, out))
+        return Motion(out, reached)
+
+    def pair_motion(
+        self,
+        body_a: Body,
+        start_a: ArrayLike,
+        end_a: ArrayLike,
+        body_b: Body,
+        start_b: ArrayLike,
+        end_b: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Motion:
+        """The same of two bodies, each on a screw from its start to its end."""
+        both = np.empty((2, 3, 4))
+        out = ffi.new("cstk_motion_result *")
+        given = _options(threshold, tolerance, any_contact)
+        a = pointer_of(Body, "body_a", body_a), doubles(pose("start_a", start_a)), doubles(pose("end_a", end_a))
+        b = pointer_of(Body, "body_b", body_b), doubles(pose("start_b", start_b)), doubles(pose("end_b", end_b))
+        check(lib.cstk_pair_motion(self._pointer, *a, *b, given, doubles(both), out))
+        reached = np.tile(np.eye(4), (2, 1, 1))
+        reached[:, :3] = both
+        return Motion(out, reached)
+
+    def motion_clearance(
+        self,
+        cobject: CObject,
+        q0: ArrayLike,
+        q1: ArrayLike,
+        tolerance: float,
+        *,
+        relative_tolerance: Optional[float] = None,
+        max_distance: Optional[float] = None,
+    ) -> Clearance:
+        """The least distance along the motion from q0 to q1: two bounds at most `tolerance` apart, or that part of the upper one that
+        `relative_tolerance` says. Clearances above `max_distance` are only known to be so.
+        """
+        *ends, nq = _ends(q0, q1)
+        nearest, nearest_out = empty(nq)
+        out = ffi.new("cstk_clearance_result *")
+        given = options(
+            "clearance_options",
+            tolerance=scalar("tolerance", tolerance),
+            relative_tolerance=None if relative_tolerance is None else scalar("relative_tolerance", relative_tolerance),
+            max_distance=None if max_distance is None else scalar("max_distance", max_distance),
+        )
+        place = pointer_of(CObject, "cobject", cobject)
+        check(lib.cstk_motion_clearance(self._pointer, place, *ends, nq, given, nearest_out, out))
+        return Clearance(out, nearest)
