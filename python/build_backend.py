@@ -1,9 +1,11 @@
 """What pip calls to make a wheel: maturin, once declarations.py has read the header.
 
-maturin takes the declarations from header.h in cargo's target folder.
+maturin takes the declarations from header.h in cargo's target folder. That is one of its own: the wheel's library is built with other
+kinds of output than the installed one, and would otherwise make cargo build that anew.
 """
 
 import os
+import shutil
 from pathlib import Path
 
 import maturin
@@ -13,8 +15,11 @@ import declarations
 
 
 def _declare() -> None:
-    target = os.environ.get("CARGO_TARGET_DIR", declarations.HERE.parent / "target")
+    target = os.environ.setdefault("CARGO_TARGET_DIR", str(declarations.HERE.parent / "target" / "wheel"))
+    root = declarations.HERE.parent
     declarations.write_all(Path(target) / "header.h")
+    for name in "LICENSE-MIT", "LICENSE-APACHE":
+        shutil.copyfile(root / name, declarations.HERE / name)
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):  # type: ignore[no-untyped-def]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that the other scripts need and that are missing: setup.sh demo | test | bench | aarch64 |
-# aarch64-rust.
+# Installs the Debian packages that the other scripts need and that are missing: setup.sh demo | test | bench | python |
+# aarch64 | aarch64-rust.
 set -euo pipefail
 
 common=(cmake g++ make pkg-config)
@@ -8,9 +8,10 @@ case "${1:-}" in
   demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick librsvg2-bin fonts-dejavu-core libyaml-cpp-dev) ;;
   bench) packages=("${common[@]}" python3-pip libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev valgrind) ;;
   test) packages=("${common[@]}" python3-pip clang valgrind binutils doxygen libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev) ;;
+  python) packages=(python3-pip python3-venv) ;;
   aarch64) packages=(gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user) ;;
   aarch64-rust) packages=(rustc-web cargo-web libstd-rust-web-dev:arm64) ;;
-  *) echo "usage: setup.sh demo|test|bench|aarch64|aarch64-rust" >&2; exit 2 ;;
+  *) echo "usage: setup.sh demo|test|bench|python|aarch64|aarch64-rust" >&2; exit 2 ;;
 esac
 
 missing=()

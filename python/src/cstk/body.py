@@ -239,7 +239,7 @@ class Body(Handle):
 @ffi.callback("int32_t(double *, double *, void *)", error=1)
 def _support(direction: Any, point: Any, user: Any) -> int:
     try:
-        found = vector("the support function's point", data_of(user)(np.array(direction[0:3])), 3)
+        found = vector("the support function's point", data_of(user)(np.array(ffi.unpack(direction, 3))), 3)
         point[0:3] = found.tolist()
         return 0
     except BaseException as error:

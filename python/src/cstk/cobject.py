@@ -265,7 +265,7 @@ def _guarded(action: Callable[[], None]) -> int:
 @ffi.callback("int32_t(double *, size_t, int32_t *, void *)", error=1)
 def _classify(q: Any, nq: int, out: Any, user: Any) -> int:
     def action() -> None:
-        out[0] = Class(data_of(user).classify(np.array(q[0:nq])))
+        out[0] = Class(data_of(user).classify(np.array(ffi.unpack(q, nq))))
 
     return _guarded(action)
 
@@ -273,7 +273,7 @@ def _classify(q: Any, nq: int, out: Any, user: Any) -> int:
 @ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
 def _distance(q: Any, nq: int, out: Any, user: Any) -> int:
     def action() -> None:
-        out[0] = scalar("the predicate's distance", data_of(user).distance(np.array(q[0:nq])))
+        out[0] = scalar("the predicate's distance", data_of(user).distance(np.array(ffi.unpack(q, nq))))
 
     return _guarded(action)
 
@@ -281,7 +281,7 @@ def _distance(q: Any, nq: int, out: Any, user: Any) -> int:
 @ffi.callback("int32_t(double *, size_t, double *, size_t, void *)", error=1)
 def _gradient(q: Any, nq: int, row: Any, nv: int, user: Any) -> int:
     def action() -> None:
-        found = vector("the predicate's gradient", data_of(user).gradient(np.array(q[0:nq])), nv)
+        found = vector("the predicate's gradient", data_of(user).gradient(np.array(ffi.unpack(q, nq))), nv)
         row[0:nv] = found.tolist()
 
     return _guarded(action)

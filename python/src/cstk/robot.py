@@ -151,7 +151,7 @@ class CustomJoint:
 @ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
 def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
     try:
-        out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(q[0:n]))).ravel().tolist()
+        out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
         return 0
     except BaseException as error:
         keep_callback_error(error)
@@ -161,7 +161,7 @@ def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
 @ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
 def _joint_jacobian(q: Any, n: int, out: Any, user: Any) -> int:
     try:
-        found = np.asarray(data_of(user).jacobian(np.array(q[0:n])), np.float64)
+        found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
         if found.shape != (6, n):
             raise WrongSizeError(f"the joint's jacobian has shape {found.shape}; needed: (6, {n})")
         out[0 : 6 * n] = found.ravel().tolist()

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Builds the wheel of python/, installs it into a clean virtual environment, and runs its tests and examples there. The peers that
+# answers are compared with (python-fcl, coal) come from PyPI; where one cannot be had, its tests are skipped and counted.
+#
+# --fast compiles the library without optimizing it as one unit, which is what takes most minutes of a release; answers do not
+# depend on it.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh python
+work=$PWD/build/python
+mkdir -p "$work"
+export CARGO_TARGET_DIR=$work/target PIP_DISABLE_PIP_VERSION_CHECK=1
+if [ "${1:-}" = --fast ]; then
+  export CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16
+fi
+
+rm -rf "$work/wheels" "$work/venv"
+python3 -m venv "$work/venv"
+venv=$work/venv/bin
+"$venv/pip" wheel --quiet --no-deps --wheel-dir "$work/wheels" ./python
+echo "wheel: $(ls "$work/wheels")"
+"$venv/pip" install --quiet "$work"/wheels/cstk-*.whl
+# As a user has it: nothing but the wheel and what it asks for.
+(cd / && "$venv/python" -c 'import cstk; cstk.Query()')
+"$venv/pip" install --quiet pytest matplotlib mypy
+for peer in python-fcl coal==3.0.3; do
+  "$venv/pip" install --quiet --only-binary :all: "$peer" || echo "SKIPPED: $peer could not be installed" >&2
+done
+
+"$venv/python" -m mypy --config-file python/pyproject.toml -p cstk
+"$venv/python" -m pytest -q -rs --import-mode=importlib -p no:cacheprovider python/tests
+for example in python/examples/*.py; do
+  echo "== $example"
+  MPLBACKEND=Agg "$venv/python" "$example" "$work/pictures"
+done
