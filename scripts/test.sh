@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs all tests: formatting and lints, Rust, the models, then the C, C++ and FCL tests (with valgrind), the examples and
-# the planners against the library as installed into a prefix.
+# the planners against the library as installed into a prefix, and the Python package from its wheel.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh test
@@ -27,6 +27,9 @@ build_and_test examples-c build/examples
 build_and_test capi-tests build/capi-tests
 build_and_test planners build/planners
 build_and_test integrations/ompl build/ompl
+
+echo "== Python"
+scripts/python_tests.sh --fast
 
 echo "== the reference pages"
 mkdir -p build/doxygen
