@@ -2,8 +2,11 @@
 
 import copy
 import gc
+import os
 import pickle
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 import weakref
@@ -13,8 +16,6 @@ import pytest
 
 import cstk
 from cstk._user_data import kept_count
-
-PYPY = sys.implementation.name == "pypy"
 
 
 def collected():
@@ -127,6 +128,23 @@ def test_what_a_function_raises_is_the_cause(arm, query):
     assert "gradient has shape (1,)" in str(raised.value.__cause__)
 
 
+def test_a_support_function_that_fails_later_is_safe(query, capfd):
+    broken = []
+
+    def support(direction):
+        if broken:
+            raise LookupError("mine")
+        return direction
+
+    body = cstk.BodyBuilder().add_support(support).build()
+    ball, away = cstk.Body.sphere(1), cstk.translation(2.8, 0, 0)
+    assert query.pair_distance(body, cstk.identity(), ball, away).distance == pytest.approx(0.8)
+    broken.append(True)
+    # The bounding box is counted, never less.
+    assert query.pair_distance(body, cstk.identity(), ball, cstk.translation(2.8, 0.1, 0)).distance <= 0.8 + 1e-9
+    assert "LookupError: mine" in capfd.readouterr().err
+
+
 def test_a_query_serves_one_call_at_a_time(arm):
     query = cstk.Query()
     seen = []
@@ -163,7 +181,7 @@ def test_bodies_and_certificates_are_pickled(query, rng):
             pickle.dumps(handle)
 
 
-def test_a_body_file_goes_to_another_process(tmp_path, query):
+def test_a_damaged_body_file_is_refused(tmp_path):
     cstk.Body.box([1, 2, 3]).save(tmp_path / "box")
     again = cstk.Body.load(str(tmp_path / "box"))
     np.testing.assert_array_equal(again.statistics().high, [1, 2, 3])
@@ -223,3 +241,44 @@ def test_release_while_another_thread_asks(rng):
         body.release()
         thread.join(30)
         assert not thread.is_alive() and len(errors) == 1
+
+
+def test_the_process_ends_quietly_with_everything_alive():
+    program = """
+import threading, cstk
+body = cstk.Body.sphere(1)
+body.set_data(object())
+space = cstk.Space(cstk.Robot.load_urdf(FILE))
+environment = cstk.Environment()
+environment.add(body, data={1: 2})
+cobject = cstk.CObject.predicate(space, lambda q: cstk.Class.OUTSIDE).with_data("x")
+obstacles = cstk.CObject.induced(space, environment)
+cobject = cobject | obstacles
+query = cstk.Query()
+query.classify(cobject, [0.0])
+def work():
+    own = cstk.Query()
+    while True:
+        own.distance(obstacles, [0.0])
+threading.Thread(target=work, daemon=True).start()
+threading.Event().wait(0.05)
+"""
+    urdf = '<robot name="a"><link name="b"/><link name="c"><collision><geometry><sphere radius="1"/></geometry></collision></link>'
+    urdf += '<joint name="j" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "a.urdf")
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(urdf)
+        environment = {**os.environ, "PYTHONPATH": os.path.dirname(os.path.dirname(cstk.__file__))}
+        command = [sys.executable, "-X", "dev", "-c", f"FILE = {file!r}\n" + program]
+        ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+    assert ended.returncode == 0 and not ended.stderr, ended.stderr
+
+
+def test_bodies_go_to_another_process():
+    body = cstk.Body.box([1, 2, 3])
+    program = "import pickle, sys; print(pickle.load(sys.stdin.buffer).statistics().high.tolist())"
+    environment = {**os.environ, "PYTHONPATH": os.path.dirname(os.path.dirname(cstk.__file__))}
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, env=environment, input=pickle.dumps(body), capture_output=True, timeout=60, check=True)
+    assert ended.stdout.decode().strip() == "[1.0, 2.0, 3.0]"

@@ -236,13 +236,22 @@ class Body(Handle):
         check(lib.cstk_body_show_nodes(self._pointer, pointer(array, "uint32_t"), array.size, file_name("file", file)))
 
 
+class _SupportFunction:
+    def __init__(self, function: Support) -> None:
+        self.function = function
+        self.added = False
+
+
 @ffi.callback("int32_t(double *, double *, void *)", error=1)
 def _support(direction: Any, point: Any, user: Any) -> int:
+    support: _SupportFunction = data_of(user)
     try:
-        found = vector("the support function's point", data_of(user)(np.array(ffi.unpack(direction, 3))), 3)
+        found = vector("the support function's point", support.function(np.array(ffi.unpack(direction, 3))), 3)
         point[0:3] = found.tolist()
         return 0
     except BaseException as error:
+        if support.added:
+            raise  # Queries go on with the bounding box: cffi prints what was raised.
         keep_callback_error(error)
         return 1
 
@@ -408,13 +417,16 @@ class BodyBuilder(Handle):
 
     def add_support(self, support: Support, tag: int = 0) -> "BodyBuilder":
         """Adds the bounded convex set that a function describes: from a unit vector to a farthest point along it. It is called by any
-        thread that queries the body, must be pure, and must not use the running Query. Such a body cannot be saved.
+        thread that queries the body, must be pure, and must not use the running Query. If it fails later, what it raised is printed
+        and the set counts as its bounding box. Such a body cannot be saved.
         """
         if not callable(support):
             raise TypeError(f"support must be a function, not {type(support).__name__}")
-        with Kept(support) as kept:
+        function = _SupportFunction(support)
+        with Kept(function) as kept:
             arguments = _support, kept.pointer, kept.destroy, index("tag", tag, 64)
             check(lib.cstk_body_builder_add_support(self._pointer, *arguments))
+        function.added = True
         return self
 
     def build(self, hierarchy: Optional[HierarchyOptions] = None, progress: Optional[Progress] = None) -> Body:
