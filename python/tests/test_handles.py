@@ -128,8 +128,9 @@ def test_what_a_function_raises_is_the_cause(arm, query):
     assert "gradient has shape (1,)" in str(raised.value.__cause__)
 
 
-def test_a_support_function_that_fails_later_is_safe(query, capfd):
-    broken = []
+def test_a_support_function_that_fails_later_is_safe(query, monkeypatch):
+    broken, seen = [], []
+    monkeypatch.setattr(sys, "unraisablehook", lambda told: seen.append(told.exc_type))
 
     def support(direction):
         if broken:
@@ -142,7 +143,7 @@ def test_a_support_function_that_fails_later_is_safe(query, capfd):
     broken.append(True)
     # The bounding box is counted, never less.
     assert query.pair_distance(body, cstk.identity(), ball, cstk.translation(2.8, 0.1, 0)).distance <= 0.8 + 1e-9
-    assert "LookupError: mine" in capfd.readouterr().err
+    assert seen and set(seen) == {LookupError}
 
 
 def test_a_query_serves_one_call_at_a_time(arm):
