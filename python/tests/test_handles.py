@@ -263,6 +263,12 @@ def work():
         own.distance(obstacles, [0.0])
 threading.Thread(target=work, daemon=True).start()
 threading.Event().wait(0.05)
+# Collected after the modules are gone, as everything in a cycle is.
+class Cycle:
+    pass
+cycle = Cycle()
+cycle.all = [cycle, body, space, environment, cobject, query, obstacles]
+del body, space, environment, cobject, query, cycle
 """
     urdf = '<robot name="a"><link name="b"/><link name="c"><collision><geometry><sphere radius="1"/></geometry></collision></link>'
     urdf += '<joint name="j" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'

@@ -2,6 +2,7 @@
 
 from typing import Any, Callable, Optional
 
+from ._callback import callback
 from ._native import ffi
 from ._user_data import Kept, data_of
 from .errors import check
@@ -18,7 +19,7 @@ class Report:
         self.raised: Optional[BaseException] = None
 
 
-@ffi.callback("int32_t(double, void *)", error=1)
+@callback("int32_t(double, void *)")
 def _call(fraction: float, user: Any) -> int:
     report: Report = data_of(user)
     try:

@@ -6,16 +6,17 @@ A pointer is a number that is never used again, not an address: an answer that o
 import itertools
 from typing import Any, Dict, Optional
 
+from ._callback import callback
 from ._native import ffi
 
 _numbers = itertools.count(1)
 _kept: Dict[int, Any] = {}
 
 
-@ffi.callback("void(void *)")
-def drop(user: Any) -> None:
-    """The library's last reference is gone."""
-    _kept.pop(int(ffi.cast("uintptr_t", user)), None)
+@callback("void(void *)")
+def drop(user: Any, kept: Dict[int, Any] = _kept, address: Any = ffi.cast) -> None:
+    """The library's last reference is gone. This may be when the process ends, and the names of this module with it."""
+    kept.pop(int(address("uintptr_t", user)), None)
 
 
 def keep(value: Any) -> Any:

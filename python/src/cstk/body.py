@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, empty, file_name, finite, frame_or_identity, index, integers, numbers, pointer, rows, scalar, vector
+from ._callback import callback
 from ._callback_errors import keep_callback_error
 from ._handle import Handle
 from ._native import ffi, lib
@@ -242,7 +243,7 @@ class _SupportFunction:
         self.added = False
 
 
-@ffi.callback("int32_t(double *, double *, void *)", error=1)
+@callback("int32_t(double *, double *, void *)")
 def _support(direction: Any, point: Any, user: Any) -> int:
     support: _SupportFunction = data_of(user)
     try:

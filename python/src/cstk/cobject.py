@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, file_name, index, integers, pointer, pointers, same_length, scalar, vector
+from ._callback import callback
 from ._callback_errors import keep_callback_error
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
@@ -262,7 +263,7 @@ def _guarded(action: Callable[[], None]) -> int:
         return 1
 
 
-@ffi.callback("int32_t(double *, size_t, int32_t *, void *)", error=1)
+@callback("int32_t(double *, size_t, int32_t *, void *)")
 def _classify(q: Any, nq: int, out: Any, user: Any) -> int:
     def action() -> None:
         out[0] = Class(data_of(user).classify(np.array(ffi.unpack(q, nq))))
@@ -270,7 +271,7 @@ def _classify(q: Any, nq: int, out: Any, user: Any) -> int:
     return _guarded(action)
 
 
-@ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
+@callback("int32_t(double *, size_t, double *, void *)")
 def _distance(q: Any, nq: int, out: Any, user: Any) -> int:
     def action() -> None:
         out[0] = scalar("the predicate's distance", data_of(user).distance(np.array(ffi.unpack(q, nq))))
@@ -278,7 +279,7 @@ def _distance(q: Any, nq: int, out: Any, user: Any) -> int:
     return _guarded(action)
 
 
-@ffi.callback("int32_t(double *, size_t, double *, size_t, void *)", error=1)
+@callback("int32_t(double *, size_t, double *, size_t, void *)")
 def _gradient(q: Any, nq: int, row: Any, nv: int, user: Any) -> int:
     def action() -> None:
         found = vector("the predicate's gradient", data_of(user).gradient(np.array(ffi.unpack(q, nq))), nv)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, empty, file_name, index, pose, scalar, text, vector
+from ._callback import callback
 from ._callback_errors import keep_callback_error
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
@@ -148,7 +149,7 @@ class CustomJoint:
         )
 
 
-@ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
+@callback("int32_t(double *, size_t, double *, void *)")
 def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
     try:
         out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
@@ -158,7 +159,7 @@ def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
         return 1
 
 
-@ffi.callback("int32_t(double *, size_t, double *, void *)", error=1)
+@callback("int32_t(double *, size_t, double *, void *)")
 def _joint_jacobian(q: Any, n: int, out: Any, user: Any) -> int:
     try:
         found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
