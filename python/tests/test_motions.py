@@ -67,6 +67,28 @@ def test_paths_curves_and_splines(query):
         query.motion_path(arm.cobject, [[-1, 0], free], progress=lambda part: False)
 
 
+def test_motions_of_functions(query):
+    arm = PlanarArm(2.2)
+
+    def swing(t):
+        angle, rate, bend = 1.6 * math.sin(t), 1.6 * math.cos(t), -1.6 * math.sin(t)
+        return [angle, 0], [rate, 0], [bend, 0]
+
+    found = query.motion_function(arm.cobject, swing, [1.6, 0], [1.6, 0])
+    straight = query.motion(arm.cobject, [0, 0], [1.6, 0])
+    assert found.outcome == cstk.MotionOutcome.HIT
+    assert found.times[1] == pytest.approx(math.asin(straight.times[1]), abs=5e-6)
+    assert query.motion_function(arm.cobject, swing, [1.6, 0], [1.6, 0], any_contact=True).distance is None
+    with pytest.raises(cstk.InvalidArgumentError):
+        query.motion_function(arm.cobject, swing, [0.1, 0], [1.6, 0])
+    with pytest.raises(ZeroDivisionError):
+        query.motion_function(arm.cobject, lambda t: 1 / 0, [1, 1], [1, 1])
+    with pytest.raises(cstk.WrongSizeError, match="rates"):
+        query.motion_function(arm.cobject, lambda t: ([0, 0], [0], [0, 0]), [1, 1], [1, 1])
+    with pytest.raises(cstk.WrongSizeError, match="max_rates.*max_accelerations"):
+        query.motion_function(arm.cobject, swing, [1, 1], [1])
+
+
 def test_clearance_of_a_sweep(arm, query):
     # The straight arm sweeps past the disc: nearest where it points at it.
     found = query.motion_clearance(arm.cobject, [0.5, 0], [2.5, 0], 1e-6)

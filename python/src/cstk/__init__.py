@@ -21,7 +21,7 @@ from .enums import *  # noqa: F403
 from .environment import Change, Environment
 from .errors import *  # noqa: F403
 from .hierarchy import HierarchyOptions, Mesh
-from .motion import Clearance, Motion, Path
+from .motion import Clearance, Motion, MotionFunction, Path
 from .poses import (
     euler_from_rotation,
     euler_rates,

@@ -1,20 +1,22 @@
 """Motions: proved free, or followed to their first contact. Nothing is sampled."""
 
-from typing import Any, Optional, Tuple
+from typing import Any, Callable, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, empty, index, pose, rows, same_length, scalar, vector
+from ._callback import callback
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from ._options import options
 from ._progress import Progress, reporting
+from ._user_data import Kept, data_of
 from .body import Body
 from .certificate import Certificate
 from .cobject import CObject
 from .enums import MotionOutcome
-from .errors import check
+from .errors import WrongSizeError, check
 from .records import ClearanceResult, MotionResult, PathResult
 
 Array = NDArray[np.float64]
@@ -74,6 +76,34 @@ def _options(threshold: float, tolerance: Optional[float], any_contact: bool) ->
 def _ends(q0: ArrayLike, q1: ArrayLike) -> Tuple[Any, Any, int]:
     a, b = vector("q0", q0), vector("q1", q1)
     return doubles(a), doubles(b), same_length("q0", a, "q1", b)
+
+
+MotionFunction = Callable[[float], Tuple[ArrayLike, ArrayLike, ArrayLike]]
+"""From a time to the configuration, and the first and second derivatives of its coordinates."""
+
+
+class _Asked:
+    """A motion's function for the time of one call."""
+
+    def __init__(self, function: MotionFunction) -> None:
+        self.function = function
+        self.raised: Optional[BaseException] = None
+
+
+@callback("int32_t(double, double *, double *, double *, size_t, void *)")
+def _motion_at(t: float, q: Any, rates: Any, accelerations: Any, nq: int, user: Any) -> int:
+    asked: _Asked = data_of(user)
+    try:
+        found = asked.function(t)
+        if len(found) != 3:
+            raise WrongSizeError("a motion's function gives the configuration, its rates and its accelerations")
+        names = "the motion's configuration", "the motion's rates", "the motion's accelerations"
+        for out, name, given in zip((q, rates, accelerations), names, found):
+            out[0:nq] = vector(name, given, nq).tolist()
+        return 0
+    except BaseException as error:
+        asked.raised = error
+        return 1
 
 
 class Motions(Handle):
@@ -179,6 +209,41 @@ class Motions(Handle):
         place = pointer_of(CObject, "cobject", cobject)
         spline = index("degree", degree, 64), doubles(ticks), ticks.size, doubles(array), *array.shape
         check(lib.cstk_motion_spline(self._pointer, place, *spline, given, reached_out, out))
+        return Motion(out, reached)
+
+    def motion_function(
+        self,
+        cobject: CObject,
+        function: MotionFunction,
+        max_rates: ArrayLike,
+        max_accelerations: ArrayLike,
+        *,
+        threshold: float = 0.0,
+        tolerance: Optional[float] = None,
+        any_contact: bool = False,
+    ) -> Motion:
+        """The same on a motion that a function gives. What is proved holds if `max_rates` and `max_accelerations` bound the absolute
+        derivatives of every coordinate at all times from 0 to 1; they are compared with what the function gives where it is asked.
+        What it raises passes through.
+        """
+        speeds, bends = vector("max_rates", max_rates), vector("max_accelerations", max_accelerations)
+        nq = same_length("max_rates", speeds, "max_accelerations", bends)
+        if not callable(function):
+            raise TypeError(f"function must be a function, not {type(function).__name__}")
+        reached, reached_out = empty(nq)
+        out = ffi.new("cstk_motion_result *")
+        given = _options(threshold, tolerance, any_contact)
+        place, asked = pointer_of(CObject, "cobject", cobject), _Asked(function)
+        kept = Kept(asked)
+        try:
+            bounds = doubles(speeds), doubles(bends), nq
+            arguments = _motion_at, kept.pointer, *bounds, given, reached_out, out
+            status = lib.cstk_motion_function(self._pointer, place, *arguments)
+        finally:
+            kept.drop()
+        if asked.raised is not None:
+            raise asked.raised
+        check(status)
         return Motion(out, reached)
 
     def pair_motion(
