@@ -21,7 +21,8 @@ const KINDS: [JointKind; 4] = [
     JointKind::FreeEuler,
 ];
 
-fn scene(random: &mut Random) -> Arc<CObject> {
+/// An arm of three links with joints that curves may move, among eight hulls.
+pub fn arm_among_hulls(random: &mut Random) -> Arc<CObject> {
     let links = (0..3).map(|i: usize| LinkDefinition {
         at: random.pose(0.5),
         body: Some(hull(&random.points(10, 0.4)).body),
@@ -92,7 +93,7 @@ fn free_curves_are_free_at_every_sample_and_hits_are_hits() {
     let context = &mut QueryContext::new();
     let mut outcomes = [0usize; 4];
     for _ in 0..150 {
-        let set = scene(&mut random);
+        let set = arm_among_hulls(&mut random);
         let nq = set.space().nq();
         for _ in 0..6 {
             let size = [0.1, 0.5, 2.0][random.below(3)];

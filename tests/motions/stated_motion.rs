@@ -10,9 +10,10 @@ use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{JointKind, LinkDefinition};
 
+use super::curves::arm_among_hulls;
 use helpers::random::Random;
 use helpers::robots::{against, environment, link, robot, space};
-use helpers::shapes::{cuboid, hull};
+use helpers::shapes::cuboid;
 
 /// Each coordinate is `start + size sin(speed t + phase)`.
 struct Waves(Vec<[f64; 4]>);
@@ -72,31 +73,12 @@ fn class(context: &mut QueryContext, set: &CObject, q: &[f64]) -> Class {
 
 #[test]
 fn free_functions_are_free_at_every_sample_and_hits_are_hits() {
-    const KINDS: [JointKind; 4] = [
-        JointKind::Revolute,
-        JointKind::Prismatic,
-        JointKind::Planar,
-        JointKind::FreeEuler,
-    ];
     let mut random = Random::new(213);
     let context = &mut QueryContext::new();
     let mut outcomes = [0usize; 4];
     for _ in 0..150 {
-        let links = (0..3).map(|i: usize| LinkDefinition {
-            at: random.pose(0.5),
-            body: Some(hull(&random.points(10, 0.4)).body),
-            ..link(
-                i.checked_sub(1),
-                KINDS[random.below(4)].clone(),
-                random.unit(),
-            )
-        });
-        let space = space(vec![robot(3, links.collect())]);
-        let bodies: Vec<_> = (0..8)
-            .map(|_| (hull(&random.points(10, 0.4)).body, random.pose(2.5)))
-            .collect();
-        let objects: Vec<_> = bodies.iter().map(|(body, pose)| (body, *pose)).collect();
-        let set = against(&space, &environment(&objects).0);
+        let set = arm_among_hulls(&mut random);
+        let space = set.space();
         for _ in 0..6 {
             let waves = Waves::random(&mut random, space.nq());
             let [max_rates, max_accelerations] = &waves.bounds();
