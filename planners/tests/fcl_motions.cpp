@@ -57,9 +57,12 @@ void judge(const Problem &problem, std::size_t motions, std::size_t samples) {
                    "motion " + std::to_string(i) + " of " + problem.scene + " is free at " + std::to_string(t) + ", says FCL");
         }
         if (found.outcome == CSTK_MOTION_HIT) {
-            // Both may differ by rounding at the moment of contact.
-            const double after = std::min(1.0, found.times[1] + 1e-6);
-            expect(after == 1 || fcl.meets(cell.space.interpolate(from, to, after)),
+            // Both may differ by rounding at the moment of contact, where a graze is soon over; FCL sees what meets a cylinder when it
+            // is a millionth deep.
+            const auto meets = [&](double after) {
+                return fcl.meets(cell.space.interpolate(from, to, std::min(1.0, found.times[1] + after)));
+            };
+            expect(meets(0) || meets(1e-6) || meets(1e-4),
                    "motion " + std::to_string(i) + " of " + problem.scene + " meets something, says FCL");
         }
     }
