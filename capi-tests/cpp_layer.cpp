@@ -783,6 +783,9 @@ static void urdf() {
     REQUIRE(robot.body(1).statistics().primitive_count == 1);
     REQUIRE(std::remove(file) == 0);
     REQUIRE(status_of([&] { builder.load_urdf(file); }) == CSTK_ERROR_IO);
+    cstk::RobotBuilder described;
+    REQUIRE(described.load_urdf_text("<robot><link name='a'/></robot>") == 0);
+    REQUIRE(described.urdf_report().link_count == 1);
 }
 
 int main() {

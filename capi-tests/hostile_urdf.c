@@ -220,6 +220,70 @@ static void files(const fixture *f) {
     fixture_unchanged(f);
 }
 
+/* Texts in memory: the same refusals, and package:// by ROS's variables. */
+static void texts(const fixture *f) {
+    static const char *const packaged =
+        "<robot name='r'><link name='a'><collision><geometry>"
+        "<mesh filename='package://hostile_package/meshes/part.obj'/></geometry></collision></link></robot>";
+    uint32_t root;
+    const cstk_urdf_options options = good_options();
+    cstk_robot_builder *builder = NULL;
+    EACH_BAD_HANDLE(f, NOUN_ROBOT_BUILDER, bad) {
+        CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(bad->handle, good, NULL, &options, NULL, NULL, &root),
+                      bad->status, "builder");
+    }
+    builder = f->robot_builder;
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(builder, NULL, NULL, &options, NULL, NULL, &root),
+                  CSTK_ERROR_NULL_ARGUMENT, "urdf");
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(builder, "\xff", NULL, &options, NULL, NULL, &root),
+                  CSTK_ERROR_INVALID_ARGUMENT, "urdf");
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(builder, "", NULL, NULL, NULL, NULL, &root), CSTK_ERROR_PARSE,
+                  "URDF text");
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(builder, "<robot>\n<link/></robot>", NULL, NULL, NULL, NULL, &root),
+                  CSTK_ERROR_PARSE, "URDF text: line 2, <link>");
+    EACH_BAD_OPTIONS(options, bad) {
+        if (bad->options != NULL) {
+            CHECK_REFUSED(root,
+                          cstk_robot_builder_load_urdf_text(builder, good, NULL, bad->options, NULL, NULL, &root),
+                          bad->status, "urdf_options");
+        }
+    }
+    unsetenv("ROS_PACKAGE_PATH");
+    unsetenv("AMENT_PREFIX_PATH");
+    CHECK_REFUSED(root, cstk_robot_builder_load_urdf_text(builder, packaged, NULL, NULL, NULL, NULL, &root),
+                  CSTK_ERROR_NOT_FOUND, "ROS_PACKAGE_PATH (empty)");
+    fixture_unchanged(f);
+
+    const char *folders[] = {"hostile_ws", "hostile_ws/src", "hostile_ws/share", "hostile_ws/share/hostile_package",
+                             "hostile_ws/share/hostile_package/meshes"};
+    for (int i = 0; i < 5; ++i) {
+        CHECK(mkdir(folders[i], 0700) == 0);
+    }
+    /* A circle of links in the workspace ends. */
+    CHECK(symlink("..", "hostile_ws/src/up") == 0);
+    const char *part = "hostile_ws/share/hostile_package/meshes/part.obj";
+    FILE *out = fopen(part, "w");
+    CHECK(out != NULL && fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", out) >= 0 && fclose(out) == 0);
+    const char *variables[][2] = {{"ROS_PACKAGE_PATH", "/nowhere:hostile_ws/src::"}, /* through the circle */
+                                  {"ROS_PACKAGE_PATH", "hostile_ws"},
+                                  {"ROS_PACKAGE_PATH", "hostile_ws/share/hostile_package"},
+                                  {"AMENT_PREFIX_PATH", "/nowhere:hostile_ws"}};
+    for (int i = 0; i < 4; ++i) {
+        CHECK(setenv(variables[i][0], variables[i][1], 1) == 0);
+        cstk_urdf_report report;
+        CHECK_OK(cstk_robot_builder_create(3, &builder));
+        CHECK_OK(cstk_robot_builder_load_urdf_text(builder, packaged, NULL, NULL, NULL, NULL, &root));
+        CHECK_OK(cstk_robot_builder_get_urdf_report(builder, &report));
+        CHECK(root == 0 && report.mesh_file_count == 1 && report.links_with_body == 1);
+        CHECK_OK(cstk_robot_builder_release(builder));
+        CHECK(unsetenv(variables[i][0]) == 0);
+    }
+    CHECK(remove("hostile_ws/src/up") == 0 && remove(part) == 0);
+    for (int i = 5; i-- > 0;) {
+        CHECK(remove(folders[i]) == 0);
+    }
+}
+
 /* What is good is taken, once under each prefix. */
 static void taken(void) {
     cstk_robot_builder *builder = NULL;
@@ -249,6 +313,7 @@ int main(void) {
     reports(&f);
     devices(&f);
     files(&f);
+    texts(&f);
     taken();
     CHECK(remove(file) == 0);
     fixture_release(&f);

@@ -831,7 +831,17 @@ public:
         return root;
     }
 
-    /// What became of the URDF file added last.
+    /// Adds the robot of a URDF text, a robot_description say; mesh names are relative to `folder`.
+    std::uint32_t load_urdf_text(const std::string &urdf, const std::string &folder = {},
+                                 const cstk_urdf_options &options = urdf_options()) {
+        std::uint32_t root = 0;
+        const char *at = folder.empty() ? nullptr : folder.c_str();
+        check(cstk_robot_builder_load_urdf_text(get(), urdf.c_str(), at, &options, nullptr, nullptr,
+                                                &root));
+        return root;
+    }
+
+    /// What became of the URDF file or text added last.
     cstk_urdf_report urdf_report() const {
         cstk_urdf_report report;
         check(cstk_robot_builder_get_urdf_report(get(), &report));

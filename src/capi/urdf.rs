@@ -1,6 +1,6 @@
 //! URDF.
 //!
-//! Robots from URDF files: links, joints, limits, and the meshes and shapes of their collision geometry.
+//! Robots from URDF files and texts: links, joints, limits, and the meshes and shapes of their collision geometry.
 //!
 //! ```c
 //! uint32_t root;
@@ -23,7 +23,7 @@ use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
-use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file};
+use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file, add_urdf_text};
 
 /// Which shapes of a URDF file's links become their bodies.
 #[repr(i32)]
@@ -56,7 +56,9 @@ pub struct cstk_urdf_options {
     pub at: [f64; 12],
     /// Prepended to the names of links and joints, so that a file can be loaded twice; may be NULL.
     pub prefix: *const c_char,
-    /// Folders to search for the packages of package:// names, before the URDF file's folder and those above it.
+    /// Folders to search for the packages of package:// names, before the URDF file's folder and those above it. Last come
+    /// the folders of the environment variables AMENT_PREFIX_PATH (share/<package> below each) and ROS_PACKAGE_PATH (each
+    /// and the folders up to 4 levels below it, known by their names).
     pub package_paths: *const *const c_char,
     pub package_path_count: usize,
     /// How the links' hierarchies are built; NULL for the defaults.
@@ -201,7 +203,43 @@ pub unsafe extern "C" fn cstk_robot_builder_load_urdf(
     })
 }
 
-/// Writes the report on the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
+/// As cstk_robot_builder_load_urdf, from a NUL-terminated text in memory, UTF-8 and at most 64 MiB: what the robot_description
+/// of ROS holds. Names of meshes are relative to `folder`; where it is NULL they must be absolute, or in packages. Error
+/// messages begin with "URDF text", then name line and element.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_robot_builder_load_urdf_text(
+    builder: *mut cstk_robot_builder,
+    urdf: *const c_char,
+    folder: *const c_char,
+    urdf_options: *const cstk_urdf_options,
+    progress: cstk_progress_fn,
+    user: *mut c_void,
+    root: *mut u32,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let root = Output::optional(root, "root")?;
+            // SAFETY: checked for NULL, size and cookie; the caller states that texts are terminated.
+            let (urdf, options) = unsafe {
+                let given = options_or_default(urdf_options, "urdf_options")?;
+                (text(urdf, "urdf")?, decode(&given)?)
+            };
+            let folder = if folder.is_null() {
+                None
+            } else {
+                // SAFETY: not NULL; the caller states that it is terminated.
+                Some(unsafe { path(folder, "folder")? })
+            };
+            let mut report = reporter(progress, user);
+            let loaded = add_urdf_text(&mut builder.robot, urdf, folder, &options, &mut report)?;
+            builder.urdf = Some(loaded);
+            root.write(loaded.root as u32);
+            Ok(())
+        })
+    })
+}
+
+/// Writes the report on the URDF file or text that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_get_urdf_report(
     builder: *mut cstk_robot_builder,

@@ -7,6 +7,7 @@ use nalgebra::Rotation3;
 
 use super::bodies::LinkBodies;
 use super::model::{JointElement, JointType, LinkElement, Model};
+use super::packages::PackageFolders;
 use super::report::UrdfReport;
 use super::shapes::ShapeReader;
 use crate::body::BodyCache;
@@ -54,7 +55,8 @@ pub struct UrdfOptions {
     pub at: Pose,
     /// Prepended to the names of links and joints, so that a file can be loaded twice.
     pub prefix: String,
-    /// Folders to search for packages.
+    /// Folders to search for packages; after them come the URDF file's folder and those above it, then the folders of
+    /// `AMENT_PREFIX_PATH` and `ROS_PACKAGE_PATH`.
     pub search: Vec<PathBuf>,
     /// With 3 or more, spheres, cylinders and capsules become polyhedra that enclose them, their circles divided into this
     /// many sides. With 0 they stay exact.
@@ -96,6 +98,46 @@ pub fn add_urdf_file(
     options: &UrdfOptions,
     progress: &mut dyn FnMut(f64) -> Result<()>,
 ) -> Result<UrdfReport> {
+    check(builder, options)?;
+    let bytes = read_whole(path, MAX_URDF_FILE_BYTES).map_err(|e| e.within(path.display()))?;
+    let real = path.canonicalize();
+    let folder = real.as_deref().ok().and_then(Path::parent);
+    let source = UrdfSource {
+        name: path.display().to_string(),
+        bytes: &bytes,
+        folder: Some(folder.unwrap_or(Path::new("."))),
+    };
+    source.add_to(builder, options, progress)
+}
+
+/// Adds the robot of a URDF text, as [`add_urdf_file`] does that of a file. Names of meshes are relative to `folder`;
+/// without it they must be absolute, or in a package. Errors name line and element.
+pub fn add_urdf_text(
+    builder: &mut RobotBuilder,
+    text: &str,
+    folder: Option<&Path>,
+    options: &UrdfOptions,
+    progress: &mut dyn FnMut(f64) -> Result<()>,
+) -> Result<UrdfReport> {
+    check(builder, options)?;
+    if text.len() as u64 > MAX_URDF_FILE_BYTES {
+        return Err(Error::new(
+            ErrorKind::Unsupported,
+            format!(
+                "the URDF text has {} bytes; at most {MAX_URDF_FILE_BYTES} are read",
+                text.len()
+            ),
+        ));
+    }
+    let source = UrdfSource {
+        name: "URDF text".to_string(),
+        bytes: text.as_bytes(),
+        folder,
+    };
+    source.add_to(builder, options, progress)
+}
+
+fn check(builder: &RobotBuilder, options: &UrdfOptions) -> Result<()> {
     if builder.dimension() != 3 {
         return Err(Error::invalid(
             "a URDF robot needs a robot builder of dimension 3",
@@ -107,27 +149,41 @@ pub fn add_urdf_file(
             options.sides
         )));
     }
-    let named = |e: Error| match e.kind {
-        ErrorKind::Cancelled => e,
-        _ => e.within(path.display()),
-    };
-    let bytes = read_whole(path, MAX_URDF_FILE_BYTES).map_err(named)?;
-    let folder = path.canonicalize();
-    let folder = folder
-        .as_deref()
-        .ok()
-        .and_then(Path::parent)
-        .unwrap_or(Path::new("."));
-    let mut extended = builder.clone();
-    let report = add_text(&mut extended, &bytes, folder, options, progress).map_err(named)?;
-    *builder = extended;
-    Ok(report)
+    Ok(())
+}
+
+/// The content of a URDF file, or a text.
+struct UrdfSource<'a> {
+    /// What errors name.
+    name: String,
+    bytes: &'a [u8],
+    /// Where names of meshes begin.
+    folder: Option<&'a Path>,
+}
+
+impl UrdfSource<'_> {
+    /// Adds the robot whole or not at all.
+    fn add_to(
+        &self,
+        builder: &mut RobotBuilder,
+        options: &UrdfOptions,
+        progress: &mut dyn FnMut(f64) -> Result<()>,
+    ) -> Result<UrdfReport> {
+        let mut extended = builder.clone();
+        let added = add_text(&mut extended, self.bytes, self.folder, options, progress);
+        let report = added.map_err(|e| match e.kind {
+            ErrorKind::Cancelled => e,
+            _ => e.within(&self.name),
+        })?;
+        *builder = extended;
+        Ok(report)
+    }
 }
 
 fn add_text(
     builder: &mut RobotBuilder,
     bytes: &[u8],
-    folder: &Path,
+    folder: Option<&Path>,
     options: &UrdfOptions,
     progress: &mut dyn FnMut(f64) -> Result<()>,
 ) -> Result<UrdfReport> {
@@ -141,7 +197,8 @@ fn add_text(
     let order = Tree::of(&model)?.links_by_depth();
     let followed = followed(&model)?;
     let cache = options.cache_folder.as_deref().map(BodyCache::open);
-    let shapes = ShapeReader::new(folder, &options.search, options.sides);
+    let packages = PackageFolders::new(folder, &options.search);
+    let shapes = ShapeReader::new(packages, options.sides);
     let mut assembly = Assembly {
         builder,
         options,

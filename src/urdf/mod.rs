@@ -10,5 +10,5 @@ mod packages;
 mod report;
 mod shapes;
 
-pub use assemble::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file};
+pub use assemble::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file, add_urdf_text};
 pub use report::UrdfReport;

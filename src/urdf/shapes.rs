@@ -3,11 +3,11 @@
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::model::{Geometry, LinkElement, Shape};
-use super::packages::resolve;
+use super::packages::PackageFolders;
 use crate::body::mesh_file::{MeshFormat, read_mesh_bytes};
 use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshSize};
 use crate::error::{Error, Result, require_finite};
@@ -16,8 +16,7 @@ use crate::xml::place;
 
 /// Reads the links' shapes, each mesh file once.
 pub struct ShapeReader<'a> {
-    folder: &'a Path,
-    search: &'a [PathBuf],
+    packages: PackageFolders<'a>,
     /// The number of sides that a circle is divided into; 0 keeps round shapes exact.
     sides: usize,
     /// Indices into `files`, by the name in the URDF file.
@@ -41,10 +40,9 @@ enum Content {
 }
 
 impl<'a> ShapeReader<'a> {
-    pub fn new(folder: &'a Path, search: &'a [PathBuf], sides: usize) -> Self {
+    pub fn new(packages: PackageFolders<'a>, sides: usize) -> Self {
         Self {
-            folder,
-            search,
+            packages,
             sides,
             names: HashMap::new(),
             paths: HashMap::new(),
@@ -179,7 +177,7 @@ impl<'a> ShapeReader<'a> {
         if let Some(&index) = self.names.get(name) {
             return Ok(index);
         }
-        let path = resolve(name, self.folder, self.search)?;
+        let path = self.packages.resolve(name)?;
         let named = |e: Error| e.within(path.display());
         let real = path.canonicalize().map_err(Error::io).map_err(named)?;
         let place = match self.paths.get(&real) {

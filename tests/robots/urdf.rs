@@ -7,7 +7,7 @@ use cstk::error::{Error, ErrorKind};
 use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::query::QueryContext;
 use cstk::robot::{Coordinate, JointKind, Robot, RobotBuilder};
-use cstk::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file};
+use cstk::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file, add_urdf_text};
 
 /// A folder of its own that goes when the test ends.
 struct Folder(PathBuf);
@@ -318,6 +318,43 @@ fn meshes_are_found_in_packages_and_beside_the_file() {
             ..Default::default()
         };
         load(&path, &frames).unwrap();
+    }
+}
+
+#[test]
+fn a_text_makes_the_robot_that_the_file_makes() {
+    let folder = Folder::new("text");
+    folder.write("t.obj", TRIANGLE_OBJ);
+    let text = format!(
+        "<robot name=\"r\">{ARM}<link name=\"mesh\"><collision><geometry><mesh filename=\"t.obj\"/></geometry></collision></link>\
+         <joint name=\"m\" type=\"fixed\"><parent link=\"base\"/><child link=\"mesh\"/></joint></robot>"
+    );
+    let path = folder.write("robot.urdf", &text);
+    let options = UrdfOptions::default();
+    let (of_file, from_file) = report(&path, &options);
+    let add = |folder: Option<&Path>| {
+        let mut builder = RobotBuilder::new(3).unwrap();
+        let added = add_urdf_text(&mut builder, &text, folder, &options, &mut |_| Ok(()));
+        added.map(|report| (report, builder))
+    };
+    let (of_text, from_text) = add(Some(&folder.0)).unwrap();
+    assert_eq!(of_text, of_file);
+    for (link, other) in from_text.links().iter().zip(from_file.links()) {
+        assert_eq!((&link.name, &link.at), (&other.name, &other.at));
+        let bodies = [link, other].map(|link| link.body.as_deref().map(content));
+        assert_eq!(bodies[0], bodies[1]);
+    }
+    // Without a folder there is nothing beside the text.
+    let error = add(None).map(|_| ()).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::NotFound);
+    for culprit in [
+        "URDF text",
+        "link \"mesh\"",
+        "<collision>",
+        "t.obj",
+        "no folder",
+    ] {
+        assert!(error.message.contains(culprit), "{error}");
     }
 }
 
