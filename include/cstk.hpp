@@ -309,6 +309,12 @@ inline cstk_urdf_options urdf_options() {
     return options;
 }
 
+inline cstk_srdf_options srdf_options() {
+    cstk_srdf_options options;
+    check(cstk_srdf_options_default(&options, sizeof options));
+    return options;
+}
+
 /// A joint by functions of yours. They must not throw.
 inline cstk_custom_joint custom_joint() {
     cstk_custom_joint joint;
@@ -764,6 +770,85 @@ public:
     /// The name of the joint that moves the link.
     std::string joint_name(std::uint32_t link) const { return name(cstk_robot_get_joint_name, link); }
 
+    /// What SRDF files say of the robot. Names and arrays of groups, states and end effectors live as long as the robot.
+    cstk_semantics semantics() const {
+        cstk_semantics out;
+        check(cstk_robot_get_semantics(get(), &out));
+        return out;
+    }
+
+    std::uint32_t find_group(const std::string &name) const {
+        std::uint32_t group = 0;
+        check(cstk_robot_find_group(get(), name.c_str(), &group));
+        return group;
+    }
+
+    /// An empty group stands for none.
+    std::uint32_t find_state(const std::string &group, const std::string &name) const {
+        std::uint32_t state = 0;
+        const char *of = group.empty() ? nullptr : group.c_str();
+        check(cstk_robot_find_state(get(), of, name.c_str(), &state));
+        return state;
+    }
+
+    std::uint32_t find_end_effector(const std::string &name) const {
+        std::uint32_t end_effector = 0;
+        check(cstk_robot_find_end_effector(get(), name.c_str(), &end_effector));
+        return end_effector;
+    }
+
+    cstk_joint_group group(std::uint32_t index) const {
+        cstk_joint_group out;
+        check(cstk_robot_get_group(get(), index, &out));
+        return out;
+    }
+
+    cstk_named_state state(std::uint32_t index) const {
+        cstk_named_state out;
+        check(cstk_robot_get_state(get(), index, &out));
+        return out;
+    }
+
+    cstk_end_effector end_effector(std::uint32_t index) const {
+        cstk_end_effector out;
+        check(cstk_robot_get_end_effector(get(), index, &out));
+        return out;
+    }
+
+    cstk_virtual_joint virtual_joint(std::uint32_t index) const {
+        cstk_virtual_joint out;
+        check(cstk_robot_get_virtual_joint(get(), index, &out));
+        return out;
+    }
+
+    /// q with the values of a named state.
+    std::vector<double> apply_state(std::uint32_t state, Span<double> q) const {
+        std::vector<double> out(q.data(), q.data() + q.size());
+        check(cstk_robot_apply_state(get(), state, out.data(), out.size()));
+        return out;
+    }
+
+    /// The robot of which only the joints that move these links are left, the others frozen at q.
+    Robot frozen(Span<std::uint32_t> joints, Span<double> q) const {
+        cstk_robot *out = nullptr;
+        check(cstk_robot_create_frozen(get(), joints.data(), joints.size(), q.data(), q.size(), &out));
+        return Robot(out);
+    }
+
+    /// Of a robot that `whole.frozen` made: the configuration of `whole`.
+    std::vector<double> to_whole(const Robot &whole, Span<double> q) const {
+        std::vector<double> out(whole.nq());
+        check(cstk_robot_to_whole(get(), q.data(), q.size(), out.data(), out.size()));
+        return out;
+    }
+
+    /// The other way.
+    std::vector<double> from_whole(Span<double> whole) const {
+        std::vector<double> out(nq());
+        check(cstk_robot_from_whole(get(), whole.data(), whole.size(), out.data(), out.size()));
+        return out;
+    }
+
     Pose link_pose(Span<double> q, std::uint32_t link) const {
         Pose pose;
         check(cstk_robot_link_pose(get(), q.data(), q.size(), link, pose.data()));
@@ -848,6 +933,27 @@ public:
         return report;
     }
 
+    /// Adds what an SRDF file says of the links that are there.
+    void load_srdf(const std::string &file, const cstk_srdf_options &options = srdf_options()) {
+        check(cstk_robot_builder_load_srdf(get(), file.c_str(), &options));
+    }
+
+    void load_srdf_text(const std::string &srdf, const cstk_srdf_options &options = srdf_options()) {
+        check(cstk_robot_builder_load_srdf_text(get(), srdf.c_str(), &options));
+    }
+
+    /// What became of the SRDF file or text added last.
+    cstk_srdf_report srdf_report() const {
+        cstk_srdf_report report;
+        check(cstk_robot_builder_get_srdf_report(get(), &report));
+        return report;
+    }
+
+    /// Rules a pair of links out for self-collision.
+    void disable_pair(const std::string &r_link, const std::string &s_link) {
+        check(cstk_robot_builder_disable_pair(get(), r_link.c_str(), s_link.c_str()));
+    }
+
     Robot build() const {
         cstk_robot *out = nullptr;
         check(cstk_robot_build(get(), &out));
@@ -906,6 +1012,15 @@ public:
         std::string out(length + 1, '\0');
         check(cstk_space_get_link_name(get(), link, out.data(), out.size(), nullptr));
         out.resize(length);
+        return out;
+    }
+
+    /// The pairs of links that SRDF files leave to be tested, two numbers each: for cobjects of links.
+    std::vector<std::uint32_t> enabled_pairs() const {
+        std::size_t count = 0;
+        check(cstk_space_get_enabled_pairs(get(), 0, nullptr, &count));
+        std::vector<std::uint32_t> out(2 * count);
+        check(cstk_space_get_enabled_pairs(get(), count, out.data(), &count));
         return out;
     }
 

@@ -40,7 +40,7 @@ mod reused;
 // Files written whole or not at all, and read within limits.
 mod whole_file;
 
-// The elements of URDF and COLLADA files.
+// The elements of URDF, SRDF and COLLADA files.
 mod xml;
 
 // Rigid poses, checked, composed, and subtracted in twice the digits.
@@ -85,6 +85,9 @@ pub mod robot;
 
 // Robots from URDF files.
 pub mod urdf;
+
+// SRDF files: disabled pairs of links, joint groups, named states, end effectors.
+pub mod srdf;
 
 // The C-space of robots: topology, ranges, steps, samples, the world box.
 pub mod space;

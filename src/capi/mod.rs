@@ -25,6 +25,8 @@ pub mod robot;
 
 pub mod urdf;
 
+pub mod srdf;
+
 pub mod space;
 
 pub mod environment;

@@ -46,6 +46,8 @@ pub enum PairVerdict {
     Always,
     /// The links touch in no sample. This does not prove that they cannot.
     Never,
+    /// The robot's SRDF file rules the pair out.
+    Disabled,
 }
 
 /// A pair of links with bodies, the lower number first.
@@ -167,7 +169,7 @@ impl QueryContext {
     }
 }
 
-/// All pairs of links with bodies, with adjacent ones marked.
+/// All pairs of links with bodies, with those marked that are ruled out or adjacent.
 fn structure(space: &Space) -> Result<Vec<LinkPair>> {
     let has_body = |&link: &usize| space.link(link).is_some_and(|l| l.body.is_some());
     let links: Vec<usize> = (0..space.link_count()).filter(has_body).collect();
@@ -212,7 +214,9 @@ fn structure(space: &Space) -> Result<Vec<LinkPair>> {
         links[i + 1..].iter().map(move |&s| LinkPair {
             links: [r, s],
             robots: [r, s].map(|link| space.robot_of(link)),
-            verdict: if are_joined(r, s) || lowest[r] == lowest[s] {
+            verdict: if space.is_pair_disabled([r, s]) {
+                PairVerdict::Disabled
+            } else if are_joined(r, s) || lowest[r] == lowest[s] {
                 PairVerdict::Adjacent
             } else {
                 PairVerdict::Test

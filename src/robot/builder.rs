@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::custom_joint::{Checked, MAX_COORDINATES};
 use super::robot::{Coordinates, Links};
-use super::{Block, BlockKind, Coordinate, Joint, JointKind, Link, Robot};
+use super::{Block, BlockKind, Coordinate, Joint, JointKind, Link, Robot, Semantics};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates, require_finite};
 use crate::pose::{Pose, Vec3, check_dimension};
@@ -62,6 +62,7 @@ pub struct RobotBuilder {
     dimension: u32,
     links: Links,
     coordinates: Coordinates,
+    semantics: Semantics,
 }
 
 impl RobotBuilder {
@@ -72,6 +73,7 @@ impl RobotBuilder {
             dimension,
             links: Links::default(),
             coordinates: Coordinates::default(),
+            semantics: Semantics::default(),
         })
     }
 
@@ -83,6 +85,49 @@ impl RobotBuilder {
     /// The links added so far.
     pub fn links(&self) -> &[Link] {
         &self.links.list
+    }
+
+    /// What SRDF files said so far.
+    pub fn semantics(&self) -> &Semantics {
+        &self.semantics
+    }
+
+    /// Puts other semantics in place of those so far; they must name links and coordinates that are there.
+    pub(crate) fn set_semantics(&mut self, semantics: Semantics) {
+        self.semantics = semantics;
+    }
+
+    /// The number of the link with this name.
+    pub fn find_link(&self, name: &str) -> Option<usize> {
+        self.links.names.find(name)
+    }
+
+    /// The number of the link that the joint with this name moves.
+    pub fn find_joint(&self, name: &str) -> Option<usize> {
+        self.links.joint_names.find(name)
+    }
+
+    /// Names the joint of a link whose joint has no name.
+    pub(crate) fn name_joint(&mut self, link: usize, name: &str) {
+        self.links.joint_names.add(name, link);
+        self.links.list[link].joint_name = name.to_string();
+    }
+
+    /// Rules out a pair of links, by name, for self-collision.
+    pub fn disable_pair(&mut self, names: [&str; 2]) -> Result<()> {
+        let mut pair = [0; 2];
+        for (place, name) in pair.iter_mut().zip(names) {
+            let link = self.find_link(name).ok_or_else(|| {
+                Error::new(ErrorKind::NotFound, format!("there is no link \"{name}\""))
+            })?;
+            *place = link as u32;
+        }
+        if pair[0] == pair[1] {
+            let message = format!("link \"{}\" is paired with itself", names[0]);
+            return Err(Error::invalid(message));
+        }
+        self.semantics.pairs.disable(pair);
+        Ok(())
     }
 
     /// Adds a link and returns its number.
@@ -299,6 +344,7 @@ impl RobotBuilder {
             self.dimension,
             self.links.clone(),
             self.coordinates.clone(),
+            self.semantics.clone(),
         ))
     }
 }

@@ -5,6 +5,7 @@ mod coordinate;
 mod course;
 mod custom_joint;
 mod forward;
+mod frozen;
 mod jacobian;
 mod joint;
 mod link_motions;
@@ -14,6 +15,7 @@ mod motion_rates;
 mod names;
 #[allow(clippy::module_inception)]
 mod robot;
+mod semantics;
 
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};
@@ -26,3 +28,7 @@ pub use link_motions::{CoordinateCourses, LinkMotions, LinkStates, MotionState};
 pub use link_twists::{LinkTwists, RelativeTwist, RelativeTwists};
 pub use motion_rates::{ChainRates, MotionRates};
 pub use robot::{Link, Robot, check_configuration};
+pub use semantics::{
+    EndEffector, JointGroup, NamedState, PairRules, SemanticName, Semantics, VirtualJoint,
+    VirtualJointKind,
+};

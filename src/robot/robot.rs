@@ -3,8 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::frozen::Whole;
 use super::names::Names;
-use super::{Block, BlockKind, Coordinate, Joint};
+use super::{Block, BlockKind, Coordinate, Joint, Semantics};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Pose;
@@ -70,17 +71,40 @@ pub struct Robot {
     dimension: u32,
     links: Links,
     coordinates: Coordinates,
+    semantics: Semantics,
+    /// Of a robot with frozen joints.
+    whole: Option<Whole>,
 }
 
 impl Robot {
-    pub(super) fn assemble(dimension: u32, links: Links, coordinates: Coordinates) -> Self {
+    pub(super) fn assemble(
+        dimension: u32,
+        links: Links,
+        coordinates: Coordinates,
+        semantics: Semantics,
+    ) -> Self {
         static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
         Self {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             dimension,
             links,
             coordinates,
+            semantics,
+            whole: None,
         }
+    }
+
+    pub(super) fn set_whole(&mut self, whole: Whole) {
+        self.whole = Some(whole);
+    }
+
+    pub(super) fn whole(&self) -> Option<&Whole> {
+        self.whole.as_ref()
+    }
+
+    /// What SRDF files say of the robot.
+    pub fn semantics(&self) -> &Semantics {
+        &self.semantics
     }
 
     /// A number that no other robot of this process has.

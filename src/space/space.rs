@@ -162,6 +162,26 @@ impl Space {
         })
     }
 
+    /// Whether the SRDF file of a robot rules out this pair of its links for self-collision.
+    pub fn is_pair_disabled(&self, pair: [usize; 2]) -> bool {
+        let robot = self.robot_of(pair[0]);
+        if robot != self.robot_of(pair[1]) {
+            return false;
+        }
+        let own = pair.map(|link| (link - self.offsets[robot].link) as u32);
+        self.robots[robot].semantics().pairs.is_disabled(own)
+    }
+
+    /// All pairs of links with bodies but those that an SRDF file rules out, in order of their numbers.
+    pub fn enabled_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let has_body = |link: &usize| self.link(*link).is_some_and(|l| l.body.is_some());
+        let links: Vec<usize> = (0..self.links).filter(has_body).collect();
+        let count = links.len();
+        let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |k| [i, k]));
+        let pairs = pairs.map(move |pair| pair.map(|i| links[i]));
+        pairs.filter(|&pair| !self.is_pair_disabled(pair))
+    }
+
     /// The poses of all links at q, in the world. Fails only in a custom joint.
     pub fn link_poses(&self, q: &[f64]) -> Result<Vec<Pose>> {
         let mut poses = Vec::with_capacity(self.links);

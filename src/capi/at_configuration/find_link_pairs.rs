@@ -68,6 +68,8 @@ pub enum cstk_pair_verdict {
     CSTK_PAIR_ALWAYS = 3,
     /// The links touched in no sample; still tested unless skip_never is set.
     CSTK_PAIR_NEVER = 4,
+    /// The robot's SRDF file, or cstk_robot_builder_disable_pair, rules the pair out.
+    CSTK_PAIR_DISABLED = 5,
 }
 
 /// A pair of links with bodies, the lower number first.
@@ -109,7 +111,8 @@ pub unsafe extern "C" fn cstk_link_pair_options_default(
 }
 
 /// Writes which pairs of links of the space to test for self-collision, and why the others are left out: links that are
-/// joined, that touch at rest, or that touch in at least `always` of the sampled configurations. Links of different robots
+/// joined, that touch at rest, that touch in at least `always` of the sampled configurations, or that an SRDF file rules out
+/// (cstk_space_get_enabled_pairs tells these without sampling). Links of different robots
 /// are always tested. Pass `tested` to cstk_cobject_induced_links (it may be empty); to allow further pairs, leave them
 /// out. Set `margin` to at least the margin plus the contact epsilon of that set; otherwise pairs that are always in
 /// contact are tested. `options` may be NULL for the defaults; `progress` may be NULL; `user` is passed to it.
@@ -174,6 +177,7 @@ impl From<&LinkPair> for cstk_link_pair {
                 PairVerdict::AtRest => cstk_pair_verdict::CSTK_PAIR_AT_REST,
                 PairVerdict::Always => cstk_pair_verdict::CSTK_PAIR_ALWAYS,
                 PairVerdict::Never => cstk_pair_verdict::CSTK_PAIR_NEVER,
+                PairVerdict::Disabled => cstk_pair_verdict::CSTK_PAIR_DISABLED,
             },
             r_robot: pair.robots[0] as u32,
             s_robot: pair.robots[1] as u32,

@@ -17,6 +17,7 @@ use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{JointKind, LinkDefinition, RobotBuilder};
+use crate::srdf::SrdfReport;
 use crate::urdf::UrdfReport;
 
 /// Collects the links of a robot. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY.
@@ -30,6 +31,8 @@ pub(crate) struct Builder(Mutex<State>);
 pub(crate) struct State {
     pub robot: RobotBuilder,
     pub urdf: Option<UrdfReport>,
+    /// The report on the last SRDF file.
+    pub srdf: Option<SrdfReport>,
 }
 
 impl Noun for Builder {
@@ -125,6 +128,7 @@ pub unsafe extern "C" fn cstk_robot_builder_create(
         let state = State {
             robot: RobotBuilder::new(dimension)?,
             urdf: None,
+            srdf: None,
         };
         out.write(handle::create(Arc::new(Builder(Mutex::new(state)))));
         Ok(())

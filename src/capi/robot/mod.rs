@@ -21,3 +21,5 @@ pub mod builder;
 
 #[allow(clippy::module_inception)]
 pub mod robot;
+
+pub mod frozen;

@@ -14,3 +14,5 @@
 pub mod space;
 
 pub mod configuration;
+
+pub mod enabled_pairs;
