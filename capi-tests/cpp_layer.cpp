@@ -762,6 +762,48 @@ static void sets() {
     worlds(space, body);
 }
 
+static void srdf() {
+    cstk::RobotBuilder builder;
+    builder.load_urdf_text(
+        "<robot><link name='a'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+        "<link name='b'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+        "<link name='c'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+        "<joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin xyz='1 0 0'/></joint>"
+        "<joint name='bc' type='continuous'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>");
+    builder.load_srdf_text("<robot><virtual_joint name='v' type='fixed' parent_frame='w' child_link='a'/>"
+                           "<group name='g'><joint name='bc'/></group>"
+                           "<group_state name='s' group='g'><joint name='bc' value='0.5'/></group_state>"
+                           "<end_effector name='e' parent_link='b' group='g'/></robot>");
+    REQUIRE(builder.srdf_report().group_count == 1);
+    builder.disable_pair("a", "b");
+    const cstk::Robot robot = builder.build();
+    REQUIRE(robot.semantics().state_count == 1 && robot.virtual_joint(0).child_link == 0);
+    const cstk_joint_group group = robot.group(robot.find_group("g"));
+    REQUIRE(group.joint_count == 1 && group.joints[0] == 2 && group.coordinates[0] == 1);
+    REQUIRE(robot.end_effector(robot.find_end_effector("e")).touch_count == 2);
+    const std::uint32_t state = robot.find_state("g", "s");
+    REQUIRE(robot.state(state).values[0] == 0.5);
+    const std::vector<double> q = robot.apply_state(state, {0.25, 0.0});
+    REQUIRE(q[0] == 0.25 && q[1] == 0.5);
+    const cstk::Robot frozen = robot.frozen({group.joints, group.joint_count}, q);
+    REQUIRE(frozen.nq() == 1 && frozen.from_whole(q)[0] == 0.5 && frozen.to_whole(robot, {0.75})[0] == 0.25);
+    const auto pairs = cstk::Space(frozen).enabled_pairs();
+    REQUIRE(pairs.size() == 2 && pairs[0][1] == 2 && pairs[1][0] == 1);
+    REQUIRE(status_of([&] { robot.find_state("", "s"); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { builder.load_srdf("/nowhere.srdf"); }) == CSTK_ERROR_IO);
+}
+
+static void scenes() {
+    const char *text = "s\n* ball\n1\nsphere\n1\n4 0 0\n0 0 0 1\n0 0 0 0\n.\n";
+    cstk::Environment environment;
+    cstk_scene_options options = cstk::scene_options();
+    options.at[3] = 1;
+    const std::vector<std::uint64_t> ids = environment.load_scene_text(text, options);
+    REQUIRE(ids.size() == 1 && environment.object_pose(ids[0])[3] == 1);
+    REQUIRE(std::string(static_cast<const char *>(environment.object(ids[0]).data)) == "ball");
+    REQUIRE(status_of([&] { environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
+}
+
 static void urdf() {
     const char *file = "cpp_layer.urdf";
     std::FILE *out = std::fopen(file, "w");
@@ -790,6 +832,8 @@ static void urdf() {
 
 int main() {
     urdf();
+    srdf();
+    scenes();
     bodies();
     hierarchies();
     poses();

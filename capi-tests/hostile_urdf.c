@@ -41,7 +41,8 @@ static void defaults(void) {
     CHECK_REFUSED(options, cstk_urdf_options_default(&options, 0), CSTK_ERROR_WRONG_SIZE, "size");
     CHECK_REFUSED(options, cstk_urdf_options_default(&options, sizeof options - 1), CSTK_ERROR_WRONG_SIZE,
                   "size");
-    /* The size that the structure had without cache_folder. */
+    /* The sizes that the structure had without the last fields, and without cache_folder. */
+    CHECK_OK(cstk_urdf_options_default(&options, offsetof(cstk_urdf_options, link_forms)));
     CHECK_OK(cstk_urdf_options_default(&options, offsetof(cstk_urdf_options, cache_folder)));
 }
 
@@ -108,6 +109,19 @@ static void fields(const fixture *f) {
     options = good_options();
     options.prefix = "\xff";
     refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "prefix");
+    options = good_options();
+    options.mesh_form = 3;
+    refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "mesh_form 3");
+    cstk_link_mesh_form forms[2] = {{"a", CSTK_MESH_SOLID, 0}, {"no", CSTK_MESH_HULL, 0}};
+    options = good_options();
+    options.link_form_count = 2;
+    refuse(f, &options, CSTK_ERROR_NULL_ARGUMENT, "link_forms");
+    options.link_forms = forms;
+    refuse(f, &options, CSTK_ERROR_NOT_FOUND, "\"no\"");
+    forms[1].form = -1;
+    refuse(f, &options, CSTK_ERROR_INVALID_ARGUMENT, "link_forms[1].form");
+    forms[1].link = NULL;
+    refuse(f, &options, CSTK_ERROR_NULL_ARGUMENT, "link_forms[1].link");
     options = good_options();
     options.package_path_count = 1;
     refuse(f, &options, CSTK_ERROR_NULL_ARGUMENT, "package_paths");

@@ -13,3 +13,10 @@ add_test(NAME pinocchio_kinematics COMMAND ${pinocchio})
 add_test(NAME pinocchio_geometry COMMAND ${pinocchio} --geometry)
 set_tests_properties(pinocchio_kinematics pinocchio_geometry PROPERTIES
   LABELS pinocchio TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+
+# The same robots with their SRDF files.
+add_executable(example_robots example_robots.cpp)
+target_compile_options(example_robots PRIVATE ${strict})
+target_link_libraries(example_robots PRIVATE cstk::cstk)
+add_test(NAME example_robots COMMAND example_robots ${CSTK_PINOCCHIO_DIR}/cmeel.prefix/share)
+set_tests_properties(example_robots PROPERTIES LABELS pinocchio TIMEOUT 300 SKIP_RETURN_CODE 77)

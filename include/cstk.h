@@ -13,6 +13,7 @@
  *   @ref hierarchy          Hierarchies
  *   @ref robot              Robots
  *   @ref urdf               URDF
+ *   @ref srdf               SRDF
  *   @ref space              Spaces
  *   @ref environment        Environments
  *   @ref cobject            C-objects
@@ -1574,12 +1575,48 @@ cstk_status cstk_robot_jacobian(const cstk_robot *robot,
                                 const double *point,
                                 double *jacobian);
 
+/**
+ * Creates a robot of which only some joints move: a joint group as a robot of its own. It has the same links, by the same
+ * numbers, names and bodies. `joints` holds `joint_count` numbers of links: the joints that move these, and those that
+ * share their coordinates, are left; all others stand still where `q` (`nq` doubles) has them. Coordinates and velocities
+ * that are left keep their order and are numbered anew; so are those of groups and states (see cstk_robot_get_group). A
+ * space of it takes every query, gradient and motion, alone or with other robots. cstk_robot_to_whole and
+ * cstk_robot_from_whole convert configurations. Without any joint the robot has no coordinate. Release it with
+ * cstk_robot_release.
+ */
+cstk_status cstk_robot_create_frozen(const cstk_robot *robot,
+                                     const uint32_t *joints,
+                                     size_t joint_count,
+                                     const double *q,
+                                     size_t nq,
+                                     cstk_robot **out);
+
+/**
+ * Writes the configuration, `whole_nq` doubles, of the robot that cstk_robot_create_frozen was given, at configuration q of
+ * the robot that it made. CSTK_ERROR_EMPTY for any other robot.
+ */
+cstk_status cstk_robot_to_whole(const cstk_robot *robot,
+                                const double *q,
+                                size_t nq,
+                                double *whole,
+                                size_t whole_nq);
+
+/**
+ * Writes the coordinates, `nq` doubles, that are left to a robot that cstk_robot_create_frozen made, of a configuration of
+ * the robot that it was made from (`whole_nq` doubles); those of frozen joints are ignored.
+ */
+cstk_status cstk_robot_from_whole(const cstk_robot *robot,
+                                  const double *whole,
+                                  size_t whole_nq,
+                                  double *q,
+                                  size_t nq);
+
 /** @} */
 
 /**
  * @defgroup urdf URDF
  *
- * Robots from URDF files: links, joints, limits, and the meshes and shapes of their collision geometry.
+ * Robots from URDF files and texts: links, joints, limits, and the meshes and shapes of their collision geometry.
  *
  * @code
      uint32_t root;
@@ -1651,7 +1688,9 @@ typedef struct cstk_urdf_options {
    */
   const char *prefix;
   /**
-   * Folders to search for the packages of package:// names, before the URDF file's folder and those above it.
+   * Folders to search for the packages of package:// names, before the URDF file's folder and those above it. Last come
+   * the folders of the environment variables AMENT_PREFIX_PATH (share/<package> below each) and ROS_PACKAGE_PATH (each
+   * and the folders up to 4 levels below it, known by their names).
    */
   const char *const *package_paths;
   size_t package_path_count;
@@ -1757,10 +1796,305 @@ cstk_status cstk_robot_builder_load_urdf(cstk_robot_builder *builder,
                                          uint32_t *root);
 
 /**
- * Writes the report on the URDF file that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
+ * As cstk_robot_builder_load_urdf, from a NUL-terminated text in memory, UTF-8 and at most 64 MiB: what the robot_description
+ * of ROS holds. Names of meshes are relative to `folder`; where it is NULL they must be absolute, or in packages. Error
+ * messages begin with "URDF text", then name line and element.
+ */
+cstk_status cstk_robot_builder_load_urdf_text(cstk_robot_builder *builder,
+                                              const char *urdf,
+                                              const char *folder,
+                                              const cstk_urdf_options *urdf_options,
+                                              cstk_progress_fn progress,
+                                              void *user,
+                                              uint32_t *root);
+
+/**
+ * Writes the report on the URDF file or text that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
  */
 cstk_status cstk_robot_builder_get_urdf_report(cstk_robot_builder *builder,
                                                cstk_urdf_report *out);
+
+/** @} */
+
+/**
+ * @defgroup srdf SRDF
+ *
+ * What an SRDF file says of a robot: which pairs of links not to test, joint groups, named states, end effectors. It is read
+ * into the builder that holds the robot's links, after its URDF file.
+ *
+ * @code
+     uint32_t arm, home;
+     cstk_joint_group group;
+     check(cstk_robot_builder_load_urdf(robot_builder, "arm.urdf", NULL, NULL, NULL, NULL));
+     check(cstk_robot_builder_load_srdf(robot_builder, "arm.srdf", NULL));
+     check(cstk_robot_build(robot_builder, &robot));
+     check(cstk_robot_find_group(robot, "arm", &arm));
+     check(cstk_robot_find_state(robot, "arm", "home", &home));
+     check(cstk_robot_apply_state(robot, home, q, nq));
+     check(cstk_robot_get_group(robot, arm, &group));
+     check(cstk_robot_create_frozen(robot, group.joints, group.joint_count, q, nq, &arm_alone));
+ * @endcode
+ * @{
+ */
+
+/**
+ * Options for reading an SRDF file. Write it with cstk_srdf_options_default first.
+ */
+typedef struct cstk_srdf_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Prepended to all names of the file, also of groups, states and end effectors: the prefix that the URDF file was
+   * loaded with; may be NULL.
+   */
+  const char *prefix;
+  /**
+   * Nonzero: elements that name a link, joint or group that is not there are skipped, and the report counts them (a file
+   * for a robot with a hand, read for the robot without). 0, the default: they are CSTK_ERROR_NOT_FOUND.
+   */
+  uint32_t skip_unknown;
+  uint32_t reserved;
+} cstk_srdf_options;
+
+/**
+ * What was read from an SRDF file, and what was skipped.
+ */
+typedef struct cstk_srdf_report {
+  /**
+   * The number of elements of each kind that were read; groups inside others are not counted.
+   */
+  uint32_t group_count;
+  uint32_t state_count;
+  uint32_t end_effector_count;
+  uint32_t virtual_joint_count;
+  uint32_t passive_joint_count;
+  /**
+   * The pairs that `disable_collisions` elements name, each counted once.
+   */
+  uint32_t disabled_pair_count;
+  /**
+   * Elements of other kinds, directly in the robot or in a group.
+   */
+  uint32_t skipped_elements;
+  /**
+   * Elements that were left out since they name what is not there; see skip_unknown.
+   */
+  uint32_t unknown_names;
+  /**
+   * Values in states for joints without coordinates (a fixed one, or a base that was loaded with another joint), or whose
+   * coordinate another joint of the state sets.
+   */
+  uint32_t unused_values;
+  uint32_t reserved_number;
+  uint64_t reserved[4];
+} cstk_srdf_report;
+
+/**
+ * Counts of what SRDF files say of a robot.
+ */
+typedef struct cstk_semantics {
+  uint32_t group_count;
+  uint32_t state_count;
+  uint32_t end_effector_count;
+  uint32_t virtual_joint_count;
+  /**
+   * The passive joints, by the number of the link that each moves, ascending. The array belongs to the robot.
+   */
+  const uint32_t *passive_joints;
+  size_t passive_joint_count;
+  uint64_t reserved[4];
+} cstk_semantics;
+
+/**
+ * A joint group. Name and arrays belong to the robot and live as long as it.
+ */
+typedef struct cstk_joint_group {
+  const char *name;
+  /**
+   * The joints, by the number of the link that each moves, ascending: those named, those on chains, those of groups in
+   * it; also joints that are fixed.
+   */
+  const uint32_t *joints;
+  size_t joint_count;
+  /**
+   * Where their coordinates stand in q, ascending; none twice where joints share one.
+   */
+  const uint32_t *coordinates;
+  size_t coordinate_count;
+  uint64_t reserved[4];
+} cstk_joint_group;
+
+/**
+ * A named state. Name and arrays belong to the robot and live as long as it.
+ */
+typedef struct cstk_named_state {
+  const char *name;
+  /**
+   * The index of its group, or -1 where the file names none.
+   */
+  int32_t group;
+  uint32_t reserved_number;
+  /**
+   * The coordinates that it sets, ascending, and their values.
+   */
+  const uint32_t *coordinates;
+  const double *values;
+  size_t count;
+  uint64_t reserved[4];
+} cstk_named_state;
+
+/**
+ * An end effector. Name and array belong to the robot and live as long as it.
+ */
+typedef struct cstk_end_effector {
+  const char *name;
+  /**
+   * The index of the group of its joints.
+   */
+  uint32_t group;
+  /**
+   * The index of the arm's group, or -1 where the file names none.
+   */
+  int32_t parent_group;
+  /**
+   * The link that carries it.
+   */
+  uint32_t parent_link;
+  uint32_t reserved_number;
+  /**
+   * The links with bodies that an object it holds may touch, for CSTK_CHANGE_ATTACH: those that its joints move, and the
+   * parent link.
+   */
+  const uint32_t *touch_links;
+  size_t touch_count;
+  uint64_t reserved[4];
+} cstk_end_effector;
+
+/**
+ * A virtual joint: how the file means the robot to be carried. What carries it is the `base` of cstk_urdf_options; its
+ * joint gets this name. Names belong to the robot and live as long as it.
+ */
+typedef struct cstk_virtual_joint {
+  const char *name;
+  const char *parent_frame;
+  /**
+   * CSTK_JOINT_FIXED, _PLANAR or, for a floating one, _FREE.
+   */
+  cstk_joint_kind kind;
+  /**
+   * The root link.
+   */
+  uint32_t child_link;
+  uint64_t reserved[4];
+} cstk_virtual_joint;
+
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_srdf_options).
+ */
+cstk_status cstk_srdf_options_default(cstk_srdf_options *out, size_t size);
+
+/**
+ * Adds what an SRDF file says to a builder that holds the robot's links, which cstk_robot_builder_load_urdf added; what
+ * cstk_robot_build makes then has it. `srdf_options` may be NULL for the defaults. Read are `disable_collisions`,
+ * `disable_default_collisions` and `enable_collisions` (a pair named by the first is never tested; one that only a link's
+ * default rules out is tested if it is enabled), `group` (joints, links, chains, groups), `group_state`, `end_effector`,
+ * `virtual_joint` and `passive_joint`; everything else is skipped and counted. Several files may be added, under different
+ * prefixes. The pairs go to cstk_space_get_enabled_pairs and cstk_find_link_pairs.
+ *
+ * Error messages name the file, the line and the element; the builder is then unchanged. Refused are names that are not
+ * there, two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
+ * that is no root, values of the wrong number. Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB; 2^12 groups and
+ * 2^22 joints in all of them together; 2^16 states; those of XML at cstk_robot_builder_load_urdf.
+ */
+cstk_status cstk_robot_builder_load_srdf(cstk_robot_builder *builder,
+                                         const char *file,
+                                         const cstk_srdf_options *srdf_options);
+
+/**
+ * As cstk_robot_builder_load_srdf, from a NUL-terminated text in memory, UTF-8: what the robot_description_semantic of ROS
+ * holds. Error messages begin with "SRDF text".
+ */
+cstk_status cstk_robot_builder_load_srdf_text(cstk_robot_builder *builder,
+                                              const char *srdf,
+                                              const cstk_srdf_options *srdf_options);
+
+/**
+ * Writes the report on the SRDF file or text that was last added to the builder. CSTK_ERROR_EMPTY if there is none.
+ */
+cstk_status cstk_robot_builder_get_srdf_report(cstk_robot_builder *builder,
+                                               cstk_srdf_report *out);
+
+/**
+ * Rules out a pair of links, by their names, for self-collision, as `disable_collisions` of an SRDF file does.
+ * CSTK_ERROR_NOT_FOUND for a name that no link of the builder has.
+ */
+cstk_status cstk_robot_builder_disable_pair(cstk_robot_builder *builder,
+                                            const char *r_link,
+                                            const char *s_link);
+
+/**
+ * Writes the counts of what SRDF files say of the robot; all are 0 where none was read. The pairs to test are written by
+ * cstk_space_get_enabled_pairs.
+ */
+cstk_status cstk_robot_get_semantics(const cstk_robot *robot,
+                                     cstk_semantics *out);
+
+/**
+ * Writes the index of the group with this name. CSTK_ERROR_NOT_FOUND if there is none.
+ */
+cstk_status cstk_robot_find_group(const cstk_robot *robot, const char *name, uint32_t *out);
+
+/**
+ * Writes the index of the end effector with this name. CSTK_ERROR_NOT_FOUND if there is none.
+ */
+cstk_status cstk_robot_find_end_effector(const cstk_robot *robot, const char *name, uint32_t *out);
+
+/**
+ * Writes the index of the state with this name. `group` names its group; NULL for a state of which the file names none.
+ * CSTK_ERROR_NOT_FOUND if there is no such group or state.
+ */
+cstk_status cstk_robot_find_state(const cstk_robot *robot,
+                                  const char *group,
+                                  const char *name,
+                                  uint32_t *out);
+
+/**
+ * Writes a joint group, by its index. CSTK_ERROR_NOT_FOUND for an index that the robot does not have.
+ */
+cstk_status cstk_robot_get_group(const cstk_robot *robot,
+                                 uint32_t group,
+                                 cstk_joint_group *out);
+
+/**
+ * Writes a named state, by its index. CSTK_ERROR_NOT_FOUND for an index that the robot does not have.
+ */
+cstk_status cstk_robot_get_state(const cstk_robot *robot,
+                                 uint32_t state,
+                                 cstk_named_state *out);
+
+/**
+ * Puts the values of a named state, by its index, into the configuration q (`nq` doubles); all other coordinates of q stay
+ * as they are.
+ */
+cstk_status cstk_robot_apply_state(const cstk_robot *robot,
+                                   uint32_t state,
+                                   double *q,
+                                   size_t nq);
+
+/**
+ * Writes an end effector, by its index. CSTK_ERROR_NOT_FOUND for an index that the robot does not have.
+ */
+cstk_status cstk_robot_get_end_effector(const cstk_robot *robot,
+                                        uint32_t end_effector,
+                                        cstk_end_effector *out);
+
+/**
+ * Writes a virtual joint, by its index. CSTK_ERROR_NOT_FOUND for an index that the robot does not have.
+ */
+cstk_status cstk_robot_get_virtual_joint(const cstk_robot *robot,
+                                         uint32_t virtual_joint,
+                                         cstk_virtual_joint *out);
 
 /** @} */
 
@@ -2026,6 +2360,17 @@ cstk_status cstk_space_wrap(const cstk_space *space,
                             const double *q,
                             size_t nq,
                             double *out);
+
+/**
+ * Writes all pairs of links with bodies but those that SRDF files (or cstk_robot_builder_disable_pair) rule out, as
+ * cstk_cobject_induced_links takes them: at most `max_count` pairs of two link numbers each to `pairs` (NULL if `max_count`
+ * is 0), and their full number to `count`. Links of different robots are all paired. Nothing is sampled: where no SRDF file
+ * was read joined links are among the pairs; cstk_find_link_pairs finds those.
+ */
+cstk_status cstk_space_get_enabled_pairs(const cstk_space *space,
+                                         size_t max_count,
+                                         uint32_t *pairs,
+                                         size_t *count);
 
 /** @} */
 
@@ -2872,6 +3217,10 @@ enum cstk_pair_verdict
    * The links touched in no sample; still tested unless skip_never is set.
    */
   CSTK_PAIR_NEVER = 4,
+  /**
+   * The robot's SRDF file, or cstk_robot_builder_disable_pair, rules the pair out.
+   */
+  CSTK_PAIR_DISABLED = 5,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -3383,7 +3732,8 @@ cstk_status cstk_link_pair_options_default(cstk_link_pair_options *out, size_t s
 
 /**
  * Writes which pairs of links of the space to test for self-collision, and why the others are left out: links that are
- * joined, that touch at rest, or that touch in at least `always` of the sampled configurations. Links of different robots
+ * joined, that touch at rest, that touch in at least `always` of the sampled configurations, or that an SRDF file rules out
+ * (cstk_space_get_enabled_pairs tells these without sampling). Links of different robots
  * are always tested. Pass `tested` to cstk_cobject_induced_links (it may be empty); to allow further pairs, leave them
  * out. Set `margin` to at least the margin plus the contact epsilon of that set; otherwise pairs that are always in
  * contact are tested. `options` may be NULL for the defaults; `progress` may be NULL; `user` is passed to it.

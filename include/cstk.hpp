@@ -315,6 +315,12 @@ inline cstk_srdf_options srdf_options() {
     return options;
 }
 
+inline cstk_scene_options scene_options() {
+    cstk_scene_options options;
+    check(cstk_scene_options_default(&options, sizeof options));
+    return options;
+}
+
 /// A joint by functions of yours. They must not throw.
 inline cstk_custom_joint custom_joint() {
     cstk_custom_joint joint;
@@ -1015,12 +1021,16 @@ public:
         return out;
     }
 
-    /// The pairs of links that SRDF files leave to be tested, two numbers each: for cobjects of links.
-    std::vector<std::uint32_t> enabled_pairs() const {
+    /// The pairs of links that SRDF files leave to be tested, for CObject::induced_links().
+    std::vector<std::array<std::uint32_t, 2>> enabled_pairs() const {
         std::size_t count = 0;
         check(cstk_space_get_enabled_pairs(get(), 0, nullptr, &count));
-        std::vector<std::uint32_t> out(2 * count);
-        check(cstk_space_get_enabled_pairs(get(), count, out.data(), &count));
+        std::vector<std::uint32_t> flat(2 * count);
+        check(cstk_space_get_enabled_pairs(get(), count, flat.data(), &count));
+        std::vector<std::array<std::uint32_t, 2>> out(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            out[i] = {flat[2 * i], flat[2 * i + 1]};
+        }
         return out;
     }
 
@@ -1177,6 +1187,17 @@ public:
         apply_one(attached);
     }
 
+    /// Adds the objects of a MoveIt `.scene` file; returns their ids. Their data are their names.
+    std::vector<std::uint64_t> load_scene(const std::string &file,
+                                          const cstk_scene_options &options = scene_options()) {
+        return load(cstk_environment_load_scene, file, options);
+    }
+
+    std::vector<std::uint64_t> load_scene_text(const std::string &scene,
+                                               const cstk_scene_options &options = scene_options()) {
+        return load(cstk_environment_load_scene_text, scene, options);
+    }
+
     /// Applies all changes as one; returns the ids they are about.
     std::vector<std::uint64_t> apply(Span<cstk_environment_change> changes) {
         std::vector<std::uint64_t> ids(changes.size());
@@ -1239,6 +1260,19 @@ public:
     }
 
 private:
+    using Loader = cstk_status (*)(cstk_environment *, const char *, const cstk_scene_options *,
+                                   std::size_t, std::uint64_t *, std::size_t *);
+
+    std::vector<std::uint64_t> load(Loader loader, const std::string &scene,
+                                    const cstk_scene_options &options) {
+        /* As many as a scene may have. */
+        std::vector<std::uint64_t> ids(std::size_t{1} << 17);
+        std::size_t count = 0;
+        check(loader(get(), scene.c_str(), &options, ids.size(), ids.data(), &count));
+        ids.resize(count);
+        return ids;
+    }
+
     explicit Environment(cstk_environment *owned) : Handle(owned) {}
 
     std::uint64_t apply_one(const cstk_environment_change &change) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Fetches Pinocchio's Python module, the libraries it needs, their headers (but Boost's, which fetch_coal.sh has), and the
-# robots of example-robot-data (their URDF files and collision meshes) from PyPI into a folder (default build/pinocchio).
+# robots of example-robot-data (their URDF and SRDF files and collision meshes) from PyPI into a folder (default build/pinocchio).
 # Prints the folder; fails loudly where a package cannot be had or the module does not load. What is there already is not
-# fetched again, unless it is without headers.
+# fetched again, unless it is without headers or SRDF files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-build/pinocchio}
@@ -30,7 +30,8 @@ PY
 }
 
 headers=$folder/cmeel.prefix/include/pinocchio
-is_old() { [ -e "$folder/cmeel.prefix/share/example-robot-data" ] && [ ! -e "$headers" ]; }
+srdf=$folder/cmeel.prefix/share/example-robot-data/robots/panda_description/srdf
+is_old() { [ -e "$folder/cmeel.prefix/share/example-robot-data" ] && { [ ! -e "$headers" ] || [ ! -e "$srdf" ]; }; }
 if [ ! -e "$folder" ] || is_old; then
   work=$(mktemp -d)
   part=$folder.part.$$
@@ -47,6 +48,7 @@ for path in glob.glob(os.path.join(work, "*.whl")):
     wheel = zipfile.ZipFile(path)
     robots = [name for name in wheel.namelist() if name.startswith(share) and name.endswith(".urdf")]
     wanted = set(robots)
+    wanted |= {name for name in wheel.namelist() if name.startswith(share) and name.endswith(".srdf")}
     for robot in robots:
         for mesh in ElementTree.fromstring(wheel.read(robot)).iterfind(".//collision//mesh"):
             # package://example-robot-data/robots/...; one package goes by the name of its folder.

@@ -95,6 +95,9 @@ pub mod space;
 // S-objects, changed while others query; the dynamic tree over them.
 pub mod environment;
 
+// MoveIt's planning scenes as objects of an environment.
+pub mod planning_scene;
+
 // C-objects: induced sets, pure sets, unions, intersections, complements.
 pub mod cobject;
 

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <regex>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -27,33 +23,11 @@ cstk::Robot load_robot(const std::string &folder) {
     options.package_path_count = 1;
     cstk::RobotBuilder builder;
     builder.load_urdf(folder + "/panda.urdf", options);
+    // It may name links of other hands.
+    cstk_srdf_options names = cstk::srdf_options();
+    names.skip_unknown = 1;
+    builder.load_srdf(folder + "/panda.srdf", names);
     return builder.build();
-}
-
-/// All pairs of links with bodies but those that the SRDF disables.
-std::vector<LinkPair> link_pairs(const cstk::Robot &robot, const std::string &srdf) {
-    std::ifstream file(srdf);
-    std::stringstream text;
-    text << file.rdbuf();
-    const std::string content = text.str();
-    const std::regex disabled("<disable_collisions link1=\"([^\"]*)\" link2=\"([^\"]*)\"");
-    std::set<LinkPair> left_out;
-    for (std::sregex_iterator at(content.begin(), content.end(), disabled), end; at != end; ++at) {
-        const std::uint32_t a = robot.find_link((*at)[1]), b = robot.find_link((*at)[2]);
-        left_out.insert({std::min(a, b), std::max(a, b)});
-    }
-    if (left_out.empty()) {
-        throw std::runtime_error(srdf + ": no disabled pair of links");
-    }
-    std::vector<LinkPair> pairs;
-    for (std::uint32_t a = 0; a < robot.link_count(); ++a) {
-        for (std::uint32_t b = a + 1; b < robot.link_count(); ++b) {
-            if (robot.link_info(a).has_body && robot.link_info(b).has_body && left_out.count({a, b}) == 0) {
-                pairs.push_back({a, b});
-            }
-        }
-    }
-    return pairs;
 }
 
 Obstacle read_obstacle(const YAML::Node &shape, const YAML::Node &at) {
@@ -111,7 +85,7 @@ Configuration read_goal(const cstk::Robot &robot, const YAML::Node &request) {
 } // namespace
 
 Panda::Panda(const std::string &folder)
-    : folder_(folder), robot_(load_robot(folder)), space_(robot_), pairs_(link_pairs(robot_, folder + "/panda.srdf")) {}
+    : folder_(folder), robot_(load_robot(folder)), space_(robot_), pairs_(space_.enabled_pairs()) {}
 
 std::vector<std::string> Panda::scenes() const {
     std::vector<std::string> found;

@@ -12,6 +12,7 @@ mod file_writer;
 mod mesh;
 mod mesh_budget;
 pub mod mesh_file;
+mod mesh_form;
 mod pieces;
 mod shapes;
 mod solid;
@@ -26,6 +27,7 @@ pub use mesh::Mesh;
 pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };
+pub use mesh_form::MeshForm;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;
 pub use solid::Solid;

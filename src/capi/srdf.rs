@@ -6,6 +6,7 @@
 //! ```c
 //! uint32_t arm, home;
 //! cstk_joint_group group;
+//! cstk_robot *arm_alone = NULL;
 //! check(cstk_robot_builder_load_urdf(robot_builder, "arm.urdf", NULL, NULL, NULL, NULL));
 //! check(cstk_robot_builder_load_srdf(robot_builder, "arm.srdf", NULL));
 //! check(cstk_robot_build(robot_builder, &robot));

@@ -9,6 +9,7 @@
 //! check(cstk_robot_build(robot_builder, &robot));
 //! ```
 
+use std::collections::HashMap;
 use std::ffi::{c_char, c_void};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +17,7 @@ use super::boundary::{Failure, guard};
 use super::input::{
     OptionsStruct, Output, index_or_none, options_or_default, path, slice, text, write_defaults,
 };
+use crate::body::MeshForm;
 use crate::capi::hierarchy::options::cstk_hierarchy_options;
 use crate::capi::robot::builder::{cstk_robot_builder, with_builder};
 use crate::capi::robot::joint::cstk_joint_kind;
@@ -23,7 +25,9 @@ use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
-use crate::urdf::{BaseJoint, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file, add_urdf_text};
+use crate::urdf::{
+    BaseJoint, LinkForms, UrdfGeometry, UrdfOptions, UrdfReport, add_urdf_file, add_urdf_text,
+};
 
 /// Which shapes of a URDF file's links become their bodies.
 #[repr(i32)]
@@ -35,6 +39,44 @@ pub enum cstk_urdf_geometry {
     CSTK_URDF_VISUAL = 1,
     /// None: the links have frames only, and no mesh file is read.
     CSTK_URDF_NO_GEOMETRY = 2,
+}
+
+/// What the meshes of a link, or of a scene's object, stand for.
+#[repr(i32)]
+#[derive(Clone, Copy)]
+pub enum cstk_mesh_form {
+    /// Their faces: a body wholly inside a mesh does not meet it.
+    CSTK_MESH_SURFACE = 0,
+    /// The solid that their faces bound, where all meshes of the body together are closed (see cstk_body_builder_set_solid);
+    /// else their faces.
+    CSTK_MESH_SOLID = 1,
+    /// The convex hull of each mesh, a solid: what Drake and many MoveIt set-ups use.
+    CSTK_MESH_HULL = 2,
+}
+
+impl cstk_mesh_form {
+    pub(crate) fn decode(value: i32, argument: &str) -> Result<MeshForm, Failure> {
+        let forms = [
+            (Self::CSTK_MESH_SURFACE, MeshForm::Surface),
+            (Self::CSTK_MESH_SOLID, MeshForm::Solid),
+            (Self::CSTK_MESH_HULL, MeshForm::Hull),
+        ];
+        let found = forms.into_iter().find(|(code, _)| *code as i32 == value);
+        found.map(|(_, form)| form).ok_or_else(|| {
+            Error::invalid(format!("{argument} {value} is no cstk_mesh_form")).into()
+        })
+    }
+}
+
+/// The form of one link's meshes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_link_mesh_form {
+    /// The link's name in the file, without a prefix.
+    pub link: *const c_char,
+    /// A cstk_mesh_form.
+    pub form: i32,
+    pub reserved: u32,
 }
 
 /// Options for reading a URDF file. Write it with cstk_urdf_options_default first.
@@ -68,13 +110,21 @@ pub struct cstk_urdf_options {
     /// file that is damaged, or from another version of the library, is rebuilt and replaced. Processes may share the
     /// folder. Nothing is ever deleted from it. Whoever can write to it can change the robot's shapes.
     pub cache_folder: *const c_char,
+    /// Forms of links whose meshes stand for something else than mesh_form says, by name: `link_form_count` entries; NULL,
+    /// the default, for none. CSTK_ERROR_NOT_FOUND for a name that no link has.
+    pub link_forms: *const cstk_link_mesh_form,
+    pub link_form_count: usize,
+    /// A cstk_mesh_form, for all other links; default CSTK_MESH_SURFACE.
+    pub mesh_form: i32,
+    pub reserved: u32,
 }
 
-// SAFETY: repr(C), six 32-bit numbers, twelve doubles, five words: no padding; pointers only read after checks.
+// SAFETY: repr(C), six 32-bit numbers, twelve doubles, seven words, two 32-bit numbers: no padding; pointers only read after
+// checks.
 unsafe impl OptionsStruct for cstk_urdf_options {
     const COOKIE: u32 = 0x4353_0204;
     const NAME: &'static str = "cstk_urdf_options";
-    const EARLIER_SIZES: &'static [usize] = &[152];
+    const EARLIER_SIZES: &'static [usize] = &[152, 160];
     fn defaults() -> Self {
         Self {
             size: 0,
@@ -89,6 +139,10 @@ unsafe impl OptionsStruct for cstk_urdf_options {
             package_path_count: 0,
             hierarchy: std::ptr::null(),
             cache_folder: std::ptr::null(),
+            link_forms: std::ptr::null(),
+            link_form_count: 0,
+            mesh_form: 0,
+            reserved: 0,
         }
     }
 }
@@ -119,7 +173,8 @@ pub struct cstk_urdf_report {
     /// Elements of the robot, its links, joints and shapes that were skipped: inertia, materials, transmissions, shapes of
     /// the other kind.
     pub skipped_elements: u32,
-    pub reserved_number: u32,
+    /// Bodies whose meshes are closed and became solids, where CSTK_MESH_SOLID asks for it.
+    pub solid_body_count: u32,
     /// The number of convex primitives; those of a shared body count once.
     pub primitive_count: u64,
     /// Mesh faces that were not convex or not planar and were split into triangles, and those without area, which were left
@@ -143,7 +198,7 @@ impl From<&UrdfReport> for cstk_urdf_report {
             shape_count: report.shapes as u32,
             mesh_file_count: report.mesh_files as u32,
             skipped_elements: report.skipped_elements as u32,
-            reserved_number: 0,
+            solid_body_count: report.solid_bodies as u32,
             primitive_count: report.primitives,
             faces_split: report.faces_split,
             faces_dropped: report.faces_dropped,
@@ -169,7 +224,7 @@ pub unsafe extern "C" fn cstk_urdf_options_default(
 ///
 /// Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
 /// sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; the shapes of one link become one body. Meshes are
-/// surfaces: a body wholly inside one does not meet it. A mesh file is read once, and links with equal shapes share one
+/// surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
 /// body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
 /// Error messages name the file, the line and the element; the builder is then unchanged.
 ///
@@ -309,6 +364,7 @@ unsafe fn decode(given: &cstk_urdf_options) -> Result<UrdfOptions, Failure> {
             search,
             sides: given.sides as usize,
             hierarchy: options_or_default(given.hierarchy, "urdf_options->hierarchy")?.decode()?,
+            forms: link_forms(given)?,
             cache_folder: if given.cache_folder.is_null() {
                 None
             } else {
@@ -316,4 +372,21 @@ unsafe fn decode(given: &cstk_urdf_options) -> Result<UrdfOptions, Failure> {
             },
         })
     }
+}
+
+unsafe fn link_forms(given: &cstk_urdf_options) -> Result<LinkForms, Failure> {
+    let argument = "urdf_options->link_forms";
+    // SAFETY: checked for NULL; the header states the length.
+    let entries = unsafe { slice(given.link_forms, given.link_form_count, argument)? };
+    let mut named = HashMap::new();
+    for (i, entry) in entries.iter().enumerate() {
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let link = unsafe { text(entry.link, &format!("{argument}[{i}].link"))? };
+        let form = cstk_mesh_form::decode(entry.form, &format!("{argument}[{i}].form"))?;
+        named.insert(link.to_string(), form);
+    }
+    Ok(LinkForms {
+        others: cstk_mesh_form::decode(given.mesh_form, "urdf_options->mesh_form")?,
+        named,
+    })
 }

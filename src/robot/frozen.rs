@@ -1,19 +1,10 @@
 //! Robots of which only some joints move: a joint group, with the others frozen at a configuration.
 
 use super::robot::{Coordinates, Links};
+use super::whole::Whole;
 use super::{Block, Joint, JointKind, Robot, check_configuration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
-
-/// How the configurations of a robot with frozen joints stand in those of the robot that it was made from.
-#[derive(Clone, Debug)]
-pub(super) struct Whole {
-    /// The configuration of that robot at which joints are frozen.
-    rest: Vec<f64>,
-    blocks: Vec<Block>,
-    /// The place there of each coordinate that is left, ascending.
-    kept: Vec<usize>,
-}
 
 impl Robot {
     /// The same links, by the same numbers, with only some joints left to move: those that move the links of `joints`, and

@@ -16,6 +16,7 @@ mod names;
 #[allow(clippy::module_inception)]
 mod robot;
 mod semantics;
+mod whole;
 
 pub use builder::{LinkDefinition, RobotBuilder};
 pub use coordinate::{Block, BlockKind, Coordinate};

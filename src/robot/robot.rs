@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::frozen::Whole;
 use super::names::Names;
+use super::whole::Whole;
 use super::{Block, BlockKind, Coordinate, Joint, Semantics};
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};

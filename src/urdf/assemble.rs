@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Rotation3;
 
 use super::bodies::LinkBodies;
+use super::link_forms::LinkForms;
 use super::model::{JointElement, JointType, LinkElement, Model};
 use super::packages::PackageFolders;
 use super::report::UrdfReport;
@@ -63,6 +64,8 @@ pub struct UrdfOptions {
     pub sides: usize,
     /// How the links' hierarchies are built.
     pub hierarchy: HierarchyOptions,
+    /// Whether meshes are surfaces, solids or convex hulls.
+    pub forms: LinkForms,
     /// A folder that caches built bodies between loads; created if it does not exist.
     pub cache_folder: Option<PathBuf>,
 }
@@ -78,6 +81,7 @@ impl Default for UrdfOptions {
             search: Vec::new(),
             sides: 0,
             hierarchy: HierarchyOptions::default(),
+            forms: LinkForms::default(),
             cache_folder: None,
         }
     }
@@ -194,6 +198,7 @@ fn add_text(
         UrdfGeometry::None => None,
     };
     let model = Model::read(document.root_element(), geometry)?;
+    options.forms.check(&model.links)?;
     let order = Tree::of(&model)?.links_by_depth();
     let followed = followed(&model)?;
     let cache = options.cache_folder.as_deref().map(BodyCache::open);
@@ -204,7 +209,13 @@ fn add_text(
         options,
         followed,
         coordinates: HashMap::new(),
-        bodies: LinkBodies::new(&model.links, shapes, &options.hierarchy, cache.transpose()?)?,
+        bodies: LinkBodies::new(
+            &model.links,
+            shapes,
+            &options.hierarchy,
+            cache.transpose()?,
+            &options.forms,
+        )?,
         numbers: HashMap::new(),
     };
     let count = order.len() as f64;

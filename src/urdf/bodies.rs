@@ -3,10 +3,11 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::model::LinkElement;
+use super::link_forms::LinkForms;
+use super::model::{Geometry, LinkElement, Shape};
 use super::report::UrdfReport;
 use super::shapes::ShapeReader;
-use crate::body::{Body, BodyCache, BodyKey};
+use crate::body::{Body, BodyCache, BodyKey, MeshForm};
 use crate::error::Result;
 use crate::hierarchy::HierarchyOptions;
 
@@ -15,6 +16,7 @@ pub struct LinkBodies<'a> {
     shapes: ShapeReader<'a>,
     hierarchy: &'a HierarchyOptions,
     cache: Option<BodyCache>,
+    forms: &'a LinkForms,
     /// By the link's name.
     keys: HashMap<&'a str, BodyKey>,
     bodies: HashMap<BodyKey, Arc<Body>>,
@@ -29,11 +31,13 @@ impl<'a> LinkBodies<'a> {
         shapes: ShapeReader<'a>,
         hierarchy: &'a HierarchyOptions,
         cache: Option<BodyCache>,
+        forms: &'a LinkForms,
     ) -> Result<Self> {
         let mut bodies = Self {
             shapes,
             hierarchy,
             cache,
+            forms,
             keys: HashMap::new(),
             bodies: HashMap::new(),
             report: UrdfReport::default(),
@@ -45,7 +49,7 @@ impl<'a> LinkBodies<'a> {
         };
         let mut to_build = HashSet::new();
         for link in links.iter().filter(|link| !link.geometry.is_empty()) {
-            let shapes = bodies.shapes.describe(link)?;
+            let shapes = bodies.shapes.describe(link, form_of(link, forms))?;
             let key = BodyKey::of(&format!("{options:?}\n{shapes}"));
             bodies.keys.insert(link.name, key);
             bodies.report.links_with_body += 1;
@@ -73,10 +77,11 @@ impl<'a> LinkBodies<'a> {
         if let Some(body) = self.bodies.get(&key) {
             return Ok(Some(body.clone()));
         }
+        let form = form_of(link, self.forms);
         let body = self
             .shapes
-            .read(link)?
-            .build(self.hierarchy, &mut |_| Ok(()))
+            .read(link, form)?
+            .build_as(form, self.hierarchy, &mut |_| Ok(()))
             .map_err(|e| e.within(format_args!("link \"{}\"", link.name)))?;
         let body = Arc::new(body);
         // A cache that cannot be written to is reported, not an error: the robot does not need it.
@@ -92,6 +97,7 @@ impl<'a> LinkBodies<'a> {
     fn add(&mut self, key: BodyKey, body: Arc<Body>) {
         let statistics = body.statistics();
         self.report.bodies += 1;
+        self.report.solid_bodies += usize::from(statistics.is_solid);
         self.report.primitives += statistics.primitives;
         self.report.faces_split += statistics.faces_split;
         self.report.faces_dropped += statistics.faces_dropped;
@@ -101,5 +107,14 @@ impl<'a> LinkBodies<'a> {
     /// What was read and built so far.
     pub fn report(&self) -> UrdfReport {
         self.report
+    }
+}
+
+/// The form of a link's meshes; a link without any is as it is.
+fn form_of(link: &LinkElement, forms: &LinkForms) -> MeshForm {
+    let has_mesh = |geometry: &Geometry| matches!(geometry.shape, Shape::Mesh { .. });
+    match link.geometry.iter().any(has_mesh) {
+        true => forms.of(link.name),
+        false => MeshForm::Surface,
     }
 }

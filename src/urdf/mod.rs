@@ -5,10 +5,12 @@
 
 mod assemble;
 mod bodies;
+mod link_forms;
 mod model;
 mod packages;
 mod report;
 mod shapes;
 
 pub use assemble::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file, add_urdf_text};
+pub use link_forms::LinkForms;
 pub use report::UrdfReport;

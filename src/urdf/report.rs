@@ -15,6 +15,8 @@ pub struct UrdfReport {
     pub links_with_other_shapes: usize,
     /// The number of different bodies: links with equal shapes share one.
     pub bodies: usize,
+    /// Bodies whose meshes are closed and became solids, as the options ask.
+    pub solid_bodies: usize,
     /// Bodies read from the cache folder; the others were built.
     pub bodies_from_cache: usize,
     /// Built bodies that could not be written to the cache folder.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::model::{Geometry, LinkElement, Shape};
 use super::packages::PackageFolders;
 use crate::body::mesh_file::{MeshFormat, read_mesh_bytes};
-use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshSize};
+use crate::body::{BodyBuilder, BodyKey, Mesh, MeshBudget, MeshForm, MeshSize};
 use crate::error::{Error, Result, require_finite};
 use crate::pose::{Pose, Vec3};
 use crate::xml::place;
@@ -57,8 +57,12 @@ impl<'a> ShapeReader<'a> {
     }
 
     /// Describes everything that the link's shapes depend on. Links with equal descriptions have equal shapes.
-    pub fn describe(&mut self, link: &LinkElement) -> Result<String> {
+    pub fn describe(&mut self, link: &LinkElement, form: MeshForm) -> Result<String> {
         let mut text = format!("sides {}\n", self.sides);
+        // Surfaces are described as they were before there were other forms: caches stay good.
+        if form != MeshForm::Surface {
+            let _ = writeln!(text, "form {form:?}");
+        }
         for geometry in &link.geometry {
             let origin = geometry.origin.to_row_major();
             let shape = match &geometry.shape {
@@ -110,16 +114,22 @@ impl<'a> ShapeReader<'a> {
 
     /// The link's shapes in its frame. Primitives are tagged with the number of the shape, those of a mesh with the number
     /// of the face in its file.
-    pub fn read(&mut self, link: &LinkElement) -> Result<BodyBuilder> {
+    pub fn read(&mut self, link: &LinkElement, form: MeshForm) -> Result<BodyBuilder> {
         let mut builder = BodyBuilder::new(3)?;
         for (i, geometry) in link.geometry.iter().enumerate() {
-            self.add(geometry, i as u64, &mut builder)
+            self.add(geometry, form, i as u64, &mut builder)
                 .map_err(|e| at(link, geometry, e))?;
         }
         Ok(builder)
     }
 
-    fn add(&mut self, geometry: &Geometry, tag: u64, builder: &mut BodyBuilder) -> Result<()> {
+    fn add(
+        &mut self,
+        geometry: &Geometry,
+        form: MeshForm,
+        tag: u64,
+        builder: &mut BodyBuilder,
+    ) -> Result<()> {
         let at = &geometry.origin;
         match &geometry.shape {
             Shape::Box { size } => {
@@ -167,7 +177,8 @@ impl<'a> ShapeReader<'a> {
                 for vertex in &mut mesh.vertices {
                     *vertex = at.transform_point(&vertex.component_mul(&Vec3::from(*scale)));
                 }
-                builder.add_mesh(&mesh).map_err(|e| e.within(file))
+                let added = builder.add_mesh_as(&mesh, form, tag);
+                added.map_err(|e| e.within(file))
             }
         }
     }

@@ -1,10 +1,12 @@
-//! Robots, spaces, URDF, SRDF.
+//! Robots, spaces, URDF, SRDF, planning scenes.
 
 mod find_link_pairs;
 mod frozen;
 mod kinematics;
 mod link_motions;
+mod mesh_forms;
 mod motion_bound;
+mod planning_scene;
 mod spaces;
 mod srdf;
 mod urdf;

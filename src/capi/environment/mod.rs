@@ -16,3 +16,5 @@
 pub mod environment;
 
 pub mod object;
+
+pub mod planning_scene;

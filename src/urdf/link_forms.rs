@@ -1,0 +1,36 @@
+//! What the meshes of each link stand for.
+
+use std::collections::HashMap;
+
+use super::model::LinkElement;
+use crate::body::MeshForm;
+use crate::error::{Error, ErrorKind, Result};
+
+/// What the meshes of the links stand for.
+#[derive(Clone, Debug, Default)]
+pub struct LinkForms {
+    /// Of all links that are not named.
+    pub others: MeshForm,
+    /// Of links by their name in the file.
+    pub named: HashMap<String, MeshForm>,
+}
+
+impl LinkForms {
+    /// The form of a link's meshes.
+    pub fn of(&self, link: &str) -> MeshForm {
+        self.named.get(link).copied().unwrap_or(self.others)
+    }
+
+    /// Refuses names that no link has.
+    pub(super) fn check(&self, links: &[LinkElement]) -> Result<()> {
+        let mut missing: Vec<&String> = self.named.keys().collect();
+        missing.retain(|name| !links.iter().any(|link| link.name == name.as_str()));
+        match missing.into_iter().min() {
+            None => Ok(()),
+            Some(name) => Err(Error::new(
+                ErrorKind::NotFound,
+                format!("there is no link \"{name}\", for which the options choose a mesh form"),
+            )),
+        }
+    }
+}
