@@ -1657,6 +1657,51 @@ typedef int32_t cstk_urdf_geometry;
 #endif // __cplusplus
 
 /**
+ * What the meshes of a link, or of a scene's object, stand for.
+ */
+enum cstk_mesh_form
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Their faces: a body wholly inside a mesh does not meet it.
+   */
+  CSTK_MESH_SURFACE = 0,
+  /**
+   * The solid that their faces bound, where all meshes of the body together are closed (see cstk_body_builder_set_solid);
+   * else their faces.
+   */
+  CSTK_MESH_SOLID = 1,
+  /**
+   * The convex hull of each mesh, a solid: what Drake and many MoveIt set-ups use.
+   */
+  CSTK_MESH_HULL = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_mesh_form cstk_mesh_form;
+#else
+typedef int32_t cstk_mesh_form;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The form of one link's meshes.
+ */
+typedef struct cstk_link_mesh_form {
+  /**
+   * The link's name in the file, without a prefix.
+   */
+  const char *link;
+  /**
+   * A cstk_mesh_form.
+   */
+  int32_t form;
+  uint32_t reserved;
+} cstk_link_mesh_form;
+
+/**
  * Options for reading a URDF file. Write it with cstk_urdf_options_default first.
  */
 typedef struct cstk_urdf_options {
@@ -1705,6 +1750,17 @@ typedef struct cstk_urdf_options {
    * folder. Nothing is ever deleted from it. Whoever can write to it can change the robot's shapes.
    */
   const char *cache_folder;
+  /**
+   * Forms of links whose meshes stand for something else than mesh_form says, by name: `link_form_count` entries; NULL,
+   * the default, for none. CSTK_ERROR_NOT_FOUND for a name that no link has.
+   */
+  const cstk_link_mesh_form *link_forms;
+  size_t link_form_count;
+  /**
+   * A cstk_mesh_form, for all other links; default CSTK_MESH_SURFACE.
+   */
+  int32_t mesh_form;
+  uint32_t reserved;
 } cstk_urdf_options;
 
 /**
@@ -1751,7 +1807,10 @@ typedef struct cstk_urdf_report {
    * the other kind.
    */
   uint32_t skipped_elements;
-  uint32_t reserved_number;
+  /**
+   * Bodies whose meshes are closed and became solids, where CSTK_MESH_SOLID asks for it.
+   */
+  uint32_t solid_body_count;
   /**
    * The number of convex primitives; those of a shared body count once.
    */
@@ -1779,7 +1838,7 @@ cstk_status cstk_urdf_options_default(cstk_urdf_options *out, size_t size);
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
  * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; the shapes of one link become one body. Meshes are
- * surfaces: a body wholly inside one does not meet it. A mesh file is read once, and links with equal shapes share one
+ * surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
  * body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
  * Error messages name the file, the line and the element; the builder is then unchanged.
  *
@@ -1825,6 +1884,7 @@ cstk_status cstk_robot_builder_get_urdf_report(cstk_robot_builder *builder,
  * @code
      uint32_t arm, home;
      cstk_joint_group group;
+     cstk_robot *arm_alone = NULL;
      check(cstk_robot_builder_load_urdf(robot_builder, "arm.urdf", NULL, NULL, NULL, NULL));
      check(cstk_robot_builder_load_srdf(robot_builder, "arm.srdf", NULL));
      check(cstk_robot_build(robot_builder, &robot));
@@ -2005,7 +2065,8 @@ cstk_status cstk_srdf_options_default(cstk_srdf_options *out, size_t size);
  * Error messages name the file, the line and the element; the builder is then unchanged. Refused are names that are not
  * there, two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
  * that is no root, values of the wrong number. Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB; 2^12 groups and
- * 2^22 joints in all of them together; 2^16 states; those of XML at cstk_robot_builder_load_urdf.
+ * 2^22 joints in all of them together; 2^12 states; 2^12 end effectors and 2^20 touch links in all of them; 2^8 virtual
+ * joints; those of XML at cstk_robot_builder_load_urdf.
  */
 cstk_status cstk_robot_builder_load_srdf(cstk_robot_builder *builder,
                                          const char *file,
@@ -2500,6 +2561,27 @@ typedef struct cstk_object_info {
   uint64_t reserved[8];
 } cstk_object_info;
 
+/**
+ * Options for reading a planning scene. Write it with cstk_scene_options_default first.
+ */
+typedef struct cstk_scene_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * Where the scene's frame is in the world: a pose of 12 doubles.
+   */
+  double at[12];
+  /**
+   * How the objects' hierarchies are built; NULL for the defaults.
+   */
+  const cstk_hierarchy_options *hierarchy;
+  /**
+   * A cstk_mesh_form, for all meshes; default CSTK_MESH_SURFACE.
+   */
+  int32_t mesh_form;
+  uint32_t reserved;
+} cstk_scene_options;
+
 
 /**
  * Creates an empty environment.
@@ -2578,6 +2660,39 @@ cstk_status cstk_environment_get_object_info(const cstk_environment *environment
 cstk_status cstk_environment_get_object_pose(const cstk_environment *environment,
                                              uint64_t id,
                                              double *pose);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_scene_options).
+ */
+cstk_status cstk_scene_options_default(cstk_scene_options *out, size_t size);
+
+/**
+ * Adds the objects of a MoveIt planning scene, a `.scene` file (the text that MoveIt exports, of either version), to an
+ * environment: all of them in one change, or none. Each object becomes one s-object: boxes, spheres, cylinders, cones and
+ * meshes at their poses, one body. Its user data (`s_data` of a witness) is its name, a NUL-terminated string that lives as
+ * long as the object. Colours and subframes are skipped. The ids are written in the order of the file: at most `max_count` to
+ * `ids` (NULL if `max_count` is 0), and their full number to `count`, which may be NULL. `scene_options` may be NULL.
+ *
+ * Error messages name the file, the line and the object. Refused are unknown shapes, planes (they have no end; see
+ * cstk_cobject_below_floor), objects without shapes, two objects of one name. Limits, beyond which a file is
+ * CSTK_ERROR_UNSUPPORTED: 1 GiB, 2^17 shapes, 2^23 triangles.
+ */
+cstk_status cstk_environment_load_scene(cstk_environment *environment,
+                                        const char *file,
+                                        const cstk_scene_options *scene_options,
+                                        size_t max_count,
+                                        uint64_t *ids,
+                                        size_t *count);
+
+/**
+ * As cstk_environment_load_scene, from a NUL-terminated text in memory, UTF-8. Error messages begin with "scene text".
+ */
+cstk_status cstk_environment_load_scene_text(cstk_environment *environment,
+                                             const char *scene,
+                                             const cstk_scene_options *scene_options,
+                                             size_t max_count,
+                                             uint64_t *ids,
+                                             size_t *count);
 
 /** @} */
 

@@ -216,7 +216,8 @@ unsafe fn decode(given: *const cstk_srdf_options) -> Result<SrdfOptions, Failure
 /// Error messages name the file, the line and the element; the builder is then unchanged. Refused are names that are not
 /// there, two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
 /// that is no root, values of the wrong number. Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB; 2^12 groups and
-/// 2^22 joints in all of them together; 2^16 states; those of XML at cstk_robot_builder_load_urdf.
+/// 2^22 joints in all of them together; 2^12 states; 2^12 end effectors and 2^20 touch links in all of them; 2^8 virtual
+/// joints; those of XML at cstk_robot_builder_load_urdf.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_robot_builder_load_srdf(
     builder: *mut cstk_robot_builder,

@@ -25,6 +25,13 @@ pub struct SrdfOptions {
 /// The largest SRDF file accepted, 64 MiB; those of humanoids have some 100 KiB.
 const MAX_SRDF_BYTES: u64 = 1 << 26;
 
+/// At most 4096 end effectors and 256 virtual joints in a file; each is compared with all before it.
+const MAX_END_EFFECTORS: usize = 1 << 12;
+const MAX_VIRTUAL_JOINTS: usize = 1 << 8;
+
+/// At most 2^20 touch links of all end effectors: several may share a large group.
+const MAX_TOUCH_LINKS: usize = 1 << 20;
+
 /// Adds what an SRDF file says to a builder that holds the robot's links. The file is added whole or not at all; errors name
 /// file, line and element.
 pub fn add_srdf_file(
@@ -67,7 +74,10 @@ fn add_text(builder: &mut RobotBuilder, text: &str, options: &SrdfOptions) -> Re
         options,
         semantics,
         report: SrdfReport::default(),
+        touch_links: 0,
     };
+    require_count(root, "virtual_joint", MAX_VIRTUAL_JOINTS)?;
+    require_count(root, "end_effector", MAX_END_EFFECTORS)?;
     // Virtual joints first: groups and states name them.
     for node in children(root, "virtual_joint") {
         reader.virtual_joint(node)?;
@@ -92,12 +102,23 @@ fn add_text(builder: &mut RobotBuilder, text: &str, options: &SrdfOptions) -> Re
     Ok(report)
 }
 
+fn require_count(root: Node, name: &str, max: usize) -> Result<()> {
+    let count = children(root, name).count();
+    if count <= max {
+        return Ok(());
+    }
+    let message = format!("it has {count} elements <{name}>; at most {max} are possible");
+    Err(fault(root, ErrorKind::Unsupported, message))
+}
+
 /// What was read so far.
 pub(super) struct Reader<'o> {
     pub builder: &'o mut RobotBuilder,
     pub options: &'o SrdfOptions,
     pub semantics: Semantics,
     pub report: SrdfReport,
+    /// Those of all end effectors.
+    touch_links: usize,
 }
 
 /// The elements that are read.
@@ -214,6 +235,11 @@ impl Reader<'_> {
         touch_links.dedup();
         let links = self.builder.links();
         touch_links.retain(|&link| links[link as usize].body.is_some());
+        self.touch_links += touch_links.len();
+        if self.touch_links > MAX_TOUCH_LINKS {
+            let message = format!("the end effectors have more than {MAX_TOUCH_LINKS} links");
+            return Err(named(fault(node, ErrorKind::Unsupported, message)));
+        }
         self.semantics.end_effectors.push(EndEffector {
             name: SemanticName::new(&own_name),
             group,
@@ -280,7 +306,7 @@ impl Reader<'_> {
     }
 }
 
-/// An error of an element within one with a name.
+/// An error of an element that says what cannot be.
 pub(super) fn invalid(node: Node, message: impl Display) -> Error {
     fault(node, ErrorKind::InvalidArgument, message)
 }

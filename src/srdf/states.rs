@@ -9,8 +9,8 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::robot::{Joint, JointKind, NamedState, SemanticName};
 use crate::xml::{children, fault, list, required};
 
-/// At most 2^16 states in a file.
-const MAX_STATES: usize = 1 << 16;
+/// At most 4096 states in a file; each is compared with all before it.
+const MAX_STATES: usize = 1 << 12;
 
 /// How far the norm of a written quaternion may be off 1: three digits are.
 const MAX_NORM_ERROR: f64 = 1e-2;

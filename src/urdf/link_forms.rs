@@ -1,6 +1,6 @@
 //! What the meshes of each link stand for.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::model::LinkElement;
 use crate::body::MeshForm;
@@ -23,9 +23,12 @@ impl LinkForms {
 
     /// Refuses names that no link has.
     pub(super) fn check(&self, links: &[LinkElement]) -> Result<()> {
-        let mut missing: Vec<&String> = self.named.keys().collect();
-        missing.retain(|name| !links.iter().any(|link| link.name == name.as_str()));
-        match missing.into_iter().min() {
+        let links: HashSet<&str> = links.iter().map(|link| link.name).collect();
+        let missing = self
+            .named
+            .keys()
+            .filter(|name| !links.contains(name.as_str()));
+        match missing.min() {
             None => Ok(()),
             Some(name) => Err(Error::new(
                 ErrorKind::NotFound,

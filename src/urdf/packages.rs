@@ -144,7 +144,8 @@ impl Workspace {
                     found.push(folder.clone());
                 }
                 // There is no package inside another.
-                if looked == MAX_FOLDERS || folder.join("package.xml").is_file() {
+                let is_full = looked == MAX_FOLDERS || next.len() > MAX_FOLDERS;
+                if is_full || folder.join("package.xml").is_file() {
                     continue;
                 }
                 looked += 1;

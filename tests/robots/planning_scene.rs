@@ -122,7 +122,7 @@ fn faults_are_named_with_line_and_object() {
             vec!["\"a\""],
         ),
         (
-            object(&format!("sphere\n0\n{POSE}.")),
+            object(&format!("sphere\n-1\n{POSE}.")),
             InvalidArgument,
             vec!["\"a\"", "radius"],
         ),

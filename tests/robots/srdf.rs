@@ -357,6 +357,11 @@ fn faults_are_named_with_line_and_element() {
         ),
         (many, Unsupported, vec!["4097 groups"]),
         (
+            "<end_effector/>".repeat(4097),
+            Unsupported,
+            vec!["4097 elements <end_effector>"],
+        ),
+        (
             "<group_state name='s' group='no'/>".into(),
             NotFound,
             vec!["<group_state>", "\"s\"", "\"no\""],
