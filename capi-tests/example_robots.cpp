@@ -165,9 +165,9 @@ void try_one(const std::string &robots, const Example &example, Counts &counts) 
         load(builder, robots, example, true);
         const cstk_srdf_report report = builder.srdf_report();
         const cstk::Robot robot = builder.build();
-        std::printf("%s: %u groups, %u states, %u end effectors, %u disabled pairs; unknown names %u, skipped elements %u\n",
+        std::printf("%s: %u groups, %u states, %u end effectors, %u disabled pairs, %zu left; unknown names %u, skipped elements %u\n",
                     example.srdf, report.group_count, report.state_count, report.end_effector_count,
-                    report.disabled_pair_count, report.unknown_names, report.skipped_elements);
+                    report.disabled_pair_count, cstk::Space(robot).enabled_pairs().size(), report.unknown_names, report.skipped_elements);
         ++counts.loaded;
         counts.strict += report.unknown_names == 0;
         counts.failed += known != faulty.end();

@@ -1910,7 +1910,8 @@ typedef struct cstk_srdf_options {
   const char *prefix;
   /**
    * Nonzero: elements that name a link, joint or group that is not there are skipped, and the report counts them (a file
-   * for a robot with a hand, read for the robot without). 0, the default: they are CSTK_ERROR_NOT_FOUND.
+   * for a robot with a hand, read for the robot without); so are virtual joints to links that are no roots. 0, the
+   * default: they are refused.
    */
   uint32_t skip_unknown;
   uint32_t reserved;

@@ -23,10 +23,7 @@ cstk::Robot load_robot(const std::string &folder) {
     options.package_path_count = 1;
     cstk::RobotBuilder builder;
     builder.load_urdf(folder + "/panda.urdf", options);
-    // It may name links of other hands.
-    cstk_srdf_options names = cstk::srdf_options();
-    names.skip_unknown = 1;
-    builder.load_srdf(folder + "/panda.srdf", names);
+    builder.load_srdf(folder + "/panda.srdf");
     return builder.build();
 }
 

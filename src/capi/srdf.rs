@@ -42,7 +42,8 @@ pub struct cstk_srdf_options {
     /// loaded with; may be NULL.
     pub prefix: *const c_char,
     /// Nonzero: elements that name a link, joint or group that is not there are skipped, and the report counts them (a file
-    /// for a robot with a hand, read for the robot without). 0, the default: they are CSTK_ERROR_NOT_FOUND.
+    /// for a robot with a hand, read for the robot without); so are virtual joints to links that are no roots. 0, the
+    /// default: they are refused.
     pub skip_unknown: u32,
     pub reserved: u32,
 }

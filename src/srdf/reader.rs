@@ -18,7 +18,8 @@ use crate::xml::{children, fault, parse, required};
 pub struct SrdfOptions {
     /// Prepended to the names of links, joints, groups, states and end effectors: that of the URDF's options.
     pub prefix: String,
-    /// Skips elements that name links, joints or groups that are not there, and counts them.
+    /// Skips elements that name links, joints or groups that are not there, and virtual joints to links that are no roots;
+    /// counts them.
     pub skip_unknown: bool,
 }
 
@@ -192,6 +193,10 @@ impl Reader<'_> {
         };
         let own = &self.builder.links()[child_link as usize].joint_name;
         let own_name = self.prefixed(name);
+        if !own.is_empty() && self.options.skip_unknown {
+            self.report.unknown_names += 1;
+            return Ok(());
+        }
         let message = if !own.is_empty() {
             format!("joint \"{own}\" moves link \"{child}\" already: it is no root")
         } else if self.builder.find_joint(&own_name).is_some() {

@@ -475,10 +475,11 @@ fn unknown_names_are_skipped_on_request_and_prefixes_are_kept_apart() {
     };
     let text = format!(
         "{SRDF}<disable_collisions link1='a' link2='no'/><group name='more'><joint name='no'/><joint name='ja'/></group>\
-         <group_state name='s' group='no'/><end_effector name='e' parent_link='no' group='no'/><passive_joint name='no'/>"
+         <group_state name='s' group='no'/><end_effector name='e' parent_link='no' group='no'/><passive_joint name='no'/>\
+         <virtual_joint name='w' type='fixed' parent_frame='o' child_link='b'/>"
     );
     let (robot, report) = with(BaseJoint::Free, &text, &skipping).unwrap();
-    assert_eq!((report.unknown_names, report.groups), (6, 7));
+    assert_eq!((report.unknown_names, report.groups), (7, 7));
     assert_eq!(names(&robot, "left_more"), ["left_ja"]);
     assert_eq!(robot.find_joint("left_world_joint"), Some(0));
     // Another robot of the same file beside it, and pairs by name.
