@@ -9,6 +9,7 @@ mod curves;
 mod forged;
 mod maps;
 mod motions;
+mod neighbourhoods;
 mod pair_motion;
 mod path;
 mod random_scenes;
