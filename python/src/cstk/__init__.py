@@ -14,6 +14,7 @@ from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._progress import Progress
 from ._record import Record, Records, dtype_of
+from .batch import Batch, BatchAnswers
 from .body import Body, BodyBuilder, Support
 from .certificate import Certificate
 from .cobject import AllowedPair, CObject
@@ -21,6 +22,7 @@ from .enums import *  # noqa: F403
 from .environment import Change, Environment
 from .errors import *  # noqa: F403
 from .hierarchy import HierarchyOptions, Mesh
+from .map import Map, MapAxis
 from .motion import Clearance, Motion, MotionFunction, Path
 from .poses import (
     euler_from_rotation,

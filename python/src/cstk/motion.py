@@ -64,7 +64,7 @@ class Clearance(ClearanceResult):
         self.nearest = nearest
 
 
-def _options(threshold: float, tolerance: Optional[float], any_contact: bool) -> Any:
+def motion_options(threshold: float, tolerance: Optional[float], any_contact: bool) -> Any:
     return options(
         "motion_options",
         threshold=scalar("threshold", threshold),
@@ -129,7 +129,7 @@ class Motions(Handle):
         *ends, nq = _ends(q0, q1)
         reached, reached_out = empty(nq)
         out = ffi.new("cstk_motion_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         place = pointer_of(CObject, "cobject", cobject)
         check(lib.cstk_motion(self._pointer, place, *ends, nq, given, reached_out, out))
         return Motion(out, reached)
@@ -148,7 +148,7 @@ class Motions(Handle):
         *ends, nq = _ends(q0, q1)
         reached, reached_out = empty(nq)
         out, certificate = ffi.new("cstk_motion_result *"), ffi.new("cstk_certificate **")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         place = pointer_of(CObject, "cobject", cobject)
         check(lib.cstk_motion_certificate(self._pointer, place, *ends, nq, given, reached_out, out, certificate))
         return Motion(out, reached), Certificate._take(certificate[0]) if certificate[0] != ffi.NULL else None
@@ -167,7 +167,7 @@ class Motions(Handle):
         array = rows("points", points)
         reached, reached_out = empty(array.shape[1])
         out = ffi.new("cstk_path_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         arguments = self._pointer, pointer_of(CObject, "cobject", cobject), doubles(array), *array.shape, given
         reporting(lambda function, user: lib.cstk_motion_path(*arguments, function, user, reached_out, out), progress)
         return Path(out, reached)
@@ -185,7 +185,7 @@ class Motions(Handle):
         array = rows("points", points)
         reached, reached_out = empty(array.shape[1])
         out = ffi.new("cstk_motion_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         place = pointer_of(CObject, "cobject", cobject)
         check(lib.cstk_motion_curve(self._pointer, place, doubles(array), *array.shape, given, reached_out, out))
         return Motion(out, reached)
@@ -205,7 +205,7 @@ class Motions(Handle):
         array, ticks = rows("points", points), vector("knots", knots)
         reached, reached_out = empty(array.shape[1])
         out = ffi.new("cstk_motion_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         place = pointer_of(CObject, "cobject", cobject)
         spline = index("degree", degree, 64), doubles(ticks), ticks.size, doubles(array), *array.shape
         check(lib.cstk_motion_spline(self._pointer, place, *spline, given, reached_out, out))
@@ -232,7 +232,7 @@ class Motions(Handle):
             raise TypeError(f"function must be a function, not {type(function).__name__}")
         reached, reached_out = empty(nq)
         out = ffi.new("cstk_motion_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         place, asked = pointer_of(CObject, "cobject", cobject), _Asked(function)
         kept = Kept(asked)
         try:
@@ -262,7 +262,7 @@ class Motions(Handle):
         """The same of two bodies, each on a screw from its start to its end."""
         both = np.empty((2, 3, 4))
         out = ffi.new("cstk_motion_result *")
-        given = _options(threshold, tolerance, any_contact)
+        given = motion_options(threshold, tolerance, any_contact)
         a = pointer_of(Body, "body_a", body_a), doubles(pose("start_a", start_a)), doubles(pose("end_a", end_a))
         b = pointer_of(Body, "body_b", body_b), doubles(pose("start_b", start_b)), doubles(pose("end_b", end_b))
         check(lib.cstk_pair_motion(self._pointer, *a, *b, given, doubles(both), out))
