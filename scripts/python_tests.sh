@@ -2,7 +2,8 @@
 # Builds the wheel of python/, installs it into a clean virtual environment, and runs its tests and examples there. The peers that
 # answers are compared with (python-fcl, coal) come from PyPI; where one cannot be had, its tests are skipped and counted.
 #
-# --fast compiles the library with few optimizations, in a third of the time; answers do not depend on it.
+# --fast compiles the library with few optimizations and on all cores (a release is optimized as one unit, on one core); answers do
+# not depend on it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh python
