@@ -402,8 +402,6 @@ static void queries() {
     maps(query, obstacles, q);
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
-    query.set_neighbourhoods(false);
-    query.set_neighbourhoods(true);
     query.set_limit(1);
     REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_ERROR_LIMIT);
     query.set_limit(0);

@@ -30,14 +30,6 @@ static void get_statistics(const fixture *f) {
     fixture_unchanged(f);
 }
 
-static void set_neighbourhoods(const fixture *f) {
-    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
-        CHECK_FAILS(cstk_query_set_neighbourhoods(bad->handle, true), bad->status, "query");
-    }
-    CHECK_OK(cstk_query_set_neighbourhoods(f->query, false));
-    CHECK_OK(cstk_query_set_neighbourhoods(f->query, true));
-}
-
 static void set_limit(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
         CHECK_FAILS(cstk_query_set_limit(bad->handle, 1), bad->status, "query");
@@ -521,7 +513,6 @@ int main(void) {
     fixture_create(&f);
     query_create(&f);
     get_statistics(&f);
-    set_neighbourhoods(&f);
     set_limit(&f);
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
         query_handles(&f, &forms[i]);

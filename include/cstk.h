@@ -3136,27 +3136,7 @@ typedef struct cstk_query_statistics {
    * Those of `primitive_pairs` whose distance was computed, not polygons that a remembered direction separates.
    */
   uint64_t primitive_distances;
-  /**
-   * Queries that remembered neighbourhoods answered without poses or geometry (cstk_query_set_neighbourhoods).
-   */
-  uint64_t neighbourhood_answers;
-  /**
-   * Links and pairs of links that other queries left out for the same reason, each counted once a query.
-   */
-  uint64_t neighbourhood_pairs;
-  /**
-   * Neighbourhoods that were made.
-   */
-  uint64_t neighbourhoods_made;
-  /**
-   * Neighbourhoods that were dropped because an environment changed, or to make room for another C-object.
-   */
-  uint64_t neighbourhoods_dropped;
-  /**
-   * Queries answered by a primitive pair that met before in the same region of C-space.
-   */
-  uint64_t region_witnesses;
-  uint64_t reserved[3];
+  uint64_t reserved[4];
 } cstk_query_statistics;
 
 
@@ -3205,17 +3185,6 @@ cstk_status cstk_query_set_contacts(cstk_query *query,
  */
 cstk_status cstk_query_set_limit(cstk_query *query,
                                  uint64_t node_and_primitive_pairs);
-
-/**
- * Sets whether the context remembers free neighbourhoods from now on; at first it does not. What it measures at one configuration
- * then proves others around it free: each link as far as the joints before it are near, each pair of links as far as the joints
- * between them are. cstk_classify, cstk_within and cstk_motion answer from that, or leave links out; what met in a region of C-space
- * is tried first there. The answers are the same. It pays for configurations that follow each other closely, and can cost more
- * than it spares for others: measure. Takes at most 30 megabytes for each of the four C-objects asked last. What was remembered is
- * dropped where an environment changes, and with `false`.
- */
-cstk_status cstk_query_set_neighbourhoods(cstk_query *query,
-                                          bool remember);
 
 /**
  * Writes the work done since the context was created, or since the last call with `reset`; `reset` sets the counts to 0.

@@ -1644,11 +1644,6 @@ public:
         check(cstk_query_set_limit(get(), node_and_primitive_pairs));
     }
 
-    /// Whether what is measured at one configuration is remembered for those around it; see cstk_query_set_neighbourhoods.
-    void set_neighbourhoods(bool remember) const {
-        check(cstk_query_set_neighbourhoods(get(), remember));
-    }
-
     /// Which pairs of links to test for self-collision, for CObject::induced_links().
     std::vector<std::array<std::uint32_t, 2>>
     find_link_pairs(const Space &space,

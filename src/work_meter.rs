@@ -43,16 +43,6 @@ impl WorkMeter {
         self.left = i64::try_from(limit).unwrap_or(i64::MAX);
     }
 
-    /// Begins work with a limit of its own, which does not count against that of the call. Returns what is left to the call.
-    pub fn begin_apart(&mut self, limit: u64) -> i64 {
-        std::mem::replace(&mut self.left, i64::try_from(limit).unwrap_or(i64::MAX))
-    }
-
-    /// Ends such work.
-    pub fn end_apart(&mut self, left: i64) {
-        self.left = left;
-    }
-
     #[inline(always)]
     pub fn count_nodes(&mut self, count: u64) {
         self.done.node_pairs += count;

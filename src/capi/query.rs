@@ -150,10 +150,8 @@ fn exclusively_with(
     // After a panic caches and scratch memory are dropped: they may be inconsistent. The limit stays.
     let renew = |state: &mut State| {
         let limit = state.context.limit();
-        let remembers = state.context.remembers_neighbourhoods();
         *state = State::default();
         state.context.set_limit(limit);
-        state.context.set_neighbourhoods(remembers);
     };
     exclusively(&query.0, "the query context", renew, action)
 }
@@ -265,25 +263,6 @@ pub unsafe extern "C" fn cstk_query_set_limit(
     })
 }
 
-/// Sets whether the context remembers free neighbourhoods from now on; at first it does not. What it measures at one configuration
-/// then proves others around it free: each link as far as the joints before it are near, each pair of links as far as the joints
-/// between them are. cstk_classify, cstk_within and cstk_motion answer from that, or leave links out; what met in a region of C-space
-/// is tried first there. The answers are the same. It pays for configurations that follow each other closely, and can cost more
-/// than it spares for others: measure. Takes at most 30 megabytes for each of the four C-objects asked last. What was remembered is
-/// dropped where an environment changes, and with `false`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_query_set_neighbourhoods(
-    query: *mut cstk_query,
-    remember: bool,
-) -> cstk_status {
-    guard(|| {
-        with_query(query, |state| {
-            state.context.set_neighbourhoods(remember);
-            Ok(())
-        })
-    })
-}
-
 /// The work done by a query context.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -296,17 +275,7 @@ pub struct cstk_query_statistics {
     pub cache_hits: u64,
     /// Those of `primitive_pairs` whose distance was computed, not polygons that a remembered direction separates.
     pub primitive_distances: u64,
-    /// Queries that remembered neighbourhoods answered without poses or geometry (cstk_query_set_neighbourhoods).
-    pub neighbourhood_answers: u64,
-    /// Links and pairs of links that other queries left out for the same reason, each counted once a query.
-    pub neighbourhood_pairs: u64,
-    /// Neighbourhoods that were made.
-    pub neighbourhoods_made: u64,
-    /// Neighbourhoods that were dropped because an environment changed, or to make room for another C-object.
-    pub neighbourhoods_dropped: u64,
-    /// Queries answered by a primitive pair that met before in the same region of C-space.
-    pub region_witnesses: u64,
-    pub reserved: [u64; 3],
+    pub reserved: [u64; 4],
 }
 
 /// Writes the work done since the context was created, or since the last call with `reset`; `reset` sets the counts to 0.
@@ -320,18 +289,10 @@ pub unsafe extern "C" fn cstk_query_get_statistics(
         with_query(query, |state| {
             let out = Output::checked(out, "out")?;
             let done = state.context.statistics();
-            let known = state.context.neighbourhood_counts();
             if reset {
                 state.context.reset_statistics();
             }
-            out.write(cstk_query_statistics {
-                neighbourhood_answers: known.answers,
-                neighbourhood_pairs: known.left_out,
-                neighbourhoods_made: known.made,
-                neighbourhoods_dropped: known.dropped,
-                region_witnesses: known.witnesses,
-                ..done.into()
-            });
+            out.write(done.into());
             Ok(())
         })
     })
@@ -344,12 +305,7 @@ impl From<Statistics> for cstk_query_statistics {
             primitive_pairs: done.primitive_pairs,
             cache_hits: done.cache_hits,
             primitive_distances: done.primitive_distances,
-            neighbourhood_answers: 0,
-            neighbourhood_pairs: 0,
-            neighbourhoods_made: 0,
-            neighbourhoods_dropped: 0,
-            region_witnesses: 0,
-            reserved: [0; 3],
+            reserved: [0; 4],
         }
     }
 }

@@ -10,20 +10,13 @@ use super::start_contacts::StartContacts;
 use super::way::Way;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, Result};
-use crate::query::{Configuration, Distance, QueryContext, World, check_threshold, only_induced};
-use crate::robot::{Block, BlockKind};
+use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
 use crate::space::Space;
 
 /// Where any contact will do, so many parts of a motion at most are looked at before a proof begins: most motions that planners ask
 /// for are not free, and one configuration inside says so sooner than a proof fails. Tuned with `scripts/bench.sh planners`: more
 /// cost motions that are free more than they save others.
 const MAX_SAMPLED_PARTS: u32 = 8;
-
-/// Neighbourhoods answer for motions that leave this part of their radii, and whose tolerance is not more than the other: then the
-/// proof is sure to find them free too. It leaves no interval of that length undecided that keeps as clear as this, since no bound of
-/// it is 60 times too large.
-const SPARE: f32 = 1.0 / 16.0;
-const COARSE_TOLERANCE: f64 = 1e-3;
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -155,9 +148,6 @@ impl QueryContext {
 
     /// The answer of a whole straight motion: by a sample where any contact will do and one has it, else by the proof.
     fn sampled_or_proved(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
-        if self.is_known_free(way, options)? {
-            return self.answer(way, MotionOutcome::Free, [1.0, 1.0], options);
-        }
         if options.any_contact {
             for time in times_sampled_first(way) {
                 if self.has_contact(way, time, options)? {
@@ -166,24 +156,6 @@ impl QueryContext {
             }
         }
         self.motion_on(way, options)
-    }
-
-    /// Whether both ends are in one free neighbourhood of each link: then so is all that lies straight between them. A motion that
-    /// turns quaternions is not straight, and one whose tolerance is coarse may be near where this says it is free.
-    fn is_known_free(&mut self, way: &Way, options: &MotionOptions) -> Result<bool> {
-        let LinearMotion {
-            world, cobject, q, ..
-        } = way.line;
-        let is_straight = |block: &Block| block.kind == BlockKind::Line;
-        let asked = options.threshold == 0.0 && options.tolerance <= COARSE_TOLERANCE;
-        let are_straight = cobject.space().blocks().iter().all(is_straight);
-        let Some(group) = only_induced(cobject).filter(|_| asked && are_straight) else {
-            return Ok(false);
-        };
-        let end = way.at(1.0)?;
-        Ok(self
-            .neighbourhoods
-            .hold_segment(world, group, [q, &end], SPARE))
     }
 
     /// The same in a world, within the work of a call that [`Self::begin_motion`] began.

@@ -25,5 +25,5 @@ pub use swept_bounds::{SweptGaps, Twist32, sum_factor, swept_gaps};
 pub use swept_leaves::{SweptLeaves, SweptLimits};
 pub use traversal::{Scratch, traverse, visit_pair};
 pub use visitor::{PrimitivePair, Visitor};
-pub use visitors::{Clearance, Collect, NearestPrimitives, Within, meets};
+pub use visitors::{Collect, NearestPrimitives, Within, meets};
 pub use winding::{RayScratch, Winding, winding};

@@ -119,45 +119,6 @@ impl<const REFINES: bool> Visitor for Within<REFINES> {
     }
 }
 
-/// A lower bound of the distance of two bodies, less the margin, up to a limit: at least a part of the distance, which takes far fewer
-/// pairs than the distance itself.
-pub struct Clearance {
-    margin: f64,
-    /// The least lower bound of a pair so far; at first such that pairs up to the limit are looked at.
-    nearest: f64,
-}
-
-impl Clearance {
-    /// The part of the distance that the bound reaches.
-    const PART: f64 = 0.7;
-
-    /// A search for pairs no farther apart than `limit`, less the margin.
-    pub fn up_to(limit: f64, margin: f64) -> Self {
-        Self {
-            margin,
-            nearest: limit / Self::PART,
-        }
-    }
-
-    /// No pair is nearer, less the margin: those that were left out were farther apart than this at the time, and it only falls.
-    pub fn clearance(&self) -> f64 {
-        Self::PART * self.nearest
-    }
-}
-
-impl Visitor for Clearance {
-    const REFINES: bool = true;
-
-    fn bound(&self) -> f64 {
-        self.clearance() + self.margin
-    }
-
-    fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
-        self.nearest = self.nearest.min(measured(pair, self.margin).1);
-        ControlFlow::Continue(())
-    }
-}
-
 /// All primitive pairs within a threshold; of more than `max_count`, the nearest.
 pub struct Collect {
     pub body_pair: u32,

@@ -6,7 +6,6 @@ use super::answer::SSide;
 use super::cache_key::CacheKey;
 use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
 use super::context::QueryContext;
-use super::neighbourhoods::FreePairs;
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
@@ -131,7 +130,6 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     fn offer_attached(
         &mut self,
         bodies: impl Iterator<Item = Named<'s>> + Clone,
-        free: FreePairs,
         environment: u64,
     ) {
         let objects = self.term.objects;
@@ -139,10 +137,6 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
         for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
             let other = Bounds::of(&held.object.body, &held.pose);
             for named in bodies.clone() {
-                let r_link = self.scene.r_side(named.0).link;
-                if free.has_link(r_link.max(held.attachment.link)) {
-                    continue;
-                }
                 let bounds = Bounds::of(named.1, named.2);
                 self.offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
             }
@@ -250,17 +244,11 @@ impl<'a> Scene<'a> {
         scratch: &mut CandidateScratch,
         meter: &mut WorkMeter,
     ) -> Result<Vec<Target<'_>>> {
-        let free = filter.free;
-        let mut first_pair = 0;
         let mut candidates = Candidates::new(filter, scratch, meter);
         for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
                     let link_bounds = &mut scratch.links;
-                    let numbered = (first_pair..).zip(pairs);
-                    first_pair += pairs.len();
-                    let pairs = numbered.filter(|(number, _)| !free.has_pair(*number));
-                    let pairs = pairs.map(|(_, pair)| pair);
                     self.offer_links(pairs, &term.options, number, &mut candidates, link_bounds);
                 }
                 BodyPairs::Objects {
@@ -279,16 +267,16 @@ impl<'a> Scene<'a> {
                         number,
                         snapshot,
                     };
-                    self.offer_objects(&term, free, &mut candidates, &mut scratch.near);
+                    self.offer_objects(&term, &mut candidates, &mut scratch.near);
                 }
             }
         }
         candidates.finish()
     }
 
-    fn offer_links<'s, 'p>(
+    fn offer_links<'s>(
         &'s self,
-        pairs: impl Iterator<Item = &'p [usize; 2]>,
+        pairs: &[[usize; 2]],
         options: &InducedOptions,
         term: u32,
         candidates: &mut Candidates<'s, '_>,
@@ -339,7 +327,6 @@ impl<'a> Scene<'a> {
     fn offer_objects<'s>(
         &'s self,
         term: &ObjectsTerm<'_, 's>,
-        free: FreePairs,
         candidates: &mut Candidates<'s, '_>,
         scratch: &mut NearScratch,
     ) {
@@ -350,13 +337,11 @@ impl<'a> Scene<'a> {
             term,
             candidates,
         };
-        let asked = bodies.clone();
-        let asked = asked.filter(|(number, ..)| !free.has_link(self.r_side(*number).link));
         match term.objects {
-            SObjects::All(_) => offers.offer_near(asked, scratch),
-            SObjects::Some(_, ids) => offers.offer_chosen(asked, ids),
+            SObjects::All(_) => offers.offer_near(bodies.clone(), scratch),
+            SObjects::Some(_, ids) => offers.offer_chosen(bodies.clone(), ids),
         }
-        offers.offer_attached(bodies, free, environment);
+        offers.offer_attached(bodies, environment);
     }
 
     /// What carries a number of [`Scene::r_sides`].

@@ -1,6 +1,5 @@
 //! Candidates: the body pairs that the broad phase lets through.
 
-use super::neighbourhoods::FreePairs;
 use super::target::Target;
 use crate::cobject::InducedOptions;
 use crate::environment::{Bounds, NearScratch};
@@ -19,8 +18,6 @@ pub struct CandidateFilter {
     pub nearest: Option<f64>,
     /// The pairs of a single term may come in any order, without ranks.
     pub any_order: bool,
-    /// Links whose pairs are left out, because they are known to be too far apart.
-    pub free: FreePairs,
 }
 
 impl CandidateFilter {
@@ -30,7 +27,6 @@ impl CandidateFilter {
             in_contact: false,
             nearest: None,
             any_order: false,
-            free: FreePairs::default(),
         }
     }
 }

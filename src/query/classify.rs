@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::candidates::CandidateFilter;
 use super::combination::{Memo, cheap_first, emptied, is_pure};
 use super::context::QueryContext;
-use super::neighbourhoods::FreePairs;
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
@@ -17,25 +16,14 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let world = self.look(cobject);
-        self.class_at(&world, cobject, at)
+        self.with_scene(cobject, &world, at, |context, scene| {
+            context.class_of(cobject, scene)
+        })
     }
 
     /// The same in a given world.
     pub fn classify_in(&mut self, world: &World, cobject: &CObject, q: &[f64]) -> Result<Class> {
-        self.class_at(world, cobject, Configuration::Coordinates(q))
-    }
-
-    fn class_at(&mut self, world: &World, cobject: &CObject, at: Configuration) -> Result<Class> {
-        if let (Some(group), Configuration::Coordinates(q)) = (only_induced(cobject), at) {
-            cobject.space().check_configuration(q)?;
-            let free = self.neighbourhoods.look_up(world, group, q, 0.0);
-            if free.all {
-                return Ok(Class::Outside);
-            }
-            return self.with_scene(cobject, world, at, |context, scene| {
-                context.class_of_others(group, scene, free)
-            });
-        }
+        let at = Configuration::Coordinates(q);
         self.with_scene(cobject, world, at, |context, scene| {
             context.class_of(cobject, scene)
         })
@@ -121,44 +109,18 @@ impl QueryContext {
         Ok(most)
     }
 
-    /// The links of a group that need not be asked in a scene.
-    pub(super) fn free_links(&mut self, scene: &Scene, group: &Group, threshold: f64) -> FreePairs {
-        match scene.state() {
-            Some(state) => {
-                let world = scene.world();
-                self.neighbourhoods
-                    .look_up(world, group, state.q, threshold)
-            }
-            None => FreePairs::default(),
-        }
-    }
-
     /// Operation 4 for a union of induced sets.
     pub(super) fn class_of_group(&mut self, group: &Group, scene: &Scene) -> Result<Class> {
-        let free = self.free_links(scene, group, 0.0);
-        if free.all {
-            return Ok(Class::Outside);
-        }
-        self.class_of_others(group, scene, free)
-    }
-
-    /// The same where some links are known to be outside.
-    fn class_of_others(&mut self, group: &Group, scene: &Scene, free: FreePairs) -> Result<Class> {
         let group = scene.checked(group)?;
-        let before = self.work_done();
-        if self.recent_is_within(scene, group, 0.0)?
-            || self.region_is_within(scene, group, 0.0, free)?
-        {
+        if self.recent_is_within(scene, group, 0.0)? {
             return Ok(Class::Inside);
         }
         let filter = CandidateFilter {
             in_contact: true,
-            free,
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, group, filter)?;
         let class = if self.any_within(&candidates, |_| 0.0)? {
-            self.keep_for_region(scene, group, 0.0);
             Class::Inside
         } else if self.any_in_contact(&candidates, 0.0)? {
             Class::Contact
@@ -166,7 +128,6 @@ impl QueryContext {
             Class::Outside
         };
         self.keep_memory(candidates);
-        self.learn(scene, group, 0.0, free, before)?;
         Ok(class)
     }
 
@@ -185,13 +146,5 @@ impl QueryContext {
         } else {
             Ok(false)
         }
-    }
-}
-
-/// The induced sets of a C-object that is a union of nothing else.
-pub(crate) fn only_induced(cobject: &CObject) -> Option<&Group> {
-    match cobject.set() {
-        Set::Union { induced, others } if others.is_empty() => Some(induced),
-        _ => None,
     }
 }

@@ -4,7 +4,6 @@ use super::answer::ContactsListed;
 use super::cache_key::CacheKey;
 use super::candidates::CandidateScratch;
 use super::combination::Answers;
-use super::neighbourhoods::{NeighbourhoodCounts, Neighbourhoods};
 use super::scene::{Configuration, Scene, SceneMemory};
 use super::world::World;
 use crate::cobject::CObject;
@@ -25,7 +24,6 @@ pub struct QueryContext {
     pub(super) answers: Answers,
     /// Which contacts witness lists hold.
     pub(super) contacts: ContactsListed,
-    pub(crate) neighbourhoods: Neighbourhoods,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
@@ -101,25 +99,6 @@ impl QueryContext {
     /// Sets the statistics to 0.
     pub fn reset_statistics(&mut self) {
         self.scratch.meter_mut().done = Statistics::default();
-        self.neighbourhoods.counts = NeighbourhoodCounts::default();
-    }
-
-    /// What remembered neighbourhoods did since then.
-    pub fn neighbourhood_counts(&self) -> NeighbourhoodCounts {
-        self.neighbourhoods.counts
-    }
-
-    /// Whether free neighbourhoods are remembered.
-    pub fn remembers_neighbourhoods(&self) -> bool {
-        self.neighbourhoods.is_on
-    }
-
-    /// Sets whether free neighbourhoods are remembered; without, those that are there are forgotten.
-    pub fn set_neighbourhoods(&mut self, are_remembered: bool) {
-        self.neighbourhoods.is_on = are_remembered;
-        if !are_remembered {
-            self.neighbourhoods.clear();
-        }
     }
 
     /// The most node pairs and primitive pairs that a call may test; `None` for no limit. A call that needs more fails with
@@ -143,9 +122,8 @@ impl QueryContext {
         self.contacts = contacts;
     }
 
-    /// Forgets the witnesses and the neighbourhoods of earlier queries.
+    /// Forgets the witnesses of earlier queries.
     pub fn clear(&mut self) {
-        self.neighbourhoods.clear();
         self.witnesses.clear();
         self.recent = None;
     }

@@ -2,10 +2,8 @@
 
 use super::body_pairs::CheckedGroup;
 use super::candidates::CandidateFilter;
-use super::classify::only_induced;
 use super::combination::{Composition, Memo, cheap_first, composition, emptied};
 use super::context::{QueryContext, check_threshold};
-use super::neighbourhoods::FreePairs;
 use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
@@ -32,16 +30,6 @@ impl QueryContext {
         at: Configuration,
         threshold: f64,
     ) -> Result<bool> {
-        if let (Some(group), Configuration::Coordinates(q)) = (only_induced(cobject), at) {
-            cobject.space().check_configuration(q)?;
-            let free = self.neighbourhoods.look_up(world, group, q, threshold);
-            if free.all {
-                return Ok(false);
-            }
-            return self.with_scene(cobject, world, at, |context, scene| {
-                context.others_within(group, scene, threshold, free)
-            });
-        }
         self.with_scene(cobject, world, at, |context, scene| {
             context.set_within(cobject, scene, threshold)
         })
@@ -123,39 +111,13 @@ impl QueryContext {
         scene: &Scene,
         threshold: f64,
     ) -> Result<bool> {
-        let free = self.free_links(scene, group, threshold);
-        self.others_within(group, scene, threshold, free)
-    }
-
-    /// The same where some links are known to be farther away.
-    fn others_within(
-        &mut self,
-        group: &Group,
-        scene: &Scene,
-        threshold: f64,
-        free: FreePairs,
-    ) -> Result<bool> {
-        if free.all {
-            return Ok(false);
-        }
         let group = scene.checked(group)?;
-        let before = self.work_done();
-        if self.recent_is_within(scene, group, threshold)?
-            || self.region_is_within(scene, group, threshold, free)?
-        {
+        if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
-        let filter = CandidateFilter {
-            free,
-            ..CandidateFilter::within(threshold)
-        };
-        let candidates = self.candidates(scene, group, filter)?;
+        let candidates = self.candidates(scene, group, CandidateFilter::within(threshold))?;
         let is_within = self.any_within(&candidates, |_| threshold)?;
-        if is_within {
-            self.keep_for_region(scene, group, threshold);
-        }
         self.keep_memory(candidates);
-        self.learn(scene, group, threshold, free, before)?;
         Ok(is_within)
     }
 

@@ -7,8 +7,8 @@ use super::WorldBox;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
-    Block, CarriedBall, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot,
-    RobotState, check_configuration,
+    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState,
+    check_configuration,
 };
 
 /// The first link, coordinate and velocity of a robot in the space.
@@ -319,31 +319,6 @@ impl Space {
         let shared = robot.common_carrier(sides.map(|(link, _)| link));
         let in_shared = |(link, extent)| robot.motion_bound_in(shared, link, extent, q, v);
         sides.map(in_shared).iter().sum()
-    }
-
-    /// Visits the coordinates that move a ball on the first of two links as the second sees it (the world, if `None`), with their
-    /// lever arms; see [`Robot::visit_lever_arms`]. Only what the second link's own joints do is left out: those that carry
-    /// it alone are visited for a ball on it. False where a custom joint is in between.
-    pub fn visit_lever_arms(
-        &self,
-        poses: &[Pose],
-        [link, other]: [Option<usize>; 2],
-        ball: &CarriedBall,
-        mut visit: impl FnMut(usize, f64),
-    ) -> bool {
-        let Some(link) = link else {
-            return true;
-        };
-        let robot = self.robot_of(link);
-        let (offset, own) = (self.offsets[robot], &self.robots[robot]);
-        let of_robot = other.filter(|&other| self.robot_of(other) == robot);
-        let shared = of_robot
-            .and_then(|other| own.common_carrier([link - offset.link, other - offset.link]));
-        let poses = &poses[offset.link..];
-        let frames = [shared, Some(link - offset.link)];
-        own.visit_lever_arms(poses, frames, ball, |coordinate, arm| {
-            visit(offset.coordinate + coordinate, arm);
-        })
     }
 
     /// All links while the space goes from q with constant velocity v for a unit of time.

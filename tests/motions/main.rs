@@ -9,7 +9,6 @@ mod curves;
 mod forged;
 mod maps;
 mod motions;
-mod neighbourhoods;
 mod pair_motion;
 mod path;
 mod random_scenes;
