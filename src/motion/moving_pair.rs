@@ -373,7 +373,8 @@ impl<'a> MovingPair<'a> {
             angular: each3(|k| angular[k] as f32),
             linear: each3(|k| (linear[k] * inverse) as f32),
         };
-        let in_a = L::map(&sweep_twists, |by| twist(by.linear, by.angular));
+        // As A sees it, B moves the other way: what one box makes of its own motion has to be the motion of that box.
+        let in_a = L::map(&sweep_twists, |by| twist(-by.linear, -by.angular));
         let in_b = L::map(&sweep_twists, |by| {
             let at_origin = by.linear + by.angular.cross(&to_b.translation);
             twist(

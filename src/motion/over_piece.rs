@@ -72,7 +72,7 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
     pub pairing: Pairing<'a>,
     /// Into A's frame, and into B's.
     pub motions: [Motion32; 2],
-    /// In A's frame, and in B's.
+    /// Of B as A sees it, in A's frame, and of A as B sees it, in B's.
     pub twists: [L::Of<Twist32>; 2],
     pub extension: Extension,
     /// As [`Sweep::bends`], in units of the pair.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use cstk::body::Body;
+use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
 use cstk::error::ErrorKind;
 use cstk::motion::{MotionAnswer, MotionOptions, MotionOutcome};
@@ -16,7 +16,7 @@ use helpers::random::Random;
 use helpers::robots::{against, environment, free_planar_body, link, robot, space};
 use helpers::shapes::{box_corners, cuboid, planar};
 
-use super::random_scenes::{at, built, class, scene};
+use super::random_scenes::{at, built, class, rough_ball, scene};
 
 /// `CSTK_MOTIONS=200000 cargo test --release --test motions free_motions -- --nocapture` runs a campaign with 10,000 samples each.
 #[test]
@@ -56,7 +56,10 @@ fn free_motions_are_free_at_every_sample_and_hits_are_hits() {
         };
         outcomes[answer.outcome as usize] += 1;
         for i in 0..samples {
-            let t = random.within(0.0, 1.0) * free_until;
+            // Half of them come ever nearer to the end of what is free.
+            let part = random.within(0.0, 1.0);
+            let near_end = 1.0 - 10f64.powf(-6.0 * part);
+            let t = free_until * if i % 2 == 0 { part } else { near_end };
             let t = if i == 0 { free_until } else { t };
             let is_start = t == 0.0 && free_until == 0.0;
             if (answer.outcome == MotionOutcome::Free || t < free_until) && !is_start {
@@ -83,6 +86,58 @@ fn free_motions_are_free_at_every_sample_and_hits_are_hits() {
         outcomes[2] <= count / 50 && outcomes[3] == 0,
         "{outcomes:?}"
     );
+}
+
+/// Surfaces of many triangles on one side or on both, so that trees of either are opened, and samples that come ever nearer to the first contact:
+/// what meets a little before it, and is apart there, is the contact that was to be found.
+#[test]
+fn no_contact_of_surfaces_comes_before_the_first() {
+    let mut random = Random::new(194);
+    let context = &mut QueryContext::new();
+    let (mut hits, mut looked) = (0, 0);
+    for _ in 0..600 {
+        let links = (0..3).map(|i: usize| LinkDefinition {
+            at: random.pose(0.5),
+            body: Some(rough_ball(&mut random)),
+            ..link(i.checked_sub(1), JointKind::Revolute, random.unit())
+        });
+        let space = space(vec![robot(3, links.collect())]);
+        let objects: Vec<_> = (0..6)
+            .map(|i| {
+                let cylinder = |b: &mut BodyBuilder| {
+                    let radius = random.within(0.01, 0.1);
+                    let added = b.add_cylinder(&Pose::identity(), radius, 0.3, 0);
+                    added.unwrap();
+                };
+                let body = if i < 4 {
+                    built(cylinder)
+                } else {
+                    rough_ball(&mut random)
+                };
+                (body, random.pose(2.0))
+            })
+            .collect();
+        let objects: Vec<_> = objects.iter().map(|(body, pose)| (body, *pose)).collect();
+        let cobject = against(&space, &environment(&objects).0);
+        for _ in 0..30 {
+            let q: Vec<f64> = (0..3).map(|_| random.within(-3.0, 3.0)).collect();
+            let v: Vec<f64> = (0..3).map(|_| random.within(-1.5, 1.5)).collect();
+            let options = MotionOptions::default();
+            let answer = context.motion_along(&cobject, &q, &v, &options).unwrap();
+            if answer.outcome != MotionOutcome::Hit || answer.times[0] == 0.0 {
+                continue;
+            }
+            hits += 1;
+            for _ in 0..200 {
+                let t = answer.times[0] * (1.0 - 10f64.powf(-random.within(0.0, 6.0)));
+                let found = class(context, &cobject, &at(&space, &q, &v, t));
+                assert_ne!(found, Class::Inside, "at {t} of {answer:?}");
+                looked += 1;
+            }
+        }
+    }
+    println!("{hits} first contacts, {looked} samples before them");
+    assert!(hits > 100);
 }
 
 /// The same in the plane, where polygons are solid.

@@ -51,6 +51,17 @@ fn body(random: &mut Random) -> Arc<Body> {
     }
 }
 
+/// About 150 triangles, each on a ball of radius .4 or a little off it.
+pub fn rough_ball(random: &mut Random) -> Arc<Body> {
+    built(|b| {
+        for _ in 0..150 {
+            let place = random.unit() * random.within(0.36, 0.4);
+            let corners = random.points(3, 0.04).into_iter().map(|p| p + place);
+            b.add_polygon(&corners.collect::<Vec<_>>(), 0).unwrap();
+        }
+    })
+}
+
 const KINDS: [JointKind; 6] = [
     JointKind::Revolute,
     JointKind::Prismatic,
