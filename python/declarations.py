@@ -180,7 +180,12 @@ MAY_BE_NONE = {
     "cstk_certificate_entry": {"links"},
 }
 # Fields that are set only where a flag of another name says so.
-SET_WHERE = {("cstk_distance_result", "r_point"): "has_witness", ("cstk_distance_result", "s_point"): "has_witness"}
+SET_WHERE = {
+    ("cstk_distance_result", "r_point"): "has_witness",
+    ("cstk_distance_result", "s_point"): "has_witness",
+    ("cstk_batch_result", "first_failed"): "failed",
+    ("cstk_batch_result", "first_hit"): "has_hit",
+}
 # Inputs, which have classes of their own.
 NOT_RECORDS = {"cstk_allowed_pair", "cstk_map_axis", "cstk_range"}
 NUMBERS = {"int32_t": "int", "uint32_t": "int", "uint64_t": "int", "size_t": "int", "double": "float", "bool": "bool"}

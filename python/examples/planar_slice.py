@@ -40,11 +40,6 @@ def make_scene():
     return environment
 
 
-def slice_of(query, cobject, ticks):
-    """The distance at every cell of the slice; 0 where links and obstacles meet."""
-    return np.array([[query.distance(cobject, [a, b]).distance for a in ticks] for b in ticks])
-
-
 def draw_arm(axes, space, q, colour):
     poses = space.link_poses(q)
     tip = poses[-1] @ [LINKS[-1], 0, 0, 1]
@@ -55,8 +50,10 @@ def draw_arm(axes, space, q, colour):
 def main(folder):
     space, environment, query = make_arm(), make_scene(), cstk.Query()
     cobject = cstk.CObject.induced(space, environment)
-    ticks = np.linspace(-np.pi, np.pi, 181)
-    distances = slice_of(query, cobject, ticks)
+    axes = [cstk.MapAxis(joint, -np.pi, np.pi, 181) for joint in range(2)]
+    ticks = axes[0].middles()
+    # Of the second joint upwards; 0 where links and obstacles meet.
+    distances = cstk.Map.build(cobject, [0, 0], axes, kind=cstk.MapKind.DISTANCES).values.T
     path = query.motion_path(cobject, WAY)
     box = query.region_grow(cobject, space, [-1.0, -0.2])
     print(f"{(distances == 0).mean():.1%} of {distances.size} cells are inside")

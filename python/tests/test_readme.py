@@ -29,5 +29,6 @@ def test_a_robot_among_obstacles(tmp_path, monkeypatch, capsys):
     names = {}
     exec("import cstk\n" + blocks(PYTHON / "README.md")[1], names)
     assert names["query"].distance(names["forbidden"], names["q"]).witness.s_data == "table"
+    assert names["free"].shape == (64,)
     assert names["motion"].outcome in (cstk.MotionOutcome.FREE, cstk.MotionOutcome.HIT)
     assert capsys.readouterr().out

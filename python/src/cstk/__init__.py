@@ -2,7 +2,8 @@
 
 At a configuration q of a robot: is q free, in contact, or inside (Query.classify)? how far from contact and between which features
 (Query.distance, Query.witnesses)? which way is out, in joint space (Query.gradients)? which step slides along the contact
-(Query.slide)? is this whole motion free, proved (Query.motion)? The same for two bodies at two poses: Query.pair_distance.
+(Query.slide)? is this whole motion free, proved (Query.motion)? The same for two bodies at two poses: Query.pair_distance. For many at
+once, on all processors: Batch. For a grid over some coordinates: Map.
 
 Names are those of cstk.h without the prefix; what a call does, its units and frames are said there at length. Lengths are in your
 unit, angles in radians, poses are 4 x 4 arrays from child to parent frame. A call that fails raises an `Error` that names the
@@ -14,7 +15,7 @@ from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._progress import Progress
 from ._record import Record, Records, dtype_of
-from .batch import Batch, BatchAnswers
+from .batch import Batch, BatchAnswers, BatchClasses, BatchDistances, BatchMotions, BatchWithin
 from .body import Body, BodyBuilder, Support
 from .certificate import Certificate
 from .cobject import AllowedPair, CObject

@@ -3,7 +3,7 @@
 All are `Error`; each is also the exception of Python's that fits best, so that `except ValueError` does what it should.
 """
 
-from typing import Dict, Optional, Type
+from typing import Any, Dict, Optional, Type
 
 from ._callback_errors import take_callback_error
 from ._native import ffi, lib
@@ -117,7 +117,9 @@ class NotConvergedError(Error, ArithmeticError):
 
 
 class CancelledError(Error, RuntimeError):
-    """The progress function stopped the call."""
+    """The progress function stopped the call. Of a batch, `answers` has what was answered until then."""
+
+    answers: Any = None
 
 
 class BusyError(Error, RuntimeError):

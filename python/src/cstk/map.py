@@ -1,8 +1,7 @@
-"""Maps: what is free on a grid over one to six coordinates, the others held."""
+"""Maps: what is free on a grid over one to six coordinates, as an array."""
 
 import os
-from dataclasses import dataclass
-from typing import Any, Optional, Sequence
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,12 +13,11 @@ from ._options import options
 from ._progress import Progress, reporting
 from .cobject import CObject
 from .enums import MapKind
-from .errors import check
+from .errors import WrongSizeError, check
 
 
-@dataclass(frozen=True)
-class MapAxis:
-    """An interval of a coordinate, cut into equal cells."""
+class MapAxis(NamedTuple):
+    """An interval of a coordinate of the space, cut into equal cells."""
 
     coordinate: int
     low: float
@@ -27,25 +25,51 @@ class MapAxis:
     cells: int
 
     def middles(self) -> NDArray[np.float64]:
-        """The middles of the cells."""
+        """The coordinate at the middle of each cell, where the map has its classes and distances."""
         return self.low + (self.high - self.low) * ((np.arange(self.cells) + 0.5) / self.cells)
 
 
+class _Cells:
+    """Keeps a map's memory as long as an array shows it."""
+
+    __slots__ = ("_c", "__array_interface__")
+
+    def __init__(self, c: Any, first: Any, dtype: Any, shape: Tuple[int, ...]) -> None:
+        self._c = c
+        address = int(ffi.cast("uintptr_t", first))
+        kind = np.dtype(dtype).str
+        self.__array_interface__ = {"version": 3, "typestr": kind, "shape": shape, "data": (address, True)}
+
+
+def _axis(name: str, given: Any) -> Any:
+    """An axis as C takes it."""
+    try:
+        coordinate, low, high, cells = given
+    except (TypeError, ValueError):
+        raise WrongSizeError(f"{name} must be a cstk.MapAxis, or its coordinate, low, high and cells") from None
+    return {
+        "coordinate": index(f"{name}.coordinate", coordinate),
+        "low": scalar(f"{name}.low", low),
+        "high": scalar(f"{name}.high", high),
+        "cells": index(f"{name}.cells", cells, 64),
+    }
+
+
 class Map(Handle):
-    """A map of C-space. It refers to no other object."""
+    """A map of C-space. It never changes, refers to no other object, and threads may share it."""
 
     __slots__ = ()
     _noun = "map"
 
     def __init__(self) -> None:
-        raise TypeError("maps are built: Map.build(cobject, q, axes)")
+        raise TypeError("maps come from Map.build")
 
     @classmethod
     def build(
         cls,
         cobject: CObject,
         q: ArrayLike,
-        axes: Sequence[MapAxis],
+        axes: Sequence[Union[MapAxis, Tuple[int, float, float, int]]],
         kind: MapKind = MapKind.CLASSES,
         *,
         threads: Optional[int] = None,
@@ -53,9 +77,15 @@ class Map(Handle):
         max_boxes: Optional[int] = None,
         progress: Optional[Progress] = None,
     ) -> "Map":
-        """Builds a map; coordinates without an axis are those of q. Classes and proofs cost in proportion to the boundary of the set."""
-        array = vector("q", q)
-        intervals = ffi.new("cstk_map_axis[]", [_axis(f"axes[{i}]", axis) for i, axis in enumerate(axes)])
+        """Maps a C-object over one to six coordinates; the others are those of q. `kind` says what of: by default the classes at the
+        middles of the cells, built coarse to fine. Distances above `max_distance` are infinite in the map; the proof of a cell halves it
+        into at most `max_boxes` parts (default 64); `threads` is by default as many as the machine runs at once.
+        """
+        place, at = pointer_of(CObject, "cobject", cobject), vector("q", q)
+        try:
+            cuts = list(axes)
+        except TypeError:
+            raise TypeError(f"axes must be a sequence of cstk.MapAxis, not {type(axes).__name__}") from None
         given = options(
             "map_options",
             kind=MapKind(kind),
@@ -63,65 +93,63 @@ class Map(Handle):
             max_distance=None if max_distance is None else scalar("max_distance", max_distance),
             max_boxes=None if max_boxes is None else index("max_boxes", max_boxes, 64),
         )
+        grid = ffi.new("cstk_map_axis[]", [_axis(f"axes[{i}]", cut) for i, cut in enumerate(cuts)])
+        arguments = place, doubles(at), at.size, grid, len(cuts), given
         out = ffi.new("cstk_map **")
-        what = pointer_of(CObject, "cobject", cobject), doubles(array), array.size, intervals, len(axes), given
-        reporting(lambda function, user: lib.cstk_map_build(*what, function, user, out), progress)
+        reporting(lambda function, user: lib.cstk_map_build(*arguments, function, user, out), progress)
         return cls._take(out[0])
 
-    def _view(self) -> Any:
-        view = ffi.new("cstk_map_view *")
-        check(lib.cstk_map_get_view(self._pointer, view))
-        return view
-
-    @property
-    def kind(self) -> MapKind:
-        return MapKind(self._view().kind)
-
-    @property
-    def axes(self) -> "list[MapAxis]":
-        view = self._view()
-        given = (view.axes[i] for i in range(view.axis_count))
-        return [MapAxis(axis.coordinate, axis.low, axis.high, axis.cells) for axis in given]
+    def _view(self) -> Tuple[Any, Any]:
+        """The map's arrays, and the pointer that keeps them."""
+        c, view = self._pointer, ffi.new("cstk_map_view *")
+        check(lib.cstk_map_get_view(c, view))
+        return c, view
 
     @property
     def values(self) -> NDArray[Any]:
-        """A copy of what is told of the cells, one dimension for each axis: numbers of Class or RegionOutcome, or distances."""
-        owner = self._pointer
-        view = self._view()
-        shape = [axis.cells for axis in self.axes]
-        if view.distances != ffi.NULL:
-            numbers = np.frombuffer(ffi.buffer(view.distances, 8 * view.cell_count), np.float64)
-        else:
-            numbers = np.frombuffer(ffi.buffer(view.values, view.cell_count), np.uint8)
-        copied = numbers.reshape(shape).copy()
-        del owner  # The map lives until here, whatever other threads release.
-        return copied
+        """An entry a cell: a `Class` or a `RegionOutcome` in 8 bits, or a distance. A view of the map's memory, which it keeps; it cannot
+        be written to.
+        """
+        c, view = self._view()
+        shape = tuple(int(view.axes[i].cells) for i in range(view.axis_count))
+        if view.kind == MapKind.DISTANCES:
+            return np.asarray(_Cells(c, view.distances, np.float64, shape))
+        return np.asarray(_Cells(c, view.values, np.uint8, shape))
+
+    @property
+    def shape(self) -> Tuple[int, ...]:
+        """The number of cells of each axis."""
+        return tuple(axis.cells for axis in self.axes)
+
+    @property
+    def axes(self) -> Tuple[MapAxis, ...]:
+        """The axes, in the order given: that of the dimensions of `values`."""
+        _keeping, view = self._view()
+        cuts = (view.axes[i] for i in range(view.axis_count))
+        return tuple(MapAxis(cut.coordinate, cut.low, cut.high, cut.cells) for cut in cuts)
+
+    @property
+    def kind(self) -> MapKind:
+        """What the map tells of its cells."""
+        return MapKind(self._view()[1].kind)
 
     @property
     def proofs(self) -> int:
-        """How many boxes were proved."""
-        return int(self._view().proofs)
+        """How many boxes it took to prove."""
+        return int(self._view()[1].proofs)
 
     @property
     def questions(self) -> int:
         """How many configurations were asked one by one."""
-        return int(self._view().questions)
+        return int(self._view()[1].questions)
 
     def save(self, file: "os.PathLike[str] | str") -> None:
-        """Saves the values; the file's name ends in .npy."""
+        """Writes `values` to a file for numpy.load (.npy)."""
         check(lib.cstk_map_save(self._pointer, file_name("file", file)))
 
     def show(self, file: "os.PathLike[str] | str") -> None:
-        """A picture of a map of two coordinates; the file's name ends in .png."""
+        """Writes a picture of a map with two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are
+        white (outside), orange (contact) and dark red (inside); cells white (free), dark red (inside), light gray (mixed) and gray
+        (undecided); a distance of 0 is black, the largest white.
+        """
         check(lib.cstk_map_show(self._pointer, file_name("file", file)))
-
-
-def _axis(name: str, axis: MapAxis) -> Any:
-    if not isinstance(axis, MapAxis):
-        raise TypeError(f"{name} must be a cstk.MapAxis, not {type(axis).__name__}")
-    return {
-        "coordinate": index(f"{name}.coordinate", axis.coordinate),
-        "low": scalar(f"{name}.low", axis.low),
-        "high": scalar(f"{name}.high", axis.high),
-        "cells": index(f"{name}.cells", axis.cells, 64),
-    }
