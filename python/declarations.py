@@ -186,6 +186,12 @@ SET_WHERE = {
     ("cstk_batch_result", "first_failed"): "failed",
     ("cstk_batch_result", "first_hit"): "has_hit",
 }
+# Data of s-objects, and the fields with their ids.
+OBJECT_IDS = {
+    ("cstk_witness", "r_data"): "r_object",
+    ("cstk_witness", "s_data"): "s_object",
+    ("cstk_object_info", "data"): "id",
+}
 # Inputs, which have classes of their own.
 NOT_RECORDS = {"cstk_allowed_pair", "cstk_map_axis", "cstk_range"}
 NUMBERS = {"int32_t": "int", "uint32_t": "int", "uint64_t": "int", "size_t": "int", "double": "float", "bool": "bool"}
@@ -205,6 +211,8 @@ def record_property(struct: Definition, member: Member, enum_names: set[str], re
         return camel(member.type), f"{camel(member.type)}({value})"
     if member.type in record_names and not member.count:
         return camel(member.type), f"{camel(member.type)}({value}, self._owner)"
+    if (struct.name, member.name) in OBJECT_IDS:
+        return "Any", f"data_of_object({value}, self._c.{OBJECT_IDS[struct.name, member.name]})"
     if member.type == "void *":
         return "Any", f"data_of({value})"
     if member.type in NUMBERS and not member.count:
@@ -246,7 +254,7 @@ def records_module(all_enums: list[Definition], all_structs: list[Definition]) -
     """One class for each structure of answers."""
     out = BEGINNING.format(about="The structures of answers, without their prefixes.")
     out += "from typing import Any, Optional, Tuple\n\nimport numpy as np\nfrom numpy.typing import NDArray\n\n"
-    out += "from ._record import Record, pose_from, vector_from\nfrom ._native import lib\nfrom ._user_data import data_of\n"
+    out += "from ._record import Record, pose_from, vector_from\nfrom ._native import lib\nfrom ._user_data import data_of, data_of_object\n"
     bodies = "".join(record_class(struct, all_enums, all_structs) for struct in all_structs if is_record(struct))
     named = [camel(struct.name) for struct in all_structs if is_record(struct)]
     used = sorted({camel(e.name) for e in all_enums if re.search(rf"\b{camel(e.name)}\(", bodies)})

@@ -46,6 +46,7 @@ from .query import Query
 from .records import *  # noqa: F403
 from .region import GrownRegion, Region
 from .robot import CustomJoint, Robot, RobotBuilder
+from .semantics import EndEffector, JointGroup, NamedState, Semantics, VirtualJoint
 from .slide import Slide, slide_step, spring_step
 from .space import Random, Range, Space, circle, default_range, interval
 

@@ -1,16 +1,19 @@
 """Objects of the caller's behind the void pointers of C.
 
-A pointer is a number that is never used again, not an address: an answer that outlives its body asks for nothing freed.
+A pointer is a number that is never used again, not an address: an answer that outlives its body asks for nothing freed. Only the
+names of a planning scene's objects are the library's, at addresses that it may use again; so each counts for its object only.
 """
 
 import itertools
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Tuple
 
 from ._callback import callback
 from ._native import ffi
 
 _numbers = itertools.count(1)
 _kept: Dict[int, Any] = {}
+# By the address of the name, so that they are no more than there were names at once.
+_names: Dict[int, Tuple[int, str]] = {}
 
 
 @callback("void(void *)")
@@ -29,6 +32,17 @@ def keep(value: Any) -> Any:
 def data_of(pointer: Any) -> Any:
     """The object that a pointer stands for; None for NULL, and once it was dropped."""
     return _kept.get(int(ffi.cast("uintptr_t", pointer)))
+
+
+def keep_name(pointer: Any, id: int) -> None:
+    """Copies the name of a planning scene's object, which the caller keeps from being deleted meanwhile."""
+    _names[int(ffi.cast("uintptr_t", pointer))] = id, ffi.string(ffi.cast("char *", pointer)).decode()
+
+
+def data_of_object(pointer: Any, id: int) -> Any:
+    """The data of an s-object, or of its body: as data_of, or the name that a planning scene gave it."""
+    named = _names.get(int(ffi.cast("uintptr_t", pointer)))
+    return named[1] if named is not None and named[0] == id else data_of(pointer)
 
 
 class Kept:

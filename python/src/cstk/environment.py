@@ -1,21 +1,27 @@
 """Environments: s-objects, the obstacles, changed while other threads query."""
 
+import os
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import index, integers, pointer, pose
+from ._arrays import file_name, index, integers, pointer, pose, text
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from ._options import options
-from ._user_data import Kept
+from ._user_data import Kept, keep_name
 from .body import Body
-from .enums import ChangeKind
-from .errors import check
+from .enums import ChangeKind, MeshForm
+from .errors import NotFoundError, check
+from .hierarchy import HierarchyOptions, hierarchy_options
 from .records import ObjectInfo
 from .space import Space
+
+
+MAX_SCENE_OBJECTS = 1 << 17
+"""As many as a planning scene may have."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +103,62 @@ class Environment(Handle):
             for data in kept:
                 data.drop()
             raise
+        return ids
+
+    def load_scene(
+        self,
+        file: "os.PathLike[str] | str",
+        *,
+        at: Optional[ArrayLike] = None,
+        mesh_form: MeshForm = MeshForm.SURFACE,
+        hierarchy: Optional[HierarchyOptions] = None,
+    ) -> NDArray[np.uint64]:
+        """Adds the objects of a MoveIt planning scene, a .scene file, all or none; returns their ids, in the order of the file. The data
+        of each is its name. `at` is where the scene's frame is in the world.
+        """
+        call = lib.cstk_environment_load_scene
+        return self._load_scene(call, file_name("file", file), at, mesh_form, hierarchy)
+
+    def load_scene_text(
+        self,
+        scene: str,
+        *,
+        at: Optional[ArrayLike] = None,
+        mesh_form: MeshForm = MeshForm.SURFACE,
+        hierarchy: Optional[HierarchyOptions] = None,
+    ) -> NDArray[np.uint64]:
+        """As load_scene, from a text."""
+        call = lib.cstk_environment_load_scene_text
+        return self._load_scene(call, text("scene", scene), at, mesh_form, hierarchy)
+
+    def _load_scene(
+        self,
+        call: Any,
+        scene: bytes,
+        at: Optional[ArrayLike],
+        mesh_form: MeshForm,
+        hierarchy: Optional[HierarchyOptions],
+    ) -> NDArray[np.uint64]:
+        tree = hierarchy_options(hierarchy)
+        given = options(
+            "scene_options",
+            at=None if at is None else pose("at", at).ravel().tolist(),
+            hierarchy=tree,
+            mesh_form=MeshForm(mesh_form),
+        )
+        ids, count = np.empty(MAX_SCENE_OBJECTS, np.uint64), ffi.new("size_t *")
+        check(call(self._pointer, scene, given, ids.size, pointer(ids, "uint64_t"), count))
+        ids = ids[: count[0]].copy()
+        # What is named cannot go while a state holds it; other threads may have deleted some before.
+        with self.snapshot() as state:
+            held = state._pointer
+            out = ffi.new("cstk_object_info *")
+            for id in ids.tolist():
+                try:
+                    check(lib.cstk_environment_get_object_info(held, id, out))
+                except NotFoundError:
+                    continue
+                keep_name(out.data, id)
         return ids
 
     def snapshot(self) -> "Environment":

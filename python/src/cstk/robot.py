@@ -1,26 +1,40 @@
 """Robots: trees of links, each with a joint to its parent and perhaps a body."""
 
 import os
-from typing import Any, Callable, Optional, Sequence
+from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, empty, file_name, index, pose, scalar, text, vector
+from ._arrays import doubles, empty, file_name, index, integers, pointer, pose, scalar, text, vector
 from ._callback import callback
 from ._callback_errors import keep_callback_error
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from ._options import options
 from ._progress import Progress, reporting
+from ._urdf import srdf_options, urdf_options
 from ._user_data import Kept, data_of
 from .body import Body
-from .enums import JointKind, UrdfGeometry
+from .enums import JointKind, MeshForm, UrdfGeometry
 from .errors import WrongSizeError, check
-from .hierarchy import HierarchyOptions, hierarchy_options
-from .records import LinkInfo, UrdfReport
+from .hierarchy import HierarchyOptions
+from .records import LinkInfo, SrdfReport, UrdfReport
+from .semantics import (
+    EndEffector,
+    JointGroup,
+    NamedState,
+    Semantics,
+    VirtualJoint,
+    end_effector_of,
+    group_of,
+    semantics_of,
+    state_of,
+    virtual_joint_of,
+)
 
 Array = NDArray[np.float64]
+Said = TypeVar("Said")
 
 
 def name_of(call: Any, owner: Any, link: int) -> str:
@@ -112,6 +126,83 @@ class Robot(Handle):
         out, jacobian = empty(6, self.nv)
         check(lib.cstk_robot_jacobian(self._pointer, doubles(array), array.size, index("link", link), at, jacobian))
         return out
+
+    def semantics(self) -> Semantics:
+        """What SRDF files say of the robot: counts, all 0 where none was read, and the passive joints."""
+        return self._said("cstk_semantics", lib.cstk_robot_get_semantics, semantics_of)
+
+    def find_group(self, name: str) -> int:
+        """The index of the joint group with this name; NotFoundError if there is none."""
+        return self._found(lib.cstk_robot_find_group, text("name", name))
+
+    def find_state(self, group: Optional[str], name: str) -> int:
+        """The index of the named state of a group; None for a state of which the file names no group."""
+        of = ffi.NULL if group is None else text("group", group)
+        return self._found(lib.cstk_robot_find_state, of, text("name", name))
+
+    def find_end_effector(self, name: str) -> int:
+        """The index of the end effector with this name; NotFoundError if there is none."""
+        return self._found(lib.cstk_robot_find_end_effector, text("name", name))
+
+    def group(self, group: int) -> JointGroup:
+        """A joint group, by its index."""
+        return self._said("cstk_joint_group", lib.cstk_robot_get_group, group_of, index("group", group))
+
+    def state(self, state: int) -> NamedState:
+        """A named state, by its index."""
+        return self._said("cstk_named_state", lib.cstk_robot_get_state, state_of, index("state", state))
+
+    def end_effector(self, end_effector: int) -> EndEffector:
+        """An end effector, by its index."""
+        place = index("end_effector", end_effector)
+        return self._said("cstk_end_effector", lib.cstk_robot_get_end_effector, end_effector_of, place)
+
+    def virtual_joint(self, virtual_joint: int) -> VirtualJoint:
+        """A virtual joint, by its index."""
+        place = index("virtual_joint", virtual_joint)
+        return self._said("cstk_virtual_joint", lib.cstk_robot_get_virtual_joint, virtual_joint_of, place)
+
+    def apply_state(self, state: int, q: ArrayLike) -> Array:
+        """q with the values of a named state, by its index."""
+        out = vector("q", q).copy()
+        check(lib.cstk_robot_apply_state(self._pointer, index("state", state), doubles(out), out.size))
+        return out
+
+    def frozen(self, joints: ArrayLike, q: ArrayLike) -> "Robot":
+        """The robot of which only the joints that move these links are left, the others frozen at q: a joint group as a robot of
+        its own, with the same links by the same numbers. Coordinates that are left keep their order.
+        """
+        array, left = vector("q", q), integers("joints", joints, np.uint32)
+        out = ffi.new("cstk_robot **")
+        moved = pointer(left, "uint32_t")
+        check(lib.cstk_robot_create_frozen(self._pointer, moved, left.size, doubles(array), array.size, out))
+        return Robot._take(out[0])
+
+    def to_whole(self, whole: "Robot", q: ArrayLike) -> Array:
+        """Of a robot that `whole.frozen` made: the configuration of `whole` at its own configuration q. EmptyError for any other."""
+        pointer_of(Robot, "whole", whole)
+        array = vector("q", q)
+        out, to = empty(whole.nq)
+        check(lib.cstk_robot_to_whole(self._pointer, doubles(array), array.size, to, out.size))
+        return out
+
+    def from_whole(self, whole: ArrayLike) -> Array:
+        """Of a robot that frozen() made: the coordinates that are left to it, of a configuration of the whole robot."""
+        array = vector("whole", whole)
+        out, to = empty(self.nq)
+        check(lib.cstk_robot_from_whole(self._pointer, doubles(array), array.size, to, out.size))
+        return out
+
+    def _found(self, call: Any, *names: Any) -> int:
+        out = ffi.new("uint32_t *")
+        check(call(self._pointer, *names, out))
+        return int(out[0])
+
+    def _said(self, ctype: str, call: Any, copied: Callable[[Any], Said], *place: int) -> Said:
+        # The structure's arrays belong to the robot: the pointer keeps it until they are copied.
+        robot, out = self._pointer, ffi.new(f"{ctype} *")
+        check(call(robot, *place, out))
+        return copied(out)
 
 
 class CustomJoint:
@@ -241,43 +332,87 @@ class RobotBuilder(Handle):
         package_paths: Sequence["os.PathLike[str] | str"] = (),
         hierarchy: Optional[HierarchyOptions] = None,
         cache_folder: "os.PathLike[str] | str | None" = None,
+        mesh_form: MeshForm = MeshForm.SURFACE,
+        link_forms: Optional[Mapping[str, MeshForm]] = None,
         progress: Optional[Progress] = None,
     ) -> int:
         """Adds the robot of a URDF file, and returns its root link. `geometry` chooses its shapes, `base` is the joint of the root,
         `prefix` is put before all names, `cache_folder` keeps the built bodies for the next start. urdf_report() tells what was
-        read. Meshes are surfaces: a body wholly inside one does not meet it.
+        read. A body wholly inside a mesh does not meet it, unless `mesh_form`, or `link_forms` for a link by its name in the file,
+        makes it a solid or its convex hull.
         """
-        folders = [ffi.new("char[]", file_name("package_paths", folder)) for folder in package_paths]
-        folder_list = ffi.new("char *[]", folders)
-        prefix_text = None if prefix is None else ffi.new("char[]", text("prefix", prefix))
-        cache = None if cache_folder is None else ffi.new("char[]", file_name("cache_folder", cache_folder))
-        tree = hierarchy_options(hierarchy)
-        given = options(
-            "urdf_options",
-            geometry=UrdfGeometry(geometry),
-            base=JointKind(base),
-            parent=parent,
-            sides=index("sides", sides),
-            at=None if at is None else pose("at", at).ravel().tolist(),
-            prefix=prefix_text,
-            package_paths=folder_list,
-            package_path_count=len(folders),
-            hierarchy=tree,
-            cache_folder=cache,
-        )
-        root = ffi.new("uint32_t *")
-        builder, path = self._pointer, file_name("file", file)
-        reporting(
-            lambda function, user: lib.cstk_robot_builder_load_urdf(builder, path, given, function, user, root),
+        return self._read_urdf(
+            lambda *rest: lib.cstk_robot_builder_load_urdf(self._pointer, file_name("file", file), *rest),
             progress,
+            geometry=geometry,
+            base=base,
+            parent=parent,
+            sides=sides,
+            at=at,
+            prefix=prefix,
+            package_paths=package_paths,
+            hierarchy=hierarchy,
+            cache_folder=cache_folder,
+            mesh_form=mesh_form,
+            link_forms=link_forms,
         )
+
+    def load_urdf_text(
+        self,
+        urdf: str,
+        folder: "os.PathLike[str] | str | None" = None,
+        *,
+        progress: Optional[Progress] = None,
+        **arguments: Any,
+    ) -> int:
+        """As load_urdf, with its arguments, from a text: what the robot_description of ROS holds. Names of meshes are relative to
+        `folder`; without it they must be absolute, or in packages.
+        """
+        source = text("urdf", urdf)
+        place = ffi.NULL if folder is None else ffi.new("char[]", file_name("folder", folder))
+        return self._read_urdf(
+            lambda *rest: lib.cstk_robot_builder_load_urdf_text(self._pointer, source, place, *rest),
+            progress,
+            **arguments,
+        )
+
+    def _read_urdf(self, call: Callable[..., int], progress: Optional[Progress], **arguments: Any) -> int:
+        given, _kept = urdf_options(**arguments)
+        root = ffi.new("uint32_t *")
+        reporting(lambda function, user: call(given, function, user, root), progress)
         return int(root[0])
 
     def urdf_report(self) -> UrdfReport:
-        """What became of the URDF file added last."""
+        """What became of the URDF file or text added last."""
         out = ffi.new("cstk_urdf_report *")
         check(lib.cstk_robot_builder_get_urdf_report(self._pointer, out))
         return UrdfReport(out)
+
+    def load_srdf(
+        self, file: "os.PathLike[str] | str", *, prefix: Optional[str] = None, skip_unknown: bool = False
+    ) -> None:
+        """Adds what an SRDF file says of the links that are there: disabled pairs, joint groups, named states, end effectors.
+        `prefix` is the one that the URDF file was loaded with. Names that are not there are refused, or, with `skip_unknown`,
+        skipped and counted by srdf_report().
+        """
+        given, _kept = srdf_options(prefix, skip_unknown)
+        check(lib.cstk_robot_builder_load_srdf(self._pointer, file_name("file", file), given))
+
+    def load_srdf_text(self, srdf: str, *, prefix: Optional[str] = None, skip_unknown: bool = False) -> None:
+        """As load_srdf, from a text: what the robot_description_semantic of ROS holds."""
+        given, _kept = srdf_options(prefix, skip_unknown)
+        check(lib.cstk_robot_builder_load_srdf_text(self._pointer, text("srdf", srdf), given))
+
+    def srdf_report(self) -> SrdfReport:
+        """What became of the SRDF file or text added last."""
+        out = ffi.new("cstk_srdf_report *")
+        check(lib.cstk_robot_builder_get_srdf_report(self._pointer, out))
+        return SrdfReport(out)
+
+    def disable_pair(self, r_link: str, s_link: str) -> None:
+        """Rules a pair of links, by their names, out for self-collision."""
+        names = text("r_link", r_link), text("s_link", s_link)
+        check(lib.cstk_robot_builder_disable_pair(self._pointer, *names))
 
     def build(self) -> Robot:
         """Builds a robot from the links added so far; the builder is unchanged."""

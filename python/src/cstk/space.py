@@ -6,7 +6,7 @@ from typing import Any, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, empty, index, pointers, same_length, scalar, vector
+from ._arrays import doubles, empty, index, pointer, pointers, same_length, scalar, vector
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from .enums import RangeKind
@@ -109,6 +109,16 @@ class Space(Handle):
         out = ffi.new("cstk_space_offset *")
         check(lib.cstk_space_get_offset(self._pointer, index("robot", robot, 64), out))
         return SpaceOffset(out)
+
+    def enabled_pairs(self) -> NDArray[np.uint32]:
+        """All pairs of links with bodies but those that SRDF files or RobotBuilder.disable_pair rule out, (n, 2), as
+        CObject.induced_links takes them. Nothing is sampled; see Query.find_link_pairs.
+        """
+        count = ffi.new("size_t *")
+        check(lib.cstk_space_get_enabled_pairs(self._pointer, 0, ffi.NULL, count))
+        out = np.empty((count[0], 2), np.uint32)
+        check(lib.cstk_space_get_enabled_pairs(self._pointer, count[0], pointer(out, "uint32_t"), count))
+        return out
 
     def range(self, coordinate: int) -> Range:
         """The range of a coordinate; its kind is never DEFAULT."""
