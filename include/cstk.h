@@ -1734,8 +1734,8 @@ typedef struct cstk_urdf_options {
   const char *prefix;
   /**
    * Folders to search for the packages of package:// names, before the URDF file's folder and those above it. Last come
-   * the folders of the environment variables AMENT_PREFIX_PATH (share/<package> below each) and ROS_PACKAGE_PATH (each
-   * and the folders up to 4 levels below it, known by their names).
+   * the folders of the environment variables AMENT_PREFIX_PATH (packages lie in the folder share of each) and
+   * ROS_PACKAGE_PATH (each and the folders up to 4 levels below it, known by their names).
    */
   const char *const *package_paths;
   size_t package_path_count;

@@ -99,8 +99,8 @@ pub struct cstk_urdf_options {
     /// Prepended to the names of links and joints, so that a file can be loaded twice; may be NULL.
     pub prefix: *const c_char,
     /// Folders to search for the packages of package:// names, before the URDF file's folder and those above it. Last come
-    /// the folders of the environment variables AMENT_PREFIX_PATH (share/<package> below each) and ROS_PACKAGE_PATH (each
-    /// and the folders up to 4 levels below it, known by their names).
+    /// the folders of the environment variables AMENT_PREFIX_PATH (packages lie in the folder share of each) and
+    /// ROS_PACKAGE_PATH (each and the folders up to 4 levels below it, known by their names).
     pub package_paths: *const *const c_char,
     pub package_path_count: usize,
     /// How the links' hierarchies are built; NULL for the defaults.
