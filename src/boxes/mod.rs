@@ -1,11 +1,13 @@
 //! Boxes: axis-aligned and oriented, in double precision and packed for the kernel, eight to a node.
 
+mod boxes_by_eight;
 mod extent;
 mod oriented_box;
 mod packed_box;
 mod wide_node;
 mod wide_node_bytes;
 
+pub use boxes_by_eight::BoxesByEight;
 pub use extent::Extent;
 pub use oriented_box::oriented_box;
 pub use packed_box::{PackedBox, fitted_axes, simply_fitted_axes};

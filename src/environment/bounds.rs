@@ -57,6 +57,11 @@ impl Bounds {
         [apart - radii - slack, apart + radii + slack]
     }
 
+    /// The centre of the box.
+    pub fn box_center(&self) -> Vec3 {
+        self.box_center
+    }
+
     /// The axis-aligned box around the oriented one.
     #[inline(always)]
     pub(super) fn extent(&self) -> Extent {

@@ -2,6 +2,7 @@
 
 mod attachment;
 mod bounds;
+mod box_frame;
 pub mod box_tree;
 #[allow(clippy::module_inception)]
 mod environment;
@@ -13,6 +14,7 @@ mod visit_near;
 
 pub use attachment::Attachment;
 pub use bounds::Bounds;
+pub use box_frame::{BoxFrame, FrameLimits};
 pub use environment::{Change, Environment};
 pub use object_tree::ObjectTree;
 pub use places::SObject;

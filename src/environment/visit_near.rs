@@ -1,13 +1,13 @@
 //! The traversal to the objects near a body.
 
-use super::bounds::{Bounds, slack};
+use super::bounds::Bounds;
+use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
 use crate::boxes::{EightBoxes, Extent, PackedBox, WideNode};
 use crate::environment::box_tree::BOX;
-use crate::hierarchy::packed::power_of_two;
-use crate::lanes::{Instructions, Work, cross3, each3, with_widest};
-use crate::pair::{ROUNDING, bounds};
+use crate::lanes::{Instructions, Work, with_widest};
+use crate::pair::bounds;
 use crate::pose::{Pose, Vec3};
 use crate::reused::emptied;
 
@@ -117,7 +117,7 @@ where
                 }
                 continue;
             }
-            let cutoff = descent.cutoff(self.limit);
+            let cutoff = descent.frame.cutoff(self.limit);
             if next.bound > cutoff {
                 continue;
             }
@@ -172,7 +172,7 @@ where
         bodies: &[(Named<'b>, Bounds)],
         mask: u64,
     ) -> NearNodes {
-        let mut cutoff = descent.cutoff(self.limit);
+        let mut cutoff = descent.frame.cutoff(self.limit);
         let children = (1 << wide.count) - 1;
         let mut found = NearNodes {
             nearest: [f32::INFINITY; 8],
@@ -196,9 +196,9 @@ where
                 } else if bounds[lane] <= cutoff {
                     let (named, body) = &bodies[at];
                     let place = (child & !BOX) as usize;
-                    let lower = descent.lower(bounds[lane]);
+                    let lower = descent.frame.lower(bounds[lane]);
                     self.limit = (self.visit)(named, body, place, lower);
-                    cutoff = descent.cutoff(self.limit);
+                    cutoff = descent.frame.cutoff(self.limit);
                 }
             }
         }
@@ -269,85 +269,48 @@ fn near_all<I: Instructions>(
     NearAll::Several
 }
 
-/// The bodies and units of one traversal. Lengths in single precision are in units of `scale`, a power of two about as large
-/// as the extent of everything.
+/// The bodies of one traversal.
 struct Descent {
-    /// The bodies' boxes, relative to the tree's centre.
+    frame: BoxFrame,
+    /// The bodies' boxes.
     bodies: Vec<PackedBox>,
     /// A box around all of them.
     around: PackedBox,
-    /// The unit of the tree in units of `scale`.
+    /// The unit of the tree in units of the frame.
     unit: f32,
-    /// The unit of the traversal.
-    scale: f64,
-    inverse_scale: f64,
-    /// The slack by which bounds are lowered.
-    slack: f64,
 }
 
 impl Descent {
     #[inline(always)]
     fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)], mut boxes: Vec<PackedBox>) -> Self {
-        let frame = objects.tree.frame();
-        let mut size = objects.radius;
-        let (mut largest_coordinate, mut deviation) = (objects.largest_coordinate, 0.0f64);
+        let tree = objects.tree.frame();
+        let mut limits = FrameLimits {
+            size: objects.radius,
+            largest_coordinate: objects.largest_coordinate,
+            deviation: 0.0,
+        };
         for (_, body) in bodies {
-            let from_center = body.box_center - frame.center;
-            size = size.max(from_center.norm() + body.box_radius);
-            largest_coordinate = largest_coordinate.max(body.largest_coordinate);
-            deviation = deviation.max(body.deviation);
+            limits.take_in(&tree.center, body);
         }
-        let scale = power_of_two(size);
-        let inverse_scale = 1.0 / scale;
+        let deviation = objects.deviation + limits.deviation;
+        let frame = BoxFrame::new(tree.center, &limits, deviation);
         let mut whole: Option<Extent> = None;
-        let bodies = bodies.iter().map(|(_, body)| {
+        boxes.clear();
+        boxes.extend(bodies.iter().map(|(_, body)| {
             let extent = body.extent();
             whole = Some(whole.map_or(extent, |whole| whole.union(&extent)));
-            packed(
-                &[body.axes[0], body.axes[1]],
-                &(body.box_center - frame.center),
-                &body.half,
-                inverse_scale,
-            )
-        });
-        boxes.clear();
-        boxes.extend(bodies);
+            frame.pack(body)
+        }));
         let whole = whole.unwrap_or_default();
         Self {
             bodies: boxes,
-            around: packed(
+            around: frame.pack_box(
                 &[Vec3::x(), Vec3::y()],
-                &(whole.center() - frame.center),
+                &(whole.center() - tree.center),
                 &(0.5 * (whole.high - whole.low)),
-                inverse_scale,
             ),
-            unit: (frame.scale * inverse_scale) as f32,
-            scale,
-            inverse_scale,
-            slack: slack(largest_coordinate, objects.deviation + deviation) + ROUNDING * size,
+            unit: (tree.scale * frame.inverse_scale) as f32,
+            frame,
         }
-    }
-
-    /// A single-precision bound above this proves that the distance is above `limit`.
-    #[inline(always)]
-    fn cutoff(&self, limit: f64) -> f32 {
-        (((limit + self.slack) * self.inverse_scale) as f32).next_up()
-    }
-
-    /// The safe lower bound of the distance that follows from a single-precision bound.
-    #[inline(always)]
-    fn lower(&self, bound: f32) -> f64 {
-        f64::from(bound) * self.scale - self.slack
-    }
-}
-
-/// A box in single precision; lengths are multiplied by `inverse_scale`, a power of two.
-#[inline(always)]
-fn packed([x, y]: &[Vec3; 2], center: &Vec3, half: &Vec3, inverse_scale: f64) -> PackedBox {
-    let (x, y) = (each3(|k| x[k] as f32), each3(|k| y[k] as f32));
-    PackedBox {
-        axes: [x, y, cross3(&x, &y)],
-        center: each3(|k| (center[k] * inverse_scale) as f32),
-        half: each3(|i| ((half[i] * inverse_scale) as f32).next_up()),
     }
 }

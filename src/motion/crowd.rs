@@ -4,9 +4,9 @@ use super::moving_pair::MovingPair;
 use super::over_piece::TwistLists;
 use super::piece::Piece;
 use crate::body::Body;
-use crate::boxes::{EightBoxes, PackedBox};
+use crate::boxes::{BoxesByEight, PackedBox};
 use crate::convex::Extension;
-use crate::lanes::{Instructions, each3};
+use crate::lanes::each3;
 use crate::pair::{ROUNDING, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3};
 use crate::tolerance;
@@ -15,22 +15,13 @@ use crate::tolerance;
 pub(super) struct Crowd {
     /// The numbers of the pairs are consecutive.
     pub first_pair: u32,
-    eights: Vec<RestingEight>,
+    boxes: BoxesByEight,
     /// Boxes are given relative to this point of the world: single precision is for nearby places.
     origin: Vec3,
     /// No point of an object is farther from the origin.
     size: f64,
     /// The largest deviation of an object from its primitives.
     deviation: f64,
-}
-
-/// Eight boxes relative to the crowd's origin.
-#[derive(Clone, Copy, Default)]
-struct RestingEight {
-    axes: [[[f32; 8]; 3]; 3],
-    center: [[f32; 8]; 3],
-    half: [[f32; 8]; 3],
-    count: usize,
 }
 
 /// The body over a piece.
@@ -49,55 +40,25 @@ impl Crowd {
     pub fn new(first_pair: u32, pairs: &[MovingPair], origin: Vec3) -> Self {
         let mut crowd = Self {
             first_pair,
-            eights: vec![RestingEight::default(); pairs.len().div_ceil(8)],
+            boxes: BoxesByEight::default(),
             origin,
             size: 0.0,
             deviation: 0.0,
         };
-        for (i, pair) in pairs.iter().enumerate() {
+        for pair in pairs {
             let [_, b] = pair.bodies();
             let pose = pair.pose_of_b();
             let center = pose.transform_point(b.center()) - origin;
             crowd.size = crowd.size.max(center.norm() + b.radius());
             crowd.deviation = crowd.deviation.max(b.deviation());
-            crowd.eights[i / 8].put(i % 8, &root_box(b, pose, &origin));
+            crowd.boxes.push(&root_box(b, pose, &origin));
         }
         crowd
     }
 
-    /// The number of objects.
-    pub fn count(&self) -> u32 {
-        self.eights.iter().map(|eight| eight.count as u32).sum()
-    }
-
-    /// The numbers of the eights with the bits of the lanes that they use.
-    pub fn lanes(&self) -> impl Iterator<Item = (u32, u8)> {
-        (0..)
-            .zip(&self.eights)
-            .map(|(i, eight)| (i, ((1u32 << eight.count) - 1) as u8))
-    }
-
-    #[inline(always)]
-    pub fn boxes<I: Instructions>(&self, lanes: I, number: u32) -> EightBoxes<I> {
-        let eight = &self.eights[number as usize];
-        let [x, y, z] = &eight.axes;
-        EightBoxes {
-            axes: [
-                [lanes.load(&x[0]), lanes.load(&x[1]), lanes.load(&x[2])],
-                [lanes.load(&y[0]), lanes.load(&y[1]), lanes.load(&y[2])],
-                [lanes.load(&z[0]), lanes.load(&z[1]), lanes.load(&z[2])],
-            ],
-            center: [
-                lanes.load(&eight.center[0]),
-                lanes.load(&eight.center[1]),
-                lanes.load(&eight.center[2]),
-            ],
-            half: [
-                lanes.load(&eight.half[0]),
-                lanes.load(&eight.half[1]),
-                lanes.load(&eight.half[2]),
-            ],
-        }
+    /// The boxes around the objects.
+    pub fn boxes(&self) -> &BoxesByEight {
+        &self.boxes
     }
 
     /// The body over a piece; `pair` is any pair of the crowd.
@@ -130,19 +91,6 @@ impl Crowd {
             bends: [with_b, with_a],
             cutoff: ((pair.threshold + lowered) as f32).next_up(),
         }
-    }
-}
-
-impl RestingEight {
-    fn put(&mut self, lane: usize, one: &PackedBox) {
-        for k in 0..3 {
-            for (axis, given) in self.axes.iter_mut().zip(&one.axes) {
-                axis[k][lane] = given[k];
-            }
-            self.center[k][lane] = one.center[k];
-            self.half[k][lane] = one.half[k];
-        }
-        self.count += 1;
     }
 }
 

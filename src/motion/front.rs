@@ -66,9 +66,9 @@ impl Front {
         let mut number = 0;
         for (crowd, index) in crowds.iter().zip(0..) {
             self.add_pairs(pairs, number..crowd.first_pair);
-            number = crowd.first_pair + crowd.count();
+            number = crowd.first_pair + crowd.boxes().len() as u32;
             self.bundles
-                .extend(crowd.lanes().map(|(eight, lanes)| Bundle {
+                .extend(crowd.boxes().lanes().map(|(eight, lanes)| Bundle {
                     crowd: index,
                     eight,
                     lanes,

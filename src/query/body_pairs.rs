@@ -6,6 +6,7 @@ use super::answer::SSide;
 use super::cache_key::CacheKey;
 use super::candidates::{CandidateFilter, CandidateScratch, Candidates};
 use super::context::QueryContext;
+use super::link_boxes::LinkBoxes;
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
@@ -248,8 +249,7 @@ impl<'a> Scene<'a> {
         for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
                 BodyPairs::Links { pairs } => {
-                    let link_bounds = &mut scratch.links;
-                    self.offer_links(pairs, &term.options, number, &mut candidates, link_bounds);
+                    self.offer_links(pairs, &term.options, number, &mut candidates, scratch);
                 }
                 BodyPairs::Objects {
                     links,
@@ -280,30 +280,53 @@ impl<'a> Scene<'a> {
         options: &InducedOptions,
         term: u32,
         candidates: &mut Candidates<'s, '_>,
-        link_bounds: &mut Vec<Option<Bounds>>,
+        scratch: &mut CandidateScratch,
     ) {
+        let target = |links: [usize; 2], sides: [Placement<'s>; 2]| Target {
+            options: *options,
+            term,
+            ..self.link_pair(links, sides)
+        };
+        let bounds_of = |(body, pose): Placement| Bounds::of(body, pose);
+        let cutoff = candidates.cutoff(options);
+        if !candidates.wants_nearest() && cutoff < f64::INFINITY {
+            candidates.count(pairs.len());
+            let links = self.space().link_count();
+            let boxes = LinkBoxes::new(pairs, links, &mut scratch.link_boxes, |link| {
+                self.link(link).map(bounds_of)
+            });
+            boxes.visit_near(pairs, cutoff, |links, lower| {
+                if let [Some(a), Some(b)] = links.map(|link| self.link(link)) {
+                    candidates.offer_bounded(options, lower, || target(links, [a, b]));
+                }
+            });
+            return;
+        }
         // Most links are in several pairs, so their bounds are computed once.
+        let link_bounds = &mut scratch.links;
         link_bounds.clear();
         link_bounds.resize(self.space().link_count(), None);
-        for &[r, s] in pairs {
-            if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
-                let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
-                    *link_bounds[link].get_or_insert_with(|| Bounds::of(body, pose))
+        for &links in pairs {
+            if let [Some(a), Some(b)] = links.map(|link| self.link(link)) {
+                let [on_r, on_s] = [(links[0], a), (links[1], b)].map(|(link, placement)| {
+                    *link_bounds[link].get_or_insert_with(|| bounds_of(placement))
                 });
-                let target = || {
-                    let r = RSide {
-                        link: r,
-                        attached: 0,
-                    };
-                    Target {
-                        options: *options,
-                        term,
-                        data: [a.0.data(), b.0.data()],
-                        ..self.target(r, SSide::Link(s), [a, b])
-                    }
-                };
-                candidates.offer(options, [&on_r, &on_s], f64::NEG_INFINITY, target);
+                candidates.offer(options, [&on_r, &on_s], f64::NEG_INFINITY, || {
+                    target(links, [a, b])
+                });
             }
+        }
+    }
+
+    /// Two links with their bodies.
+    pub fn link_pair<'s>(&self, [r, s]: [usize; 2], sides: [Placement<'s>; 2]) -> Target<'s> {
+        let r = RSide {
+            link: r,
+            attached: 0,
+        };
+        Target {
+            data: sides.map(|(body, _)| body.data()),
+            ..self.target(r, SSide::Link(s), sides)
         }
     }
 

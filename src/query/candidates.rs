@@ -1,5 +1,6 @@
 //! Candidates: the body pairs that the broad phase lets through.
 
+use super::link_boxes::LinkBoxMemory;
 use super::target::Target;
 use crate::cobject::InducedOptions;
 use crate::environment::{Bounds, NearScratch};
@@ -37,6 +38,7 @@ pub(crate) struct CandidateScratch {
     pub near: NearScratch,
     /// The bounds of each link, computed on first use.
     pub links: Vec<Option<Bounds>>,
+    pub link_boxes: LinkBoxMemory,
     targets: Vec<Target<'static>>,
 }
 
@@ -84,11 +86,44 @@ impl<'s, 'm> Candidates<'s, 'm> {
         let [lower, upper] = bounds[0].distance(bounds[1]);
         let bound = lower.max(at_least) - options.margin;
         self.nearest = self.nearest.min(upper - options.margin);
+        self.take(options, bound, target)
+    }
+
+    /// Adds a pair with a lower bound of its distance unless that is beyond the cutoff. Only where no pair is asked for as the
+    /// nearest.
+    #[inline(always)]
+    pub fn offer_bounded(
+        &mut self,
+        options: &InducedOptions,
+        lower: f64,
+        target: impl FnOnce() -> Target<'s>,
+    ) {
+        self.take(options, lower - options.margin, target);
+    }
+
+    /// Returns the cutoff for further pairs with the same options.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        options: &InducedOptions,
+        bound: f64,
+        target: impl FnOnce() -> Target<'s>,
+    ) -> f64 {
         let limit = self.limit(options);
         if bound <= limit {
             self.targets.push(Target { bound, ..target() });
         }
         limit + options.margin
+    }
+
+    /// Whether pairs are asked for as the nearest, which takes upper bounds too.
+    pub fn wants_nearest(&self) -> bool {
+        self.filter.nearest.is_some()
+    }
+
+    /// Counts tests of bounds.
+    pub fn count(&mut self, tests: usize) {
+        self.meter.count_nodes(tests as u64);
     }
 
     /// The cutoff of the distance less margin; minus infinity once the call has reached its work limit.

@@ -14,6 +14,7 @@ mod every_pair;
 mod explain;
 mod find_link_pairs;
 mod leaves;
+mod link_boxes;
 mod nearest_gradient;
 mod pair_penetration;
 mod pairs;

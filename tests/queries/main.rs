@@ -13,6 +13,7 @@ mod gradient_cases;
 mod gradients;
 mod grasping;
 mod held_objects;
+mod link_pairs;
 mod pure_sets;
 mod pure_sets_among_others;
 mod refusals;
