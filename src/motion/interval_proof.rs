@@ -4,8 +4,9 @@
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, Part};
+use super::kinematics::Kinematics;
 use super::look::{LeafLook, Look, PairLook};
-use super::moving_pair::{Interval, Kinematics, MovingPair};
+use super::moving_pair::{Interval, MovingPair};
 use super::moving_pure::{Moment, MovingPure};
 use super::over_pairs::OverPairs;
 use super::over_piece::OneTwist;
@@ -23,6 +24,10 @@ const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
 /// The work on a pair that goes on in the halves of an interval, times the interval's length: see `PairLook`. By the motion benchmark
 /// from .5 to 16 within a tenth of each other on arms; without a limit hits of the UR10 take three times as long.
 const WORK_PER_LENGTH: f64 = 1.0;
+
+/// The start is asked for by itself where an interval from it on, no longer than this, is undecided: most motions that planners ask for
+/// begin where they have been, and are proved free there at once.
+const START_ASKED_BELOW: f64 = 0.125;
 
 /// How an interval proof is to end.
 #[derive(Clone, Copy, Debug)]
@@ -92,8 +97,8 @@ struct Undecided {
 /// Asked for a time: whether the set is certainly met there.
 pub(super) type Confirm<'c> = dyn FnMut(&mut QueryContext, f64) -> Result<bool> + 'c;
 
-/// Looks for the first contact, or proves that there is none at any time from 0 to 1. `confirm` is asked for the start, unless the
-/// whole motion is proved at once, and for contacts of sets that are no plain unions.
+/// Looks for the first contact, or proves that there is none at any time from 0 to 1. `confirm` is asked for the start, unless an
+/// interval from it on is soon proved free, and for contacts of sets that are no plain unions.
 pub(super) fn prove(
     set: &MovingSet,
     kinematics: &mut Kinematics,
@@ -153,6 +158,7 @@ impl Work for Prover<'_, '_, '_, '_> {
             ends_near_contact: false,
         }];
         let mut contact: Option<f64> = None;
+        let mut is_start_asked = false;
         // Narrowed twice, primitives within rounding of each other would be followed in the smallest steps.
         let mut narrowed: Option<(MeetingLeaves, f64)> = None;
         while let Some(interval) = todo.pop() {
@@ -179,8 +185,12 @@ impl Work for Prover<'_, '_, '_, '_> {
             if whole == Known::Free {
                 continue;
             }
-            if [start, end] == [0.0, 1.0] && (self.confirm)(self.context, 0.0)? {
-                return Ok(Proof::Contact([0.0, 0.0]));
+            let is_start_wanted = whole == Known::Meets || end <= START_ASKED_BELOW;
+            if start == 0.0 && is_start_wanted && !is_start_asked {
+                is_start_asked = true;
+                if (self.confirm)(self.context, 0.0)? {
+                    return Ok(Proof::Contact([0.0, 0.0]));
+                }
             }
             let time = interval.compared_at();
             let meets = whole == Known::Meets && (is_plain || (self.confirm)(self.context, time)?);
