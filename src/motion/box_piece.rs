@@ -1,13 +1,17 @@
 //! Body pairs over a box of configurations: to first order every coordinate moves them on its own, and what is left is bounded by the
 //! second derivative on the straight way from the middle of the box to any other configuration of it.
 
-use super::moving_pair::{Carried, MAX_TURN, MovingPair, RatesInWorld};
+use std::cell::OnceCell;
+
+use super::carried::Carried;
+use super::moving_pair::{MAX_TURN, MovingPair};
 use super::over_piece::{Displacement, ManyTwists, Moved, PairOver};
+use super::pair_rates::PairRates;
 use super::way::Way;
 use crate::body::Body;
 use crate::convex::Extension;
 use crate::pose::{Pose, Vec3};
-use crate::robot::{ChainRates, LinkMotions, LinkTwists, MotionRates, RelativeTwists};
+use crate::robot::{LinkMotions, LinkTwists, MotionRates, RatesFrom, RelativeTwists};
 use crate::space::Space;
 
 /// More than the rounding of sums of second-order terms.
@@ -18,7 +22,9 @@ pub(super) struct BoxPiece<'a> {
     way: &'a Way<'a>,
     motions: &'a LinkMotions,
     twists: LinkTwists<'a>,
-    rates: RatesInWorld<'a>,
+    rates: PairRates<'a>,
+    /// The bounds of all links' derivatives in the world, once they are asked for.
+    in_world: OnceCell<Vec<MotionRates>>,
 }
 
 /// How a pair moves through the box.
@@ -44,12 +50,24 @@ impl<'a> BoxPiece<'a> {
             way,
             motions,
             twists: LinkTwists::new(motions, poses),
-            rates: RatesInWorld::new(motions),
+            rates: PairRates::new(motions),
+            in_world: OnceCell::new(),
         }
     }
 
     fn space(&self) -> &Space {
         self.way.line.cobject.space()
+    }
+
+    /// Where all joints that are not known rest.
+    fn in_world(&self) -> &[MotionRates] {
+        self.in_world.get_or_init(|| {
+            let mut rates = RatesFrom::new(self.motions, None);
+            let links = 0..self.motions.len();
+            links
+                .map(|link| rates.of_known_joints(link).rates)
+                .collect()
+        })
     }
 
     fn in_box(&mut self, pair: &MovingPair) -> PairInBox {
@@ -124,7 +142,7 @@ impl<'a> BoxPiece<'a> {
         let along = twists.iter().map(|twist| {
             direction.dot(&twist.linear).abs() + direction.cross(&twist.angular).norm() * radius
         });
-        let ChainRates { rates, .. } = self.motions.rates(link);
+        let rates = &self.in_world()[link];
         let bend = 0.5 * (rates.turn[1] * radius + rates.origin[1]);
         let farthest = self.twists.farthest_along(link, radius, direction);
         Some(farthest.min(along.sum::<f64>() + bend) * SUM_SLACK)
@@ -180,7 +198,10 @@ impl BoxPiece<'_> {
     pub fn pair_over<'p>(&mut self, pair: &MovingPair<'p>) -> PairOver<'p, ManyTwists> {
         let found = self.in_box(pair);
         let center_moves = |apart: &Vec3, distance: f64| found.center_moves(apart, distance);
-        if pair.balls_stay_apart(&found.poses, center_moves, found.kinematics_error) {
+        let [a, b] = pair.bodies();
+        let [at_a, at_b] = &found.poses;
+        let apart = at_a.transform_point(a.center()) - at_b.transform_point(b.center());
+        if pair.balls_stay_apart(&apart, center_moves, found.kinematics_error) {
             return PairOver::Apart;
         }
         if let SecondOrder::Rates(rates) = &found.second_order

@@ -1,9 +1,7 @@
 //! When two primitives on a motion begin to meet.
 
-use super::moving_pair::{Interval, Kinematics, MovingPair};
-use super::over_piece::PairOver;
-use super::piece::Piece;
-use super::span::Span;
+use super::kinematics::Kinematics;
+use super::moving_pair::MovingPair;
 use crate::error::Result;
 use crate::pair::Scratch;
 
@@ -87,21 +85,14 @@ impl MeetingLeaves {
         time: f64,
         scratch: &mut Scratch,
     ) -> Result<Option<f64>> {
-        kinematics.start(time)?;
-        let moment = &mut Interval {
-            kinematics,
-            time,
-            span: Span::Around(0.0),
-        };
-        let PairOver::Near(over) = moment.over(pair) else {
+        if time < pair.followed_from {
             return Ok(Some(f64::INFINITY));
-        };
+        }
+        kinematics.start(time)?;
+        let pairing = pair.pairing(kinematics);
         scratch.count_primitive_pair();
-        let primitives = scratch.for_primitives();
-        let distance = over
-            .pairing
-            .distance(self.places, f64::INFINITY, primitives);
-        let lower = distance.unwrap_or(f64::INFINITY) - over.pairing.precision.error;
+        let distance = pairing.distance_of_leaves(self.places, scratch.for_primitives());
+        let lower = distance - pairing.precision.error;
         let by = lower - pair.threshold;
         Ok((lower > 0.0 && by > 0.0).then_some(by))
     }

@@ -1,20 +1,27 @@
 //! What a proof looks at: the leaves of a set, the body pairs that the motion may bring near, and the crowds that pairs make.
 
 use std::cmp::Ordering;
+use std::ptr;
 
+use super::carried::Carried;
 use super::crowd::Crowd;
 use super::interval_proof::MovingLeaf;
 use super::linear_motion::STEP_FRACTION;
-use super::moving_pair::{Carried, MovingPair, RatesInWorld};
+use super::moving_pair::MovingPair;
 use super::moving_pure::MovingPure;
+use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
+use crate::environment::Bounds;
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
-use crate::query::{CandidateFilter, Group, QueryContext, Scene, Target};
+use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
+
+/// Room for so many pairs is taken at once.
+const PAIRS_AT_ONCE: usize = 64;
 
 /// What is to be proved of a set, whose complements are moved down to the leaves of its tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +46,7 @@ fn unstated_speeds(term: &Induced) -> Error {
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
 pub(super) struct Gathering<'a> {
     way: &'a Way<'a>,
-    rates: RatesInWorld<'a>,
+    rates: PairRates<'a>,
     threshold: f64,
     keeps: Keeps,
     is_plain: bool,
@@ -63,12 +70,12 @@ impl<'a> Gathering<'a> {
     ) -> Self {
         Self {
             way,
-            rates: RatesInWorld::new(motions),
+            rates: PairRates::new(motions),
             threshold,
             keeps,
             is_plain: tree.is_plain_union(),
             leaves: Vec::with_capacity(tree.leaves.len()),
-            pairs: Vec::new(),
+            pairs: Vec::with_capacity(PAIRS_AT_ONCE),
             needs_start: false,
             speeds: Vec::new(),
             start: None,
@@ -130,42 +137,39 @@ impl<'a> Gathering<'a> {
         scene: &'a Scene,
         context: &mut QueryContext,
     ) -> Result<()> {
-        // How fast two links come near each other is found for each pair, in `add_pair`.
-        let are_links = matches!(term[0].pairs, BodyPairs::Links { .. });
-        let fastest = if are_links {
-            f64::INFINITY
-        } else {
-            self.way.line.fastest_pair(&term[0]).unwrap_or(0.0)
-        };
-        if fastest.is_infinite() && !are_links {
-            return Err(unstated_speeds(&term[0]));
-        }
-        if fastest == 0.0 && self.is_plain {
-            self.needs_start = true;
-            return Ok(());
-        }
         let is_outside_meant = complement != (self.keeps == Keeps::In);
         let threshold = if is_outside_meant {
             term[0].options.contact_epsilon
         } else {
             self.threshold
         };
+        if let BodyPairs::Links { pairs } = &term[0].pairs {
+            let meter = context.scratch.meter_mut();
+            meter.count_nodes(pairs.len() as u64);
+            meter.check()?;
+            return self.add_link_pairs(pairs, threshold, &term[0], scene);
+        }
+        let fastest = self.way.line.fastest_pair(&term[0]).unwrap_or(0.0);
+        if fastest.is_infinite() {
+            return Err(unstated_speeds(&term[0]));
+        }
+        if fastest == 0.0 && self.is_plain {
+            self.needs_start = true;
+            return Ok(());
+        }
         let checked = scene.checked(term)?;
-        // No distance at another time is less than that at the middle by more than what the whole motion changes.
+        // No distance at another time is less than that at the middle by more than what the motion changes up to there.
         let wanted = CandidateFilter {
             any_order: true,
-            ..CandidateFilter::within(threshold + fastest)
+            ..CandidateFilter::within(threshold + self.share() * fastest / STEP_FRACTION)
         };
         let meter = context.scratch.meter_mut();
         let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
         // Those of one body together, what is near first.
         let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
         for (place, target) in found.iter().enumerate() {
-            let may_meet = are_links || {
-                let speed = self.speed(scene, target);
-                self.may_meet(target, threshold, speed)
-            };
-            if may_meet {
+            let speed = self.speed(scene, target);
+            if self.may_meet(target.bound, threshold, speed) {
                 let (link, object, _) = target.parties();
                 order.push((link, object, OrderedBound(target.bound), place));
             }
@@ -173,9 +177,48 @@ impl<'a> Gathering<'a> {
         order.sort_unstable();
         self.pairs.reserve(order.len());
         for (.., place) in order {
-            self.add_pair(&found[place], threshold, term, scene)?;
+            self.add_pair(&found[place], threshold, &term[0], scene)?;
         }
         context.candidates.keep(found);
+        Ok(())
+    }
+
+    /// The same of pairs of links: all of them, for how fast two links come near each other is found for each pair.
+    fn add_link_pairs(
+        &mut self,
+        pairs: &[[usize; 2]],
+        threshold: f64,
+        term: &Induced,
+        scene: &'a Scene,
+    ) -> Result<()> {
+        // Those that the same link carries come together, for their rates.
+        let mut order: Vec<(usize, usize)> = pairs.iter().map(|&[r, s]| (s, r)).collect();
+        order.sort_unstable();
+        let mut known = vec![None; scene.poses().len()];
+        for (s, r) in order {
+            let [Some(a), Some(b)] = [r, s].map(|link| scene.link(link)) else {
+                continue;
+            };
+            let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
+                *known[link].get_or_insert_with(|| {
+                    let speed = self
+                        .rates
+                        .speed_in_world(&carried(scene, link, (body, pose)));
+                    (Bounds::of(body, pose), speed.unwrap_or(f64::INFINITY))
+                })
+            });
+            let [lower, _] = on_r.0.distance(&on_s.0);
+            let target = Target {
+                options: term.options,
+                bound: lower - term.options.margin,
+                ..scene.link_pair([r, s], [a, b])
+            };
+            // The distance of two bodies changes no faster than both move in the world.
+            if !self.may_meet(target.bound, threshold, on_r.1 + on_s.1) {
+                continue;
+            }
+            self.add_pair(&target, threshold, term, scene)?;
+        }
         Ok(())
     }
 
@@ -183,31 +226,39 @@ impl<'a> Gathering<'a> {
         &mut self,
         target: &Target<'a>,
         threshold: f64,
-        term: &Group,
+        term: &Induced,
         scene: &Scene,
     ) -> Result<()> {
         let (r_link, s_link) = target.links();
-        let [(body, r_pose), (other, s_pose)] = target.sides;
-        let a = Carried {
-            body,
-            link: r_link,
-            pose: pose_on(scene, Some(r_link), r_pose),
-        };
-        let b = Carried {
-            body: other,
-            link: s_link,
-            pose: pose_on(scene, s_link, s_pose),
+        let [on_r, on_s] = target.sides;
+        let a = carried(scene, r_link, on_r);
+        let b = match s_link {
+            None => Carried {
+                body: on_s.0,
+                link: None,
+                pose: *on_s.1,
+                number: 0,
+            },
+            Some(link) => {
+                let held = carried(scene, link, on_s);
+                Carried {
+                    body: held.body,
+                    link: Some(link),
+                    pose: held.pose,
+                    number: held.number,
+                }
+            }
         };
         let limit = threshold + target.options.margin;
         let leaf = self.leaves.len() as u32;
         let line = &self.way.line;
         let speed = || line.rate(scene, target);
         let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
-        let mut pair = pair.ok_or_else(|| unstated_speeds(&term[0]))?;
+        let mut pair = pair.ok_or_else(|| unstated_speeds(term))?;
         if let Some(start) = self.start {
-            pair.followed_from = start.pair_followed_from(&term[0], target);
+            pair.followed_from = start.pair_followed_from(term, target);
         }
-        if pair.followed_from >= 1.0 || !self.may_meet(target, threshold, pair.speed()) {
+        if pair.followed_from >= 1.0 || !self.may_meet(target.bound, threshold, pair.speed()) {
             return Ok(());
         }
         if self.is_plain {
@@ -255,14 +306,17 @@ impl Gathering<'_> {
         crowds
     }
 
-    /// Whether a pair whose distance at the middle has this bound may come within the threshold at any other time.
-    fn may_meet(&self, target: &Target, threshold: f64, speed: f64) -> bool {
-        // Of a straight motion at most half lies between the middle and any other time.
-        let share = match self.way.kind {
+    /// Whether a pair whose distance less margin at the middle has this lower bound may come within the threshold at any other time.
+    fn may_meet(&self, bound: f64, threshold: f64, speed: f64) -> bool {
+        STEP_FRACTION * (bound - threshold) <= self.share() * speed
+    }
+
+    /// The largest part of a motion that lies between the middle and any other time.
+    fn share(&self) -> f64 {
+        match self.way.kind {
             WayKind::Line => 0.5,
             WayKind::Curve { .. } | WayKind::Stated(_) | WayKind::Box { .. } => 1.0,
-        };
-        STEP_FRACTION * (target.bound - threshold) <= share * speed
+        }
     }
 
     /// Bounds the change of a pair's distance in the whole time.
@@ -278,11 +332,21 @@ impl Gathering<'_> {
     }
 }
 
-/// A pose of the world in the frame of a link, if one carries it.
-fn pose_on(scene: &Scene, link: Option<usize>, pose: &Pose) -> Pose {
-    match link.map(|link| &scene.poses()[link]) {
-        None => *pose,
-        Some(link) if link == pose => Pose::identity(),
-        Some(link) => link.inverse().compose(pose),
+/// A body of the scene that a link carries: its own, or an object that is attached to it.
+fn carried<'a>(scene: &Scene, link: usize, (body, pose): Placement<'a>) -> Carried<'a, usize> {
+    let of_link = &scene.poses()[link];
+    let held = scene
+        .held()
+        .iter()
+        .position(|held| ptr::eq(&held.pose, pose));
+    let (in_link, number) = match held {
+        None => (Pose::identity(), link),
+        Some(place) => (of_link.inverse().compose(pose), scene.poses().len() + place),
+    };
+    Carried {
+        body,
+        link,
+        pose: in_link,
+        number,
     }
 }

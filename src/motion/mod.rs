@@ -1,6 +1,7 @@
 //! Motions: proofs that motions and paths are free, their clearance, and the sliding step (Appendix A).
 
 mod box_piece;
+mod carried;
 mod clearance;
 mod crowd;
 mod curve;
@@ -10,6 +11,7 @@ mod function;
 mod gathering;
 mod half_spaces;
 mod interval_proof;
+mod kinematics;
 mod linear_motion;
 mod look;
 #[allow(clippy::module_inception)]
@@ -19,6 +21,7 @@ mod moving_pure;
 mod over_pairs;
 mod over_piece;
 mod pair_motion;
+mod pair_rates;
 mod path;
 mod piece;
 mod region;

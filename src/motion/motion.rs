@@ -3,8 +3,9 @@
 
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::{Confirm, MovingSet, Proof, ProofLimits, prove};
+use super::kinematics::Kinematics;
 use super::linear_motion::LinearMotion;
-use super::moving_pair::{Kinematics, MovingPair};
+use super::moving_pair::MovingPair;
 use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;
 use super::way::Way;

@@ -1,30 +1,22 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use super::carried::Carried;
+use super::kinematics::{Kinematics, Relative};
 use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
+use super::pair_rates::PairRates;
 use super::span::Span;
-use super::way::{Way, WayKind};
 use crate::body::Body;
 use crate::convex::{Extension, SweepTwist};
-use crate::error::Result;
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3};
-use crate::robot::{ChainRates, LinkMotions, LinkStates, MotionRates, MotionState};
+use crate::robot::MotionRates;
 use crate::tolerance::EPSILON;
 
 /// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
 /// them: some operations a joint, of some tens of joints.
 const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
-
-/// A body, and what carries it: a link, or for `None` the world.
-#[derive(Clone, Copy)]
-pub(super) struct Carried<'a, Link> {
-    pub body: &'a Body,
-    pub link: Link,
-    /// Its pose in the frame of what carries it.
-    pub pose: Pose,
-}
 
 /// A body pair on a motion, from t = 0 to 1.
 pub(super) struct MovingPair<'a> {
@@ -51,163 +43,6 @@ enum Bounds {
 /// Intervals through which bodies may turn by more than this, in radians to either side, are halved before boxes are looked at.
 pub(super) const MAX_TURN: f64 = 1.0;
 
-/// The bounds of links' derivatives in the world, each computed when it is first asked for.
-pub(super) struct RatesInWorld<'a> {
-    motions: &'a LinkMotions,
-    rates: Vec<Option<ChainRates>>,
-    /// Those of the body asked for last: its link, its pose there and its centre.
-    of_body: Option<((usize, Pose, Vec3), Option<MotionRates>)>,
-}
-
-impl<'a> RatesInWorld<'a> {
-    pub fn new(motions: &'a LinkMotions) -> Self {
-        Self {
-            motions,
-            rates: vec![None; motions.len()],
-            of_body: None,
-        }
-    }
-
-    fn of(&mut self, link: usize) -> &ChainRates {
-        self.rates[link].get_or_insert_with(|| self.motions.rates(link))
-    }
-
-    /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
-    fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
-        let key = (body.link, body.pose, *body.body.center());
-        if let Some((known, rates)) = &self.of_body
-            && *known == key
-        {
-            return *rates;
-        }
-        let is_known = self.motions.is_known(body.link);
-        let rates = is_known.then(|| at_center(*self.of(body.link), body));
-        self.of_body = Some((key, rates));
-        rates
-    }
-
-    /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
-    pub fn between(
-        &mut self,
-        a: &Carried<usize>,
-        b: &Carried<Option<usize>>,
-    ) -> Option<MotionRates> {
-        let mut rates = match b.link {
-            None => self.of_body(a)?,
-            Some(from) => {
-                let mut start = ChainRates::default();
-                start.push_fixed(&b.pose.inverse());
-                let chain = self.motions.rates_between(start, from, a.link)?;
-                at_center(chain, a)
-            }
-        };
-        // Poses are computed in the world, and rounded relative to where they are there.
-        rates.size += b.pose.translation.norm();
-        if let Some(from) = b.link {
-            for link in [from, a.link] {
-                let in_world = self.of(link).rates;
-                rates.size += in_world.size;
-                rates.angle = rates.angle.max(in_world.angle);
-            }
-        }
-        Some(rates)
-    }
-}
-
-/// Goes on from a link's frame to the centre of a body that it carries.
-fn at_center(mut chain: ChainRates, body: &Carried<usize>) -> MotionRates {
-    chain.push_fixed(&body.pose);
-    chain.push_fixed(&Pose::from_translation(*body.body.center()));
-    chain.rates
-}
-
-/// Where the links are at one time, and how they move.
-pub(super) struct Kinematics<'a> {
-    motions: &'a LinkMotions,
-    states: LinkStates,
-    /// `None` for bodies without a robot.
-    way: Option<&'a Way<'a>>,
-    /// Poses alone are needed too, since not all velocities are known.
-    needs_poses: bool,
-    poses: Option<Vec<Pose>>,
-}
-
-impl<'a> Kinematics<'a> {
-    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>, needs_poses: bool) -> Self {
-        Self {
-            motions,
-            states: LinkStates::default(),
-            way,
-            needs_poses,
-            poses: None,
-        }
-    }
-
-    /// Begins a new time.
-    pub fn start(&mut self, time: f64) -> Result<()> {
-        self.states.start(self.motions, time);
-        let Some(way) = self.way else {
-            return Ok(());
-        };
-        if let WayKind::Stated(motion) = way.kind {
-            let given = self.states.given_mut();
-            given.clear();
-            given.extend(motion.at(time)?.coordinates());
-        }
-        if self.needs_poses {
-            self.poses = Some(way.link_poses(time)?);
-        }
-        Ok(())
-    }
-
-    /// The state of what a link carries at a pose.
-    fn of(&mut self, link: Option<usize>, pose: &Pose) -> MotionState {
-        match link {
-            None => MotionState::at_rest(*pose),
-            Some(link) => self.states.of(self.motions, link).fixed(pose),
-        }
-    }
-
-    /// The same where only poses are known.
-    fn at_rest(&self, link: Option<usize>, pose: &Pose) -> MotionState {
-        let carrier = link.and_then(|link| Some(self.poses.as_ref()?[link]));
-        let in_world = carrier.map_or(*pose, |carrier| carrier.compose(pose));
-        MotionState::at_rest(in_world)
-    }
-}
-
-/// How A moves as B sees it, with the components in the world's frame.
-struct Relative {
-    /// Of both bodies, in the world.
-    poses: [Pose; 2],
-    /// The velocity of A's centre, and its derivative.
-    velocity: Vec3,
-    acceleration: Vec3,
-    angular: Vec3,
-    angular_acceleration: Vec3,
-}
-
-impl Relative {
-    fn new(a: &MotionState, b: &MotionState, center: &Vec3) -> Self {
-        let arm = a.pose.rotation * center;
-        let from_b = a.pose.translation + arm - b.pose.translation;
-        let velocity = a.velocity(&arm) - b.velocity(&from_b);
-        let angular = a.angular - b.angular;
-        Self {
-            poses: [a.pose, b.pose],
-            velocity,
-            // B's frame turns, so the derivatives of components in it differ from those in the world.
-            acceleration: a.acceleration(&arm)
-                - b.acceleration(&from_b)
-                - 2.0 * b.angular.cross(&velocity),
-            angular,
-            angular_acceleration: a.angular_acceleration
-                - b.angular_acceleration
-                - b.angular.cross(&angular),
-        }
-    }
-}
-
 impl<'a> MovingPair<'a> {
     /// `speed` gives the largest speed of A's points as B sees it where the derivatives are unknown; the pair is `None` where that
     /// is infinite.
@@ -216,7 +51,7 @@ impl<'a> MovingPair<'a> {
         b: Carried<'a, Option<usize>>,
         threshold: f64,
         leaf: u32,
-        rates: &mut RatesInWorld,
+        rates: &mut PairRates,
         speed: impl FnOnce() -> f64,
     ) -> Option<Self> {
         let bounds = match rates.between(&a, &b) {
@@ -269,11 +104,10 @@ impl<'a> MovingPair<'a> {
 
     /// Whether both pairs are of the same body A, with Bs that rest in the world.
     pub fn is_in_crowd_of(&self, other: &Self) -> bool {
-        let key = |pair: &Self| (pair.a.link, pair.a.body.serial(), pair.leaf);
+        let key = |pair: &Self| (pair.a.number, pair.leaf);
         let is_one_of_many =
             |pair: &Self| pair.b.link.is_none() && matches!(pair.bounds, Bounds::Derivatives(_));
         key(self) == key(other)
-            && self.a.pose == other.a.pose
             && self.threshold == other.threshold
             && is_one_of_many(self)
             && is_one_of_many(other)
@@ -315,7 +149,7 @@ impl<'a> MovingPair<'a> {
             }
             Bounds::Speed(speed) => reach * speed,
         };
-        if self.balls_stay_apart(&relative.poses, center_moves, kinematics_error) {
+        if self.balls_stay_apart(&relative.apart, center_moves, kinematics_error) {
             return PairOver::Apart;
         }
         if reach * rates.turn[0] > MAX_TURN {
@@ -414,6 +248,13 @@ impl<'a> MovingPair<'a> {
         }
     }
 
+    /// The pair at the kinematics' time.
+    pub fn pairing(&self, kinematics: &mut Kinematics) -> Pairing<'a> {
+        let (relative, _) = self.relative(kinematics);
+        let ([a, b], [pose_a, pose_b]) = (self.bodies(), &relative.poses);
+        Pairing::new(a, pose_a, b, pose_b)
+    }
+
     pub fn kinematics_error(&self, rates: &MotionRates) -> f64 {
         KINEMATICS_ERROR * (rates.size + self.a.body.radius()) * (1.0 + rates.angle)
     }
@@ -430,46 +271,32 @@ impl<'a> MovingPair<'a> {
 
     /// How A moves as B sees it at the kinematics' time, with the bounds of derivatives that are known.
     fn relative(&self, kinematics: &mut Kinematics) -> (Relative, MotionRates) {
-        let (states, rates) = match &self.bounds {
-            Bounds::Derivatives(rates) => {
-                let states = [
-                    kinematics.of(Some(self.a.link), &self.a.pose),
-                    kinematics.of(self.b.link, &self.b.pose),
-                ];
-                (states, *rates)
-            }
+        match self.bounds {
+            Bounds::Derivatives(rates) => (kinematics.relative(&self.a, &self.b), rates),
             Bounds::Speed(_) => {
-                let states = [
-                    kinematics.at_rest(Some(self.a.link), &self.a.pose),
-                    kinematics.at_rest(self.b.link, &self.b.pose),
-                ];
+                let relative = kinematics.still(&self.a, &self.b);
+                let places = relative.poses.iter().map(|pose| pose.translation.norm());
                 let rates = MotionRates {
-                    size: states
-                        .map(|state| state.pose.translation.norm())
-                        .iter()
-                        .sum(),
+                    size: places.sum(),
                     ..MotionRates::default()
                 };
-                (states, rates)
+                (relative, rates)
             }
-        };
-        let [a, b] = &states;
-        (Relative::new(a, b, self.a.body.center()), rates)
+        }
     }
 
     /// Whether the balls around the bodies stay apart through a piece, along the line between their centres: a ball does not turn.
-    /// `center_moves` bounds how far A's centre moves along that line, given with its length.
+    /// `apart` leads from B's centre to A's; `center_moves` bounds how far A's centre moves along it, given with its length.
     #[inline(always)]
     pub fn balls_stay_apart(
         &self,
-        [pose_a, pose_b]: &[Pose; 2],
+        apart: &Vec3,
         center_moves: impl Fn(&Vec3, f64) -> f64,
         kinematics_error: f64,
     ) -> bool {
         let [a, b] = self.bodies();
-        let apart = pose_a.transform_point(a.center()) - pose_b.transform_point(b.center());
         let distance = apart.norm();
-        let moved = center_moves(&apart, distance);
+        let moved = center_moves(apart, distance);
         let reach = a.radius() + b.radius();
         let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
         distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors

@@ -5,6 +5,9 @@ use super::moving_pair::MovingPair;
 use super::over_piece::{PairOver, TwistLists};
 use super::piece::Piece;
 
+/// Room for so many pairs is taken at once: seldom are more near in a piece.
+const MADE_AT_ONCE: usize = 64;
+
 /// Pairs over one piece, made when they are first asked for.
 pub(super) struct OverPairs<'a, L: TwistLists> {
     made: Vec<PairOver<'a, L>>,
@@ -19,7 +22,7 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
     pub fn new(count: usize) -> Self {
         Self {
             crowd: None,
-            made: Vec::new(),
+            made: Vec::with_capacity(count.min(MADE_AT_ONCE)),
             places: vec![(0, 0); count],
             piece: 0,
         }

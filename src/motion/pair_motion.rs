@@ -1,8 +1,11 @@
 //! Two bodies without a robot, each on a screw from one pose to another.
 
+use super::carried::Carried;
 use super::interval_proof::{MovingLeaf, MovingSet, Proof, ProofLimits, prove};
+use super::kinematics::Kinematics;
 use super::motion::{MotionOptions, MotionOutcome};
-use super::moving_pair::{Carried, Kinematics, MovingPair, RatesInWorld};
+use super::moving_pair::MovingPair;
+use super::pair_rates::PairRates;
 use super::set_tree::SetTree;
 use crate::body::Body;
 use crate::error::Result;
@@ -64,16 +67,18 @@ impl QueryContext {
             let [at_a, at_b] = [(a.body, &poses[0]), (b.body, &poses[1])];
             context.bodies_within(at_a, at_b, options.threshold)
         };
-        let rates = &mut RatesInWorld::new(&motions);
+        let rates = &mut PairRates::new(&motions);
         let first = Carried {
             body: a.body,
             link: 0,
             pose: Pose::identity(),
+            number: 0,
         };
         let second = Carried {
             body: b.body,
             link: Some(1),
             pose: Pose::identity(),
+            number: 1,
         };
         let pair = MovingPair::new(first, second, options.threshold, 0, rates, || f64::INFINITY);
         let pair = pair.filter(|pair| !pair.rests());

@@ -248,93 +248,29 @@ impl LinkMotions {
         }
     }
 
-    /// The parent of a link, and what its joint is made of; no more than its parent where a custom joint moves.
-    pub(super) fn link(&self, link: usize) -> (Option<usize>, &[Element]) {
-        let motion = &self.links[link];
-        let [first, end] = motion.elements;
-        let elements = if motion.is_known {
-            &self.elements[first..end]
-        } else {
-            &[]
-        };
-        (motion.parent, elements)
-    }
-
-    /// The links between a link and one that carries it, or the world: the link first.
-    fn path(&self, from: Option<usize>, link: usize) -> SmallVec<[usize; 16]> {
-        let mut path = SmallVec::new();
-        let mut next = Some(link);
-        while let Some(index) = next.filter(|_| next != from) {
-            path.push(index);
-            next = self.links[index].parent;
-        }
-        path
-    }
-
     /// Whether the link's motion is known: no custom joint moves that carries it.
     pub fn is_known(&self, link: usize) -> bool {
-        self.are_known(&self.path(None, link))
+        let mut carriers = std::iter::successors(Some(link), |&link| self.parent(link));
+        carriers.all(|link| self.is_joint_known(link))
     }
 
-    fn are_known(&self, path: &[usize]) -> bool {
-        path.iter().all(|link| self.links[*link].is_known)
+    /// Whether the motion of a link's own joint is known.
+    pub(super) fn is_joint_known(&self, link: usize) -> bool {
+        self.links[link].is_known
     }
 
-    /// The nearest link that carries both, or one of them itself; `None` for the world.
-    fn common_carrier(&self, mut links: [usize; 2]) -> Option<usize> {
-        // Parents have smaller numbers.
-        while links[0] != links[1] {
-            let later = usize::from(links[1] > links[0]);
-            links[later] = self.links[links[later]].parent?;
-        }
-        Some(links[0])
+    /// The link that carries a link, if it is not the world.
+    pub(super) fn parent(&self, link: usize) -> Option<usize> {
+        self.links[link].parent
     }
 
-    /// The bounds of a link's derivatives in the world, where all joints that are not known rest.
-    pub fn rates(&self, link: usize) -> ChainRates {
-        let mut rates = ChainRates::default();
-        for link in self.path(None, link).into_iter().rev() {
-            self.push_rates(&mut rates, link);
-        }
-        rates
-    }
-
-    /// Goes on from `rates`, which end in the frame of link `from`, to the frame of another link. Only the joints between the two
-    /// count. `None` where a custom joint between them moves.
-    pub fn rates_between(
-        &self,
-        mut rates: ChainRates,
-        from: usize,
-        link: usize,
-    ) -> Option<ChainRates> {
-        let shared = self.common_carrier([from, link]);
-        let [back, ahead] = [from, link].map(|link| self.path(shared, link));
-        if !self.are_known(&back) || !self.are_known(&ahead) {
-            return None;
-        }
-        for index in back {
-            let [first, end] = self.links[index].elements;
-            for element in self.elements[first..end].iter().rev() {
-                match element {
-                    Element::Fixed(pose) => rates.push_fixed(&pose.inverse()),
-                    other => self.push_element(&mut rates, other),
-                }
-            }
-        }
-        for index in ahead.into_iter().rev() {
-            self.push_rates(&mut rates, index);
-        }
-        Some(rates)
-    }
-
-    fn push_rates(&self, rates: &mut ChainRates, link: usize) {
+    /// What a link's joint is made of, from its parent's frame on. Of a custom joint that moves, only where it begins.
+    pub(super) fn elements_of(&self, link: usize) -> &[Element] {
         let [first, end] = self.links[link].elements;
-        for element in &self.elements[first..end] {
-            self.push_element(rates, element);
-        }
+        &self.elements[first..end]
     }
 
-    fn push_element(&self, rates: &mut ChainRates, element: &Element) {
+    pub(super) fn push_element(&self, rates: &mut ChainRates, element: &Element) {
         match element {
             Element::Fixed(pose) => rates.push_fixed(pose),
             Element::Turn { axis, angle } => rates.push_turn(axis, &angle.bounds(&self.controls)),
@@ -582,6 +518,9 @@ impl Robot {
     /// Adds the robot's links, whose numbers go on from those that are there.
     pub fn append_motions(&self, motions: &mut LinkMotions, courses: &CoordinateCourses) {
         let offset = motions.links.len();
+        motions.links.reserve(self.links().len());
+        // Most joints are a fixed pose and a turn or a shift.
+        motions.elements.reserve(2 * self.links().len());
         for link in self.links() {
             let first = motions.elements.len();
             let is_known = link.push_motion(motions, courses);

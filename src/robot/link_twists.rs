@@ -57,7 +57,15 @@ impl<'a> LinkTwists<'a> {
     }
 
     fn add(&mut self, link: usize) {
-        let (parent, elements) = self.motions.link(link);
+        let motions = self.motions;
+        let parent = motions.parent(link);
+        // Where a custom joint moves, no twist is known.
+        let is_known = motions.is_joint_known(link);
+        let elements = if is_known {
+            motions.elements_of(link)
+        } else {
+            &[]
+        };
         let mut pose = parent.map_or_else(Pose::identity, |parent| self.poses[parent]);
         for element in elements {
             match element {
@@ -122,7 +130,7 @@ impl<'a> LinkTwists<'a> {
         let mut next = Some(link);
         while let Some(index) = next {
             path.push(index);
-            next = self.motions.link(index).0;
+            next = self.motions.parent(index);
         }
         let mut farthest = 0.0;
         let mut drift = 0.0;
@@ -172,7 +180,7 @@ impl<'a> LinkTwists<'a> {
                     }),
                 }
             }
-            *side = self.motions.link(index).0;
+            *side = self.motions.parent(index);
         }
         found
     }

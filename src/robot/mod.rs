@@ -13,6 +13,7 @@ mod link_twists;
 mod motion_bound;
 mod motion_rates;
 mod names;
+mod rates_from;
 #[allow(clippy::module_inception)]
 mod robot;
 mod semantics;
@@ -28,6 +29,7 @@ pub use joint::{Joint, JointKind};
 pub use link_motions::{CoordinateCourses, LinkMotions, LinkStates, MotionState};
 pub use link_twists::{LinkTwists, RelativeTwist, RelativeTwists};
 pub use motion_rates::{ChainRates, MotionRates};
+pub use rates_from::RatesFrom;
 pub use robot::{Link, Robot, check_configuration};
 pub use semantics::{
     EndEffector, JointGroup, NamedState, PairRules, SemanticName, Semantics, VirtualJoint,

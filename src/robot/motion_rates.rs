@@ -64,6 +64,9 @@ impl ChainRates {
     /// Moves the origin along `arm`, times a factor that is at most `length` and has derivatives of at most `derivatives`.
     fn carry(&mut self, arm: &Vec3, length: f64, derivatives: [f64; 3]) {
         let whole = arm.norm();
+        if whole == 0.0 {
+            return;
+        }
         self.rates.size += whole * length;
         let parts = match self.last {
             // Along the last turn's axis only the turns before it count.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cstk::pose::{Pose, Vec3};
 use cstk::robot::{
-    ChainRates, JointKind, LinkDefinition, LinkMotions, LinkStates, MotionState, bezier,
+    JointKind, LinkDefinition, LinkMotions, LinkStates, MotionState, RatesFrom, bezier,
 };
 use cstk::space::Space;
 
@@ -133,7 +133,7 @@ fn velocities_and_accelerations_are_derivatives() {
             state.velocity(&(state.pose.rotation * point))
         };
         let now = state(&case.motions, link, t);
-        let rates = case.motions.rates(link).rates;
+        let rates = RatesFrom::new(&case.motions, None).of(link).unwrap().rates;
         let scale = 1.0 + rates.origin[2] + rates.turn[2];
         let by_poses = (at(t + step) - at(t - step)) / (2.0 * step);
         assert!((velocity(t) - by_poses).amax() < 1e-8 * scale);
@@ -153,14 +153,8 @@ fn no_derivative_is_above_its_bound() {
         let case = case(&mut random);
         let [link, other] = [(); 2].map(|()| random.below(case.motions.len()));
         let seen_from = (round % 2 == 0).then_some(other);
-        let rates = match seen_from {
-            None => case.motions.rates(link),
-            Some(from) => {
-                let start = ChainRates::default();
-                case.motions.rates_between(start, from, link).unwrap()
-            }
-        };
-        let rates = rates.rates;
+        let mut seen = RatesFrom::new(&case.motions, seen_from);
+        let rates = seen.of(link).unwrap().rates;
         let point = random.point(0.5);
         let bound = |k: usize| rates.origin[k] + rates.turn[k] * point.norm();
         let place = |t: f64| {

@@ -1,0 +1,158 @@
+//! Where bodies are at one time of a motion, and how they move.
+
+use super::carried::Carried;
+use super::way::{Way, WayKind};
+use crate::error::Result;
+use crate::pose::{Pose, Vec3};
+use crate::robot::{LinkMotions, LinkStates, MotionState};
+
+/// Where the links and the bodies that they carry are at one time, and how they move.
+pub(super) struct Kinematics<'a> {
+    motions: &'a LinkMotions,
+    states: LinkStates,
+    /// By the bodies' numbers, each with the number of the time at which it was asked for.
+    bodies: Vec<(u32, BodyState)>,
+    /// The number of the time.
+    moment: u32,
+    /// `None` for bodies without a robot.
+    way: Option<&'a Way<'a>>,
+    /// Poses alone are needed too, since not all velocities are known.
+    needs_poses: bool,
+    poses: Option<Vec<Pose>>,
+}
+
+/// A body at one time.
+#[derive(Clone, Copy)]
+struct BodyState {
+    /// Of its frame.
+    frame: MotionState,
+    /// Its centre in the world, with its velocity and acceleration.
+    center: Vec3,
+    velocity: Vec3,
+    acceleration: Vec3,
+}
+
+/// How A moves as B sees it, with the components in the world's frame.
+pub(super) struct Relative {
+    /// Of both bodies, in the world.
+    pub poses: [Pose; 2],
+    /// From B's centre to A's.
+    pub apart: Vec3,
+    /// The velocity of A's centre, and its derivative.
+    pub velocity: Vec3,
+    pub acceleration: Vec3,
+    pub angular: Vec3,
+    pub angular_acceleration: Vec3,
+}
+
+impl<'a> Kinematics<'a> {
+    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>, needs_poses: bool) -> Self {
+        Self {
+            motions,
+            states: LinkStates::default(),
+            bodies: Vec::new(),
+            moment: 0,
+            way,
+            needs_poses,
+            poses: None,
+        }
+    }
+
+    /// Begins a new time.
+    pub fn start(&mut self, time: f64) -> Result<()> {
+        self.states.start(self.motions, time);
+        self.moment += 1;
+        let Some(way) = self.way else {
+            return Ok(());
+        };
+        if let WayKind::Stated(motion) = way.kind {
+            let given = self.states.given_mut();
+            given.clear();
+            given.extend(motion.at(time)?.coordinates());
+        }
+        if self.needs_poses {
+            self.poses = Some(way.link_poses(time)?);
+        }
+        Ok(())
+    }
+
+    /// How A moves as B sees it, where the motion of both is known.
+    pub fn relative(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Relative {
+        self.place(a.number, a.link, a);
+        let Some(link) = b.link else {
+            let a = &self.bodies[a.number].1;
+            return a.seen_at_rest(&b.pose, b.body.center());
+        };
+        self.place(b.number, link, b);
+        let [a, b] = [a.number, b.number].map(|number| &self.bodies[number].1);
+        a.seen_from(b)
+    }
+
+    /// The same where only poses are known: nothing seems to move.
+    pub fn still(&self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Relative {
+        let pose = |link: Option<usize>, pose: &Pose| {
+            let carrier = link.and_then(|link| Some(self.poses.as_ref()?[link]));
+            carrier.map_or(*pose, |carrier| carrier.compose(pose))
+        };
+        let frame = MotionState::at_rest(pose(Some(a.link), &a.pose));
+        BodyState::new(frame, a.body.center()).seen_at_rest(&pose(b.link, &b.pose), b.body.center())
+    }
+
+    /// Computes a body's state, unless that is done.
+    fn place<L>(&mut self, number: usize, link: usize, carried: &Carried<L>) {
+        if self.bodies.len() <= number {
+            let none = BodyState::new(MotionState::REST, &Vec3::zeros());
+            self.bodies.resize(number + 1, (0, none));
+        }
+        let (moment, body) = &mut self.bodies[number];
+        if *moment != self.moment {
+            let frame = self.states.of(self.motions, link).fixed(&carried.pose);
+            *body = BodyState::new(frame, carried.body.center());
+            *moment = self.moment;
+        }
+    }
+}
+
+impl BodyState {
+    fn new(frame: MotionState, center: &Vec3) -> Self {
+        let arm = frame.pose.rotation * center;
+        Self {
+            center: frame.pose.translation + arm,
+            velocity: frame.velocity(&arm),
+            acceleration: frame.acceleration(&arm),
+            frame,
+        }
+    }
+
+    /// As something sees it that rests in the world at a pose.
+    fn seen_at_rest(&self, pose: &Pose, center: &Vec3) -> Relative {
+        Relative {
+            poses: [self.frame.pose, *pose],
+            apart: self.center - pose.transform_point(center),
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+            angular: self.frame.angular,
+            angular_acceleration: self.frame.angular_acceleration,
+        }
+    }
+
+    fn seen_from(&self, other: &Self) -> Relative {
+        let (a, b) = (&self.frame, &other.frame);
+        let from_b = self.center - b.pose.translation;
+        let velocity = self.velocity - b.velocity(&from_b);
+        let angular = a.angular - b.angular;
+        Relative {
+            poses: [a.pose, b.pose],
+            apart: self.center - other.center,
+            velocity,
+            // B's frame turns, so the derivatives of components in it differ from those in the world.
+            acceleration: self.acceleration
+                - b.acceleration(&from_b)
+                - 2.0 * b.angular.cross(&velocity),
+            angular,
+            angular_acceleration: a.angular_acceleration
+                - b.angular_acceleration
+                - b.angular.cross(&angular),
+        }
+    }
+}

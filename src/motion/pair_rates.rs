@@ -1,0 +1,76 @@
+//! How fast the bodies of pairs move as the other one sees them.
+
+use super::carried::Carried;
+use crate::pose::Pose;
+use crate::robot::{ChainRates, LinkMotions, MotionRates, RatesFrom};
+
+/// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
+/// the same A and Bs that rest, or Bs of the same link.
+pub(super) struct PairRates<'a> {
+    in_world: RatesFrom<'a>,
+    /// As the link sees it that carried B last.
+    on_link: RatesFrom<'a>,
+    /// Of the body asked for last as the world sees it, by its number.
+    of_body: Option<(usize, MotionRates)>,
+}
+
+impl<'a> PairRates<'a> {
+    pub fn new(motions: &'a LinkMotions) -> Self {
+        Self {
+            in_world: RatesFrom::new(motions, None),
+            on_link: RatesFrom::new(motions, None),
+            of_body: None,
+        }
+    }
+
+    /// The derivatives of A's centre as B sees it; `None` where a custom joint moves between them.
+    pub fn between(
+        &mut self,
+        a: &Carried<usize>,
+        b: &Carried<Option<usize>>,
+    ) -> Option<MotionRates> {
+        let mut rates = match b.link {
+            None => self.of_body(a)?,
+            Some(from) => {
+                if self.on_link.from() != Some(from) {
+                    self.on_link.look_from(Some(from));
+                }
+                let mut rates = at_center(*self.on_link.of(a.link)?, a);
+                for link in [from, a.link] {
+                    let in_world = self.in_world.of_known_joints(link).rates;
+                    rates.size += in_world.size;
+                    rates.angle = rates.angle.max(in_world.angle);
+                }
+                rates
+            }
+        };
+        // Poses are computed in the world, and rounded relative to where they are there.
+        rates.size += b.pose.translation.norm();
+        Some(rates)
+    }
+
+    /// Bounds the speed of a body's points in the world; `None` where a custom joint moves it.
+    pub fn speed_in_world(&mut self, body: &Carried<usize>) -> Option<f64> {
+        let MotionRates { turn, origin, .. } = self.of_body(body)?;
+        Some(turn[0] * body.body.radius() + origin[0])
+    }
+
+    /// The derivatives of a body's centre in the world.
+    fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
+        if let Some((number, rates)) = self.of_body
+            && number == body.number
+        {
+            return Some(rates);
+        }
+        let rates = at_center(*self.in_world.of(body.link)?, body);
+        self.of_body = Some((body.number, rates));
+        Some(rates)
+    }
+}
+
+/// Goes on from a link's frame to the centre of a body that it carries.
+fn at_center(mut chain: ChainRates, body: &Carried<usize>) -> MotionRates {
+    chain.push_fixed(&body.pose);
+    chain.push_fixed(&Pose::from_translation(*body.body.center()));
+    chain.rates
+}

@@ -1,0 +1,100 @@
+//! Bounds of how fast links move as one of them sees it.
+
+use smallvec::SmallVec;
+
+use super::link_motions::{Element, LinkMotions};
+use super::motion_rates::ChainRates;
+
+/// The bounds of links' derivatives on a motion as one link sees them, or the world. Each is computed when it is first asked for, from
+/// that of its neighbour on the way to the one that sees it: only the joints between the two count.
+#[derive(Debug)]
+pub struct RatesFrom<'a> {
+    motions: &'a LinkMotions,
+    /// The link that sees the others, if it is not the world.
+    from: Option<usize>,
+    world: Seen,
+    links: Vec<Option<Seen>>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    chain: ChainRates,
+    /// A custom joint moves on the way.
+    is_unknown: bool,
+}
+
+impl<'a> RatesFrom<'a> {
+    /// As a link sees them, or for `None` the world.
+    pub fn new(motions: &'a LinkMotions, from: Option<usize>) -> Self {
+        let mut rates = Self {
+            motions,
+            from: None,
+            world: Seen::default(),
+            links: vec![None; motions.len()],
+        };
+        if from.is_some() {
+            rates.look_from(from);
+        }
+        rates
+    }
+
+    /// Changes what sees them.
+    pub fn look_from(&mut self, from: Option<usize>) {
+        self.from = from;
+        self.links.fill(None);
+        // What carries the link is seen through its joints from behind.
+        let motions = self.motions;
+        let (mut seen, mut next) = (Seen::default(), from);
+        while let Some(link) = next {
+            self.links[link] = Some(seen);
+            seen.is_unknown |= !motions.is_joint_known(link);
+            for element in motions.elements_of(link).iter().rev() {
+                match element {
+                    Element::Fixed(pose) => seen.chain.push_fixed(&pose.inverse()),
+                    other => motions.push_element(&mut seen.chain, other),
+                }
+            }
+            next = motions.parent(link);
+        }
+        self.world = seen;
+    }
+
+    /// The link that sees the others, if it is not the world.
+    pub fn from(&self) -> Option<usize> {
+        self.from
+    }
+
+    /// The bounds of a link's derivatives; `None` where a custom joint moves on the way.
+    pub fn of(&mut self, link: usize) -> Option<&ChainRates> {
+        let Seen { chain, is_unknown } = self.seen(link);
+        (!*is_unknown).then_some(chain)
+    }
+
+    /// The same as if all joints rested whose motion is not known.
+    pub fn of_known_joints(&mut self, link: usize) -> &ChainRates {
+        &self.seen(link).chain
+    }
+
+    fn seen(&mut self, link: usize) -> &Seen {
+        let mut path: SmallVec<[usize; 16]> = SmallVec::new();
+        let mut next = Some(link);
+        let mut seen = loop {
+            let Some(index) = next else {
+                break self.world;
+            };
+            if let Some(known) = self.links[index] {
+                break known;
+            }
+            path.push(index);
+            next = self.motions.parent(index);
+        };
+        for index in path.into_iter().rev() {
+            seen.is_unknown |= !self.motions.is_joint_known(index);
+            for element in self.motions.elements_of(index) {
+                self.motions.push_element(&mut seen.chain, element);
+            }
+            self.links[index] = Some(seen);
+        }
+        self.links[link].get_or_insert(seen)
+    }
+}
