@@ -119,6 +119,11 @@ pub fn require_finite(values: &[f64], what: &str) -> Result<()> {
 
 /// Refuses a number that is not finite, or beyond [`tolerance::LARGEST_COORDINATE`], naming its place as `what index`.
 pub fn require_coordinates(values: &[f64], what: &str) -> Result<()> {
+    // Not a number is no less than anything.
+    let are_usable = |usable, value: &f64| usable & (value.abs() <= tolerance::LARGEST_COORDINATE);
+    if values.iter().fold(true, are_usable) {
+        return Ok(());
+    }
     require_finite(values, what)?;
     let is_too_large = |value: &f64| value.abs() > tolerance::LARGEST_COORDINATE;
     match values.iter().position(is_too_large) {

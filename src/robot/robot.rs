@@ -180,6 +180,10 @@ pub fn check_configuration(q: &[f64], nq: usize, blocks: &[Block]) -> Result<()>
         ));
     }
     require_coordinates(q, "configuration entry")?;
+    if blocks.len() == nq {
+        // Lines alone: other blocks have several coordinates.
+        return Ok(());
+    }
     for block in blocks {
         if block.kind == BlockKind::Line {
             continue;

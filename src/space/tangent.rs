@@ -5,6 +5,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use smallvec::SmallVec;
+
 use super::Space;
 use super::rigid_step::{Placement, entries, rotation, turn_between};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -30,6 +32,12 @@ impl Space {
     /// The configuration reached from `q` with velocity `v` after a unit of time. Circles are not wrapped.
     pub fn step(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut reached = q.to_vec();
+        self.make_step(&mut reached, q, v);
+        reached
+    }
+
+    /// The same, from `reached` on, which is q.
+    fn make_step(&self, reached: &mut [f64], q: &[f64], v: &[f64]) {
         for block in self.blocks() {
             let (c, k) = (block.coordinate, block.velocity);
             let vector = |at: usize| Vec3::new(v[at], v[at + 1], v[at + 2]);
@@ -45,25 +53,34 @@ impl Space {
                     .write(&mut reached[c..c + 7]),
             }
         }
-        reached
     }
 
     /// The smallest velocity that leads from `q0` to `q1` in a unit of time: circles go the shorter way round, and by -pi
     /// between opposite angles; quaternions turn by at most half a turn.
     pub fn difference(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
-        let mut v = self.displacement(q0, q1);
+        let mut v = vec![0.0; self.nv()];
+        self.write_difference(q0, q1, &mut v);
+        v
+    }
+
+    fn write_difference(&self, q0: &[f64], q1: &[f64], v: &mut [f64]) {
+        self.write_displacement(q0, q1, v);
         for block in self.blocks() {
             if self.coordinates()[block.coordinate] == Coordinate::Circle {
                 v[block.velocity] = shorter_way(v[block.velocity]);
             }
         }
-        v
     }
 
     /// The velocity that leads from `q0` to `q1` with circles unrolled: angles that differ by more than half a turn go the
     /// longer way.
     pub fn displacement(&self, q0: &[f64], q1: &[f64]) -> Vec<f64> {
         let mut v = vec![0.0; self.nv()];
+        self.write_displacement(q0, q1, &mut v);
+        v
+    }
+
+    fn write_displacement(&self, q0: &[f64], q1: &[f64], v: &mut [f64]) {
         for block in self.blocks() {
             let (c, k) = (block.coordinate, block.velocity);
             match block.kind {
@@ -80,13 +97,16 @@ impl Space {
                 }
             }
         }
-        v
     }
 
     /// The configuration at parameter `t` of the shortest way from `q0` (at 0) to `q1` (at 1). For `t` in [0, 1] interval
     /// coordinates stay between their ends, to the last bit.
     pub fn interpolate(&self, q0: &[f64], q1: &[f64], t: f64) -> Vec<f64> {
-        let way: Vec<f64> = self.difference(q0, q1).iter().map(|x| x * t).collect();
+        let mut way: Velocity = SmallVec::from_elem(0.0, self.nv());
+        self.write_difference(q0, q1, &mut way);
+        for x in &mut way {
+            *x *= t;
+        }
         let mut reached = self.step(q0, &way);
         if (0.0..=1.0).contains(&t) {
             let lines = self.blocks().iter().filter(|b| b.kind == BlockKind::Line);
@@ -158,19 +178,30 @@ impl Space {
 
     /// The length of the difference, each velocity multiplied by its weight; without weights each counts as 1.
     pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
-        let difference = self.difference(q0, q1);
-        let weighted = difference.iter().enumerate().map(|(i, x)| {
-            let weight = weights.map_or(1.0, |weights| weights[i]);
-            x * weight
-        });
-        // Scaled: squares of large entries would overflow.
-        let largest = weighted.clone().fold(0.0f64, |most, x| most.max(x.abs()));
+        let mut v: Velocity = SmallVec::from_elem(0.0, self.nv());
+        self.write_difference(q0, q1, &mut v);
+        for (x, weight) in v.iter_mut().zip(weights.into_iter().flatten()) {
+            *x *= weight;
+        }
+        let squares: f64 = v.iter().map(|x| x * x).sum();
+        if (SMALL_SQUARES..LARGE_SQUARES).contains(&squares) {
+            return squares.sqrt();
+        }
+        // Scaled: squares of large entries would overflow, those of small ones vanish.
+        let largest = v.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         if largest == 0.0 {
             return 0.0;
         }
-        largest * weighted.map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
+        largest * v.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
     }
 }
+
+/// A velocity, in memory of its own for most robots.
+type Velocity = SmallVec<[f64; 16]>;
+
+/// Sums of squares between these have lost nothing to the range of numbers.
+const SMALL_SQUARES: f64 = 1e-280;
+const LARGE_SQUARES: f64 = 1e300;
 
 /// The same angle within [-pi, pi).
 pub fn shorter_way(angle: f64) -> f64 {

@@ -160,7 +160,7 @@ pub unsafe extern "C" fn cstk_space_step(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = &*handle::share::<Space>(space, "space")?;
+        let space = handle::borrowed::<Space>(space, "space")?;
         let out = OutputSlice::checked(out, space.nq(), "out")?;
         // SAFETY: checked for NULL; the caller states the lengths.
         let (q, v) = unsafe { (configuration(space, q, nq, "q")?, slice(v, nv, "v")?) };
@@ -181,7 +181,7 @@ pub unsafe extern "C" fn cstk_space_difference(
     v: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = &*handle::share::<Space>(space, "space")?;
+        let space = handle::borrowed::<Space>(space, "space")?;
         let out = OutputSlice::checked(v, space.nv(), "v")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
@@ -203,7 +203,7 @@ pub unsafe extern "C" fn cstk_space_interpolate(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = &*handle::share::<Space>(space, "space")?;
+        let space = handle::borrowed::<Space>(space, "space")?;
         let out = OutputSlice::checked(out, space.nq(), "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
@@ -227,7 +227,7 @@ pub unsafe extern "C" fn cstk_space_distance(
     out: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = &*handle::share::<Space>(space, "space")?;
+        let space = handle::borrowed::<Space>(space, "space")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
