@@ -1,0 +1,82 @@
+#include "map_report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <mpi.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The value below which a share of them lies. */
+static double quantile(const double *sorted, size_t count, double share) {
+    return sorted[(size_t)(share * (double)(count - 1) + 0.5)];
+}
+
+static void print_costs(double *seconds, size_t count, double sum) {
+    qsort(seconds, count, sizeof *seconds, ascending);
+    double dearest = 0;
+    for (size_t i = count - (count + 9) / 10; i < count; ++i) {
+        dearest += seconds[i];
+    }
+    printf("  a tile: mean %.3g ms, least %.3g, median %.3g, 90 %% below %.3g, 99 %% below %.3g, most %.3g ms\n",
+           1e3 * sum / (double)count, 1e3 * seconds[0], 1e3 * quantile(seconds, count, 0.5),
+           1e3 * quantile(seconds, count, 0.9), 1e3 * quantile(seconds, count, 0.99), 1e3 * seconds[count - 1]);
+    printf("  the dearest tenth of the tiles took %.0f %% of %.3g s\n", 100 * dearest / sum, sum);
+}
+
+void print_report(const map_work *work, const tile_log *log) {
+    int ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    size_t count = 0;
+    tile_cost all = {0, 0, 0};
+    double *seconds = malloc(work->tile_count * sizeof *seconds);
+    double *of_rank = calloc((size_t)ranks, sizeof *of_rank);
+    if (seconds == NULL || of_rank == NULL) {
+        fail("there is no memory for the costs of %zu tiles", work->tile_count);
+    }
+    for (size_t i = 0; i < work->tile_count; ++i) {
+        if (log->ranks[i] >= 0) {
+            const tile_cost *cost = &log->costs[i];
+            seconds[count++] = cost->seconds;
+            of_rank[log->ranks[i]] += cost->seconds;
+            all.seconds += cost->seconds;
+            all.proofs += cost->proofs;
+            all.questions += cost->questions;
+        }
+    }
+    printf("%zu of %zu tiles computed by %d rank%s, the others were on disk; %" PRIu64 " proofs, %" PRIu64 " configurations\n", count,
+           work->tile_count, ranks, ranks == 1 ? "" : "s", all.proofs, all.questions);
+    if (count > 0) {
+        print_costs(seconds, count, all.seconds);
+        for (int rank = 0; rank < ranks; ++rank) {
+            if (of_rank[rank] > 0) {
+                printf("  rank %d computed for %.3g s\n", rank, of_rank[rank]);
+            }
+        }
+    }
+    free(seconds);
+    free(of_rank);
+}
+
+void write_costs(const char *name, const map_work *work, const tile_log *log) {
+    FILE *file = fopen(name, "w");
+    if (file == NULL) {
+        fail("%s: %s", name, strerror(errno));
+    }
+    fprintf(file, "tile,rank,seconds,proofs,questions\n");
+    for (size_t i = 0; i < work->tile_count; ++i) {
+        if (log->ranks[i] >= 0) {
+            const tile_cost *cost = &log->costs[i];
+            fprintf(file, "%zu,%d,%.9f,%" PRIu64 ",%" PRIu64 "\n", i, log->ranks[i], cost->seconds, cost->proofs,
+                    cost->questions);
+        }
+    }
+    if (fclose(file) != 0) {
+        fail("%s: %s", name, strerror(errno));
+    }
+}

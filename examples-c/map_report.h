@@ -1,0 +1,13 @@
+/* What the tiles of map_mpi.c cost. */
+#ifndef MAP_REPORT_H
+#define MAP_REPORT_H
+
+#include "tile_queue.h"
+
+/* Prints how the costs of this run's tiles are distributed, and how long each rank worked. */
+void print_report(const map_work *work, const tile_log *log);
+
+/* Writes a line for each tile of this run: its number, its rank, seconds, proofs and questions. */
+void write_costs(const char *name, const map_work *work, const tile_log *log);
+
+#endif
