@@ -1,14 +1,18 @@
 /* A map of C-space, computed by many ranks of MPI and gathered in one file:
  *
- *     mpirun -n 4 map_mpi [--kind classes|distances|cells] [--tiles N] [--costs FILE.csv] SCENE FOLDER MAP.npy CELLS...
+ *     mpirun -n 4 map_mpi [OPTION VALUE]... SCENE FOLDER MAP.npy CELLS...
  *
- * SCENE is appendix, with the folder models/, or puma560, with that of scripts/fetch_puma560.sh. The map is over as many of the
- * arm's joints as there are numbers of cells, all the way round; the others stand as at the start of puma_slider.c's slide.
+ * SCENE is appendix, with the folder models/, or puma560, with that of scripts/fetch_puma560.sh.
+ * The map is over as many of the arm's joints as there are numbers of cells, all the way round; the
+ * others stand as at the start of puma_slider.c's slide. Options: --kind classes (the default),
+ * distances or cells; --tiles, how many at least; --costs, a .csv file for what each tile cost.
  *
- * The map is cut into tiles, 1024 by default, which rank 0 hands out to the others; alone, it computes them itself. Each rank writes
- * its tiles into MAP.npy.part by MPI-IO, and rank 0 lists in MAP.npy.journal what is on disk. When all is done, the file gets its
- * name, and holds what cstk_map_save writes of a map built in one piece: map_mpi --whole builds that. A run that was lost is
- * resumed by the same command, with any number of ranks. docs/scale.md says what many ranks would do. */
+ * The map is cut into tiles, 1024 by default, which rank 0 hands out to the others; alone, it
+ * computes them itself. Each rank writes its tiles into MAP.npy.part by MPI-IO, and rank 0 lists in
+ * MAP.npy.journal what is on disk. When all is done, the file gets its name, and holds what
+ * cstk_map_save writes of a map built in one piece: map_mpi --whole builds that. A run that was
+ * lost is resumed by the same command, with any number of ranks. docs/scale.md says what many ranks
+ * would do. */
 #include "map_report.h"
 #include "puma_scene.h"
 
@@ -32,7 +36,8 @@ static size_t number(const char *text, size_t most) {
     char *end = NULL;
     errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value == 0 || value > most) {
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || errno != 0 || value == 0 ||
+        value > most) {
         fail("\"%s\" is no number from 1 to %zu", text, most);
     }
     return (size_t)value;
@@ -67,8 +72,8 @@ static arguments read_arguments(int count, char **given) {
         }
     }
     if (count - i < 4 || count - i > 3 + MAX_AXES) {
-        fail("usage: map_mpi [--kind classes|distances|cells] [--tiles N] [--costs FILE.csv] [--whole] "
-             "appendix|puma560 FOLDER MAP.npy CELLS...");
+        fail("usage: map_mpi [--kind classes|distances|cells] [--tiles N] [--costs FILE.csv] "
+             "[--whole] appendix|puma560 FOLDER MAP.npy CELLS...");
     }
     a.scene = given[i++];
     a.folder = given[i++];
@@ -89,7 +94,8 @@ static scene open_scene(const arguments *a) {
     fail("there is no scene %s: appendix or puma560", a->scene);
 }
 
-/* The links against the objects; without a shell of contacts, the cost of a map of classes follows its boundary. */
+/* The links against the objects; without a shell of contacts, the cost of a map of classes follows
+ * its boundary. */
 static cstk_cobject *obstacles(const scene *s) {
     cstk_cobject *made = NULL;
     require(cstk_cobject_induced(s->space, NULL, 0, s->environment, NULL, 0, NULL, &made));
@@ -102,7 +108,8 @@ static map_work describe_work(const arguments *a, const scene *s, const cstk_cob
         fail("the arm has %zu joints, not %zu", s->nq, a->axis_count);
     }
     for (size_t i = 0; i < a->axis_count; ++i) {
-        work.axes[i] = (cstk_map_axis){.coordinate = (uint32_t)i, .low = -PI, .high = PI, .cells = a->cells[i]};
+        work.axes[i] = (cstk_map_axis){
+            .coordinate = (uint32_t)i, .low = -PI, .high = PI, .cells = a->cells[i]};
     }
     require(cstk_map_options_default(&work.options, sizeof work.options));
     work.options.kind = a->kind;
@@ -115,8 +122,8 @@ static map_work describe_work(const arguments *a, const scene *s, const cstk_cob
 static void build_whole(map_work *work, const char *file) {
     cstk_map *map = NULL;
     work->options.threads = 0;
-    require(cstk_map_build(work->cobject, work->q, work->nq, work->axes, work->axis_count, &work->options, NULL, NULL,
-                           &map));
+    require(cstk_map_build(work->cobject, work->q, work->nq, work->axes, work->axis_count,
+                           &work->options, NULL, NULL, &map));
     require(cstk_map_save(map, file));
     require(cstk_map_release(map));
 }
@@ -129,8 +136,10 @@ static void *zeros(size_t count, size_t size) {
     return made;
 }
 
-/* A journal without a file: the run was lost after the file had got its name, or somebody took the file away. */
-static void end_or_refuse(const map_work *work, const char *journal_name, const char *part, const char *file) {
+/* A journal without a file: the run was lost after the file had got its name, or somebody took the
+ * file away. */
+static void end_or_refuse(const map_work *work, const char *journal_name, const char *part,
+                          const char *file) {
     bool *done = zeros(work->tile_count, sizeof *done);
     journal j;
     if (resume_journal(journal_name, work, done, &j) < work->tile_count || !journal_exists(file)) {
@@ -141,10 +150,12 @@ static void end_or_refuse(const map_work *work, const char *journal_name, const 
 }
 
 /* What rank 0 does: resumes or begins, hands out, and gives the file its name. */
-static void lead(const map_work *work, const arguments *a, const char *part, const char *journal_name) {
+static void lead(const map_work *work, const arguments *a, const char *part,
+                 const char *journal_name) {
     journal j;
     bool *done = zeros(work->tile_count, sizeof *done);
-    tile_log log = {zeros(work->tile_count, sizeof *log.costs), zeros(work->tile_count, sizeof *log.ranks)};
+    tile_log log = {zeros(work->tile_count, sizeof *log.costs),
+                    zeros(work->tile_count, sizeof *log.ranks)};
     memset(log.ranks, -1, work->tile_count * sizeof *log.ranks);
     if (journal_exists(journal_name)) {
         size_t on_disk = resume_journal(journal_name, work, done, &j);
@@ -174,7 +185,8 @@ static void run(const arguments *a, map_work *work) {
     char part[4096], journal_name[4096];
     int rank = 0, is_ended = 0;
     if (snprintf(part, sizeof part, "%s.part", a->file) >= (int)sizeof part ||
-        snprintf(journal_name, sizeof journal_name, "%s.journal", a->file) >= (int)sizeof journal_name) {
+        snprintf(journal_name, sizeof journal_name, "%s.journal", a->file) >=
+            (int)sizeof journal_name) {
         fail("the name of the file is too long");
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -196,6 +208,7 @@ static void run(const arguments *a, map_work *work) {
 
 int main(int count, char **given) {
     MPI_Init(&count, &given);
+    double start = MPI_Wtime();
     arguments a = read_arguments(count, given);
     scene s = open_scene(&a);
     cstk_cobject *cobject = obstacles(&s);
@@ -203,6 +216,13 @@ int main(int count, char **given) {
     if (a.whole) {
         build_whole(&work, a.file);
     } else {
+        double seconds = MPI_Wtime() - start, slowest = 0;
+        int rank = 0;
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        MPI_Reduce(&seconds, &slowest, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+        if (rank == 0) {
+            printf("the slowest rank read its scene in %.3g s\n", slowest);
+        }
         run(&a, &work);
         release_work(&work);
     }

@@ -4,10 +4,12 @@
 
 #include "tile_queue.h"
 
-/* Prints how the costs of this run's tiles are distributed, and how long each rank worked. */
+/* Prints how the costs of this run's tiles are distributed, how long each rank worked, and how busy
+ * more ranks would be. */
 void print_report(const map_work *work, const tile_log *log);
 
-/* Writes a line for each tile of this run: its number, its rank, seconds, proofs and questions. */
+/* Writes a line for each tile of this run: its number, its rank, the seconds to compute and to
+ * write it, proofs and questions. */
 void write_costs(const char *name, const map_work *work, const tile_log *log);
 
 #endif

@@ -23,8 +23,9 @@ void require(cstk_status status) {
     }
 }
 
-/* The second half of a tile, which keeps the first: across its longest side, the first of equal ones. These are the halves that
- * cstk_map_build makes of a map; tiles that are cut in other ways make maps as good, but prove more. */
+/* The second half of a tile, which keeps the first: across its longest side, the first of equal
+ * ones. These are the halves that cstk_map_build makes of a map; tiles that are cut in other ways
+ * make maps as good, but prove more. */
 static tile halve(tile *t, size_t axis_count) {
     size_t longest = 0;
     for (size_t i = 1; i < axis_count; ++i) {
@@ -107,7 +108,7 @@ tile_cost compute_tile(const map_work *work, const tile *t, void *bytes) {
     const void *values =
         view.distances != NULL ? (const void *)view.distances : (const void *)view.values;
     memcpy(bytes, values, tile_size(work, t));
-    tile_cost cost = {MPI_Wtime() - start, view.proofs, view.questions};
+    tile_cost cost = {MPI_Wtime() - start, 0, view.proofs, view.questions};
     require(cstk_map_release(map));
     return cost;
 }

@@ -1,4 +1,5 @@
-/* What map_mpi.c computes: an array of values, in tiles that may be computed in any order, by anyone. */
+/* What map_mpi.c computes: an array of values, in tiles that may be computed in any order, by
+ * anyone. */
 #ifndef MAP_WORK_H
 #define MAP_WORK_H
 
@@ -16,7 +17,7 @@ typedef struct tile {
 
 /* What a tile cost. */
 typedef struct tile_cost {
-    double seconds;
+    double seconds, writing;    /* to compute it, and to write it to the disk */
     uint64_t proofs, questions; /* of cstk_map_view */
 } tile_cost;
 
@@ -32,14 +33,16 @@ typedef struct map_work {
     char description[MAX_DESCRIPTION]; /* one line: equal for equal arrays and tiles */
 } map_work;
 
-/* Cuts the array into at least so many tiles, if it has cells enough, and writes the description. */
+/* Cuts the array into at least so many tiles, if it has cells enough, and writes the description.
+ */
 void cut_into_tiles(map_work *work, size_t at_least, const char *scene);
 
 /* The bytes of a cell's value, and of all values of a tile. */
 size_t value_size(const map_work *work);
 size_t tile_size(const map_work *work, const tile *t);
 
-/* Computes a tile: `bytes` has room for its values, of the last axis neighbours following one another. */
+/* Computes a tile: `bytes` has room for its values, of the last axis neighbours following one
+ * another. */
 tile_cost compute_tile(const map_work *work, const tile *t, void *bytes);
 
 /* Ends all ranks with a message; what follows `format` is printed as by printf. */

@@ -1,5 +1,6 @@
-/* Maps of a Puma 560's C-space: its first two joints as a picture (puma_map.png), its first three as the boundary of what is not
- * free (puma_map.glb). The others stand as at the start of puma_slider.c's slide.
+/* Maps of a Puma 560's C-space: its first two joints as a picture (puma_map_2.png), its first three
+ * as the boundary of what is not free (puma_map_3.glb). The others stand as at the start of
+ * puma_slider.c's slide.
  *
  *     puma_maps MESHES FOLDER
  *
@@ -56,7 +57,8 @@ static bool is_right(const scene *s, const cstk_cobject *cobject, const cstk_map
         for (size_t i = view.axis_count; i-- > 0;) {
             const cstk_map_axis *axis = &view.axes[i];
             double place = (double)(rest % axis->cells) + 0.5;
-            q[axis->coordinate] = axis->low + (axis->high - axis->low) * (place / (double)axis->cells);
+            q[axis->coordinate] =
+                axis->low + (axis->high - axis->low) * (place / (double)axis->cells);
             rest /= axis->cells;
         }
         check(cstk_classify(query, cobject, q, s->nq, &where));
@@ -74,12 +76,13 @@ int main(int count, char **arguments) {
     scene s = puma560_scene(arguments[1]);
     cstk_cobject *cobject = NULL;
     bool right = true;
-    /* Of the scene's own sets contact is a class; where a set has none, what is proved free need not be asked. */
+    /* Of the scene's own sets contact is a class; where a set has none, what is proved free need
+     * not be asked. */
     check(cstk_cobject_induced(s.space, NULL, 0, s.environment, NULL, 0, NULL, &cobject));
     const struct {
         size_t joints, cells;
         const char *picture;
-    } maps[] = {{2, 512, "puma_map.png"}, {3, 96, "puma_map.glb"}};
+    } maps[] = {{2, 512, "puma_map_2.png"}, {3, 96, "puma_map_3.glb"}};
     for (int i = 0; i < 2; ++i) {
         char path[4096];
         snprintf(path, sizeof path, "%s/%s", arguments[2], maps[i].picture);

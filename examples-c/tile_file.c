@@ -20,10 +20,12 @@ static void require_mpi(int code, const char *what) {
 static size_t header_of(const map_work *work, char header[MAX_HEADER]) {
     enum { BEFORE = 10 };
     char *text = header + BEFORE;
-    int length = snprintf(text, MAX_HEADER - BEFORE, "{'descr': '%s', 'fortran_order': False, 'shape': (",
-                          value_size(work) == 1 ? "|u1" : "<f8");
+    int length =
+        snprintf(text, MAX_HEADER - BEFORE, "{'descr': '%s', 'fortran_order': False, 'shape': (",
+                 value_size(work) == 1 ? "|u1" : "<f8");
     for (size_t i = 0; i < work->axis_count; ++i) {
-        length += snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "%zu, ", work->axes[i].cells);
+        length += snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "%zu, ",
+                           work->axes[i].cells);
     }
     length += snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "), }");
     while ((BEFORE + length + 1) % ALIGNMENT != 0) {
@@ -48,7 +50,9 @@ void create_tile_file(const char *name, const map_work *work) {
     char header[MAX_HEADER];
     size_t length = header_of(work, header);
     MPI_File file;
-    require_mpi(MPI_File_open(MPI_COMM_SELF, name, MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file), name);
+    require_mpi(
+        MPI_File_open(MPI_COMM_SELF, name, MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file),
+        name);
     require_mpi(MPI_File_set_size(file, (MPI_Offset)length + size_of_values(work)), name);
     require_mpi(MPI_File_write_at(file, 0, header, (int)length, MPI_BYTE, MPI_STATUS_IGNORE), name);
     require_mpi(MPI_File_sync(file), name);
@@ -61,8 +65,10 @@ tile_file open_tile_file(const char *name, const map_work *work) {
     MPI_Offset size = 0;
     require_mpi(MPI_File_open(MPI_COMM_SELF, name, MPI_MODE_RDWR, MPI_INFO_NULL, &f.file), name);
     require_mpi(MPI_File_get_size(f.file, &size), name);
-    require_mpi(MPI_File_read_at(f.file, 0, found, (int)f.header_size, MPI_BYTE, MPI_STATUS_IGNORE), name);
-    if (size != f.header_size + size_of_values(work) || memcmp(found, expected, (size_t)f.header_size) != 0) {
+    require_mpi(MPI_File_read_at(f.file, 0, found, (int)f.header_size, MPI_BYTE, MPI_STATUS_IGNORE),
+                name);
+    if (size != f.header_size + size_of_values(work) ||
+        memcmp(found, expected, (size_t)f.header_size) != 0) {
         fail("%s is not the file of this map; remove it, and its journal, to begin anew", name);
     }
     return f;
@@ -83,10 +89,13 @@ void write_tile(tile_file *f, const tile *t, const void *bytes) {
         firsts[i] = (int)(t->first[i] * unit);
     }
     MPI_Datatype place;
-    require_mpi(MPI_Type_create_subarray((int)work->axis_count, sizes, counts, firsts, MPI_ORDER_C, MPI_BYTE, &place),
+    require_mpi(MPI_Type_create_subarray((int)work->axis_count, sizes, counts, firsts, MPI_ORDER_C,
+                                         MPI_BYTE, &place),
                 "a tile's place");
     require_mpi(MPI_Type_commit(&place), "a tile's place");
-    require_mpi(MPI_File_set_view(f->file, f->header_size, MPI_BYTE, place, "native", MPI_INFO_NULL), "a tile's place");
+    require_mpi(
+        MPI_File_set_view(f->file, f->header_size, MPI_BYTE, place, "native", MPI_INFO_NULL),
+        "a tile's place");
     MPI_Status status;
     int written = 0;
     require_mpi(MPI_File_write_at(f->file, 0, bytes, (int)size, MPI_BYTE, &status), "a tile");

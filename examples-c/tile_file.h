@@ -12,11 +12,12 @@ typedef struct tile_file {
     const map_work *work;
 } tile_file;
 
-/* Makes a file of the map's size, with the bytes before the first value as cstk_map_save writes them. One rank does. */
+/* Makes a file of the map's size, with the bytes before the first value as cstk_map_save writes
+ * them. One rank does. */
 void create_tile_file(const char *name, const map_work *work);
 
-/* Opens it, each rank for itself: so each may synchronise what it wrote, whatever the others do. Ends the program if the file is not one
- * of this map. */
+/* Opens it, each rank for itself: so each may synchronise what it wrote, whatever the others do.
+ * Ends the program if the file is not one of this map. */
 tile_file open_tile_file(const char *name, const map_work *work);
 
 /* Writes the values of a tile, to the disk. */

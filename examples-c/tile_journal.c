@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 
 /* A line has always as many bytes: one that was cut short is seen. */
 #define LINE "tile %010zu\n"
-enum { LINE_LENGTH = 16 };
+enum { LINE_LENGTH = 16, LINE_ROOM = 32 };
 
 bool journal_exists(const char *name) { return access(name, F_OK) == 0; }
 
@@ -26,14 +27,15 @@ static void append(const journal *j, const char *text, size_t length) {
     }
 }
 
-void sync_journal(journal *j) {
+static void synchronise(journal *j) {
     if (fdatasync(j->file) != 0) {
         fail("%s: %s", j->name, strerror(errno));
     }
+    j->synchronised = MPI_Wtime();
 }
 
 static journal open_journal(const char *name, int flags) {
-    journal j = {open(name, flags | O_APPEND | O_CLOEXEC, 0666), name};
+    journal j = {open(name, flags | O_APPEND | O_CLOEXEC, 0666), name, 0};
     if (j.file < 0) {
         fail("%s: %s", name, strerror(errno));
     }
@@ -44,14 +46,15 @@ journal begin_journal(const char *name, const map_work *work) {
     journal j = open_journal(name, O_CREAT | O_EXCL | O_WRONLY);
     append(&j, work->description, strlen(work->description));
     append(&j, "\n", 1);
-    sync_journal(&j);
+    synchronise(&j);
     return j;
 }
 
 /* The tile of a line, or the number of tiles if it is no line of a journal. */
 static size_t tile_of(const char *line, const map_work *work) {
-    char expected[LINE_LENGTH + 1];
-    size_t number = strncmp(line, "tile ", 5) == 0 ? strtoull(line + 5, NULL, 10) : work->tile_count;
+    char expected[LINE_ROOM];
+    size_t number =
+        strncmp(line, "tile ", 5) == 0 ? strtoull(line + 5, NULL, 10) : work->tile_count;
     if (number >= work->tile_count) {
         return work->tile_count;
     }
@@ -91,14 +94,21 @@ size_t resume_journal(const char *name, const map_work *work, bool *done, journa
         append(out, work->description, length);
         append(out, "\n", 1);
     }
-    sync_journal(out);
+    synchronise(out);
     return count;
 }
 
 void add_to_journal(journal *j, size_t tile_number) {
-    char line[LINE_LENGTH + 1];
+    char line[LINE_ROOM];
     snprintf(line, sizeof line, LINE, tile_number);
     append(j, line, LINE_LENGTH);
+    /* Not each line: it would keep rank 0 from answering for as long as the disk takes. */
+    if (MPI_Wtime() - j->synchronised > 1) {
+        synchronise(j);
+    }
 }
 
-void close_journal(journal *j) { close(j->file); }
+void close_journal(journal *j) {
+    synchronise(j);
+    close(j->file);
+}

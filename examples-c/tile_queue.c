@@ -6,7 +6,8 @@
 enum { REPORT = 1, ORDER = 2 };
 #define NO_TILE UINT64_MAX
 
-/* What a rank tells rank 0 when it asks for a tile: which one it has written, and what that cost. */
+/* What a rank tells rank 0 when it asks for a tile: which one it has written, and what that cost.
+ */
 typedef struct report {
     uint64_t tile; /* NO_TILE with the first request */
     tile_cost cost;
@@ -40,21 +41,30 @@ static void keep(const report *r, int rank, journal *j, tile_log *log) {
     log->ranks[r->tile] = rank;
 }
 
-static void compute_all(const map_work *work, const bool *done, const char *file, journal *j, tile_log *log) {
+/* Computes the tile of a report and writes it. */
+static void compute(const map_work *work, report *r, tile_file *f, void *bytes) {
+    const tile *t = &work->tiles[r->tile];
+    r->cost = compute_tile(work, t, bytes);
+    double start = MPI_Wtime();
+    write_tile(f, t, bytes);
+    r->cost.writing = MPI_Wtime() - start;
+}
+
+static void compute_all(const map_work *work, const bool *done, const char *file, journal *j,
+                        tile_log *log) {
     tile_file f = open_tile_file(file, work);
     void *bytes = tile_buffer(work);
     size_t next = 0;
     for (report r; (r.tile = take(work, done, &next)) != NO_TILE;) {
-        r.cost = compute_tile(work, &work->tiles[r.tile], bytes);
-        write_tile(&f, &work->tiles[r.tile], bytes);
+        compute(work, &r, &f, bytes);
         keep(&r, 0, j, log);
-        sync_journal(j);
     }
     free(bytes);
     close_tile_file(&f);
 }
 
-void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j, tile_log *log) {
+void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j,
+                    tile_log *log) {
     int ranks = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     if (ranks == 1) {
@@ -65,12 +75,6 @@ void hand_out_tiles(const map_work *work, const bool *done, const char *file, jo
     for (int working = ranks - 1; working > 0;) {
         report r;
         MPI_Status status;
-        int is_waiting = 0;
-        MPI_Iprobe(MPI_ANY_SOURCE, REPORT, MPI_COMM_WORLD, &is_waiting, MPI_STATUS_IGNORE);
-        if (!is_waiting) {
-            /* Where ranks wait, they are answered first: the tiles of all that waited are synchronised at once. */
-            sync_journal(j);
-        }
         MPI_Recv(&r, sizeof r, MPI_BYTE, MPI_ANY_SOURCE, REPORT, MPI_COMM_WORLD, &status);
         uint64_t order = take(work, done, &next);
         MPI_Send(&order, 1, MPI_UINT64_T, status.MPI_SOURCE, ORDER, MPI_COMM_WORLD);
@@ -79,20 +83,18 @@ void hand_out_tiles(const map_work *work, const bool *done, const char *file, jo
         }
         working -= order == NO_TILE ? 1 : 0;
     }
-    sync_journal(j);
 }
 
 void work_off_tiles(const map_work *work, const char *file) {
     tile_file f = open_tile_file(file, work);
     void *bytes = tile_buffer(work);
-    for (report r = {NO_TILE, {0, 0, 0}};;) {
+    for (report r = {NO_TILE, {0, 0, 0, 0}};;) {
         MPI_Send(&r, sizeof r, MPI_BYTE, 0, REPORT, MPI_COMM_WORLD);
         MPI_Recv(&r.tile, 1, MPI_UINT64_T, 0, ORDER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         if (r.tile == NO_TILE) {
             break;
         }
-        r.cost = compute_tile(work, &work->tiles[r.tile], bytes);
-        write_tile(&f, &work->tiles[r.tile], bytes);
+        compute(work, &r, &f, bytes);
     }
     free(bytes);
     close_tile_file(&f);

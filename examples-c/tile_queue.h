@@ -1,4 +1,5 @@
-/* Tiles handed out to ranks on demand: who is done with one asks for the next, since tiles at the boundary cost more than others. */
+/* Tiles handed out to ranks on demand: who is done with one asks for the next, since tiles at the
+ * boundary cost more than others. */
 #ifndef TILE_QUEUE_H
 #define TILE_QUEUE_H
 
@@ -12,9 +13,10 @@ typedef struct tile_log {
     int *ranks;
 } tile_log;
 
-/* Rank 0: hands out the tiles that are not `done` until none is left, and lists in the journal what ranks have written. Alone, it
- * computes them itself. */
-void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j, tile_log *log);
+/* Rank 0: hands out the tiles that are not `done` until none is left, and lists in the journal what
+ * ranks have written. Alone, it computes them itself. */
+void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j,
+                    tile_log *log);
 
 /* Other ranks: compute tiles, and write them, as long as they are given some. */
 void work_off_tiles(const map_work *work, const char *file);
