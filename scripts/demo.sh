@@ -52,11 +52,11 @@ tiles=(-label "straight on: the first contact, and the way there" demo/shortcut_
 montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/shortcut.png
 echo
 build/examples/puma_maps "$meshes" demo
-render puma_map_3 9,-7,6 0,0,0
-convert demo/puma_map_2.png -resize 480x480 demo/puma_map_2.png
+render puma_map_3 10.5,-8.5,6.5 0,0,-0.2
+convert demo/puma_map_2.png -resize 480x480 -bordercolor gray60 -border 1 demo/puma_map_2.png
 tiles=(-label "over joints 1 and 2: inside is red" demo/puma_map_2.png
   -label "over joints 1, 2 and 3: the boundary of what is inside" demo/puma_map_3.png)
-montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/maps.png
+montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x482+4+4 -pointsize 20 demo/maps.png
 echo
 build/examples/workcell demo
 for frame in free wrists; do

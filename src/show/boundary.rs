@@ -30,7 +30,7 @@ pub fn show_map(map: &Map, file: &Path) -> Result<()> {
         values: map.values(),
     };
     let mut document = Document::default();
-    let material = document.add_material("boundary", [0.72, 0.30, 0.26, 1.0], true);
+    let material = document.add_material("boundary", [0.95, 0.5, 0.45, 1.0], true);
     if let Some(mesh) = document.add_mesh(&boundary.triangles()?, material) {
         document.add_node("boundary", mesh, &Pose::identity(), json!({}));
     }
