@@ -17,7 +17,8 @@ typedef struct tile {
 
 /* What a tile cost. */
 typedef struct tile_cost {
-    double seconds, writing;    /* to compute it, and to write it to the disk */
+    double seconds;             /* of the processor, to compute it */
+    double writing;             /* by the clock, to bring it to the disk */
     uint64_t proofs, questions; /* of cstk_map_view */
 } tile_cost;
 

@@ -103,8 +103,9 @@ void write_tile(tile_file *f, const tile *t, const void *bytes) {
     if (written != (int)size) {
         fail("only %d of %zu bytes of a tile could be written", written, size);
     }
-    require_mpi(MPI_File_sync(f->file), "a tile");
     require_mpi(MPI_Type_free(&place), "a tile's place");
 }
+
+void synchronise_tiles(tile_file *f) { require_mpi(MPI_File_sync(f->file), "the map's file"); }
 
 void close_tile_file(tile_file *f) { require_mpi(MPI_File_close(&f->file), "the map's file"); }

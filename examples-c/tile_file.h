@@ -20,8 +20,10 @@ void create_tile_file(const char *name, const map_work *work);
  * Ends the program if the file is not one of this map. */
 tile_file open_tile_file(const char *name, const map_work *work);
 
-/* Writes the values of a tile, to the disk. */
+/* Writes the values of a tile. They are sure to be on the disk after the next synchronise_tiles. */
 void write_tile(tile_file *f, const tile *t, const void *bytes);
+
+void synchronise_tiles(tile_file *f);
 
 void close_tile_file(tile_file *f);
 
