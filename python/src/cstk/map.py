@@ -13,12 +13,12 @@ from ._options import options
 from ._progress import Progress, reporting
 from .cobject import CObject
 from .enums import MapKind
-from .errors import WrongSizeError, check
+from .errors import InvalidArgumentError, WrongSizeError, check
 
 
 class MapAxis(NamedTuple):
-    """An interval of a coordinate of the space, cut into equal cells. The map is of a part of them: of `count` from number `first` on,
-    or of all from there on where `count` is 0. They have the values that they have on a map of all cells.
+    """An interval of a coordinate of the space, cut into equal cells. The map is of a part of them: from number `first` to before
+    `end`, or to the last. They have the values that they have on a map of all cells.
     """
 
     coordinate: int
@@ -26,11 +26,11 @@ class MapAxis(NamedTuple):
     high: float
     cells: int
     first: int = 0
-    count: int = 0
+    end: Optional[int] = None
 
     def middles(self) -> NDArray[np.float64]:
         """The coordinate at the middle of each cell of the map, where it has its classes and distances."""
-        end = self.first + self.count if self.count else self.cells
+        end = self.cells if self.end is None else self.end
         return self.low + (self.high - self.low) * ((np.arange(self.first, end) + 0.5) / self.cells)
 
 
@@ -49,16 +49,20 @@ class _Cells:
 def _axis(name: str, given: Any) -> Any:
     """An axis as C takes it."""
     try:
-        coordinate, low, high, cells, first, count = MapAxis(*given)
+        coordinate, low, high, cells, first, end = MapAxis(*given)
     except (TypeError, ValueError):
         raise WrongSizeError(f"{name} must be a cstk.MapAxis, or its coordinate, low, high and cells") from None
+    first = index(f"{name}.first", first, 64)
+    count = 0 if end is None else index(f"{name}.end", end, 64) - first
+    if end is not None and count <= 0:
+        raise InvalidArgumentError(f"{name}.end {end} is not beyond first {first}")
     return {
         "coordinate": index(f"{name}.coordinate", coordinate),
         "low": scalar(f"{name}.low", low),
         "high": scalar(f"{name}.high", high),
         "cells": index(f"{name}.cells", cells, 64),
-        "first": index(f"{name}.first", first, 64),
-        "count": index(f"{name}.count", count, 64),
+        "first": first,
+        "count": count,
     }
 
 
@@ -118,7 +122,7 @@ class Map(Handle):
         be written to.
         """
         c, view = self._view()
-        shape = tuple(int(view.axes[i].count) for i in range(view.axis_count))
+        shape = self.shape
         if view.kind == MapKind.DISTANCES:
             return np.asarray(_Cells(c, view.distances, np.float64, shape))
         return np.asarray(_Cells(c, view.values, np.uint8, shape))
@@ -126,14 +130,15 @@ class Map(Handle):
     @property
     def shape(self) -> Tuple[int, ...]:
         """The number of cells of each axis that are on the map."""
-        return tuple(axis.count for axis in self.axes)
+        _keeping, view = self._view()
+        return tuple(int(view.axes[i].count) for i in range(view.axis_count))
 
     @property
     def axes(self) -> Tuple[MapAxis, ...]:
-        """The axes, in the order given: that of the dimensions of `values`. Their `count` is not 0."""
+        """The axes, in the order given: that of the dimensions of `values`. Their `end` is not None."""
         _keeping, view = self._view()
         cuts = (view.axes[i] for i in range(view.axis_count))
-        return tuple(MapAxis(cut.coordinate, cut.low, cut.high, cut.cells, cut.first, cut.count) for cut in cuts)
+        return tuple(MapAxis(cut.coordinate, cut.low, cut.high, cut.cells, cut.first, cut.first + cut.count) for cut in cuts)
 
     @property
     def kind(self) -> MapKind:
