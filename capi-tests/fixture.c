@@ -114,7 +114,7 @@ static void create_scene(fixture *f) {
                                      &rests, &f->certificate));
     CHECK(f->certificate != NULL);
     CHECK_OK(cstk_batch_create(&f->batch));
-    const cstk_map_axis axis = {0, 0, 0, 0.2, 1, {0, 0}};
+    const cstk_map_axis axis = {0, 0, 0, 0.2, 1, 0, 0};
     CHECK_OK(cstk_map_build(f->cobject, f->q, FIXTURE_NQ, &axis, 1, NULL, NULL, NULL, &f->map));
     keep_handles(f);
 }

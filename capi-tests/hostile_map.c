@@ -6,7 +6,7 @@
 
 enum { NQ = FIXTURE_NQ, ROWS = 7, COLUMNS = 5 };
 
-static const cstk_map_axis good_axes[2] = {{0, 0, -3, 3, ROWS, {0, 0}}, {2, 0, -1, 2, COLUMNS, {0, 0}}};
+static const cstk_map_axis good_axes[2] = {{0, 0, -3, 3, ROWS, 0, 0}, {2, 0, -1, 2, COLUMNS, 0, 0}};
 
 static void bad_arguments(const fixture *f) {
     cstk_map *map;
@@ -28,7 +28,7 @@ static void bad_arguments(const fixture *f) {
                       CSTK_ERROR_WRONG_SIZE, "");
     }
     const size_t counts[] = {0, 7, SIZE_MAX};
-    const cstk_map_axis many[7] = {{0, 0, 0, 1, 1, {0, 0}}};
+    const cstk_map_axis many[7] = {{0, 0, 0, 1, 1, 0, 0}};
     for (int i = 0; i < 3; ++i) {
         CHECK_REFUSED(map,
                       cstk_map_build(f->cobject, f->q, NQ, many, counts[i], NULL, NULL, NULL, &map),
@@ -45,15 +45,19 @@ static void bad_axes(const fixture *f) {
         cstk_map_axis axis;
         cstk_status status;
     } wrong[] = {
-        {{0, 0, 0, 1, 3, {0, 0}}, CSTK_ERROR_INVALID_ARGUMENT},
-        {{NQ, 0, 0, 1, 3, {0, 0}}, CSTK_ERROR_NOT_FOUND},
-        {{UINT32_MAX, 0, 0, 1, 3, {0, 0}}, CSTK_ERROR_NOT_FOUND},
-        {{2, 0, 1, 1, 3, {0, 0}}, CSTK_ERROR_INVALID_ARGUMENT},
-        {{2, 0, 1, 0, 3, {0, 0}}, CSTK_ERROR_INVALID_ARGUMENT},
-        {{2, 0, NAN, 1, 3, {0, 0}}, CSTK_ERROR_NOT_FINITE},
-        {{2, 0, 0, INFINITY, 3, {0, 0}}, CSTK_ERROR_NOT_FINITE},
-        {{2, 0, 0, 1e300, 3, {0, 0}}, CSTK_ERROR_INVALID_ARGUMENT},
-        {{2, 0, 0, 1, 0, {0, 0}}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{0, 0, 0, 1, 3, 0, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{NQ, 0, 0, 1, 3, 0, 0}, CSTK_ERROR_NOT_FOUND},
+        {{UINT32_MAX, 0, 0, 1, 3, 0, 0}, CSTK_ERROR_NOT_FOUND},
+        {{2, 0, 1, 1, 3, 0, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 1, 0, 3, 0, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, NAN, 1, 3, 0, 0}, CSTK_ERROR_NOT_FINITE},
+        {{2, 0, 0, INFINITY, 3, 0, 0}, CSTK_ERROR_NOT_FINITE},
+        {{2, 0, 0, 1e300, 3, 0, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 0, 1, 0, 0, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 0, 1, 3, 3, 0}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 0, 1, 3, 1, 3}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 0, 1, 3, 1, SIZE_MAX}, CSTK_ERROR_INVALID_ARGUMENT},
+        {{2, 0, 0, 1, 3, SIZE_MAX, SIZE_MAX}, CSTK_ERROR_INVALID_ARGUMENT},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         const cstk_map_axis axes[2] = {good_axes[0], wrong[i].axis};
@@ -127,6 +131,18 @@ static void bad_maps(const fixture *f) {
     CHECK_OK(cstk_map_release(f->map));
 }
 
+/* The boundary of a map with three axes. */
+static void boundaries(const fixture *f) {
+    cstk_map *map;
+    const cstk_map_axis axes[3] = {good_axes[0], good_axes[1], {1, 0, -1, 1, 4, 0, 0}};
+    CHECK_OK(cstk_map_build(f->cobject, f->q, NQ, axes, 3, NULL, NULL, NULL, &map));
+    CHECK_FAILS(cstk_map_show(map, "hostile_map.png"), CSTK_ERROR_UNSUPPORTED, ".glb");
+    CHECK_FAILS(cstk_map_show(map, "/nowhere/at/all.glb"), CSTK_ERROR_IO, "");
+    CHECK_OK(cstk_map_show(map, "hostile_map.glb"));
+    CHECK(remove("hostile_map.glb") == 0);
+    CHECK_OK(cstk_map_release(map));
+}
+
 static int32_t stop_at(double fraction, void *user) {
     CHECK(fraction >= 0 && fraction <= 1);
     return fraction > *(const double *)user ? 1 : 0;
@@ -178,6 +194,30 @@ static void answers(const fixture *f) {
     CHECK(remove("hostile_map.npy") == 0 && remove("hostile_map.png") == 0);
 }
 
+/* A part of the cells is a map of its own, with the values of the whole. */
+static void parts(const fixture *f) {
+    cstk_map *whole, *part;
+    cstk_map_view all, some;
+    cstk_map_axis axes[2] = {good_axes[0], good_axes[1]};
+    axes[0].first = 2;
+    axes[0].count = 4;
+    axes[1].first = 1;
+    CHECK_OK(cstk_map_build(f->cobject, f->q, NQ, good_axes, 2, NULL, NULL, NULL, &whole));
+    CHECK_OK(cstk_map_build(f->cobject, f->q, NQ, axes, 2, NULL, NULL, NULL, &part));
+    CHECK_OK(cstk_map_get_view(whole, &all));
+    CHECK_OK(cstk_map_get_view(part, &some));
+    CHECK(all.axes[0].count == ROWS && all.axes[1].count == COLUMNS);
+    CHECK(some.axes[0].first == 2 && some.axes[0].count == 4 && some.axes[1].count == COLUMNS - 1);
+    CHECK(some.cell_count == 4 * (COLUMNS - 1));
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < COLUMNS - 1; ++column) {
+            CHECK(some.values[row * (COLUMNS - 1) + column] == all.values[(row + 2) * COLUMNS + column + 1]);
+        }
+    }
+    CHECK_OK(cstk_map_release(whole));
+    CHECK_OK(cstk_map_release(part));
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -187,6 +227,8 @@ int main(void) {
     bad_maps(&f);
     cancelled(&f);
     answers(&f);
+    parts(&f);
+    boundaries(&f);
     fixture_unchanged(&f);
     fixture_release(&f);
     return check_result();

@@ -4927,8 +4927,9 @@ cstk_status cstk_spring_step(const cstk_witness_list *list,
 
 /**
  * The caches and scratch memory of a batch's threads, kept from one call to the next: once warm, calls allocate a little for their
- * threads and nothing for their items (but for motions and gradients of pure sets). A batch serves one call at a time; other calls
- * meanwhile return CSTK_ERROR_BUSY. Caches change how long answers take, never the answers.
+ * threads and nothing for their items. Items that do allocate are motions, gradients of pure sets and of custom joints, predicates,
+ * balls of C-space, and contacts of what touches. A batch serves one call at a time; other calls meanwhile return CSTK_ERROR_BUSY.
+ * Caches change how long answers take, never the answers.
  */
 typedef struct cstk_batch cstk_batch;
 
@@ -5146,7 +5147,7 @@ cstk_status cstk_pair_distance_batch(cstk_batch *batch,
  * the number of cells, and saved as arrays of NumPy's.
  *
  * @code
-     cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, {0}}, {1, 0, -3.14, 3.14, 512, {0}}};
+     cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, 0, 0}, {1, 0, -3.14, 3.14, 512, 0, 0}};
      cstk_map *map;
      cstk_map_view view;
      check(cstk_map_build(cobject, q, nq, axes, 2, NULL, NULL, NULL, &map));
@@ -5241,7 +5242,12 @@ typedef struct cstk_map_axis {
    * How many cells there are, at least 1.
    */
   size_t cells;
-  uint64_t reserved[2];
+  /**
+   * The map is of a part of the cells: of `count` from number `first` on, or of all from there on where `count` is 0. They have the
+   * values that they have on a map of all cells, so that several machines may build a map in parts.
+   */
+  size_t first;
+  size_t count;
 } cstk_map_axis;
 
 /**
@@ -5251,12 +5257,12 @@ typedef struct cstk_map_view {
   cstk_map_kind kind;
   uint32_t reserved_word;
   /**
-   * The axes, in the order given.
+   * The axes, in the order given; their `count` is not 0.
    */
   const cstk_map_axis *axes;
   size_t axis_count;
   /**
-   * One entry a cell, row-major: of the last axis neighbours follow one another. NULL for distances.
+   * One entry for each cell of the map, row-major: of the last axis neighbours follow one another. NULL for distances.
    */
   const uint8_t *values;
   /**
@@ -5312,10 +5318,15 @@ cstk_status cstk_map_save(const cstk_map *map,
                           const char *file);
 
 /**
- * Writes a picture of a map with two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are white
+ * Writes a picture of a map. Of two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are white
  * (outside), orange (contact) and dark red (inside); cells white (free), dark red (inside), light gray (mixed) and gray (undecided). A
- * distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell. The
- * file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes.
+ * distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell.
+ *
+ * Of three axes (.glb, a glTF file), the boundary of the cells that are inside, at distance 0, or not proved free, in the coordinates of
+ * the axes as x, y and z. It is closed: beyond the map nothing is inside.
+ *
+ * The file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes, for
+ * another ending than .glb of a map with three, and for a boundary of more than 16 million faces.
  */
 cstk_status cstk_map_show(const cstk_map *map,
                           const char *file);

@@ -254,9 +254,10 @@ inline cstk_map_options map_options(cstk_map_kind kind = CSTK_MAP_CLASSES, std::
     return options;
 }
 
-/// An interval of a coordinate, cut into cells.
-inline cstk_map_axis map_axis(std::uint32_t coordinate, double low, double high, std::size_t cells) {
-    return {coordinate, 0, low, high, cells, {0, 0}};
+/// An interval of a coordinate, cut into cells; the map is of `count` of them from `first` on, by default of all.
+inline cstk_map_axis map_axis(std::uint32_t coordinate, double low, double high, std::size_t cells, std::size_t first = 0,
+                              std::size_t count = 0) {
+    return {coordinate, 0, low, high, cells, first, count};
 }
 
 /// The default options of cstk_region_classify.
@@ -1944,7 +1945,7 @@ public:
     /// Writes an array of NumPy's (.npy).
     void save(const std::string &file) const { check(cstk_map_save(get(), file.c_str())); }
 
-    /// Writes a picture (.png) of a map with two axes.
+    /// Writes a picture (.png) of a map with two axes, the boundary (.glb) of one with three.
     void show(const std::string &file) const { check(cstk_map_show(get(), file.c_str())); }
 };
 

@@ -78,7 +78,10 @@ if [ "$name" = batches ]; then
   puma=$(scripts/fetch_puma560.sh) || puma=
   panda=$(scripts/fetch_motion_bench_maker.sh) || panda=
   CARGO_TERM_QUIET=true scripts/install.sh >/dev/null
-  cmake -S benches/batches -B build/batches -DCMAKE_PREFIX_PATH="$PWD/local" >/dev/null
+  robots=$(scripts/fetch_pinocchio.sh) || robots=
+  coal=$(scripts/fetch_coal.sh) || coal=
+  cmake -S benches/batches -B build/batches -DCMAKE_PREFIX_PATH="$PWD/local" ${robots:+-DPINOCCHIO_FOLDER="$PWD/$robots"} \
+    ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/batches -j2 --target batches >/dev/null
   exec build/batches/batches ${puma:+--puma "$puma"} ${panda:+--panda "$panda"} "${arguments[@]}"
 fi

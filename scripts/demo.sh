@@ -51,6 +51,13 @@ tiles=(-label "straight on: the first contact, and the way there" demo/shortcut_
   -label "two shortcuts, proved free" demo/shortcut_free.png)
 montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x480+4+4 -pointsize 20 demo/shortcut.png
 echo
+build/examples/puma_maps "$meshes" demo
+render puma_map_3 10.5,-8.5,6.5 0,0,-0.2
+convert demo/puma_map_2.png -resize 480x480 -bordercolor gray60 -border 1 demo/puma_map_2.png
+tiles=(-label "over joints 1 and 2: inside is red" demo/puma_map_2.png
+  -label "over joints 1, 2 and 3: the boundary of what is inside" demo/puma_map_3.png)
+montage -font "$font" "${tiles[@]}" -tile 2x1 -geometry 640x482+4+4 -pointsize 20 demo/maps.png
+echo
 build/examples/workcell demo
 for frame in free wrists; do
   render "workcell_$frame" 0.45,-2.5,1.3 0,0,0.32
@@ -77,4 +84,5 @@ echo "picture: $PWD/demo/planar_slider.png"
 echo "picture: $PWD/demo/motion.png"
 echo "picture: $PWD/demo/shortcut.png"
 echo "picture: $PWD/demo/workcell.png"
+echo "picture: $PWD/demo/maps.png"
 echo "picture: $PWD/demo/planner.png"

@@ -7,7 +7,8 @@ common=(cmake g++ make pkg-config)
 case "${1:-}" in
   demo) packages=("${common[@]}" python3-pip f3d xvfb xauth imagemagick librsvg2-bin fonts-dejavu-core libyaml-cpp-dev) ;;
   bench) packages=("${common[@]}" python3-pip libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev valgrind) ;;
-  test) packages=("${common[@]}" python3-pip clang valgrind binutils doxygen libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev) ;;
+  test) packages=("${common[@]}" python3-pip clang valgrind binutils doxygen libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev
+    libopenmpi-dev openmpi-bin procps) ;;
   python) packages=(python3-pip python3-venv) ;;
   aarch64) packages=(gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user) ;;
   aarch64-rust) packages=(rustc-web cargo-web libstd-rust-web-dev:arm64) ;;

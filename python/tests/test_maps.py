@@ -31,7 +31,7 @@ def middles(axis):
 def test_classes_are_those_of_single_queries(arm, query, classes):
     values = classes.values
     assert values.shape == classes.shape == (40, 30) and values.dtype == np.uint8
-    assert classes.kind == cstk.MapKind.CLASSES and classes.axes == AXES
+    assert classes.kind == cstk.MapKind.CLASSES and classes.axes == tuple(axis._replace(end=axis.cells) for axis in AXES)
     for axis in AXES:
         assert axis.middles().tolist() == middles(axis)
     for (i, a), (j, b) in itertools.product(enumerate(middles(AXES[0])), enumerate(middles(AXES[1]))):
@@ -74,6 +74,14 @@ def test_other_coordinates_are_held(arm, query):
     assert found.values.tolist() == [query.classify(arm.cobject, [a, 0.3]) for a in middles(found.axes[0])]
     swapped = cstk.Map.build(arm.cobject, [0, 0], AXES[::-1])
     assert (swapped.values == cstk.Map.build(arm.cobject, [0, 0], AXES).values.T).all()
+
+
+def test_parts_have_the_values_of_the_whole(arm, classes):
+    for kind in cstk.MapKind:
+        whole = cstk.Map.build(arm.cobject, [0, 0], AXES, kind=kind).values
+        part = cstk.Map.build(arm.cobject, [0, 0], [AXES[0]._replace(first=7, end=18), AXES[1]._replace(first=20)], kind=kind)
+        assert part.shape == (11, 10) and part.values.tobytes() == whole[7:18, 20:].tobytes()
+        assert part.axes[0].middles().tolist() == AXES[0].middles()[7:18].tolist()
 
 
 def test_saved_for_numpy(arm, classes, tmp_path):
@@ -136,6 +144,11 @@ CASES = [
     ("build(cobject, q, [(0, 1, 2, 3.5)])", TypeError, r"axes\[0\].cells"),
     ("build(cobject, q, [(0, 1, 2, -1)])", cstk.InvalidArgumentError, r"axes\[0\].cells"),
     ("build(cobject, q, [(0, 1, 2, 0)])", cstk.Error, "cells"),
+    ("build(cobject, q, [(0, 1, 2, 3, 3)])", cstk.InvalidArgumentError, "axis 0: there is no part of 3 cells from 3"),
+    ("build(cobject, q, [(0, 1, 2, 3, 'x')])", TypeError, r"axes\[0\].first"),
+    ("build(cobject, q, [(0, 1, 2, 3, 0, -1)])", cstk.InvalidArgumentError, r"axes\[0\].end"),
+    ("build(cobject, q, [(0, 1, 2, 3, 2, 2)])", cstk.InvalidArgumentError, r"axes\[0\].end 2 is not beyond first 2"),
+    ("build(cobject, q, [(0, 1, 2, 3, 0, 4)])", cstk.InvalidArgumentError, "axis 0: there is no part"),
     ("build(cobject, q, [(0, 'low', 2, 3)])", TypeError, r"axes\[0\].low"),
     ("build(cobject, q, [(0, 2, 1, 3)])", cstk.Error, "low"),
     ("build(cobject, q, [(0, 0, NAN, 3)])", cstk.NotFiniteError, "axis 0: end 1"),

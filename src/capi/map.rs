@@ -5,7 +5,7 @@
 //! the number of cells, and saved as arrays of NumPy's.
 //!
 //! ```c
-//! cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, {0}}, {1, 0, -3.14, 3.14, 512, {0}}};
+//! cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, 0, 0}, {1, 0, -3.14, 3.14, 512, 0, 0}};
 //! cstk_map *map;
 //! cstk_map_view view;
 //! check(cstk_map_build(cobject, q, nq, axes, 2, NULL, NULL, NULL, &map));
@@ -34,6 +34,7 @@ use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::error::Error;
 use crate::map::{Map, MapAxis, MapKind, MapOptions, MapValues};
+use crate::show::show_map;
 
 /// A map of C-space. Immutable; threads may share it. It refers to no other object.
 pub struct cstk_map {
@@ -79,7 +80,10 @@ pub struct cstk_map_axis {
     pub high: f64,
     /// How many cells there are, at least 1.
     pub cells: usize,
-    pub reserved: [u64; 2],
+    /// The map is of a part of the cells: of `count` from number `first` on, or of all from there on where `count` is 0. They have the
+    /// values that they have on a map of all cells, so that several machines may build a map in parts.
+    pub first: usize,
+    pub count: usize,
 }
 
 /// Options of a map. Write it with cstk_map_options_default first.
@@ -122,10 +126,10 @@ unsafe impl OptionsStruct for cstk_map_options {
 pub struct cstk_map_view {
     pub kind: cstk_map_kind,
     pub reserved_word: u32,
-    /// The axes, in the order given.
+    /// The axes, in the order given; their `count` is not 0.
     pub axes: *const cstk_map_axis,
     pub axis_count: usize,
-    /// One entry a cell, row-major: of the last axis neighbours follow one another. NULL for distances.
+    /// One entry for each cell of the map, row-major: of the last axis neighbours follow one another. NULL for distances.
     pub values: *const u8,
     /// The same of distances; NULL for other kinds.
     pub distances: *const f64,
@@ -181,7 +185,12 @@ pub unsafe extern "C" fn cstk_map_build(
         let options = given.decode()?;
         let known = collected(axes.iter().map(MapAxis::from), "axes")?;
         let map = Map::build(&cobject, q, &known, &options, &mut reporter(progress, user))?;
-        let axes = axes.to_vec();
+        let given = axes.iter().zip(map.axes());
+        let axes = given.map(|(axis, known)| cstk_map_axis {
+            count: known.part_length(),
+            ..*axis
+        });
+        let axes = axes.collect();
         out.write(handle::create(Arc::new(CMap { map, axes })));
         Ok(())
     })
@@ -229,17 +238,22 @@ pub unsafe extern "C" fn cstk_map_save(map: *const cstk_map, file: *const c_char
     })
 }
 
-/// Writes a picture of a map with two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are white
+/// Writes a picture of a map. Of two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are white
 /// (outside), orange (contact) and dark red (inside); cells white (free), dark red (inside), light gray (mixed) and gray (undecided). A
-/// distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell. The
-/// file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes.
+/// distance of 0 is black, the largest that is finite, and what is infinite, white. The picture is not compressed: a byte a cell.
+///
+/// Of three axes (.glb, a glTF file), the boundary of the cells that are inside, at distance 0, or not proved free, in the coordinates of
+/// the axes as x, y and z. It is closed: beyond the map nothing is inside.
+///
+/// The file is written whole or not at all; CSTK_ERROR_IO if that fails, CSTK_ERROR_UNSUPPORTED for maps with another number of axes, for
+/// another ending than .glb of a map with three, and for a boundary of more than 16 million faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_map_show(map: *const cstk_map, file: *const c_char) -> cstk_status {
     guard(|| {
         let CMap { map, .. } = handle::borrowed::<CMap>(map, "map")?;
         // SAFETY: checked for NULL; the caller states the terminator.
         let file = unsafe { path(file, "file")? };
-        Ok(map.show(file)?)
+        Ok(show_map(map, file)?)
     })
 }
 
@@ -283,6 +297,10 @@ impl From<&cstk_map_axis> for MapAxis {
             low: axis.low,
             high: axis.high,
             cells: axis.cells,
+            part: match axis.count {
+                0 => [axis.first, axis.cells],
+                count => [axis.first, axis.first.saturating_add(count)],
+            },
         }
     }
 }

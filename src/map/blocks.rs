@@ -22,6 +22,28 @@ impl Block {
         }
     }
 
+    /// The cells that the map is of.
+    pub fn part(grid: &Grid) -> Self {
+        let mut part = Self::whole(grid);
+        for (i, axis) in grid.axes.iter().enumerate() {
+            [part.first[i], part.end[i]] = axis.part;
+        }
+        part
+    }
+
+    /// The cells that are in another block too; `None` if there are none.
+    pub fn within(&self, other: &Self) -> Option<Self> {
+        let mut both = *self;
+        for i in 0..MAX_AXES {
+            both.first[i] = self.first[i].max(other.first[i]);
+            both.end[i] = self.end[i].min(other.end[i]);
+            if both.first[i] >= both.end[i] {
+                return None;
+            }
+        }
+        Some(both)
+    }
+
     pub fn cell_count(&self) -> usize {
         let sides = self.first.iter().zip(&self.end);
         sides.map(|(first, end)| end - first).product()

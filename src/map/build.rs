@@ -15,7 +15,7 @@ use crate::query::{Configuration, QueryContext, World, check_threshold};
 const FEW_CELLS: usize = 16;
 /// The parts that a proof halves a block into: more would rather be spent on its halves.
 const BOXES_PER_BLOCK: usize = 2;
-/// The parts of a map that threads take, one after the other.
+/// The parts of a grid that threads take, one after the other.
 const TILES: usize = 256;
 
 /// What a map tells of its cells.
@@ -70,6 +70,8 @@ fn zeros<T: Default>(count: usize) -> Result<Vec<T>> {
 /// A map that is being built.
 struct Builder<'a> {
     grid: &'a Grid<'a>,
+    /// The cells that the map is of.
+    part: Block,
     world: &'a World,
     cobject: &'a CObject,
     options: &'a MapOptions,
@@ -138,17 +140,21 @@ impl Builder<'_> {
         Ok(answer.outcome)
     }
 
-    /// Decides all cells of a block.
+    /// Decides all cells of a block that the map is of. Blocks that reach beyond the map are proved whole: so a part of a map is
+    /// decided as in the whole, and equals it.
     fn decide(&self, whole: &Block, context: &mut QueryContext) -> Result<()> {
         let mut rest = vec![*whole];
         while let Some(block) = rest.pop() {
+            let Some(kept) = &block.within(&self.part) else {
+                continue;
+            };
             let is_asked = match self.options.kind {
                 MapKind::Distances => true,
                 MapKind::Classes => block.cell_count() <= FEW_CELLS,
                 MapKind::Cells => false,
             };
             if is_asked {
-                self.ask_each(&block, context)?;
+                self.ask_each(kept, context)?;
                 continue;
             }
             let halves = block.halves();
@@ -159,17 +165,17 @@ impl Builder<'_> {
             let outcome = self.prove(&block, boxes, context)?;
             match (self.options.kind, outcome, halves) {
                 (MapKind::Classes, RegionOutcome::Inside, _) => {
-                    self.fill(&block, Class::Inside as u8);
+                    self.fill(kept, Class::Inside as u8);
                 }
                 (MapKind::Classes, RegionOutcome::Free, _) if self.never_touches => {
-                    self.fill(&block, Class::Outside as u8);
+                    self.fill(kept, Class::Outside as u8);
                 }
-                (MapKind::Classes, RegionOutcome::Free, _) => self.ask_each(&block, context)?,
-                (_, RegionOutcome::Free, _) => self.fill(&block, 0),
-                (_, RegionOutcome::Inside, _) => self.fill(&block, 1),
+                (MapKind::Classes, RegionOutcome::Free, _) => self.ask_each(kept, context)?,
+                (_, RegionOutcome::Free, _) => self.fill(kept, 0),
+                (_, RegionOutcome::Inside, _) => self.fill(kept, 1),
                 (_, _, Some(halves)) => rest.extend(halves),
-                (_, RegionOutcome::Mixed, None) => self.fill(&block, 2),
-                (_, RegionOutcome::Undecided, None) => self.fill(&block, 3),
+                (_, RegionOutcome::Mixed, None) => self.fill(kept, 2),
+                (_, RegionOutcome::Undecided, None) => self.fill(kept, 3),
             }
         }
         Ok(())
@@ -224,6 +230,7 @@ impl Map {
         }
         let builder = Builder {
             grid,
+            part: Block::part(grid),
             world: &World::of(cobject),
             cobject,
             options,
@@ -232,7 +239,8 @@ impl Map {
             proofs: AtomicU64::new(0),
             questions: AtomicU64::new(0),
         };
-        let tiles = Block::whole(grid).parts(TILES);
+        let mut tiles = Block::whole(grid).parts(TILES);
+        tiles.retain(|tile| tile.within(&builder.part).is_some());
         let on_threads = BatchOptions {
             threads: options.threads,
             ..Default::default()

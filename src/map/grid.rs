@@ -18,9 +18,27 @@ pub struct MapAxis {
     pub high: f64,
     /// How many cells there are, at least one.
     pub cells: usize,
+    /// The cells that the map is of: from the first to before the second.
+    pub part: [usize; 2],
 }
 
 impl MapAxis {
+    /// An axis whose cells are all on the map.
+    pub fn new(coordinate: usize, [low, high]: [f64; 2], cells: usize) -> Self {
+        Self {
+            coordinate,
+            low,
+            high,
+            cells,
+            part: [0, cells],
+        }
+    }
+
+    /// How many cells of it the map has.
+    pub fn part_length(&self) -> usize {
+        self.part[1] - self.part[0]
+    }
+
     /// Where a cell begins, and the one before it ends.
     pub fn edge(&self, cell: usize) -> f64 {
         if cell == self.cells {
@@ -34,7 +52,8 @@ impl MapAxis {
         self.at(cell as f64 + 0.5)
     }
 
-    fn at(&self, cells: f64) -> f64 {
+    /// The coordinate so many cells after `low`.
+    pub(crate) fn at(&self, cells: f64) -> f64 {
         let part = cells / self.cells as f64;
         (self.low + (self.high - self.low) * part).min(self.high)
     }
@@ -67,6 +86,13 @@ impl MapAxis {
         if self.cells == 0 {
             return Err(Error::invalid("there are no cells"));
         }
+        let [first, end] = self.part;
+        if first >= end || end > self.cells {
+            return Err(Error::invalid(format!(
+                "there is no part of {} cells from {first} to before {end}",
+                self.cells
+            )));
+        }
         Ok(())
     }
 }
@@ -75,6 +101,7 @@ impl MapAxis {
 pub(super) struct Grid<'a> {
     pub axes: &'a [MapAxis],
     pub q: &'a [f64],
+    /// How many cells the map has.
     pub cell_count: usize,
 }
 
@@ -98,21 +125,23 @@ impl<'a> Grid<'a> {
             });
             checked.map_err(|error| error.within(format_args!("axis {i}")))?;
         }
-        let cell_count = axes
-            .iter()
+        // All cells are counted, also where the map is of a part: blocks of them are.
+        axes.iter()
             .try_fold(1usize, |product, axis| product.checked_mul(axis.cells))
             .ok_or_else(|| Error::new(ErrorKind::WrongSize, "there are too many cells"))?;
         Ok(Self {
             axes,
             q,
-            cell_count,
+            cell_count: axes.iter().map(MapAxis::part_length).product(),
         })
     }
 
-    /// The number of a cell: of the last axis, neighbours follow one another.
+    /// The number of a cell among those of the map: of the last axis, neighbours follow one another.
     pub fn number(&self, cell: &[usize; MAX_AXES]) -> usize {
         let axes = self.axes.iter().zip(cell);
-        axes.fold(0, |number, (axis, &place)| number * axis.cells + place)
+        axes.fold(0, |number, (axis, &place)| {
+            number * axis.part_length() + (place - axis.part[0])
+        })
     }
 
     /// Writes the middle of a cell into a configuration that has the other coordinates.

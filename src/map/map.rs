@@ -62,7 +62,7 @@ impl Map {
     /// Writes the values as an array of NumPy's (.npy), of 8-bit or 64-bit numbers, with as many dimensions as the map has axes. The
     /// file is written whole or not at all.
     pub fn save(&self, file: &Path) -> Result<()> {
-        let shape: Vec<usize> = self.axes.iter().map(|axis| axis.cells).collect();
+        let shape: Vec<usize> = self.axes.iter().map(MapAxis::part_length).collect();
         let bytes = match &self.values {
             MapValues::Classes(values) | MapValues::Cells(values) => {
                 npy("|u1", &shape, values.len(), values.iter().copied())?
@@ -79,12 +79,13 @@ impl Map {
     /// white, orange and dark red (inside), cells white, dark red, light gray (mixed) and gray (undecided). A distance of 0 is
     /// black, the largest that is finite, and what is infinite, white.
     pub fn show(&self, file: &Path) -> Result<()> {
-        let &[MapAxis { cells: width, .. }, MapAxis { cells: height, .. }] = &self.axes[..] else {
+        let [first, second] = &self.axes[..] else {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 format!("the map has {} axes: a picture needs 2", self.axes.len()),
             ));
         };
+        let (width, height) = (first.part_length(), second.part_length());
         let shades;
         let (colors, values) = match &self.values {
             MapValues::Classes(values) => (Colors::Palette(&CLASS_COLORS), values),

@@ -7,6 +7,7 @@ mod clearance;
 mod compound;
 mod curves;
 mod forged;
+mod map_boundaries;
 mod maps;
 mod motions;
 mod pair_motion;

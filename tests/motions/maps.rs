@@ -82,12 +82,8 @@ fn random_grid(random: &mut Random) -> (Arc<CObject>, Vec<f64>, Vec<MapAxis>) {
         let cells = 1 + random.below(room.min(60));
         room /= cells;
         let half = [0.05, 0.4, 1.5][random.below(3)];
-        axes.push(MapAxis {
-            coordinate,
-            low: q[coordinate] - half,
-            high: q[coordinate] + half,
-            cells,
-        });
+        let ends = [q[coordinate] - half, q[coordinate] + half];
+        axes.push(MapAxis::new(coordinate, ends, cells));
     }
     (cobject, q, axes)
 }
@@ -169,12 +165,11 @@ fn arm_among_boxes() -> CObject {
 }
 
 fn turns(cells: usize) -> [MapAxis; 2] {
-    [0, 1].map(|coordinate| MapAxis {
-        coordinate,
-        low: -PI,
-        high: PI,
-        cells,
-    })
+    [0, 1].map(|coordinate| MapAxis::new(coordinate, [-PI, PI], cells))
+}
+
+fn with_cells(axis: MapAxis, cells: usize) -> MapAxis {
+    MapAxis::new(axis.coordinate, [axis.low, axis.high], cells)
 }
 
 /// The cells whose value differs from that of the cell after them, along either axis.
@@ -218,6 +213,69 @@ fn the_cost_of_a_map_follows_the_boundary() {
     // Blocks are halved: how their sizes fit the bodies makes the cost of a boundary cell waver by a third. That of all cells together
     // grows sixteen times from the first map to the third.
     assert!(costs.iter().all(|cost| *cost < 1.5 * costs[0]), "{costs:?}");
+}
+
+/// The values of parts put together, each at the places of its cells.
+fn put_together(axes: &[MapAxis], parts: &[Map]) -> Vec<u64> {
+    let all = cells(axes);
+    let mut values = vec![u64::MAX; all.len()];
+    for part in parts {
+        let found: Vec<u64> = match part.values() {
+            MapValues::Distances(distances) => distances.iter().map(|d| d.to_bits()).collect(),
+            MapValues::Classes(bytes) | MapValues::Cells(bytes) => {
+                bytes.iter().map(|&byte| u64::from(byte)).collect()
+            }
+        };
+        let is_in = |cell: &[usize]| {
+            let mut sides = cell.iter().zip(part.axes());
+            sides.all(|(place, axis)| (axis.part[0]..axis.part[1]).contains(place))
+        };
+        let places = (0..all.len()).filter(|&i| is_in(&all[i]));
+        let places: Vec<usize> = places.collect();
+        assert_eq!(places.len(), found.len());
+        for (place, value) in places.into_iter().zip(found) {
+            assert_eq!(values[place], u64::MAX, "a cell is in two parts");
+            values[place] = value;
+        }
+    }
+    values
+}
+
+/// Also of proofs, of which a block decides many at once: wherever the parts are cut.
+#[test]
+fn parts_of_a_map_are_parts_of_the_whole() {
+    for seed in 0..case_count().min(20) {
+        let random = &mut Random::new(9500 + seed);
+        let (cobject, q, axes) = random_grid(random);
+        for kind in [MapKind::Classes, MapKind::Cells, MapKind::Distances] {
+            let is_measured = cobject.require_one_metric().is_ok();
+            if axes.is_empty() || (kind == MapKind::Distances && !is_measured) {
+                continue;
+            }
+            let options = of_kind(kind);
+            let mut parts = vec![axes.clone()];
+            for _ in 0..6 {
+                let mut part = parts.swap_remove(random.below(parts.len()));
+                let i = random.below(part.len());
+                let [first, end] = part[i].part;
+                if end - first > 1 {
+                    let cut = first + 1 + random.below(end - first - 1);
+                    part[i].part = [first, cut];
+                    parts.push(part.clone());
+                    part[i].part = [cut, end];
+                }
+                parts.push(part);
+            }
+            let parts = parts.iter().map(|part| map(&cobject, &q, part, &options));
+            let parts: Vec<Map> = parts.collect();
+            let whole = map(&cobject, &q, &axes, &options);
+            assert_eq!(
+                put_together(&axes, &parts),
+                put_together(&axes, &[whole]),
+                "seed {seed}, {kind:?}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -292,7 +350,9 @@ fn a_map_is_cancelled_and_refused() {
     assert_eq!(refused(&[a, a], &good), ErrorKind::InvalidArgument);
     for (axis, kind) in [
         (MapAxis { coordinate: 2, ..b }, ErrorKind::NotFound),
-        (MapAxis { cells: 0, ..b }, ErrorKind::InvalidArgument),
+        (MapAxis { part: [0, 0], ..b }, ErrorKind::InvalidArgument),
+        (MapAxis { part: [7, 41], ..b }, ErrorKind::InvalidArgument),
+        (with_cells(b, 0), ErrorKind::InvalidArgument),
         (MapAxis { low: b.high, ..b }, ErrorKind::InvalidArgument),
         (MapAxis { low: f64::NAN, ..b }, ErrorKind::NotFinite),
         (
@@ -303,20 +363,8 @@ fn a_map_is_cancelled_and_refused() {
             ErrorKind::NotFinite,
         ),
         (MapAxis { high: 1e300, ..b }, ErrorKind::InvalidArgument),
-        (
-            MapAxis {
-                cells: usize::MAX,
-                ..b
-            },
-            ErrorKind::WrongSize,
-        ),
-        (
-            MapAxis {
-                cells: usize::MAX / 64,
-                ..b
-            },
-            ErrorKind::OutOfMemory,
-        ),
+        (with_cells(b, usize::MAX), ErrorKind::WrongSize),
+        (with_cells(b, usize::MAX / 64), ErrorKind::OutOfMemory),
     ] {
         assert_eq!(refused(&[a, axis], &good), kind, "{axis:?}");
     }
@@ -337,7 +385,7 @@ fn a_map_is_cancelled_and_refused() {
 fn saved_maps_are_arrays_of_numpy() {
     let cobject = arm_among_boxes();
     let [a, b] = turns(1);
-    let axes = [MapAxis { cells: 3, ..a }, MapAxis { cells: 5, ..b }];
+    let axes = [with_cells(a, 3), with_cells(b, 5)];
     let folder = tempfile::tempdir().unwrap();
     for (kind, descr, size) in [(MapKind::Classes, "|u1", 1), (MapKind::Distances, "<f8", 8)] {
         let made = map(&cobject, &[0.0; 2], &axes, &of_kind(kind));
@@ -421,7 +469,7 @@ fn pictures_of_maps_show_their_cells() {
     let cobject = arm_among_boxes();
     let [a, b] = turns(1);
     // Several blocks of a zlib stream.
-    let axes = [MapAxis { cells: 600, ..a }, MapAxis { cells: 130, ..b }];
+    let axes = [with_cells(a, 600), with_cells(b, 130)];
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("map.png");
     for kind in [MapKind::Classes, MapKind::Cells, MapKind::Distances] {

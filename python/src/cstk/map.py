@@ -13,20 +13,25 @@ from ._options import options
 from ._progress import Progress, reporting
 from .cobject import CObject
 from .enums import MapKind
-from .errors import WrongSizeError, check
+from .errors import InvalidArgumentError, WrongSizeError, check
 
 
 class MapAxis(NamedTuple):
-    """An interval of a coordinate of the space, cut into equal cells."""
+    """An interval of a coordinate of the space, cut into equal cells. The map is of a part of them: from number `first` to before
+    `end`, or to the last. They have the values that they have on a map of all cells.
+    """
 
     coordinate: int
     low: float
     high: float
     cells: int
+    first: int = 0
+    end: Optional[int] = None
 
     def middles(self) -> NDArray[np.float64]:
-        """The coordinate at the middle of each cell, where the map has its classes and distances."""
-        return self.low + (self.high - self.low) * ((np.arange(self.cells) + 0.5) / self.cells)
+        """The coordinate at the middle of each cell of the map, where it has its classes and distances."""
+        end = self.cells if self.end is None else self.end
+        return self.low + (self.high - self.low) * ((np.arange(self.first, end) + 0.5) / self.cells)
 
 
 class _Cells:
@@ -44,14 +49,20 @@ class _Cells:
 def _axis(name: str, given: Any) -> Any:
     """An axis as C takes it."""
     try:
-        coordinate, low, high, cells = given
+        coordinate, low, high, cells, first, end = MapAxis(*given)
     except (TypeError, ValueError):
         raise WrongSizeError(f"{name} must be a cstk.MapAxis, or its coordinate, low, high and cells") from None
+    first = index(f"{name}.first", first, 64)
+    count = 0 if end is None else index(f"{name}.end", end, 64) - first
+    if end is not None and count <= 0:
+        raise InvalidArgumentError(f"{name}.end {end} is not beyond first {first}")
     return {
         "coordinate": index(f"{name}.coordinate", coordinate),
         "low": scalar(f"{name}.low", low),
         "high": scalar(f"{name}.high", high),
         "cells": index(f"{name}.cells", cells, 64),
+        "first": first,
+        "count": count,
     }
 
 
@@ -111,22 +122,23 @@ class Map(Handle):
         be written to.
         """
         c, view = self._view()
-        shape = tuple(int(view.axes[i].cells) for i in range(view.axis_count))
+        shape = self.shape
         if view.kind == MapKind.DISTANCES:
             return np.asarray(_Cells(c, view.distances, np.float64, shape))
         return np.asarray(_Cells(c, view.values, np.uint8, shape))
 
     @property
     def shape(self) -> Tuple[int, ...]:
-        """The number of cells of each axis."""
-        return tuple(axis.cells for axis in self.axes)
+        """The number of cells of each axis that are on the map."""
+        _keeping, view = self._view()
+        return tuple(int(view.axes[i].count) for i in range(view.axis_count))
 
     @property
     def axes(self) -> Tuple[MapAxis, ...]:
-        """The axes, in the order given: that of the dimensions of `values`."""
+        """The axes, in the order given: that of the dimensions of `values`. Their `end` is not None."""
         _keeping, view = self._view()
         cuts = (view.axes[i] for i in range(view.axis_count))
-        return tuple(MapAxis(cut.coordinate, cut.low, cut.high, cut.cells) for cut in cuts)
+        return tuple(MapAxis(cut.coordinate, cut.low, cut.high, cut.cells, cut.first, cut.first + cut.count) for cut in cuts)
 
     @property
     def kind(self) -> MapKind:
@@ -148,8 +160,9 @@ class Map(Handle):
         check(lib.cstk_map_save(self._pointer, file_name("file", file)))
 
     def show(self, file: "os.PathLike[str] | str") -> None:
-        """Writes a picture of a map with two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are
+        """Writes a picture of a map. With two axes (.png), a pixel a cell: the first axis goes to the right, the second up. Classes are
         white (outside), orange (contact) and dark red (inside); cells white (free), dark red (inside), light gray (mixed) and gray
-        (undecided); a distance of 0 is black, the largest white.
+        (undecided); a distance of 0 is black, the largest white. With three axes (.glb), the boundary of the cells that are inside, at
+        distance 0, or not proved free.
         """
         check(lib.cstk_map_show(self._pointer, file_name("file", file)))

@@ -15,8 +15,9 @@ use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 
 /// The caches and scratch memory of a batch's threads, kept from one call to the next: once warm, calls allocate a little for their
-/// threads and nothing for their items (but for motions and gradients of pure sets). A batch serves one call at a time; other calls
-/// meanwhile return CSTK_ERROR_BUSY. Caches change how long answers take, never the answers.
+/// threads and nothing for their items. Items that do allocate are motions, gradients of pure sets and of custom joints, predicates,
+/// balls of C-space, and contacts of what touches. A batch serves one call at a time; other calls meanwhile return CSTK_ERROR_BUSY.
+/// Caches change how long answers take, never the answers.
 pub struct cstk_batch {
     _opaque: [u8; 0],
 }

@@ -1,0 +1,93 @@
+#!/bin/sh
+# Maps by 1, 2 and 4 ranks beside the map of one process, byte for byte; and a run that loses a rank, twice, and is resumed:
+#
+#     map_mpi_test.sh MAP_MPI MODELS FOLDER
+#
+# Ends with 77 where there is no mpirun.
+set -eu
+program=$1
+models=$2
+mkdir -p "$3"
+cd "$3"
+if ! command -v mpirun >/dev/null; then
+    echo "SKIPPED: no mpirun; maps by several ranks are not tested" >&2
+    exit 77
+fi
+# More ranks than processors, as root in containers, and without reading one another's memory, which containers forbid.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_plm_rsh_agent=false
+
+complain() {
+    echo "FAILED: $*" >&2
+    exit 1
+}
+
+same_for_any_number_of_ranks() {
+    kind=$1
+    shift
+    "$program" --whole --kind "$kind" appendix "$models" "whole_$kind.npy" "$@"
+    for ranks in 1 2 4; do
+        rm -f "map_$kind.npy" "map_$kind.npy.part" "map_$kind.npy.journal"
+        mpirun -n $ranks "$program" --kind "$kind" --tiles 100 appendix "$models" "map_$kind.npy" "$@" >report.txt
+        cmp "map_$kind.npy" "whole_$kind.npy" || complain "$kind by $ranks ranks are not those of one process"
+        [ ! -e "map_$kind.npy.part" ] && [ ! -e "map_$kind.npy.journal" ] || complain "something is left of a finished run"
+        grep -q "of [0-9]* tiles computed by $ranks rank" report.txt || complain "no report: $(cat report.txt)"
+    done
+    echo "$kind: 1, 2 and 4 ranks make the map of one process"
+}
+
+tiles_in_journal() { sed -n 's/^tile 0*\([0-9][0-9]*\)$/\1/p' lost.npy.journal; }
+
+# Kills a rank with SIGKILL once the journal has so many tiles: rank, tiles, number of ranks.
+lose() {
+    mpirun -n "$3" "$program" $job >report.txt 2>&1 &
+    mpirun=$!
+    while [ ! -e lost.npy.journal ] || [ "$(tiles_in_journal | wc -l)" -lt "$2" ]; do
+        kill -0 $mpirun 2>/dev/null || complain "the run was over before a rank could be killed: $(cat report.txt)"
+        sleep 0.02
+    done
+    for pid in $(pgrep -P $mpirun); do
+        if tr '\0' '\n' <"/proc/$pid/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$1"; then
+            kill -9 "$pid"
+            killed=$pid
+        fi
+    done
+    [ -n "${killed:-}" ] || complain "there is no rank $1"
+    killed=
+    if wait $mpirun; then
+        complain "the run did not notice that a rank was killed"
+    fi
+    [ ! -e lost.npy ] || complain "a lost run has left a file that looks finished"
+    tiles_in_journal | sort >after.txt
+    [ -z "$(uniq -d after.txt)" ] || complain "a tile is twice in the journal"
+    echo "rank $1 of $3 killed: $(wc -l <after.txt) of 512 tiles are on disk"
+}
+
+a_lost_run_is_resumed() {
+    job="--kind distances --tiles 512 --costs costs.csv appendix $models lost.npy 96 96 48"
+    rm -f lost.npy* costs.csv
+    "$program" --whole --kind distances appendix "$models" whole.npy 96 96 48
+    lose 1 100 4
+    cp after.txt first.txt
+    if mpirun -n 2 "$program" --kind distances --tiles 512 appendix "$models" lost.npy 96 96 49 >report.txt 2>&1; then
+        complain "the journal of another map was taken"
+    fi
+    grep -q "belongs to another map" report.txt || complain "no word of another map: $(cat report.txt)"
+    lose 0 300 3
+    [ -z "$(comm -23 first.txt after.txt)" ] || complain "a tile was lost"
+    # A line that the kill cut short.
+    printf 'tile 00000' >>lost.npy.journal
+    cp after.txt before.txt
+    mpirun -n 2 "$program" $job >report.txt
+    grep -qx "resumed: $(wc -l <before.txt) of 512 tiles are on disk" report.txt || complain "not resumed: $(cat report.txt)"
+    sed '1d; s/,.*//' costs.csv | sort >computed.txt
+    [ -z "$(comm -12 before.txt computed.txt)" ] || complain "a tile was computed twice"
+    [ "$(sort -u before.txt computed.txt | wc -l)" = 512 ] || complain "a tile was never computed"
+    cmp lost.npy whole.npy || complain "the resumed map is not that of one process"
+    echo "resumed: $(wc -l <computed.txt) tiles computed, none twice; the map is that of one process"
+}
+
+same_for_any_number_of_ranks classes 60 50 20
+same_for_any_number_of_ranks distances 30 25 20
+same_for_any_number_of_ranks cells 40 30
+a_lost_run_is_resumed
