@@ -124,7 +124,9 @@ impl<'a> Cutting<'a> {
     /// The points that replace those around two places.
     fn cut(&self, [from, to]: &[Place; 2]) -> Vec<Vec<f64>> {
         let [before, after] = self.around(from, to);
-        let mut points = [before, &from.q, &to.q, after].map(<[f64]>::to_vec).to_vec();
+        let mut points = [before, &from.q, &to.q, after]
+            .map(<[f64]>::to_vec)
+            .to_vec();
         points.dedup();
         points
     }
