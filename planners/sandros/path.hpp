@@ -6,6 +6,9 @@
 
 namespace sandros {
 
+/// What the library hands back.
+Path path_of(const cstk_path &given);
+
 /// Every motion of the path is proved free.
 bool is_free(const Problem &problem, const Path &path);
 
