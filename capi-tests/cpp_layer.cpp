@@ -443,6 +443,10 @@ static void queries() {
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
             CSTK_ERROR_INVALID_ARGUMENT);
     const char *file = "cpp_layer.glb";
+    std::vector<double> both = q;
+    both.insert(both.end(), q.begin(), q.end());
+    all.show_path(both, 2, 1, file);
+    REQUIRE(is_invalid([&] { all.show_path(both, 2, 0, file); }));
     all.show(q, file);
     REQUIRE(std::remove(file) == 0);
     REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);

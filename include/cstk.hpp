@@ -1467,6 +1467,13 @@ public:
         check(cstk_show(get(), q.data(), q.size(), file.c_str()));
     }
 
+    /// The robots move along a path within so many seconds: `points` holds `count` configurations, one after the other.
+    void show_path(Span<double> points, std::size_t count, double seconds,
+                   const std::string &file) const {
+        check(cstk_show_path(get(), points.data(), count, detail::parts_of(points, count), seconds,
+                             file.c_str()));
+    }
+
 private:
     using Combine = cstk_status (*)(const cstk_cobject *const *, std::size_t, cstk_cobject **);
 

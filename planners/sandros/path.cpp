@@ -9,6 +9,8 @@ namespace {
 /// Shortcuts that are tried on a path.
 const std::uint64_t SHORTCUTS = 300;
 
+} // namespace
+
 std::vector<double> flat(const Path &path) {
     std::vector<double> points;
     for (const Configuration &q : path) {
@@ -16,8 +18,6 @@ std::vector<double> flat(const Path &path) {
     }
     return points;
 }
-
-} // namespace
 
 Path path_of(const cstk_path &given) {
     Path path;

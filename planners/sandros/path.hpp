@@ -6,6 +6,9 @@
 
 namespace sandros {
 
+/// One configuration after the other, as the library takes them.
+std::vector<double> flat(const Path &path);
+
 /// What the library hands back.
 Path path_of(const cstk_path &given);
 

@@ -16,6 +16,7 @@ mod path_clearance;
 mod random_scenes;
 mod regions;
 mod shortcut;
+mod show_path;
 mod slide;
 mod slide_near;
 mod slide_paths;

@@ -100,7 +100,7 @@ impl From<&PathAnswer> for cstk_path_result {
 }
 
 /// How many numbers the points have.
-pub(super) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
+pub(in crate::capi) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
     let wrong = |message: String| Err(Error::new(ErrorKind::WrongSize, message).into());
     let expected = cobject.space().nq();
     if nq != expected {
