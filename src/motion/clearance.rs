@@ -155,7 +155,7 @@ const MAX_PROOFS: usize = 1000;
 const MAX_SHORT_STEPS: i32 = 2;
 
 /// A proof is tried at this part of the tolerance below the upper bound: less than 1 for the rounding of the difference.
-const STEP: f64 = 0.99;
+pub(super) const STEP: f64 = 0.99;
 
 impl QueryContext {
     /// The least distance from a C-object, a union of induced and pure sets, along the motion from q0 to q1, as

@@ -1,6 +1,6 @@
 //! The least distance along a path of several segments.
 
-use super::clearance::{ClearanceOptions, ClearanceOutcome, MotionClearance};
+use super::clearance::{ClearanceOptions, ClearanceOutcome, MotionClearance, STEP};
 use super::path::{Path, checked_count};
 use crate::cobject::CObject;
 use crate::error::{ErrorKind, Result};
@@ -36,7 +36,7 @@ impl Search<'_> {
     fn options(&self) -> ClearanceOptions {
         let upper = self.upper();
         let beyond = if upper.is_finite() {
-            (upper - self.options.allowed(upper)).max(0.0)
+            (upper - STEP * self.options.allowed(upper)).max(0.0)
         } else {
             f64::INFINITY
         };

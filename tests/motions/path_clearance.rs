@@ -70,7 +70,9 @@ fn the_clearance_among_discs_is_the_closed_form() {
         );
         let [from, to] = [0, 1].map(|i| &points[2 * (found.segment + i)..][..2]);
         let place = discs.cell.space().interpolate(from, to, clearance.time);
-        assert_eq!(place, clearance.configuration);
+        for (x, y) in place.iter().zip(&clearance.configuration) {
+            assert!((x - y).abs() < 1e-12, "{found:?}");
+        }
         assert!((discs.on_segment(&place, &place) - clearance.upper).abs() < 1e-9);
     }
     assert!(outcomes[0] > 100 && outcomes[1] > 100, "{outcomes:?}");
