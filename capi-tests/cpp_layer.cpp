@@ -446,7 +446,7 @@ static void queries() {
     std::vector<double> both = q;
     both.insert(both.end(), q.begin(), q.end());
     all.show_path(both, 2, 1, file);
-    REQUIRE(is_invalid([&] { all.show_path(both, 2, 0, file); }));
+    REQUIRE(status_of([&] { all.show_path(both, 2, 0, file); }) == CSTK_ERROR_INVALID_ARGUMENT);
     all.show(q, file);
     REQUIRE(std::remove(file) == 0);
     REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);

@@ -109,7 +109,7 @@ def test_records_have_all_fields_and_arrays_show_them():
         assert list(fields) == list(dtype.names)
         # Arrays of the query context are copied by classes of the package's own.
         assert list(kind._fields) == [name for name, ctype in fields.items() if ctype is not ffi.typeof("cstk_path")]
-        for name in fields:
+        for name in kind._fields:
             assert isinstance(getattr(kind, name), property)
             assert dtype.fields[name][1] == ffi.offsetof(kind._type, name)
 
