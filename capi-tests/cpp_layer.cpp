@@ -234,6 +234,31 @@ static void motions(const cstk::Query &query, const cstk::CObject &obstacles, co
         query.motion_clearance(obstacles, q, q, cstk::clearance_options(1e-6), &reached);
     REQUIRE(nearest.outcome == CSTK_CLEARANCE_KNOWN && reached == q);
     REQUIRE(nearest.lower <= 2.5 && nearest.upper >= nearest.lower);
+    const std::vector<double> still = {q[0], q[1], q[0], q[1]};
+    const cstk_path_clearance_result along =
+        query.path_clearance(obstacles, still, 2, cstk::clearance_options(1e-6), {}, &reached);
+    REQUIRE(along.segment == 0 && reached == q && along.clearance.upper == nearest.upper);
+    REQUIRE(status_of([&] {
+                query.path_clearance(obstacles, still, 2, cstk::clearance_options(1e-6), stop);
+            }) == CSTK_ERROR_CANCELLED);
+    const std::vector<double> detour = {q[0], q[1], q[0], q[1] + 3, near[0], near[1]};
+    const cstk_shortcut_result shorter = query.path_shortcut(obstacles, detour, 3);
+    REQUIRE(shorter.outcome == CSTK_SHORTCUT_DONE && shorter.path.count == 2 && shorter.cuts == 1);
+    REQUIRE(shorter.path.nq == 2 && shorter.path.points[2] == near[0]);
+    REQUIRE(std::fabs(shorter.length_after - 0.25) < 1e-12);
+    const auto none = cstk::shortcut_options(0);
+    REQUIRE(query.path_shortcut(obstacles, points, 3, none).outcome == CSTK_SHORTCUT_NOT_FREE);
+    REQUIRE(status_of([&] { query.path_shortcut(obstacles, detour, 3, none, stop); }) ==
+            CSTK_ERROR_CANCELLED);
+    const auto slide = cstk::slide_options(0.5);
+    const auto steps = cstk::slide_to_options(0.1);
+    const cstk_slide_to_result led = query.slide_to(obstacles, q, near, slide, steps);
+    REQUIRE(led.outcome == CSTK_SLIDE_TO_ARRIVED && led.path.count == 2 && led.remaining == 0);
+    const cstk_slide_to_result held = query.slide_to(obstacles, q, far, far, slide, steps, {1, 2});
+    REQUIRE(held.outcome != CSTK_SLIDE_TO_ARRIVED && held.remaining > 0);
+    REQUIRE(is_invalid([&] { query.slide_to(obstacles, q, {1}, slide, steps); }));
+    REQUIRE(status_of([&] { query.slide_to(obstacles, q, far, far, slide, steps, {}, stop); }) ==
+            CSTK_ERROR_CANCELLED);
 
     const std::vector<double> curve = {q[0], q[1], q[0] + 1, q[1], q[0], q[1]};
     REQUIRE(query.motion_curve(obstacles, curve, 3).outcome == CSTK_MOTION_FREE);
@@ -420,6 +445,10 @@ static void queries() {
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
             CSTK_ERROR_INVALID_ARGUMENT);
     const char *file = "cpp_layer.glb";
+    std::vector<double> both = q;
+    both.insert(both.end(), q.begin(), q.end());
+    all.show_path(both, 2, 1, file);
+    REQUIRE(status_of([&] { all.show_path(both, 2, 0, file); }) == CSTK_ERROR_INVALID_ARGUMENT);
     all.show(q, file);
     REQUIRE(std::remove(file) == 0);
     REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);

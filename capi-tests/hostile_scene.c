@@ -293,6 +293,51 @@ static void show(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void show_path(const fixture *f) {
+    const char *file = "hostile_show_path.glb";
+    double points[2 * FIXTURE_NQ];
+    memcpy(points, f->q, sizeof f->q);
+    memcpy(points + FIXTURE_NQ, f->q, sizeof f->q);
+    points[FIXTURE_NQ] += 1;
+    EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
+        CHECK_FAILS(cstk_show_path(bad->handle, points, 2, FIXTURE_NQ, 1, file), bad->status,
+                    "cobject");
+    }
+    const struct {
+        const double *points;
+        size_t count, nq;
+        double seconds;
+        const char *file;
+        cstk_status status;
+        const char *culprit;
+    } wrong[] = {
+        {NULL, 2, FIXTURE_NQ, 1, file, CSTK_ERROR_NULL_ARGUMENT, "points"},
+        {points, 2, FIXTURE_NQ, 1, NULL, CSTK_ERROR_NULL_ARGUMENT, "file"},
+        {points, 0, FIXTURE_NQ, 1, file, CSTK_ERROR_WRONG_SIZE, "count"},
+        {points, SIZE_MAX, FIXTURE_NQ, 1, file, CSTK_ERROR_WRONG_SIZE, "points"},
+        {points, 2, FIXTURE_NQ - 1, 1, file, CSTK_ERROR_WRONG_SIZE, "nq"},
+        {points, 2, FIXTURE_NQ, 0, file, CSTK_ERROR_INVALID_ARGUMENT, "seconds"},
+        {points, 2, FIXTURE_NQ, -1, file, CSTK_ERROR_INVALID_ARGUMENT, "seconds"},
+        {points, 2, FIXTURE_NQ, NAN, file, CSTK_ERROR_NOT_FINITE, "seconds"},
+        {points, 2, FIXTURE_NQ, 1, "path.svg", CSTK_ERROR_UNSUPPORTED, "path.svg"},
+        {points, 2, FIXTURE_NQ, 1, "no_such_folder/a.glb", CSTK_ERROR_IO, "no_such_folder"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        CHECK_FAILS(cstk_show_path(f->cobject, wrong[i].points, wrong[i].count, wrong[i].nq,
+                                   wrong[i].seconds, wrong[i].file),
+                    wrong[i].status, wrong[i].culprit);
+        CHECK(access(file, F_OK) != 0);
+    }
+    points[FIXTURE_NQ + 1] = NAN;
+    CHECK_FAILS(cstk_show_path(f->cobject, points, 2, FIXTURE_NQ, 1, file), CSTK_ERROR_NOT_FINITE,
+                "point 1");
+    points[FIXTURE_NQ + 1] = f->q[1];
+    CHECK_OK(cstk_show_path(f->cobject, points, 2, FIXTURE_NQ, 1, file));
+    CHECK_OK(cstk_show_path(f->cobject, points, 1, FIXTURE_NQ, 1, file));
+    CHECK(remove(file) == 0);
+    fixture_unchanged(f);
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -306,6 +351,7 @@ int main(void) {
     cobject_induced_links(&f);
     cobject_union(&f);
     show(&f);
+    show_path(&f);
     fixture_release(&f);
     return check_result();
 }

@@ -299,6 +299,8 @@ DEFAULTS_OF(cstk_predicate, cstk_predicate_default)
 DEFAULTS_OF(cstk_slide_options, cstk_slide_options_default)
 DEFAULTS_OF(cstk_motion_options, cstk_motion_options_default)
 DEFAULTS_OF(cstk_clearance_options, cstk_clearance_options_default)
+DEFAULTS_OF(cstk_shortcut_options, cstk_shortcut_options_default)
+DEFAULTS_OF(cstk_slide_to_options, cstk_slide_to_options_default)
 
 /* Callers compiled with an earlier header have smaller structures. */
 static void earlier_sizes(void) {
@@ -347,6 +349,8 @@ int main(void) {
     cstk_slide_options_trials();
     cstk_motion_options_trials();
     cstk_clearance_options_trials();
+    cstk_shortcut_options_trials();
+    cstk_slide_to_options_trials();
     earlier_sizes();
     return check_result();
 }

@@ -3939,8 +3939,8 @@ cstk_status cstk_pair_penetration(cstk_query *query,
  * @defgroup motion Motions
  *
  * A whole motion between two configurations, on a path through several, on a curve or as a function of yours
- * gives it, proved free or followed to its first contact; the same of two bodies without a robot; and the least distance along a
- * motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
+ * gives it, proved free or followed to its first contact; the same of two bodies without a robot; the least distance along a
+ * motion or a path; and paths made shorter by proofs. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
  * what sampling misses).
  *
  * @code
@@ -4035,6 +4035,35 @@ enum cstk_clearance_outcome
 typedef enum cstk_clearance_outcome cstk_clearance_outcome;
 #else
 typedef int32_t cstk_clearance_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * How the work on a path ended.
+ */
+enum cstk_shortcut_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * All attempts were made, or the path is straight.
+   */
+  CSTK_SHORTCUT_DONE = 0,
+  /**
+   * The limit of cstk_query_set_limit ended the attempts. The path is what was reached until then.
+   */
+  CSTK_SHORTCUT_LIMITED = 1,
+  /**
+   * The given path is not proved free: `given` says where. It is handed back as it was.
+   */
+  CSTK_SHORTCUT_NOT_FREE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_shortcut_outcome cstk_shortcut_outcome;
+#else
+typedef int32_t cstk_shortcut_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -4155,6 +4184,82 @@ typedef struct cstk_clearance_result {
   cstk_distance_result distance;
   uint64_t reserved[8];
 } cstk_clearance_result;
+
+/**
+ * The least distance along a path.
+ */
+typedef struct cstk_path_clearance_result {
+  /**
+   * The number of the segment with the nearest place; segment i leads from point i to point i + 1. Where nothing is nearer than
+   * max_distance, any.
+   */
+  size_t segment;
+  /**
+   * The bounds are of the whole path; `time` and `distance` are those of the nearest place, in its segment.
+   */
+  cstk_clearance_result clearance;
+  uint64_t reserved[4];
+} cstk_path_clearance_result;
+
+/**
+ * Options of cstk_path_shortcut. Write it with cstk_shortcut_options_default first.
+ */
+typedef struct cstk_shortcut_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * So many pairs of places on the path are tried, the first from end to end. Default 100.
+   */
+  uint64_t attempts;
+  /**
+   * The places are drawn with this seed: the same call has the same answer. Default 0.
+   */
+  uint64_t seed;
+  /**
+   * What comes at most this near counts as contact, as in cstk_motion_options: the path keeps farther than this. Default 0.
+   */
+  double threshold;
+} cstk_shortcut_options;
+
+/**
+ * A path: configurations one after the other, with straight motions between them. The array belongs to the query context and stays
+ * valid until its next call or its release; that call may take it.
+ */
+typedef struct cstk_path {
+  /**
+   * count * nq doubles; NULL if there are none.
+   */
+  const double *points;
+  size_t count;
+  size_t nq;
+  uint64_t reserved[3];
+} cstk_path;
+
+/**
+ * A path made shorter.
+ */
+typedef struct cstk_shortcut_result {
+  cstk_shortcut_outcome outcome;
+  uint32_t reserved_word;
+  /**
+   * Unless the outcome is CSTK_SHORTCUT_NOT_FREE, cstk_motion proves each of its segments free.
+   */
+  cstk_path path;
+  /**
+   * The lengths of the given path and of this one, which is never longer: sums of cstk_space_distance without weights.
+   */
+  double length_before;
+  double length_after;
+  /**
+   * How many times the path was cut.
+   */
+  uint64_t cuts;
+  /**
+   * What cstk_motion_path says of the given path, with any_contact set.
+   */
+  cstk_path_result given;
+  uint64_t reserved[8];
+} cstk_shortcut_result;
 
 
 /**
@@ -4310,6 +4415,61 @@ cstk_status cstk_motion_clearance(cstk_query *query,
                                   const cstk_clearance_options *clearance_options,
                                   double *nearest,
                                   cstk_clearance_result *out);
+
+/**
+ * Finds the least distance from a C-object along a path: that of cstk_motion_clearance over all its segments, in the state that the
+ * environments are in at the call. `points` has count * nq doubles, one configuration after the other; `count` is at least 1, and a
+ * single point is a segment that rests. `clearance_options` are those of cstk_motion_clearance and must not be NULL. `nearest`
+ * may be NULL, or receives the configuration at the nearest place, `nq` doubles. `progress` may be NULL; it is called before each
+ * segment, and `user` is passed to it.
+ *
+ * Segments whose points are near come first; of most others it is only proved that they are no nearer than what was found. So
+ * it takes little longer than cstk_motion_path, but for the segments near the nearest place. A path that meets the C-object ends the
+ * search: its contact is not always the first.
+ *
+ * The limit of cstk_query_set_limit counts for the whole path. What it ends is CSTK_CLEARANCE_UNDECIDED, with a lower bound of 0, once
+ * a first segment is known; CSTK_ERROR_LIMIT before. CSTK_ERROR_WRONG_SIZE if there is no point, or `nq` is not that of the space;
+ * errors name the point or the segment. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for
+ * cstk_motion_clearance.
+ */
+cstk_status cstk_path_clearance(cstk_query *query,
+                                const cstk_cobject *cobject,
+                                const double *points,
+                                size_t count,
+                                size_t nq,
+                                const cstk_clearance_options *clearance_options,
+                                cstk_progress_fn progress,
+                                void *user,
+                                double *nearest,
+                                cstk_path_clearance_result *out);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_shortcut_options).
+ */
+cstk_status cstk_shortcut_options_default(cstk_shortcut_options *out, size_t size);
+
+/**
+ * Makes a path shorter by straight motions that are proved free: for each attempt two places on the path are drawn, uniformly by
+ * length, and what lies between them is replaced by the straight motion where that is shorter and proved free. Its ends
+ * stay, to the last bit. The given path is proved first. All is done in the state that the environments are in at the call.
+ *
+ * `points` has count * nq doubles, one configuration after the other; `count` is at least 1. `options` may be NULL for the defaults.
+ * `progress` may be NULL; it is called before each segment of the given path and before each attempt, and `user` is passed to
+ * it. The path of the answer belongs to the query context; it may be given to the next call.
+ *
+ * The limit of cstk_query_set_limit counts for the whole call. An attempt costs a motion that any contact ends, and where
+ * it succeeds two more. CSTK_ERROR_WRONG_SIZE if there is no point, or `nq` is not that of the space; errors name the point or the
+ * segment. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_motion.
+ */
+cstk_status cstk_path_shortcut(cstk_query *query,
+                               const cstk_cobject *cobject,
+                               const double *points,
+                               size_t count,
+                               size_t nq,
+                               const cstk_shortcut_options *options,
+                               cstk_progress_fn progress,
+                               void *user,
+                               cstk_shortcut_result *out);
 
 /** @} */
 
@@ -4733,8 +4893,8 @@ cstk_status cstk_region_grow(cstk_query *query,
 /**
  * @defgroup slide Slides
  *
- * A step that slides along contacts, proved free on its whole way, and its two halves for callers who combine them
- * themselves (§2.2.4, Appendix A).
+ * Steps that slide along contacts, proved free on their whole way: one, or as many as lead to a goal; and the two halves of a step
+ * for callers who combine them themselves (§2.2.4, Appendix A).
  *
  * @code
      cstk_slide_options options;
@@ -4742,6 +4902,12 @@ cstk_status cstk_region_grow(cstk_query *query,
      check(cstk_slide_options_default(&options, sizeof options));
      options.max_shell = 0.05;
      check(cstk_slide(query, cobject, q, nq, step, nv, &options, q, &slid));
+     cstk_slide_to_options way;
+     cstk_slide_to_result led;
+     check(cstk_slide_to_options_default(&way, sizeof way));
+     way.step = 0.02;
+     check(cstk_slide_to(query, cobject, q, q, q, nq, NULL, 0, &options, &way, NULL, NULL, &led));
+     printf("%zu configurations\n", led.path.count);
  * @endcode
  * @{
  */
@@ -4777,6 +4943,47 @@ enum cstk_slide_outcome
 typedef enum cstk_slide_outcome cstk_slide_outcome;
 #else
 typedef int32_t cstk_slide_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Why a slide to a goal ended.
+ */
+enum cstk_slide_to_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The last configuration is in the goal, or no farther from it than the tolerance.
+   */
+  CSTK_SLIDE_TO_ARRIVED = 0,
+  /**
+   * q is inside the C-object; it is not moved.
+   */
+  CSTK_SLIDE_TO_INSIDE = 1,
+  /**
+   * No sliding step is possible: see CSTK_SLIDE_BLOCKED.
+   */
+  CSTK_SLIDE_TO_BLOCKED = 2,
+  /**
+   * Steps are possible, but more than max_idle_steps in a row gained nothing.
+   */
+  CSTK_SLIDE_TO_IDLE = 3,
+  /**
+   * max_steps sliding steps were taken.
+   */
+  CSTK_SLIDE_TO_STEPS = 4,
+  /**
+   * The limit of cstk_query_set_limit ended the work.
+   */
+  CSTK_SLIDE_TO_LIMITED = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_slide_to_outcome cstk_slide_to_outcome;
+#else
+typedef int32_t cstk_slide_to_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -4828,6 +5035,63 @@ typedef struct cstk_slide_result {
   double distance_after;
   uint64_t reserved[8];
 } cstk_slide_result;
+
+/**
+ * Options of cstk_slide_to. Write it with cstk_slide_to_options_default first, then set `step`. Lengths are those of
+ * cstk_space_distance with the weights of the call.
+ */
+typedef struct cstk_slide_to_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The length of a sliding step. Must be set, larger than 0.
+   */
+  double step;
+  /**
+   * The robot has arrived where it is no farther than this from the goal; at least 0, the default: in the goal.
+   */
+  double tolerance;
+  /**
+   * A sliding step that comes nearer to the goal by less than this part of `step` gains nothing; at least 0, less than 1.
+   * Default 0.05.
+   */
+  double min_gain;
+  /**
+   * No more sliding steps than this are taken; at least 1. Default 1000.
+   */
+  uint64_t max_steps;
+  /**
+   * The slide ends after more than this many steps in a row that gain nothing. Corners take one or two. Default 3.
+   */
+  uint64_t max_idle_steps;
+  /**
+   * The straight motion to the goal is tried at the start, after this many sliding steps each time, and within a step of the goal; at
+   * least 1. Default 8.
+   */
+  uint64_t steps_between_motions;
+} cstk_slide_to_options;
+
+/**
+ * Where a slide to a goal led.
+ */
+typedef struct cstk_slide_to_result {
+  cstk_slide_to_outcome outcome;
+  uint32_t reserved_word;
+  /**
+   * The configurations from q on. The motion from each to the next, that of cstk_space_interpolate, is proved free.
+   */
+  cstk_path path;
+  /**
+   * How far the last of them is from the goal.
+   */
+  double remaining;
+  /**
+   * How many sliding steps were tried, and how many straight motions to the goal.
+   */
+  uint64_t steps;
+  uint64_t motions;
+  uint64_t reserved[8];
+} cstk_slide_to_result;
 
 
 /**
@@ -4891,6 +5155,45 @@ cstk_status cstk_spring_step(const cstk_witness_list *list,
                              double desired_distance,
                              double *out,
                              bool *found);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_slide_to_options).
+ */
+cstk_status cstk_slide_to_options_default(cstk_slide_to_options *out, size_t size);
+
+/**
+ * Leads the robot from q towards a goal: straight as far as that is proved free, then by steps of cstk_slide towards the goal, with
+ * another straight motion from time to time, until it has arrived, is blocked or gets no farther. It looks ahead by one
+ * step and remembers nothing: what a planner calls its local planner. All is done in the state that the environments are in at the
+ * call; the same call has the same answer.
+ *
+ * The goal is the box from `goal_low` to `goal_high`, which may be the same pointer: then it is one configuration. On a circle the box
+ * is the arc from low upwards to high. A coordinate from -INFINITY to INFINITY may have any value. The entries of a
+ * quaternion must be equal in both, or all four be free. `q`, `goal_low` and `goal_high` have `nq` doubles. `weights` has `nv`
+ * doubles, larger than 0, and may be NULL with an `nv` of 0: then each is 1. What is measured is the distance from the nearest
+ * configuration of the box, each velocity multiplied by its weight.
+ *
+ * `slide_options` are those of cstk_slide, `options` those of the whole way; neither may be NULL. `progress` may be NULL; it is called
+ * before each sliding step, and `user` is passed to it. The path of the answer belongs to the query context; it may be given to the
+ * next call. It keeps to the ranges and the world box at its points, unless q does not: then it is blocked.
+ *
+ * A motion whose start touches is proved as cstk_slide proves it; all others cstk_motion proves too. Where q is in the goal the path is q
+ * alone, and nothing is asked. The limit of cstk_query_set_limit counts for the whole way and ends it with
+ * CSTK_SLIDE_TO_LIMITED. CSTK_ERROR_CANCELLED where `progress` says so. CSTK_ERROR_UNSUPPORTED as for cstk_slide.
+ */
+cstk_status cstk_slide_to(cstk_query *query,
+                          const cstk_cobject *cobject,
+                          const double *q,
+                          const double *goal_low,
+                          const double *goal_high,
+                          size_t nq,
+                          const double *weights,
+                          size_t nv,
+                          const cstk_slide_options *slide_options,
+                          const cstk_slide_to_options *options,
+                          cstk_progress_fn progress,
+                          void *user,
+                          cstk_slide_to_result *out);
 
 /** @} */
 
@@ -5346,10 +5649,11 @@ cstk_status cstk_map_release(cstk_map *map);
 /**
  * @defgroup show Pictures
  *
- * Robots among obstacles as glTF files.
+ * Robots among obstacles as glTF files, at a configuration or on a path.
  *
  * @code
      check(cstk_show(cobject, q, nq, "cell.glb"));
+     check(cstk_show_path(cobject, q, 1, nq, 8, "path.glb"));
  * @endcode
  * @{
  */
@@ -5364,6 +5668,20 @@ cstk_status cstk_show(const cstk_cobject *cobject,
                       const double *q,
                       size_t nq,
                       const char *file);
+
+/**
+ * Writes a .glb file in which the robots move along a path among the s-objects: links and what is attached to them have a pose at every
+ * point of the path, and at moments between that are at most 1/240 of the path apart. It takes `seconds`, larger than 0, at constant
+ * speed, as cstk_space_distance measures without weights. `points` has count * nq doubles, one configuration after the other; `count`
+ * is at least 1 and at most 10000. Whether the path is free is not asked. The name must end in .glb (CSTK_ERROR_UNSUPPORTED
+ * otherwise). The file is written whole or not at all; CSTK_ERROR_IO if that fails.
+ */
+cstk_status cstk_show_path(const cstk_cobject *cobject,
+                           const double *points,
+                           size_t count,
+                           size_t nq,
+                           double seconds,
+                           const char *file);
 
 /** @} */
 

@@ -304,6 +304,22 @@ inline cstk_slide_options slide_options(double max_shell) {
     return options;
 }
 
+/// For steps of this length, as Space::distance() measures.
+inline cstk_slide_to_options slide_to_options(double step) {
+    cstk_slide_to_options options;
+    check(cstk_slide_to_options_default(&options, sizeof options));
+    options.step = step;
+    return options;
+}
+
+inline cstk_shortcut_options shortcut_options(std::uint64_t attempts = 100, std::uint64_t seed = 0) {
+    cstk_shortcut_options options;
+    check(cstk_shortcut_options_default(&options, sizeof options));
+    options.attempts = attempts;
+    options.seed = seed;
+    return options;
+}
+
 inline cstk_urdf_options urdf_options() {
     cstk_urdf_options options;
     check(cstk_urdf_options_default(&options, sizeof options));
@@ -1452,6 +1468,13 @@ public:
         check(cstk_show(get(), q.data(), q.size(), file.c_str()));
     }
 
+    /// The robots move along a path within so many seconds: `points` holds `count` configurations, one after the other.
+    void show_path(Span<double> points, std::size_t count, double seconds,
+                   const std::string &file) const {
+        check(cstk_show_path(get(), points.data(), count, detail::parts_of(points, count), seconds,
+                             file.c_str()));
+    }
+
 private:
     using Combine = cstk_status (*)(const cstk_cobject *const *, std::size_t, cstk_cobject **);
 
@@ -1856,6 +1879,59 @@ public:
                                &options, grown.low.data(), grown.high.data(), grown.sides.data(),
                                grown.sides.size()));
         return grown;
+    }
+
+    /// The least distance along a path: `points` holds `count` configurations, one after the other; `nearest`, if given, receives the
+    /// configuration at the nearest place.
+    cstk_path_clearance_result path_clearance(const CObject &cobject, Span<double> points,
+                                              std::size_t count,
+                                              const cstk_clearance_options &options,
+                                              Progress progress = {},
+                                              std::vector<double> *nearest = nullptr) const {
+        detail::Report report{std::move(progress), nullptr};
+        cstk_path_clearance_result out;
+        std::vector<double> found(detail::parts_of(points, count));
+        report.check(cstk_path_clearance(get(), cobject.get(), points.data(), count, found.size(),
+                                         &options, report.function(), &report, found.data(), &out));
+        if (nearest != nullptr) {
+            *nearest = std::move(found);
+        }
+        return out;
+    }
+
+    /// Makes a path shorter by motions that are proved free. The path of the answer belongs to this query until its next call.
+    cstk_shortcut_result path_shortcut(const CObject &cobject, Span<double> points,
+                                       std::size_t count,
+                                       const cstk_shortcut_options &options = shortcut_options(),
+                                       Progress progress = {}) const {
+        detail::Report report{std::move(progress), nullptr};
+        cstk_shortcut_result out;
+        report.check(cstk_path_shortcut(get(), cobject.get(), points.data(), count,
+                                        detail::parts_of(points, count), &options, report.function(),
+                                        &report, &out));
+        return out;
+    }
+
+    /// Leads the robot from q to the box of configurations between `goal_low` and `goal_high`, straight or sliding, until it arrives or
+    /// is stopped. Without weights each is 1. The path of the answer belongs to this query until its next call.
+    cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal_low,
+                                  Span<double> goal_high, const cstk_slide_options &slide,
+                                  const cstk_slide_to_options &options, Span<double> weights = {},
+                                  Progress progress = {}) const {
+        detail::Report report{std::move(progress), nullptr};
+        cstk_slide_to_result out;
+        detail::same_size(q, goal_low);
+        report.check(cstk_slide_to(get(), cobject.get(), q.data(), goal_low.data(), goal_high.data(),
+                                   detail::same_size(q, goal_high), weights.data(), weights.size(),
+                                   &slide, &options, report.function(), &report, &out));
+        return out;
+    }
+
+    /// The same to one configuration.
+    cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal,
+                                  const cstk_slide_options &slide,
+                                  const cstk_slide_to_options &options) const {
+        return slide_to(cobject, q, goal, goal, slide, options);
     }
 
     /// Moves q by one sliding step; says how it ended.

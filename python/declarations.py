@@ -194,6 +194,8 @@ OBJECT_IDS = {
 }
 # Inputs, which have classes of their own.
 NOT_RECORDS = {"cstk_allowed_pair", "cstk_map_axis", "cstk_range"}
+# Arrays that belong to the query context: the package copies them into arrays of its own.
+COPIED = {"cstk_path"}
 NUMBERS = {"int32_t": "int", "uint32_t": "int", "uint64_t": "int", "size_t": "int", "double": "float", "bool": "bool"}
 
 
@@ -235,7 +237,7 @@ def record_class(struct: Definition, all_enums: list[Definition], all_structs: l
     record_names = {other.name for other in all_structs if is_record(other)}
     out = f"\n\nclass {camel(struct.name)}(Record):\n"
     out += docstring(python_words(struct.doc, all_enums, all_structs), "    ")
-    fields = [member for member in struct.members if not member.name.startswith("reserved")]
+    fields = [m for m in struct.members if not m.name.startswith("reserved") and m.type not in COPIED]
     out += f'\n    __slots__ = ()\n    _type = "{struct.name}"\n'
     out += f"    _fields = ({', '.join(repr(member.name) for member in fields)},)\n"
     for member in fields:

@@ -3,7 +3,8 @@
 # motion | planners [--csv FILE] | batches | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points
 # alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion, planners and batches [--quick] [--seed N]
 # [--only TEXT], the last for the scenes whose names hold a text (of objects and batches, for the rows whose scene and name do; of shapes, for
-# the rows whose group, bodies, poses and query do: "shapes box and box random collide"); accuracy [PAIRS [SEED]].
+# the rows whose group, bodies, poses and query do: "shapes box and box random collide"); planners [--samples N], for judging paths; accuracy
+# [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."

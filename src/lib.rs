@@ -104,7 +104,7 @@ pub mod cobject;
 // The queries at a configuration and of pairs of bodies, one file each.
 pub mod query;
 
-// Motions, paths and boxes of C-space proved free, clearances, and the step that slides.
+// Motions, paths and boxes of C-space proved free, clearances, shorter paths, and slides.
 pub mod motion;
 
 // Certificates of free motions: made, checked by a routine of their own, saved and loaded.

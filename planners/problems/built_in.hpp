@@ -8,6 +8,15 @@
 
 namespace problems {
 
+/// A rectangular opening in a plane across x: its half sides are along y and z.
+struct Window {
+    std::array<double, 3> middle;
+    std::array<double, 2> half_sides;
+};
+
+/// Four boards around a window: a square about the x-axis with an opening.
+std::vector<Obstacle> wall_around(const Window &window, double half_side, double half_thickness);
+
 /// A rigid L passes through two walls, each with a window that it fits through only turned: 3 lengths and a rotation.
 Problem windows();
 

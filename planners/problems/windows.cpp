@@ -6,19 +6,6 @@ namespace problems {
 
 namespace {
 
-/// Half sides, in metres.
-const double wall = 1.5, window = 0.33, thickness = 0.02;
-
-/// Four boards about a window whose middle is at (x, y, z).
-void add_wall(double x, double y, double z, std::vector<Obstacle> &obstacles) {
-    const double below = (z - window + wall) / 2, above = (wall - z - window) / 2;
-    const double right = (y - window + wall) / 2, left = (wall - y - window) / 2;
-    obstacles.push_back(box(cstk::translation(x, 0, below - wall), {thickness, wall, below}));
-    obstacles.push_back(box(cstk::translation(x, 0, wall - above), {thickness, wall, above}));
-    obstacles.push_back(box(cstk::translation(x, right - wall, z), {thickness, right, window}));
-    obstacles.push_back(box(cstk::translation(x, wall - left, z), {thickness, left, window}));
-}
-
 /// Two arms of 0.6 m and 0.1 m square. It is carried by three slides and a ball joint, which make Space::distance a metric.
 cstk::Robot flying_l() {
     const cstk::Body body = cstk::BodyBuilder()
@@ -46,10 +33,22 @@ cstk::Robot flying_l() {
 
 } // namespace
 
+std::vector<Obstacle> wall_around(const Window &window, double half_side, double half_thickness) {
+    const auto [x, y, z] = window.middle;
+    const auto [across, up] = window.half_sides;
+    const double below = (z - up + half_side) / 2, above = (half_side - z - up) / 2;
+    const double right = (y - across + half_side) / 2, left = (half_side - y - across) / 2;
+    return {box(cstk::translation(x, 0, below - half_side), {half_thickness, half_side, below}),
+            box(cstk::translation(x, 0, half_side - above), {half_thickness, half_side, above}),
+            box(cstk::translation(x, right - half_side, z), {half_thickness, right, up}),
+            box(cstk::translation(x, half_side - left, z), {half_thickness, left, up})};
+}
+
 Problem windows() {
-    std::vector<Obstacle> obstacles;
-    add_wall(0, 0.3, 0.2, obstacles);
-    add_wall(1, -0.3, -0.2, obstacles);
+    const std::array<double, 2> half_sides = {0.33, 0.33};
+    std::vector<Obstacle> obstacles = wall_around({{0, 0.3, 0.2}, half_sides}, 1.5, 0.02);
+    const std::vector<Obstacle> second = wall_around({{1, -0.3, -0.2}, half_sides}, 1.5, 0.02);
+    obstacles.insert(obstacles.end(), second.begin(), second.end());
     const cstk::Robot robot = flying_l();
     auto workcell = std::make_shared<const Workcell>(robot, cstk::Space(robot), obstacles, std::vector<LinkPair>());
     const double half = std::sqrt(0.5);

@@ -90,9 +90,8 @@ Solution solve(const Problem &problem, std::uint64_t seed, const cstk::Query &qu
     const rrt_connect::Plan plan =
         rrt_connect::plan(query, cell.space, cell.contact, problem.start, problem.goal, options);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    std::vector<problems::Configuration> path = plan.path;
-    rrt_connect::EdgeProver edges(query, cell.contact);
-    rrt_connect::shorten(path, cell.space, edges, cuts, seed);
+    const std::vector<problems::Configuration> path =
+        rrt_connect::shortened(query, cell.contact, plan.path, cuts, seed);
     return {plan, time.count(), rrt_connect::length(cell.space, plan.path), path, rrt_connect::length(cell.space, path)};
 }
 

@@ -59,32 +59,29 @@ bool Grid::adjacent(const Cells &a, const Cells &b) const {
     return faces == 1;
 }
 
-Configuration Grid::low(const Cells &cells, const Configuration &rest) const {
+Configuration Grid::within(const Cells &cells, double part, const Configuration &rest) const {
     Configuration q = rest;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        q[axes_[i].coordinate] = axes_[i].low + axes_[i].width * static_cast<double>(cells[i]);
+        const CutAxis &cut = axes_[i];
+        q[cut.coordinate] = cut.low + cut.width * (static_cast<double>(cells[i]) + part);
     }
     return q;
+}
+
+Configuration Grid::low(const Cells &cells, const Configuration &rest) const {
+    return within(cells, 0, rest);
 }
 
 Configuration Grid::high(const Cells &cells, const Configuration &rest) const {
-    Configuration q = rest;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        q[axes_[i].coordinate] = axes_[i].low + axes_[i].width * static_cast<double>(cells[i] + 1);
-    }
-    return q;
+    return within(cells, 1, rest);
 }
 
-Configuration Grid::nearest_within(const Cells &cells, const Configuration &q) const {
-    Configuration nearest = q;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const CutAxis &cut = axes_[i];
-        const double middle = cut.low + cut.width * (static_cast<double>(cells[i]) + 0.5);
-        const double beside = q[cut.coordinate] - middle;
-        const double kept = (cut.circle ? wrapped(beside) : beside);
-        nearest[cut.coordinate] = middle + std::clamp(kept, -cut.width / 4, cut.width / 4);
-    }
-    return nearest;
+Configuration Grid::inner_low(const Cells &cells) const {
+    return within(cells, 0.25, Configuration(axes_.size(), -INFINITY));
+}
+
+Configuration Grid::inner_high(const Cells &cells) const {
+    return within(cells, 0.75, Configuration(axes_.size(), INFINITY));
 }
 
 } // namespace sandros

@@ -28,9 +28,10 @@ class Grid {
     Configuration low(const Cells &cells, const Configuration &rest) const;
     Configuration high(const Cells &cells, const Configuration &rest) const;
 
-    /// The configuration nearest to q that is well within the set, a quarter of a cell from its
-    /// faces. What is free stays.
-    Configuration nearest_within(const Cells &cells, const Configuration &q) const;
+    /// Those of the box well within the set, a quarter of a cell from its faces; coordinates that are
+    /// free may have any value.
+    Configuration inner_low(const Cells &cells) const;
+    Configuration inner_high(const Cells &cells) const;
 
   private:
     struct CutAxis {
@@ -38,6 +39,9 @@ class Grid {
         double low, width;
         bool circle;
     };
+
+    /// The places, in parts of a cell, within the cells; what is free has the value of `rest`.
+    Configuration within(const Cells &cells, double part, const Configuration &rest) const;
 
     std::vector<CutAxis> axes_;
 };

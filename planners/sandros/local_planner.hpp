@@ -32,18 +32,15 @@ class LocalPlanner {
     const LocalWork &work() const { return work_; }
 
   private:
-    struct Walk;
+    /// The same to the box between `low` and `high`.
+    std::optional<Path> reach(const Configuration &from, const Configuration &low,
+                              const Configuration &high);
 
-    template <typename Target> std::optional<Path> walk(const Configuration &from, Target target);
-    bool go_straight(Walk &walk, const Configuration &to);
-    bool slide(Walk &walk, const Configuration &to);
-
-    const cstk::Space space_;
     const cstk::CObject obstacles_;
     const cstk::Query query_;
-    const double step_;
-    cstk_slide_options slide_options_;
-    cstk_motion_options first_contact_, any_contact_;
+    const cstk_slide_options slide_options_;
+    cstk_slide_to_options options_;
+    cstk_motion_options any_contact_;
     LocalWork work_;
 };
 

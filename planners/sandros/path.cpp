@@ -6,48 +6,32 @@ namespace sandros {
 
 namespace {
 
-/// Splits long motions, so that shortcuts may begin within them.
-Path with_middles(const Problem &problem, const Path &path, double longest) {
-    Path out = {path.front()};
-    for (std::size_t i = 1; i < path.size(); ++i) {
-        const double way = problem.space.distance(path[i - 1], path[i]);
-        const auto parts = static_cast<std::size_t>(way / longest) + 1;
-        for (std::size_t k = 1; k < parts; ++k) {
-            out.push_back(problem.space.interpolate(
-                path[i - 1], path[i], static_cast<double>(k) / static_cast<double>(parts)));
-        }
-        out.push_back(path[i]);
-    }
-    return out;
-}
-
-/// From each configuration straight to the farthest along the path that halving the way to the end
-/// finds.
-Path without_detours(const cstk::Query &query, const cstk::CObject &obstacles, const Path &path) {
-    cstk_motion_options options = cstk::motion_options();
-    options.any_contact = 1;
-    Path out = {path.front()};
-    for (std::size_t at = 0; at + 1 < path.size();) {
-        std::size_t next = path.size() - 1;
-        while (next > at + 1 &&
-               query.motion(obstacles, path[at], path[next], options).outcome != CSTK_MOTION_FREE) {
-            next = at + (next - at) / 2;
-        }
-        out.push_back(path[next]);
-        at = next;
-    }
-    return out;
-}
+/// Shortcuts that are tried on a path.
+const std::uint64_t SHORTCUTS = 300;
 
 } // namespace
 
-bool is_free(const Problem &problem, const Path &path) {
+std::vector<double> flat(const Path &path) {
     std::vector<double> points;
     for (const Configuration &q : path) {
         points.insert(points.end(), q.begin(), q.end());
     }
+    return points;
+}
+
+Path path_of(const cstk_path &given) {
+    Path path;
+    for (std::size_t i = 0; i < given.count; ++i) {
+        const double *q = given.points + i * given.nq;
+        path.emplace_back(q, q + given.nq);
+    }
+    return path;
+}
+
+bool is_free(const Problem &problem, const Path &path) {
     const cstk::Query query;
-    const cstk_path_result found = query.motion_path(obstacles_of(problem), points, path.size());
+    const cstk_path_result found =
+        query.motion_path(obstacles_of(problem), flat(path), path.size());
     return found.motion.outcome == CSTK_MOTION_FREE;
 }
 
@@ -61,15 +45,9 @@ double length(const Problem &problem, const Path &path) {
 
 Path shortened(const Problem &problem, const Path &path) {
     const cstk::Query query;
-    const cstk::CObject obstacles = obstacles_of(problem);
-    Path shorter = path;
-    for (double before = length(problem, path) + 1; length(problem, shorter) < 0.99 * before;) {
-        before = length(problem, shorter);
-        const Path dense = with_middles(problem, shorter, 4 * problem.slide.step);
-        shorter = without_detours(query, obstacles, dense);
-    }
-    /* What was split was not looked at again. */
-    return is_free(problem, shorter) ? shorter : path;
+    const cstk_shortcut_result found = query.path_shortcut(
+        obstacles_of(problem), flat(path), path.size(), cstk::shortcut_options(SHORTCUTS));
+    return path_of(found.path);
 }
 
 } // namespace sandros

@@ -46,12 +46,12 @@ void solve(const Problem &problem, std::uint64_t seed) {
     rrt_connect::Options options;
     options.range = problem.range;
     options.seed = seed;
-    std::vector<problems::Configuration> path =
+    const std::vector<problems::Configuration> found =
         rrt_connect::plan(query, cell.space, cell.contact, problem.start, problem.goal, options).path;
-    expect(path.size() >= 2, what + " is found");
-    const double before = rrt_connect::length(cell.space, path);
-    rrt_connect::EdgeProver edges(query, cell.contact);
-    rrt_connect::shorten(path, cell.space, edges, cuts, seed);
+    expect(found.size() >= 2, what + " is found");
+    const double before = rrt_connect::length(cell.space, found);
+    const std::vector<problems::Configuration> path =
+        rrt_connect::shortened(query, cell.contact, found, cuts, seed);
     judge(problem, path, what);
     expect(rrt_connect::length(cell.space, path) <= before * (1 + 1e-12), what + " grows no longer by shortening");
 }

@@ -100,6 +100,43 @@ def test_clearance_of_a_sweep(arm, query):
     assert beyond.outcome == cstk.ClearanceOutcome.BEYOND_MAX
 
 
+def test_the_clearance_of_a_path_is_that_of_its_nearest_segment(arm, query):
+    points = [[-1, 0], [0.5, 0], [2.5, 0], [3.0, 0.2]]
+    found = query.path_clearance(arm.cobject, points, 1e-6)
+    truth = 3 - 2 - 0.1 - 0.5
+    assert found.segment == 1 and found.clearance.outcome == cstk.ClearanceOutcome.KNOWN
+    assert found.clearance.lower <= truth <= found.clearance.upper
+    assert found.nearest[0] == pytest.approx(math.pi / 2, abs=2e-3)
+    # No sample is nearer.
+    for a, b in zip(np.array(points), np.array(points[1:])):
+        assert min(arm.clearance(a + t * (b - a)) for t in np.linspace(0, 1, 50)) >= found.clearance.lower
+    heard = []
+    query.path_clearance(arm.cobject, points, 1e-3, progress=heard.append)
+    assert heard[-1] == 1 and heard == sorted(heard)
+    with pytest.raises(cstk.CancelledError):
+        query.path_clearance(arm.cobject, points, 1e-3, progress=lambda part: False)
+
+
+def test_shortcuts_are_shorter_and_free(query):
+    arm = PlanarArm(2.2)
+    points = [[0.0, 0.0], [0.0, 1.0], [0.3, 2.2], [1.2, 2.6], [2.0, 2.0], [3.0, 0.0]]
+    assert query.motion_path(arm.cobject, points) and not query.motion(arm.cobject, points[0], points[-1])
+    found = query.path_shortcut(arm.cobject, points, attempts=200, seed=3)
+    assert found.outcome == cstk.ShortcutOutcome.DONE and found.cuts > 0
+    lengths = [np.linalg.norm(np.diff(path, axis=0), axis=1).sum() for path in (np.array(points), found.path)]
+    assert [found.length_before, found.length_after] == pytest.approx(lengths) and lengths[1] < 0.99 * lengths[0]
+    np.testing.assert_array_equal(found.path[[0, -1]], [points[0], points[-1]])
+    for a, b in zip(found.path, found.path[1:]):
+        assert query.motion(arm.cobject, a, b)
+        assert min(arm.clearance(a + t * (b - a)) for t in np.linspace(0, 1, 50)) > 0
+    again = query.path_shortcut(arm.cobject, points, attempts=200, seed=3)
+    np.testing.assert_array_equal(again.path, found.path)
+    blocked = query.path_shortcut(arm.cobject, [[0, 0], [1.6, 0], [3, 0]])
+    assert blocked.outcome == cstk.ShortcutOutcome.NOT_FREE and blocked.given.segment in (0, 1)
+    with pytest.raises(cstk.CancelledError):
+        query.path_shortcut(arm.cobject, points, progress=lambda part: False)
+
+
 def test_certificates_prove_and_are_kept(arm, query, tmp_path):
     q0, q1 = [0.5, 0], [2.5, 0]
     motion, certificate = query.motion_certificate(arm.cobject, q0, q1, threshold=0.1)
@@ -156,6 +193,28 @@ def test_a_slide_keeps_its_distance(query):
         worst = min(worst, arm.clearance(q))
         assert found.distance_after == pytest.approx(arm.clearance(q), abs=1e-12)
     assert slid > 5 and worst > 0.01
+
+
+def test_a_slide_goes_on_until_it_arrives_or_is_stopped(query):
+    arm = PlanarArm(2.2)
+    free = query.slide_to(arm.cobject, [0.0, 0.0], [0.3, 0.2], 0.05, 0.2)
+    assert free and free.path.tolist() == [[0, 0], [0.3, 0.2]] and free.remaining == 0
+    # With the elbow free to bend away the first joint comes past the disc.
+    past = query.slide_to(
+        arm.cobject, [0.6, 0.1], [2.6, -np.inf], 0.05, 0.2, goal_high=[2.7, np.inf], normalize=True, max_idle_steps=20
+    )
+    assert past.outcome in (cstk.SlideToOutcome.ARRIVED, cstk.SlideToOutcome.IDLE, cstk.SlideToOutcome.BLOCKED)
+    assert past.steps > 0 and len(past.path) > 2
+    for a, b in zip(past.path, past.path[1:]):
+        assert min(arm.clearance(a + t * (b - a)) for t in np.linspace(0, 1, 20)) > 0
+    few = query.slide_to(arm.cobject, [0.6, 0.0], [2.6, 0.0], 0.05, 0.2, max_steps=2, weights=[1, 2])
+    assert few.outcome == cstk.SlideToOutcome.STEPS and few.steps == 2 and not few
+    with pytest.raises(cstk.CancelledError):
+        query.slide_to(arm.cobject, [0.6, 0.0], [2.6, 0.0], 0.05, 0.2, progress=lambda part: False)
+    with pytest.raises(cstk.WrongSizeError, match="goal"):
+        query.slide_to(arm.cobject, [0.6, 0.0], [2.6], 0.05, 0.2)
+    with pytest.raises(cstk.InvalidArgumentError, match="step"):
+        query.slide_to(arm.cobject, [0.6, 0.0], [2.6, 0.0], 0, 0.2)
 
 
 def test_the_halves_of_a_slide(query):

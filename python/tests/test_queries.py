@@ -153,6 +153,10 @@ def test_pictures(arm, tmp_path):
     assert (tmp_path / "arm.glb").read_bytes()[:4] == b"glTF"
     with pytest.raises(cstk.UnsupportedError, match="arm.svg"):
         arm.cobject.show([1, 0.5], str(tmp_path / "arm.svg"))
+    arm.cobject.show_path([[1, 0.5], [1.2, 0.5]], 2, tmp_path / "way.glb")
+    assert b'"animations"' in (tmp_path / "way.glb").read_bytes()
+    with pytest.raises(cstk.InvalidArgumentError, match="seconds"):
+        arm.cobject.show_path([[1, 0.5], [1.2, 0.5]], 0, tmp_path / "way.glb")
 
 
 def test_limits_of_work(arm, query):

@@ -24,6 +24,7 @@ use crate::capi::at_configuration::answers::{
 use crate::capi::at_configuration::explain::cstk_verdict;
 use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;
 use crate::capi::environment::environment::cstk_environment;
+use crate::capi::motion::path::cstk_path;
 use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
@@ -51,6 +52,7 @@ pub(super) struct State {
     pub verdicts: Vec<cstk_verdict>,
     pub pairs: Vec<cstk_link_pair>,
     pub tested: Vec<u32>,
+    path: Vec<f64>,
     /// Memory for the link poses passed to a call.
     pub poses: Vec<Pose>,
 }
@@ -104,6 +106,18 @@ impl State {
         self.tested = tested
             .flat_map(|pair| pair.links.map(|link| link as u32))
             .collect();
+    }
+
+    /// Stores a path of a space with `nq` coordinates, and returns a view of it.
+    pub fn keep_path(&mut self, points: Vec<f64>, nq: usize) -> cstk_path {
+        self.path = points;
+        cstk_path {
+            points: start(&self.path),
+            // Without coordinates there is one configuration, and nothing to list.
+            count: self.path.len().checked_div(nq).unwrap_or(0),
+            nq,
+            reserved: [0; 3],
+        }
     }
 
     /// Stores a list, and returns a view of its arrays.

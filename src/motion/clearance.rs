@@ -48,8 +48,24 @@ impl ClearanceOptions {
         check_threshold(self.max_distance, "max_distance")
     }
 
+    /// Checks them, and that the least distance from the C-object can be known.
+    pub(super) fn check_for(&self, cobject: &CObject) -> Result<()> {
+        self.check()?;
+        cobject.require_one_metric()?;
+        if SetTree::new(cobject).is_plain_union() {
+            return Ok(());
+        }
+        Err(Error::new(
+            ErrorKind::Unsupported,
+            format!(
+                "C-object {} holds an intersection or a complement, from which no exact distance is known",
+                cobject.serial()
+            ),
+        ))
+    }
+
     /// How far apart the bounds may be.
-    fn allowed(&self, upper: f64) -> f64 {
+    pub(super) fn allowed(&self, upper: f64) -> f64 {
         if upper == f64::INFINITY {
             return self.tolerance;
         }
@@ -139,7 +155,7 @@ const MAX_PROOFS: usize = 1000;
 const MAX_SHORT_STEPS: i32 = 2;
 
 /// A proof is tried at this part of the tolerance below the upper bound: less than 1 for the rounding of the difference.
-const STEP: f64 = 0.99;
+pub(super) const STEP: f64 = 0.99;
 
 impl QueryContext {
     /// The least distance from a C-object, a union of induced and pure sets, along the motion from q0 to q1, as
@@ -151,19 +167,9 @@ impl QueryContext {
         q1: &[f64],
         options: &ClearanceOptions,
     ) -> Result<MotionClearance> {
-        options.check()?;
+        options.check_for(cobject)?;
         let v = &checked_difference(cobject.space(), q0, q1)?;
         cobject.space().check_velocity(v, "velocity")?;
-        cobject.require_one_metric()?;
-        if !SetTree::new(cobject).is_plain_union() {
-            return Err(Error::new(
-                ErrorKind::Unsupported,
-                format!(
-                    "C-object {} holds an intersection or a complement, from which no exact distance is known",
-                    cobject.serial()
-                ),
-            ));
-        }
         let world = &self.look(cobject);
         let way = &Way::straight(LinearMotion {
             world,
@@ -171,6 +177,15 @@ impl QueryContext {
             q: q0,
             v,
         });
+        self.clearance_on(way, options)
+    }
+
+    /// The same on a way, with options that were checked for its set.
+    pub(super) fn clearance_on(
+        &mut self,
+        way: &Way,
+        options: &ClearanceOptions,
+    ) -> Result<MotionClearance> {
         let mut bounds = Bounds {
             proved: None,
             nearest: self.sample(way, 0.0, options.max_distance)?,

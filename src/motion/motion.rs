@@ -148,7 +148,11 @@ impl QueryContext {
     }
 
     /// The answer of a whole straight motion: by a sample where any contact will do and one has it, else by the proof.
-    fn sampled_or_proved(&mut self, way: &Way, options: &MotionOptions) -> Result<MotionAnswer> {
+    pub(super) fn sampled_or_proved(
+        &mut self,
+        way: &Way,
+        options: &MotionOptions,
+    ) -> Result<MotionAnswer> {
         if options.any_contact {
             for time in times_sampled_first(way) {
                 if self.has_contact(way, time, options)? {

@@ -19,16 +19,15 @@ pub struct PathAnswer {
 }
 
 /// A path among obstacles.
-struct Path<'a> {
-    world: &'a World,
-    cobject: &'a CObject,
-    options: &'a MotionOptions,
+pub(super) struct Path<'a> {
+    pub world: &'a World,
+    pub cobject: &'a CObject,
     /// Checked, one configuration after the other, at least one.
-    points: &'a [f64],
+    pub points: &'a [f64],
 }
 
 /// The number of points; each is checked.
-fn checked_count(space: &Space, points: &[f64]) -> Result<usize> {
+pub(super) fn checked_count(space: &Space, points: &[f64]) -> Result<usize> {
     let nq = space.nq();
     // A space without coordinates has one configuration.
     let count = points.len().checked_div(nq).unwrap_or(1);
@@ -50,20 +49,20 @@ fn checked_count(space: &Space, points: &[f64]) -> Result<usize> {
 }
 
 impl Path<'_> {
-    fn point(&self, number: usize) -> &[f64] {
+    pub fn point(&self, number: usize) -> &[f64] {
         let nq = self.cobject.space().nq();
         &self.points[number * nq..(number + 1) * nq]
     }
 
     /// A single point is a segment that rests.
-    fn segment_count(&self) -> usize {
+    pub fn segment_count(&self) -> usize {
         let nq = self.cobject.space().nq();
         let count = self.points.len().checked_div(nq).unwrap_or(1);
         (count - 1).max(1)
     }
 
     /// Asks about a segment.
-    fn ask<T>(&self, segment: usize, query: impl FnOnce(&Way) -> Result<T>) -> Result<T> {
+    pub fn ask<T>(&self, segment: usize, query: impl FnOnce(&Way) -> Result<T>) -> Result<T> {
         let &Self { world, cobject, .. } = self;
         let space = cobject.space();
         let q = self.point(segment);
@@ -123,7 +122,6 @@ impl QueryContext {
         let path = Path {
             world,
             cobject,
-            options,
             points,
         };
         let segments = path.segment_count();
@@ -140,11 +138,11 @@ impl QueryContext {
         };
         let mut found = None;
         if options.any_contact {
-            found = self.sampled_contact(&path, samples, &mut step)?;
+            found = self.sampled_contact(&path, options, samples, &mut step)?;
         }
         let answer = match found {
             Some(found) => found,
-            None => self.prove_segments(&path, &mut step)?,
+            None => self.prove_segments(&path, options, &mut step)?,
         };
         progress(1.0)?;
         Ok(answer)
@@ -154,6 +152,7 @@ impl QueryContext {
     fn sampled_contact(
         &mut self,
         path: &Path,
+        options: &MotionOptions,
         samples: usize,
         step: &mut dyn FnMut() -> Result<()>,
     ) -> Result<Option<PathAnswer>> {
@@ -162,14 +161,14 @@ impl QueryContext {
             let segment = (sample / 2).min(path.segment_count() - 1);
             let t = 0.5 * (sample - 2 * segment) as f64;
             let found = path.ask(segment, |way| {
-                if !self.has_contact(way, t, path.options)? {
+                if !self.has_contact(way, t, options)? {
                     return Ok(None);
                 }
                 Ok(Some(self.answer(
                     way,
                     MotionOutcome::Hit,
                     [0.0, t],
-                    path.options,
+                    options,
                 )?))
             });
             match found {
@@ -185,15 +184,16 @@ impl QueryContext {
     }
 
     /// Proves one segment after the other, up to the first that is not free.
-    fn prove_segments(
+    pub(super) fn prove_segments(
         &mut self,
         path: &Path,
+        options: &MotionOptions,
         step: &mut dyn FnMut() -> Result<()>,
     ) -> Result<PathAnswer> {
         let mut segment = 0;
         loop {
             step()?;
-            let motion = match path.ask(segment, |way| self.motion_on(way, path.options)) {
+            let motion = match path.ask(segment, |way| self.motion_on(way, options)) {
                 Err(error) if error.kind == ErrorKind::Limit => {
                     return Ok(path.undecided_from(segment));
                 }

@@ -87,11 +87,23 @@ impl QueryContext {
         options: &SlideOptions,
     ) -> Result<SlideStep> {
         options.check()?;
+        // One state of the world for the whole slide: the proof must not combine distances of several.
+        let world = &self.look(cobject);
+        self.slide_in(world, cobject, q, step, options)
+    }
+
+    /// The same in a given world, with checked options.
+    pub(super) fn slide_in(
+        &mut self,
+        world: &World,
+        cobject: &CObject,
+        q: &[f64],
+        step: &[f64],
+        options: &SlideOptions,
+    ) -> Result<SlideStep> {
         let space = cobject.space();
         space.check_configuration(q)?;
         space.check_velocity(step, "step")?;
-        // One state of the world for the whole slide: the proof must not combine distances of several.
-        let world = &self.look(cobject);
         require_union(cobject)?;
         let distance = self.distance_at(world, cobject, q)?;
         let here = self.slide_contacts(world, cobject, q, options, Detail::Nearest)?;

@@ -36,6 +36,9 @@ impl Triangles {
 /// A colour: red, green, blue and opacity from 0 to 1.
 pub type Colour = [f64; 4];
 
+/// glTF's number for buffers of vertices.
+const VERTICES: u32 = 34962;
+
 /// Builds a glTF document.
 #[derive(Default)]
 pub struct Document {
@@ -45,6 +48,8 @@ pub struct Document {
     meshes: Vec<Value>,
     materials: Vec<Value>,
     nodes: Vec<Value>,
+    samplers: Vec<Value>,
+    channels: Vec<Value>,
 }
 
 impl Document {
@@ -88,31 +93,80 @@ impl Document {
             .push(json!({ "name": name, "mesh": mesh, "matrix": columns, "extras": extras }));
     }
 
+    /// Adds the times of a motion, in seconds, rising.
+    pub fn add_times(&mut self, times: &[f64]) -> usize {
+        self.add_values(&times.iter().map(|&time| [time]).collect::<Vec<_>>(), None)
+    }
+
+    /// Adds a named node that has a pose at each of the times; viewers interpolate between them.
+    pub fn add_moving_node(
+        &mut self,
+        name: &str,
+        mesh: usize,
+        (times, poses): (usize, &[Pose]),
+        extras: Value,
+    ) {
+        let node = self.nodes.len();
+        self.nodes
+            .push(json!({ "name": name, "mesh": mesh, "extras": extras }));
+        let places: Vec<[f64; 3]> = poses.iter().map(|pose| pose.translation.into()).collect();
+        let mut turns: Vec<[f64; 4]> = Vec::with_capacity(poses.len());
+        for pose in poses {
+            let turn = pose.to_quaternion();
+            // Of the two quaternions of a rotation the one nearer to the last.
+            let along = turns.last().map_or(1.0, |last| {
+                last.iter().zip(turn).map(|(a, b)| a * b).sum::<f64>()
+            });
+            turns.push(turn.map(|x| if along < 0.0 { -x } else { x }));
+        }
+        for (path, values) in [
+            ("translation", self.add_values(&places, None)),
+            ("rotation", self.add_values(&turns, None)),
+        ] {
+            self.samplers
+                .push(json!({ "input": times, "output": values }));
+            self.channels.push(json!({
+                "sampler": self.samplers.len() - 1,
+                "target": { "node": node, "path": path },
+            }));
+        }
+    }
+
     fn add_vectors(&mut self, vectors: &[Vec3]) -> usize {
+        let values: Vec<[f64; 3]> = vectors.iter().map(|&vector| vector.into()).collect();
+        self.add_values(&values, Some(VERTICES))
+    }
+
+    /// Adds N numbers for each of several places or times, in single precision.
+    fn add_values<const N: usize>(&mut self, values: &[[f64; N]], target: Option<u32>) -> usize {
+        const TYPES: [&str; 5] = ["", "SCALAR", "VEC2", "VEC3", "VEC4"];
         let start = self.buffer.len();
-        let mut low = [f32::INFINITY; 3];
-        let mut high = [f32::NEG_INFINITY; 3];
-        for vector in vectors {
-            for i in 0..3 {
-                let x = vector[i] as f32;
+        let mut low = [f32::INFINITY; N];
+        let mut high = [f32::NEG_INFINITY; N];
+        for value in values {
+            for i in 0..N {
+                let x = value[i] as f32;
                 low[i] = low[i].min(x);
                 high[i] = high[i].max(x);
                 self.buffer.extend(x.to_le_bytes());
             }
         }
-        self.views.push(json!({
+        let mut view = json!({
             "buffer": 0,
             "byteOffset": start,
             "byteLength": self.buffer.len() - start,
-            "target": 34962,
-        }));
+        });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         self.accessors.push(json!({
             "bufferView": self.views.len() - 1,
             "componentType": 5126,
-            "count": vectors.len(),
-            "type": "VEC3",
-            "min": low,
-            "max": high,
+            "count": values.len(),
+            "type": TYPES[N],
+            "min": low.as_slice(),
+            "max": high.as_slice(),
         }));
         self.accessors.len() - 1
     }
@@ -120,7 +174,7 @@ impl Document {
     /// The file's bytes; `extras` describe the scene.
     pub fn into_bytes(self, extras: Value) -> Vec<u8> {
         let roots: Vec<usize> = (0..self.nodes.len()).collect();
-        let mut text = json!({
+        let mut content = json!({
             "asset": { "version": "2.0", "generator": concat!("cstk ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
             "scenes": [{ "nodes": roots, "extras": extras }],
@@ -130,9 +184,12 @@ impl Document {
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.buffer.len() }],
-        })
-        .to_string()
-        .into_bytes();
+        });
+        if !self.channels.is_empty() {
+            content["animations"] =
+                json!([{ "samplers": self.samplers, "channels": self.channels }]);
+        }
+        let mut text = content.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
         let mut bytes = Vec::with_capacity(28 + text.len() + self.buffer.len());
         bytes.extend(b"glTF");
@@ -141,7 +198,7 @@ impl Document {
         bytes.extend((text.len() as u32).to_le_bytes());
         bytes.extend(b"JSON");
         bytes.extend(text);
-        // Three floats a corner, so the buffer's length is a multiple of four.
+        // All are floats, so the buffer's length is a multiple of four.
         bytes.extend((self.buffer.len() as u32).to_le_bytes());
         bytes.extend(b"BIN\0");
         bytes.extend(self.buffer);

@@ -1,14 +1,13 @@
 //! The scene of a C-object at a configuration.
 
-use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::bodies::shown_bodies;
 use super::glb::{Document, Triangles, require_glb};
-use super::shapes::{add_arrow, add_ball, add_rod, of_body};
-use crate::body::Body;
-use crate::cobject::{BodyPairs, CObject};
+use super::shapes::{add_arrow, add_ball, add_rod};
+use crate::cobject::CObject;
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::query::{PseudoNormal, QueryContext, SSide, Shell, World};
@@ -59,7 +58,6 @@ struct Drawing<'a> {
     q: &'a [f64],
     poses: Vec<Pose>,
     document: Document,
-    meshes: HashMap<(u64, usize), Option<usize>>,
     /// The length that scales marks.
     size: f64,
 }
@@ -76,64 +74,18 @@ impl<'a> Drawing<'a> {
             q,
             poses: space.link_poses(q)?,
             document: Document::default(),
-            meshes: HashMap::new(),
             size: sizes.fold(1e-9, f64::max),
         })
     }
 
     fn draw_bodies(&mut self) {
-        let space = self.cobject.space().clone();
-        let link_material = self
-            .document
-            .add_material("link", [0.62, 0.74, 0.90, 1.0], true);
-        let object_material = self
-            .document
-            .add_material("s-object", [0.95, 0.80, 0.50, 1.0], true);
-        for link in 0..space.link_count() {
-            if let Some(found) = space.link(link)
-                && let Some(body) = &found.body
-            {
-                let pose = self.poses[link];
-                self.draw_body(
-                    &found.name,
-                    body,
-                    &pose,
-                    link_material,
-                    json!({ "link": link }),
-                );
-            }
-        }
-        let mut drawn = HashSet::new();
-        for term in self.cobject.induced_leaves() {
-            let BodyPairs::Objects { objects, .. } = &term.pairs else {
-                continue;
+        for shown in shown_bodies(self.world, self.cobject, &mut self.document) {
+            let pose = match shown.link {
+                Some(link) => self.poses[link].compose(&shown.pose),
+                None => shown.pose,
             };
-            let Some(snapshot) = self.world.snapshot(objects.environment()) else {
-                continue;
-            };
-            for object in snapshot.objects() {
-                if objects.contains(object.id) && drawn.insert(object.id) {
-                    let name = format!("s-object {}", object.id);
-                    let extras = json!({ "id": object.id });
-                    let pose = match &object.attachment {
-                        None => object.pose,
-                        Some(held) => self.poses[held.link].compose(&object.pose),
-                    };
-                    self.draw_body(&name, &object.body, &pose, object_material, extras);
-                }
-            }
-        }
-    }
-
-    fn draw_body(&mut self, name: &str, body: &Body, pose: &Pose, material: usize, extras: Value) {
-        let document = &mut self.document;
-        let mesh = self
-            .meshes
-            .entry((body.serial(), material))
-            .or_insert_with(|| document.add_mesh(&of_body(body), material));
-        if let Some(mesh) = *mesh {
-            let centered = pose.compose(&Pose::from_translation(*body.center()));
-            document.add_node(name, mesh, &centered, extras);
+            self.document
+                .add_node(&shown.name, shown.mesh, &pose, shown.extras);
         }
     }
 

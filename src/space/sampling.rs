@@ -21,7 +21,7 @@ impl Sampler {
     }
 
     /// Uniform in [0, 1), a multiple of 2^-53.
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 }

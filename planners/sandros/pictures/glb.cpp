@@ -99,41 +99,6 @@ void Glb::add_node(const std::string &name, std::size_t mesh, const cstk::Pose &
                      "}");
 }
 
-void Glb::set_times(const std::vector<double> &times) {
-    times_ = add_floats(std::vector<float>(times.begin(), times.end()), 1);
-}
-
-void Glb::add_moving_node(const std::string &name, std::size_t mesh,
-                          const std::vector<cstk::Pose> &poses) {
-    add_node(name, mesh, poses.front());
-    std::vector<float> places, turns;
-    for (const cstk::Pose &pose : poses) {
-        const std::array<double, 7> p = cstk::pose_to_quaternion(pose);
-        /* Of the two quaternions of a rotation the one nearer to the last. */
-        double along = 1;
-        if (!turns.empty()) {
-            along = 0;
-            for (std::size_t i = 0; i < 4; ++i) {
-                along += static_cast<double>(turns[turns.size() - 4 + i]) * p[3 + i];
-            }
-        }
-        places.insert(places.end(), p.begin(), p.begin() + 3);
-        for (std::size_t i = 0; i < 4; ++i) {
-            turns.push_back(static_cast<float>(along < 0 ? -p[3 + i] : p[3 + i]));
-        }
-    }
-    add_channel(nodes_.size() - 1, add_floats(places, 3), "translation");
-    add_channel(nodes_.size() - 1, add_floats(turns, 4), "rotation");
-}
-
-void Glb::add_channel(std::size_t node, std::size_t values, const std::string &path) {
-    samplers_.push_back("{\"input\":" + std::to_string(times_) +
-                        ",\"output\":" + std::to_string(values) + "}");
-    channels_.push_back("{\"sampler\":" + std::to_string(samplers_.size() - 1) +
-                        ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path +
-                        "\"}}");
-}
-
 std::string Glb::json() const {
     std::vector<std::size_t> roots;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -145,10 +110,6 @@ std::string Glb::json() const {
         ",\"materials\":" + list_of(materials_) + ",\"accessors\":" + list_of(accessors_) +
         ",\"bufferViews\":" + list_of(views_) +
         ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_.size()) + "}]";
-    if (!channels_.empty()) {
-        text += ",\"animations\":[{\"samplers\":" + list_of(samplers_) +
-                ",\"channels\":" + list_of(channels_) + "}]";
-    }
     return text + "}";
 }
 

@@ -1,4 +1,4 @@
-// Scenes in glTF 2.0 binary files (.glb), with nodes that move.
+// Scenes in glTF 2.0 binary files (.glb).
 #ifndef SANDROS_GLB_HPP
 #define SANDROS_GLB_HPP
 
@@ -25,24 +25,15 @@ class Glb {
 
     void add_node(const std::string &name, std::size_t mesh, const cstk::Pose &pose);
 
-    /// Has a pose for each of the times given to `set_times`, in between which viewers interpolate.
-    void add_moving_node(const std::string &name, std::size_t mesh,
-                         const std::vector<cstk::Pose> &poses);
-
-    /// Seconds, rising; before the first moving node.
-    void set_times(const std::vector<double> &times);
-
     /// Throws std::runtime_error if the file cannot be written.
     void write(const std::string &file) const;
 
   private:
     std::size_t add_floats(const std::vector<float> &values, std::size_t width);
-    void add_channel(std::size_t node, std::size_t values, const std::string &path);
     std::string json() const;
 
     std::string buffer_;
-    std::vector<std::string> views_, accessors_, materials_, meshes_, nodes_, samplers_, channels_;
-    std::size_t times_ = 0;
+    std::vector<std::string> views_, accessors_, materials_, meshes_, nodes_;
 };
 
 } // namespace sandros::pictures

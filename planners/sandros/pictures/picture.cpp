@@ -1,5 +1,6 @@
 #include "picture.hpp"
 
+#include "../obstacles.hpp"
 #include "../path.hpp"
 #include "glb.hpp"
 
@@ -114,25 +115,7 @@ Triangles triangles_of(const cstk::Body &body) {
 }
 
 void draw_motion(const Problem &problem, const Path &path, const std::string &file) {
-    Glb glb;
-    add_obstacles(glb, problem);
-    std::vector<double> times;
-    std::vector<std::vector<cstk::Pose>> poses(problem.space.link_count());
-    for (const Configuration &q : evenly_along(problem, path, FRAMES)) {
-        times.push_back(SECONDS * static_cast<double>(times.size()) / (FRAMES - 1));
-        const std::vector<cstk::Pose> now = problem.space.link_poses(q);
-        for (std::size_t link = 0; link < now.size(); ++link) {
-            poses[link].push_back(now[link]);
-        }
-    }
-    glb.set_times(times);
-    const LinkMeshes meshes = add_link_meshes(glb, problem);
-    for (std::size_t link = 0; link < meshes.size(); ++link) {
-        if (meshes[link]) {
-            glb.add_moving_node("link", *meshes[link], poses[link]);
-        }
-    }
-    glb.write(file);
+    obstacles_of(problem).show_path(flat(path), path.size(), SECONDS, file);
 }
 
 void draw_moment(const Problem &problem, const Path &path, double part, const std::string &file) {

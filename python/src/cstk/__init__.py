@@ -24,7 +24,7 @@ from .environment import Change, Environment
 from .errors import *  # noqa: F403
 from .hierarchy import HierarchyOptions, Mesh
 from .map import Map, MapAxis
-from .motion import Clearance, Motion, MotionFunction, Path
+from .motion import Clearance, Motion, MotionFunction, Path, PathClearance, Shortcut
 from .poses import (
     euler_from_rotation,
     euler_rates,
@@ -47,7 +47,7 @@ from .records import *  # noqa: F403
 from .region import GrownRegion, Region
 from .robot import CustomJoint, Robot, RobotBuilder
 from .semantics import EndEffector, JointGroup, NamedState, Semantics, VirtualJoint
-from .slide import Slide, slide_step, spring_step
+from .slide import Slide, SlideTo, slide_step, spring_step
 from .space import Random, Range, Space, circle, default_range, interval
 
 __version__: str = _ffi.string(_lib.cstk_version()).decode()

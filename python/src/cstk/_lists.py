@@ -13,6 +13,14 @@ from .records import Contact, DistanceResult, LinkPair, Penetration, Verdict, Wi
 Array = NDArray[np.float64]
 
 
+def path_from(given: Any) -> Array:
+    """A copy of a path, (count, nq)."""
+    out = np.empty((given.count, given.nq))
+    if out.size:
+        ffi.memmove(ffi.from_buffer(out), given.points, out.nbytes)
+    return out
+
+
 class WitnessList:
     """Witnesses, nearest first, with their contacts. It is a sequence of its witnesses."""
 

@@ -6,7 +6,7 @@ from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, file_name, index, integers, pointer, pointers, same_length, scalar, vector
+from ._arrays import doubles, file_name, index, integers, pointer, pointers, rows, same_length, scalar, vector
 from ._callback import callback
 from ._callback_errors import keep_callback_error
 from ._handle import Handle, pointer_of
@@ -244,6 +244,12 @@ class CObject(Handle):
         """Writes the scene at q to a .glb file: links, s-objects, the nearest points, contacts, normals and gradients."""
         array = vector("q", q)
         check(lib.cstk_show(self._pointer, doubles(array), array.size, file_name("file", file)))
+
+    def show_path(self, points: ArrayLike, seconds: float, file: "os.PathLike[str] | str") -> None:
+        """Writes a .glb file in which the robots move along a path through `points`, (n, nq), within so many seconds."""
+        array = rows("points", points)
+        path = doubles(array), *array.shape, scalar("seconds", seconds)
+        check(lib.cstk_show_path(self._pointer, *path, file_name("file", file)))
 
 
 class _Predicate:

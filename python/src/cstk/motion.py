@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._arrays import doubles, empty, index, pose, rows, same_length, scalar, vector
 from ._callback import callback
 from ._handle import Handle, pointer_of
+from ._lists import path_from
 from ._native import ffi, lib
 from ._options import options
 from ._progress import Progress, reporting
@@ -17,7 +18,7 @@ from .certificate import Certificate
 from .cobject import CObject
 from .enums import MotionOutcome
 from .errors import WrongSizeError, check
-from .records import ClearanceResult, MotionResult, PathResult
+from .records import ClearanceResult, MotionResult, PathClearanceResult, PathResult, ShortcutResult
 
 Array = NDArray[np.float64]
 
@@ -62,6 +63,40 @@ class Clearance(ClearanceResult):
     def __init__(self, structure: Any, nearest: Array) -> None:
         super().__init__(structure)
         self.nearest = nearest
+
+
+class PathClearance(PathClearanceResult):
+    """The least distance along a path, between proved bounds."""
+
+    __slots__ = ("nearest",)
+    nearest: Array
+    """The configuration at the nearest place."""
+
+    def __init__(self, structure: Any, nearest: Array) -> None:
+        super().__init__(structure)
+        self.nearest = nearest
+
+
+class Shortcut(ShortcutResult):
+    """A path made shorter."""
+
+    __slots__ = ("path",)
+    path: Array
+    """(n, nq). Unless the outcome is NOT_FREE, each segment is proved free."""
+
+    def __init__(self, structure: Any) -> None:
+        super().__init__(structure)
+        self.path = path_from(structure.path)
+
+
+def clearance_options(tolerance: float, relative_tolerance: Optional[float], max_distance: Optional[float]) -> Any:
+    """The C structure."""
+    return options(
+        "clearance_options",
+        tolerance=scalar("tolerance", tolerance),
+        relative_tolerance=None if relative_tolerance is None else scalar("relative_tolerance", relative_tolerance),
+        max_distance=None if max_distance is None else scalar("max_distance", max_distance),
+    )
 
 
 def motion_options(threshold: float, tolerance: Optional[float], any_contact: bool) -> Any:
@@ -286,12 +321,51 @@ class Motions(Handle):
         *ends, nq = _ends(q0, q1)
         nearest, nearest_out = empty(nq)
         out = ffi.new("cstk_clearance_result *")
-        given = options(
-            "clearance_options",
-            tolerance=scalar("tolerance", tolerance),
-            relative_tolerance=None if relative_tolerance is None else scalar("relative_tolerance", relative_tolerance),
-            max_distance=None if max_distance is None else scalar("max_distance", max_distance),
-        )
+        given = clearance_options(tolerance, relative_tolerance, max_distance)
         place = pointer_of(CObject, "cobject", cobject)
         check(lib.cstk_motion_clearance(self._pointer, place, *ends, nq, given, nearest_out, out))
         return Clearance(out, nearest)
+
+    def path_clearance(
+        self,
+        cobject: CObject,
+        points: ArrayLike,
+        tolerance: float,
+        *,
+        relative_tolerance: Optional[float] = None,
+        max_distance: Optional[float] = None,
+        progress: Optional[Progress] = None,
+    ) -> PathClearance:
+        """The same for a path through `points`, (n, nq), in one state of the environments."""
+        array = rows("points", points)
+        nearest, nearest_out = empty(array.shape[1])
+        out = ffi.new("cstk_path_clearance_result *")
+        given = clearance_options(tolerance, relative_tolerance, max_distance)
+        arguments = self._pointer, pointer_of(CObject, "cobject", cobject), doubles(array), *array.shape, given
+        reporting(lambda function, user: lib.cstk_path_clearance(*arguments, function, user, nearest_out, out), progress)
+        return PathClearance(out, nearest)
+
+    def path_shortcut(
+        self,
+        cobject: CObject,
+        points: ArrayLike,
+        *,
+        attempts: Optional[int] = None,
+        seed: Optional[int] = None,
+        threshold: float = 0.0,
+        progress: Optional[Progress] = None,
+    ) -> Shortcut:
+        """Makes a path through `points`, (n, nq), shorter by straight motions that are proved free, between places drawn by `seed`. The
+        same call has the same answer.
+        """
+        array = rows("points", points)
+        out = ffi.new("cstk_shortcut_result *")
+        given = options(
+            "shortcut_options",
+            attempts=None if attempts is None else index("attempts", attempts, 64),
+            seed=None if seed is None else index("seed", seed, 64),
+            threshold=scalar("threshold", threshold),
+        )
+        arguments = self._pointer, pointer_of(CObject, "cobject", cobject), doubles(array), *array.shape, given
+        reporting(lambda function, user: lib.cstk_path_shortcut(*arguments, function, user, out), progress)
+        return Shortcut(out)

@@ -9,7 +9,7 @@ use crate::capi::input::{OptionsStruct, Output, options, slice, write_defaults};
 use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
-use crate::motion::{ClearanceOptions, ClearanceOutcome};
+use crate::motion::{ClearanceOptions, ClearanceOutcome, MotionClearance};
 
 /// Options of a clearance. Write it with cstk_clearance_options_default first, then set `tolerance`. Distances are lengths, or in
 /// units of C-space for pure sets without a scale.
@@ -120,27 +120,39 @@ pub unsafe extern "C" fn cstk_motion_clearance(
                 )
             };
             let nearest = optional_configuration(nearest, nq, "nearest")?;
-            let options = ClearanceOptions {
-                tolerance: given.tolerance,
-                relative_tolerance: given.relative_tolerance,
-                max_distance: given.max_distance,
-            };
-            let found = state.context.motion_clearance(&cobject, q0, q1, &options)?;
+            let context = &mut state.context;
+            let found = context.motion_clearance(&cobject, q0, q1, &given.into())?;
             if let Some(nearest) = nearest {
                 nearest.write(&found.configuration);
             }
-            out.write(cstk_clearance_result {
-                outcome: found.outcome.into(),
-                reserved_word: 0,
-                lower: found.lower,
-                upper: found.upper,
-                time: found.time,
-                distance: (&found.distance).into(),
-                reserved: [0; 8],
-            });
+            out.write((&found).into());
             Ok(())
         })
     })
+}
+
+impl From<cstk_clearance_options> for ClearanceOptions {
+    fn from(given: cstk_clearance_options) -> Self {
+        Self {
+            tolerance: given.tolerance,
+            relative_tolerance: given.relative_tolerance,
+            max_distance: given.max_distance,
+        }
+    }
+}
+
+impl From<&MotionClearance> for cstk_clearance_result {
+    fn from(found: &MotionClearance) -> Self {
+        Self {
+            outcome: found.outcome.into(),
+            reserved_word: 0,
+            lower: found.lower,
+            upper: found.upper,
+            time: found.time,
+            distance: (&found.distance).into(),
+            reserved: [0; 8],
+        }
+    }
 }
 
 impl From<ClearanceOutcome> for cstk_clearance_outcome {

@@ -1,8 +1,8 @@
 //! Motions.
 //!
 //! A whole motion between two configurations, on a path through several, on a curve or as a function of yours
-//! gives it, proved free or followed to its first contact; the same of two bodies without a robot; and the least distance along a
-//! motion. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
+//! gives it, proved free or followed to its first contact; the same of two bodies without a robot; the least distance along a
+//! motion or a path; and paths made shorter by proofs. Nothing is sampled: bounds over intervals of time cover the motion, however thin an obstacle is (§2.3.1; Figure 1 shows
 //! what sampling misses).
 //!
 //! ```c
@@ -32,3 +32,7 @@ pub mod function;
 pub mod pair_motion;
 
 pub mod clearance;
+
+pub mod path_clearance;
+
+pub mod shortcut;

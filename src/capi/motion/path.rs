@@ -12,6 +12,19 @@ use crate::capi::status::callbacks::{cstk_progress_fn, reporter};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind};
+use crate::motion::PathAnswer;
+
+/// A path: configurations one after the other, with straight motions between them. The array belongs to the query context and stays
+/// valid until its next call or its release; that call may take it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_path {
+    /// count * nq doubles; NULL if there are none.
+    pub points: *const f64,
+    pub count: usize,
+    pub nq: usize,
+    pub reserved: [u64; 3],
+}
 
 /// What was found of a path.
 #[repr(C)]
@@ -70,18 +83,24 @@ pub unsafe extern "C" fn cstk_motion_path(
             if let Some(reached) = reached {
                 reached.write(&answer.motion.configuration);
             }
-            out.write(cstk_path_result {
-                segment: answer.segment,
-                motion: (&answer.motion).into(),
-                reserved: [0; 4],
-            });
+            out.write((&answer).into());
             Ok(())
         })
     })
 }
 
+impl From<&PathAnswer> for cstk_path_result {
+    fn from(answer: &PathAnswer) -> Self {
+        Self {
+            segment: answer.segment,
+            motion: (&answer.motion).into(),
+            reserved: [0; 4],
+        }
+    }
+}
+
 /// How many numbers the points have.
-pub(super) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
+pub(in crate::capi) fn size(cobject: &CObject, count: usize, nq: usize) -> Result<usize, Failure> {
     let wrong = |message: String| Err(Error::new(ErrorKind::WrongSize, message).into());
     let expected = cobject.space().nq();
     if nq != expected {

@@ -1,22 +1,11 @@
-//! Slides.
-//!
-//! A step that slides along contacts, proved free on its whole way, and its two halves for callers who combine them
-//! themselves (§2.2.4, Appendix A).
-//!
-//! ```c
-//! cstk_slide_options options;
-//! cstk_slide_result slid;
-//! check(cstk_slide_options_default(&options, sizeof options));
-//! options.max_shell = 0.05;
-//! check(cstk_slide(query, cobject, q, nq, step, nv, &options, q, &slid));
-//! ```
+//! One step along contacts, and its two halves.
 
-use super::boundary::{Failure, guard};
-use super::handle;
-use super::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
-use super::query::{cstk_query, with_query};
 use crate::capi::at_configuration::answers::cstk_witness_list;
+use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
+use crate::capi::handle;
+use crate::capi::input::{OptionsStruct, Output, OutputSlice, options, slice, write_defaults};
+use crate::capi::query::{cstk_query, with_query};
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
 use crate::error::{Error, ErrorKind, require_coordinates};
@@ -59,6 +48,20 @@ unsafe impl OptionsStruct for cstk_slide_options {
             max_witnesses: 256,
             floor: 1.0 / 1024.0,
         }
+    }
+}
+
+impl From<cstk_slide_options> for SlideOptions {
+    fn from(given: cstk_slide_options) -> Self {
+        let mut options = Self::with_shell(given.max_shell);
+        options.normalize = given.normalize != 0;
+        options.floor = given.floor;
+        options.max_witnesses = given.max_witnesses as usize;
+        // NaN must reach the check.
+        if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
+            options.desired_distance = given.desired_distance;
+        }
+        options
     }
 }
 
@@ -146,15 +149,7 @@ pub unsafe extern "C" fn cstk_slide(
                     options(slide_options, "slide_options")?,
                 )
             };
-            let mut options = SlideOptions::with_shell(given.max_shell);
-            options.normalize = given.normalize != 0;
-            options.floor = given.floor;
-            options.max_witnesses = given.max_witnesses as usize;
-            // NaN must reach the check.
-            if given.desired_distance.is_nan() || given.desired_distance >= 0.0 {
-                options.desired_distance = given.desired_distance;
-            }
-            let taken = state.context.slide(&cobject, q, step, &options)?;
+            let taken = state.context.slide(&cobject, q, step, &given.into())?;
             reached.write(&taken.configuration);
             out.write(cstk_slide_result {
                 outcome: match taken.outcome {
