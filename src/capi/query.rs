@@ -19,11 +19,12 @@ use super::handle;
 use super::handle::Noun;
 use super::input::Output;
 use crate::capi::at_configuration::answers::{
-    cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
+    cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
 };
 use crate::capi::at_configuration::explain::cstk_verdict;
 use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;
 use crate::capi::environment::environment::cstk_environment;
+use crate::capi::object_pairs::cstk_object_pair;
 use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
@@ -51,6 +52,8 @@ pub(super) struct State {
     pub verdicts: Vec<cstk_verdict>,
     pub pairs: Vec<cstk_link_pair>,
     pub tested: Vec<u32>,
+    pub object_pairs: Vec<cstk_object_pair>,
+    pub distances: Vec<cstk_distance_result>,
     /// Memory for the link poses passed to a call.
     pub poses: Vec<Pose>,
 }
@@ -64,7 +67,7 @@ impl Noun for Query {
 }
 
 /// Refills an array, reusing its memory.
-fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
+pub(super) fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
     array.clear();
     array.extend(items.iter().map(From::from));
 }
