@@ -19,9 +19,7 @@ use super::handle;
 use super::input::{OptionsStruct, Output, options_or_default, write_defaults};
 use super::query::{State, cstk_query, refill, start, with_query};
 use super::user_data::address;
-use crate::capi::at_configuration::answers::{
-    cstk_class, cstk_distance_result, cstk_witness_list,
-};
+use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, cstk_witness_list};
 use crate::capi::environment::environment::cstk_environment;
 use crate::capi::status::status::cstk_status;
 use crate::environment::{Environment, SObject};
@@ -134,11 +132,7 @@ pub unsafe extern "C" fn cstk_object_pair_options_default(
 }
 
 /// Calls the caller's filter.
-fn ask(
-    options: &cstk_object_pair_options,
-    r: &SObject,
-    s: &SObject,
-) -> Result<bool, Error> {
+fn ask(options: &cstk_object_pair_options, r: &SObject, s: &SObject) -> Result<bool, Error> {
     let Some(filter) = options.filter else {
         return Ok(true);
     };
@@ -151,7 +145,10 @@ fn ask(
     }
     Err(Error::new(
         ErrorKind::Callback,
-        format!("options->filter returned {status} for s-objects {} and {}", r.id, s.id),
+        format!(
+            "options->filter returned {status} for s-objects {} and {}",
+            r.id, s.id
+        ),
     ))
 }
 
@@ -207,13 +204,20 @@ pub unsafe extern "C" fn cstk_environment_pairs(
 ) -> cstk_status {
     // SAFETY: the caller states the sizes.
     unsafe {
-        run(query, environment, other, options, out, |state, sets, options, out| {
-            let measured = options.with_distances != 0;
-            let context = &mut state.context;
-            let list = context.environment_pairs(sets, distance, max_count, measured)?;
-            out.write(state.keep_object_pairs(&list));
-            Ok(())
-        })
+        run(
+            query,
+            environment,
+            other,
+            options,
+            out,
+            |state, sets, options, out| {
+                let measured = options.with_distances != 0;
+                let context = &mut state.context;
+                let list = context.environment_pairs(sets, distance, max_count, measured)?;
+                out.write(state.keep_object_pairs(&list));
+                Ok(())
+            },
+        )
     }
 }
 
@@ -231,10 +235,17 @@ pub unsafe extern "C" fn cstk_environment_within(
 ) -> cstk_status {
     // SAFETY: the caller states the sizes.
     unsafe {
-        run(query, environment, other, options, out, |state, sets, _, out| {
-            out.write(state.context.environment_within(sets, threshold)?);
-            Ok(())
-        })
+        run(
+            query,
+            environment,
+            other,
+            options,
+            out,
+            |state, sets, _, out| {
+                out.write(state.context.environment_within(sets, threshold)?);
+                Ok(())
+            },
+        )
     }
 }
 
@@ -253,11 +264,18 @@ pub unsafe extern "C" fn cstk_environment_distance(
 ) -> cstk_status {
     // SAFETY: the caller states the sizes.
     unsafe {
-        run(query, environment, other, options, out, |state, sets, _, out| {
-            let nearest = state.context.environment_distance(sets, max_distance)?;
-            out.write((&nearest).into());
-            Ok(())
-        })
+        run(
+            query,
+            environment,
+            other,
+            options,
+            out,
+            |state, sets, _, out| {
+                let nearest = state.context.environment_distance(sets, max_distance)?;
+                out.write((&nearest).into());
+                Ok(())
+            },
+        )
     }
 }
 
@@ -277,12 +295,19 @@ pub unsafe extern "C" fn cstk_environment_witnesses(
 ) -> cstk_status {
     // SAFETY: the caller states the sizes.
     unsafe {
-        run(query, environment, other, options, out, |state, sets, _, out| {
-            let context = &mut state.context;
-            let list = context.environment_witnesses(sets, epsilon, max_count)?;
-            out.write(state.keep(list));
-            Ok(())
-        })
+        run(
+            query,
+            environment,
+            other,
+            options,
+            out,
+            |state, sets, _, out| {
+                let context = &mut state.context;
+                let list = context.environment_witnesses(sets, epsilon, max_count)?;
+                out.write(state.keep(list));
+                Ok(())
+            },
+        )
     }
 }
 

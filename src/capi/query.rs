@@ -19,7 +19,8 @@ use super::handle;
 use super::handle::Noun;
 use super::input::Output;
 use crate::capi::at_configuration::answers::{
-    cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
+    cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list, cstk_witness,
+    cstk_witness_list,
 };
 use crate::capi::at_configuration::explain::cstk_verdict;
 use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;

@@ -76,7 +76,9 @@ impl<'f> ObjectSets<'f> {
             if let Some(SObject { id, .. }) = snapshot.attached().next() {
                 return Err(Error::new(
                     ErrorKind::Unsupported,
-                    format!("s-object {id} is attached to a link: its place in the world is not known here"),
+                    format!(
+                        "s-object {id} is attached to a link: its place in the world is not known here"
+                    ),
                 ));
             }
         }
@@ -161,7 +163,10 @@ impl QueryContext {
         check_threshold(threshold, "threshold")?;
         self.look_at(sets);
         if let Some(recent) = self.recent_pair(sets)?
-            && self.target_within(&target(sets.sides().map(|side| &**side), &recent), threshold)?
+            && self.target_within(
+                &target(sets.sides().map(|side| &**side), &recent),
+                threshold,
+            )?
         {
             return Ok(true);
         }
@@ -317,7 +322,11 @@ impl QueryContext {
                 lists = vec![merged];
             }
             let nothing_more = max_count == 0 && lists.iter().any(|list| list.truncated);
-            Ok(if nothing_more { f64::NEG_INFINITY } else { limit })
+            Ok(if nothing_more {
+                f64::NEG_INFINITY
+            } else {
+                limit
+            })
         })?;
         let list = match lists.len() {
             0 | 1 => lists.pop().unwrap_or_default(),
@@ -438,15 +447,20 @@ impl QueryContext {
             }
             Ok(limit)
         };
-        first.visit_near_pairs(second.as_deref(), first_limit, &mut scratch, |places, lower| {
-            if done.is_err() {
-                return f64::NEG_INFINITY;
-            }
-            offer(self, places, lower).unwrap_or_else(|error| {
-                done = Err(error);
-                f64::NEG_INFINITY
-            })
-        });
+        first.visit_near_pairs(
+            second.as_deref(),
+            first_limit,
+            &mut scratch,
+            |places, lower| {
+                if done.is_err() {
+                    return f64::NEG_INFINITY;
+                }
+                offer(self, places, lower).unwrap_or_else(|error| {
+                    done = Err(error);
+                    f64::NEG_INFINITY
+                })
+            },
+        );
         self.near_pairs = scratch;
         done?;
         if !block.is_empty() {

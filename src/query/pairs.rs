@@ -88,7 +88,11 @@ impl QueryContext {
     }
 
     /// The same of bodies of one primitive each, which need no search.
-    pub(super) fn singles_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
+    pub(super) fn singles_distance(
+        &mut self,
+        target: &Target,
+        max_distance: f64,
+    ) -> Result<Distance> {
         self.count_body_pair()?;
         let pairing = target.pairing();
         if pairing.sphere_bound() > max_distance {
