@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 static const double gravity = 9.81;
-enum { ROUNDS = 60 };
+enum { ROUNDS = 300 }; /* fewer do not carry a blow through a stack */
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -87,22 +87,20 @@ static void velocity_at(const rigid_box *box, const double arm[3], double out[3]
     }
 }
 
-static void push(rigid_box *box, const double arm[3], const double along[3], double impulse) {
-    double torque[3], spin[3];
+static void push(rigid_box *box, const double along[3], const double spin[3], double impulse) {
     if (box == NULL) {
         return;
     }
-    cross(arm, along, torque);
-    spin_from(box, torque, spin);
     for (int k = 0; k < 3; ++k) {
         box->velocity[k] += impulse * along[k] / box->mass;
         box->spin[k] += impulse * spin[k];
     }
 }
 
-/* How much a unit impulse changes the velocity of a box at a point, along the impulse. */
-static double mobility(const rigid_box *box, const double arm[3], const double along[3]) {
-    double torque[3], spin[3], turned[3];
+/* How much a unit impulse changes the velocity of a box at a point, along the impulse; and its spin. */
+static double mobility(const rigid_box *box, const double arm[3], const double along[3], double spin[3]) {
+    double torque[3], turned[3];
+    spin[0] = spin[1] = spin[2] = 0;
     if (box == NULL) {
         return 0;
     }
@@ -117,6 +115,7 @@ typedef struct solved {
     const touch *at;
     double arm_r[3], arm_s[3];
     double along[3][3];
+    double spin_r[3][3], spin_s[3][3]; /* by a unit impulse along each */
     double mobility[3];
     double impulse[3];
     double target; /* the velocity at which it parts, at least; below 0 it may still approach */
@@ -144,7 +143,8 @@ static void prepare(solved *c, const touch *at, double gap, double time) {
     }
     cross(at->normal, c->along[1], c->along[2]);
     for (int d = 0; d < 3; ++d) {
-        c->mobility[d] = mobility(at->r, c->arm_r, c->along[d]) + mobility(at->s, c->arm_s, c->along[d]);
+        c->mobility[d] = mobility(at->r, c->arm_r, c->along[d], c->spin_r[d]) +
+                         mobility(at->s, c->arm_s, c->along[d], c->spin_s[d]);
     }
 }
 
@@ -164,8 +164,8 @@ static void solve(solved *c, int d, double friction) {
     const double sum = fmin(fmax(c->impulse[d] + missing / c->mobility[d], low), high);
     const double change = sum - c->impulse[d];
     c->impulse[d] = sum;
-    push(c->at->r, c->arm_r, c->along[d], change);
-    push(c->at->s, c->arm_s, c->along[d], -change);
+    push(c->at->r, c->along[d], c->spin_r[d], change);
+    push(c->at->s, c->along[d], c->spin_s[d], -change);
 }
 
 void push_apart(const touch *touches, size_t count, double gap, double friction, double time) {
