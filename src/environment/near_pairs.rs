@@ -47,7 +47,11 @@ impl Snapshot {
             let is_within = other.is_none();
             if !(is_within && place <= named.0 && is_stray(trees[1], place)) {
                 let [low, high] = [named.0.min(place), named.0.max(place)];
-                let places = if is_within { [low, high] } else { [named.0, place] };
+                let places = if is_within {
+                    [low, high]
+                } else {
+                    [named.0, place]
+                };
                 limit = visit(places, lower);
             }
             limit
@@ -69,7 +73,14 @@ impl Snapshot {
             descent,
             open: &mut scratch.open,
             visit: |[a, b]: [usize; 2], lower| {
-                visit(if is_self { [a.min(b), a.max(b)] } else { [a, b] }, lower)
+                visit(
+                    if is_self {
+                        [a.min(b), a.max(b)]
+                    } else {
+                        [a, b]
+                    },
+                    lower,
+                )
             },
         });
     }
@@ -138,7 +149,10 @@ impl<'t> PairDescent<'t> {
     /// All children of a node, in its own tree's frame.
     #[inline(always)]
     fn eight<I: Instructions>(&self, lanes: I, side: usize, node: u32) -> EightBoxes<I> {
-        self.trees[side].node(node).wide.boxes(lanes, self.units[side])
+        self.trees[side]
+            .node(node)
+            .wide
+            .boxes(lanes, self.units[side])
     }
 
     /// The box of a child in the frame of the other tree.
@@ -295,12 +309,19 @@ impl<V: FnMut([usize; 2], f64) -> f64> PairVisit<'_, '_, V> {
             let lane = near.trailing_zeros() as usize & 7;
             near &= near - 1;
             let own = self.descent.name(side, node, lane);
-            let names = if side == 0 { [own, other] } else { [other, own] };
+            let names = if side == 0 {
+                [own, other]
+            } else {
+                [other, own]
+            };
             let bound = bounds[lane];
             if own & other & BOX == 0 {
                 self.open.push(NodePair { bound, names });
             } else if bound <= self.descent.cutoff() {
-                let places = [self.descent.place(0, names[0]), self.descent.place(1, names[1])];
+                let places = [
+                    self.descent.place(0, names[0]),
+                    self.descent.place(1, names[1]),
+                ];
                 self.descent.limit = (self.visit)(places, self.descent.lower(bound));
             }
         }
