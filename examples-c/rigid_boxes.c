@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 static const double gravity = 9.81;
-enum { ROUNDS = 300 }; /* fewer do not carry a blow through a stack */
+enum { ROUNDS = 200 }; /* fewer do not carry a blow through a stack */
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
