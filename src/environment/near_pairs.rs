@@ -1,14 +1,13 @@
 //! The traversal to the pairs of objects that are near each other, within an environment or between two.
 
-use super::bounds::slack;
+use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use super::snapshot::Snapshot;
-use super::visit_near::{NearScratch, packed};
+use super::visit_near::NearScratch;
 use crate::boxes::{EightBoxes, Extent, PackedBox};
 use crate::environment::box_tree::{BOX, BoxTree};
-use crate::hierarchy::packed::power_of_two;
 use crate::lanes::{Instructions, Work, each3, with_widest};
-use crate::pair::{ROUNDING, bounds};
+use crate::pair::bounds;
 use crate::pose::Vec3;
 
 /// Memory of a traversal, reused from one to the next.
@@ -94,19 +93,16 @@ impl Snapshot {
     }
 }
 
-/// Two trees in a common unit. Lengths in single precision are in units of `scale`, a power of two about as large as the extent
-/// of everything.
+/// Two trees in a common unit.
 struct PairDescent<'t> {
     trees: [&'t BoxTree; 2],
     is_self: bool,
-    /// The unit of each tree in units of `scale`.
+    /// The unit, and the slack of the bounds.
+    frame: BoxFrame,
+    /// The unit of each tree in units of the frame.
     units: [f32; 2],
     /// The centre of each tree in the frame of the other.
     offsets: [[f32; 3]; 2],
-    inverse_scale: f64,
-    scale: f64,
-    /// The slack by which bounds are lowered.
-    slack: f64,
     limit: f64,
 }
 
@@ -117,19 +113,19 @@ impl<'t> PairDescent<'t> {
         a.tree.root().and(b.tree.root())?;
         let frames = [a.tree.frame(), b.tree.frame()];
         let apart = frames[1].center - frames[0].center;
-        let size = a.radius.max(b.radius) + apart.norm();
-        let scale = power_of_two(size);
-        let inverse_scale = 1.0 / scale;
-        let largest_coordinate = a.largest_coordinate.max(b.largest_coordinate);
-        let offset = apart * inverse_scale;
+        let limits = FrameLimits {
+            size: a.radius.max(b.radius) + apart.norm(),
+            largest_coordinate: a.largest_coordinate.max(b.largest_coordinate),
+            ..FrameLimits::default()
+        };
+        let frame = BoxFrame::new(frames[0].center, &limits, a.deviation + b.deviation);
+        let offset = apart * frame.inverse_scale;
         Some(Self {
             trees: [&a.tree, &b.tree],
             is_self,
-            units: frames.map(|frame| (frame.scale * inverse_scale) as f32),
+            frame,
+            units: frames.map(|tree| (tree.scale * frame.inverse_scale) as f32),
             offsets: [each3(|k| -offset[k] as f32), each3(|k| offset[k] as f32)],
-            inverse_scale,
-            scale,
-            slack: slack(largest_coordinate, a.deviation + b.deviation) + ROUNDING * size,
             limit,
         })
     }
@@ -137,13 +133,13 @@ impl<'t> PairDescent<'t> {
     /// A single-precision bound above this proves that the distance is above the limit.
     #[inline(always)]
     fn cutoff(&self) -> f32 {
-        (((self.limit + self.slack) * self.inverse_scale) as f32).next_up()
+        self.frame.cutoff(self.limit)
     }
 
     /// The safe lower bound of the distance that follows from a single-precision bound.
     #[inline(always)]
     fn lower(&self, bound: f32) -> f64 {
-        f64::from(bound) * self.scale - self.slack
+        self.frame.lower(bound)
     }
 
     /// All children of a node, in its own tree's frame.
@@ -172,12 +168,8 @@ impl<'t> PairDescent<'t> {
     fn whole(&self, side: usize, node: u32) -> PackedBox {
         let Extent { low, high } = &self.trees[side].node(node).extent;
         let center = 0.5 * (low + high) - self.trees[1 - side].frame().center;
-        packed(
-            &[Vec3::x(), Vec3::y()],
-            &center,
-            &(0.5 * (high - low)),
-            self.inverse_scale,
-        )
+        let half = 0.5 * (high - low);
+        self.frame.pack_box(&[Vec3::x(), Vec3::y()], &center, &half)
     }
 
     /// What a child of a node is called in a [`NodePair`].
