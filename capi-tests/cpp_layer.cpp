@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 #include <cstk.hpp>
 
 static void require(bool condition, const char *what) {
@@ -360,6 +362,34 @@ static void maps(const cstk::Query &query, const cstk::CObject &obstacles, const
             }) == CSTK_ERROR_CANCELLED);
 }
 
+static void object_pairs(const cstk::Query &query, const cstk::Body &body) {
+    cstk::Environment world, other;
+    const std::uint64_t near = world.add(body, cstk::identity());
+    const std::uint64_t far = world.add(body, cstk::translation(3, 0, 0));
+    const std::uint64_t third = other.add(body, cstk::translation(0.5, 0, 0));
+    REQUIRE(query.environment_pairs(world, nullptr, 1.9).count == 0);
+    const cstk_object_pair_list two =
+        query.environment_pairs(world, nullptr, 2.0, 9, cstk::object_pair_options(true));
+    REQUIRE(two.count == 1 && two.pairs[0].r_object == near && two.pairs[0].s_object == far);
+    REQUIRE(two.distances[0].distance == 2.0 && two.pairs[0].pair_class == CSTK_CLASS_CONTACT);
+    REQUIRE(query.environment_within(world, &other, 0) && !query.environment_within(world, nullptr, 0));
+    REQUIRE(query.environment_distance(world, nullptr).distance == 2.0);
+    REQUIRE(query.environment_distance(world, &other).witness.s_object == third);
+    REQUIRE(query.environment_witnesses(world, nullptr, 2.0).contact_count == 4);
+    const auto not_near = [&](std::uint64_t r, std::uint64_t, void *, void *) { return r != near; };
+    REQUIRE(query.filtered_pairs(world, &other, 9, not_near).count == 1);
+    const auto thrower = [](std::uint64_t, std::uint64_t, void *, void *) -> bool {
+        throw std::runtime_error("out of the filter");
+    };
+    std::string thrown;
+    try {
+        query.filtered_pairs(world, &other, 9, thrower);
+    } catch (const std::runtime_error &error) {
+        thrown = error.what();
+    }
+    REQUIRE(thrown == "out of the filter");
+}
+
 static void queries() {
     cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
     cstk::RobotBuilder builder;
@@ -444,6 +474,7 @@ static void queries() {
     REQUIRE(query.pair_penetration(body, here, body, here, 1).count == 1);
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
             CSTK_ERROR_INVALID_ARGUMENT);
+    object_pairs(query, body);
     const char *file = "cpp_layer.glb";
     std::vector<double> both = q;
     both.insert(both.end(), q.begin(), q.end());

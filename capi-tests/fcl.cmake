@@ -5,7 +5,7 @@ if(NOT fcl_FOUND)
   return()
 endif()
 
-foreach(program fcl_pairs fcl_puma fcl_slide fcl_slides)
+foreach(program fcl_pairs fcl_object_pairs fcl_puma fcl_slide fcl_slides)
   add_executable(${program} ${CMAKE_CURRENT_LIST_DIR}/${program}.cpp)
   target_compile_features(${program} PRIVATE cxx_std_17)
   target_compile_options(${program} PRIVATE -O2 -Wall -Wextra)
@@ -17,7 +17,8 @@ endforeach()
 
 add_test(NAME fcl_pairs COMMAND fcl_pairs)
 add_test(NAME fcl_puma COMMAND fcl_puma ${CSTK_PUMA560_DIR})
-set_tests_properties(fcl_pairs fcl_puma PROPERTIES LABELS fcl TIMEOUT 900)
+add_test(NAME fcl_object_pairs COMMAND fcl_object_pairs)
+set_tests_properties(fcl_pairs fcl_object_pairs fcl_puma PROPERTIES LABELS fcl TIMEOUT 900)
 set_tests_properties(fcl_puma PROPERTIES SKIP_RETURN_CODE 77)
 
 add_test(NAME fcl_slide COMMAND fcl_slide ${paths} ${models} ${slide_meshes})

@@ -20,6 +20,7 @@
  *   @ref query              Query contexts
  *   @ref at_configuration   Queries at a configuration
  *   @ref pair               Pair queries
+ *   @ref object_pairs       Objects against objects
  *   @ref motion             Motions
  *   @ref certificate        Certificates
  *   @ref region             Regions
@@ -3352,7 +3353,8 @@ typedef int32_t cstk_pair_verdict;
  */
 typedef struct cstk_witness {
   /**
-   * The link, by number in the space; 0 in queries on two bodies.
+   * The link, by number in the space; 0 in queries on two bodies or on objects against
+   * objects.
    */
   uint32_t r_link;
   /**
@@ -3412,7 +3414,8 @@ typedef struct cstk_witness {
   void *r_data;
   void *s_data;
   /**
-   * The s-object attached to `r_link` that is the r-side, or 0 for the link's own body.
+   * The s-object attached to `r_link` that is the r-side, or 0 for the link's own body. In queries on objects against objects,
+   * the first object.
    */
   uint64_t r_object;
   uint64_t reserved[4];
@@ -3932,6 +3935,160 @@ cstk_status cstk_pair_penetration(cstk_query *query,
                                   const double *pose_b,
                                   size_t max_count,
                                   cstk_penetration_list *out);
+
+/** @} */
+
+/**
+ * @defgroup object_pairs Objects against objects
+ *
+ * The objects of an environment, each with each, or with each of a second environment, without a robot: what is near in a
+ * simulation of contacts, a scene as it is loaded, a bin of parts. All near pairs are found in one run through the tree over the
+ * objects; each answer is that of the pair query of the two bodies. Objects that are attached to links have no place here:
+ * CSTK_ERROR_UNSUPPORTED.
+ *
+ * @code
+     cstk_object_pair_list near;
+     cstk_witness_list touching;
+     check(cstk_environment_pairs(query, environment, NULL, 0.01, 4096, NULL, &near));
+     check(cstk_environment_witnesses(query, environment, NULL, 0.001, 4096, NULL, &touching));
+ * @endcode
+ * @{
+ */
+
+/**
+ * Writes to `out` whether a pair of objects is asked about, by their ids and data. Returns CSTK_OK, or anything else to make the
+ * query fail with CSTK_ERROR_CALLBACK_FAILED. It is called on the thread that made the call, for pairs that may be near, in any
+ * order and possibly more than once; it must be pure, must not throw, and must not use the query context.
+ */
+typedef int32_t (*cstk_object_filter_fn)(uint64_t r_object,
+                                         uint64_t s_object,
+                                         void *r_data,
+                                         void *s_data,
+                                         bool *out,
+                                         void *user);
+
+/**
+ * Options of the queries of objects against objects. Write it with cstk_object_pair_options_default first.
+ */
+typedef struct cstk_object_pair_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * NULL, the default, for all pairs.
+   */
+  cstk_object_filter_fn filter;
+  /**
+   * Passed to the filter.
+   */
+  void *user;
+  /**
+   * Nonzero: cstk_environment_pairs measures the distance of each pair that it lists. Default 0.
+   */
+  uint32_t with_distances;
+  uint32_t reserved;
+} cstk_object_pair_options;
+
+/**
+ * Two objects that are near each other. Within one environment `r_object` is the lower id; of two environments it is the object of
+ * the first.
+ */
+typedef struct cstk_object_pair {
+  uint64_t r_object;
+  uint64_t s_object;
+  /**
+   * The data of the objects, or of their bodies if they have none; NULL for none.
+   */
+  void *r_data;
+  void *s_data;
+  /**
+   * CSTK_CLASS_INSIDE if they meet, else CSTK_CLASS_CONTACT.
+   */
+  cstk_class pair_class;
+  uint32_t reserved_word;
+  uint64_t reserved[2];
+} cstk_object_pair;
+
+/**
+ * Pairs of objects in order of ids. The arrays belong to the query context and stay valid until its next call or its release.
+ */
+typedef struct cstk_object_pair_list {
+  const cstk_object_pair *pairs;
+  size_t count;
+  /**
+   * The distance of each pair, with its witness and contact; NULL unless the options ask for them.
+   */
+  const cstk_distance_result *distances;
+  /**
+   * There are more pairs than max_count; these have the lowest ids.
+   */
+  bool truncated;
+  uint8_t reserved_bytes[7];
+  /**
+   * The larger one of two environments.
+   */
+  uint64_t environment_version;
+  uint64_t reserved[4];
+} cstk_object_pair_list;
+
+
+/**
+ * Writes the default options: all pairs, without distances. `size` is sizeof(cstk_object_pair_options).
+ */
+cstk_status cstk_object_pair_options_default(cstk_object_pair_options *out,
+                                             size_t size);
+
+/**
+ * Writes the pairs of objects at most `distance` apart (not negative; may be INFINITY), with 0 those that meet, in order of ids:
+ * of `environment` with `other`, or, where `other` is NULL, within `environment`, each pair once. Doubt within rounding counts as
+ * within. If there are more than `max_count`, those with the lowest ids are listed and `truncated` is set. `options` may be NULL
+ * for the defaults. The arrays stay valid until the next call with this query context.
+ */
+cstk_status cstk_environment_pairs(cstk_query *query,
+                                   const cstk_environment *environment,
+                                   const cstk_environment *other,
+                                   double distance,
+                                   size_t max_count,
+                                   const cstk_object_pair_options *options,
+                                   cstk_object_pair_list *out);
+
+/**
+ * Writes whether any pair of objects is at most `threshold` apart (not negative; may be INFINITY); with 0, whether any two meet:
+ * of `environment` with `other`, or, where `other` is NULL, within `environment`. Doubt within rounding counts as within. It stops
+ * at the first pair. `options` may be NULL.
+ */
+cstk_status cstk_environment_within(cstk_query *query,
+                                    const cstk_environment *environment,
+                                    const cstk_environment *other,
+                                    double threshold,
+                                    const cstk_object_pair_options *options,
+                                    bool *out);
+
+/**
+ * Writes the distance of the nearest pair of objects, their witness points and contact: of `environment` with `other`, or, where
+ * `other` is NULL, within `environment`. Ties go to the lowest ids. The witness names the two as `r_object` and `s_object`.
+ * Distances above `max_distance` are not computed: the result is then CSTK_DISTANCE_BEYOND_MAX. Without any pair it is
+ * CSTK_DISTANCE_EMPTY. `options` may be NULL.
+ */
+cstk_status cstk_environment_distance(cstk_query *query,
+                                      const cstk_environment *environment,
+                                      const cstk_environment *other,
+                                      double max_distance,
+                                      const cstk_object_pair_options *options,
+                                      cstk_distance_result *out);
+
+/**
+ * Writes all pairs of primitives of two objects at most `epsilon` apart, none missing, none twice, nearest first, and their
+ * contacts: of `environment` with `other`, or, where `other` is NULL, within `environment`. They name the objects as `r_object`
+ * and `s_object`. If there are more than `max_count`, the nearest are listed and `truncated` is set. `options` may be NULL. The
+ * arrays stay valid until the next call with this query context.
+ */
+cstk_status cstk_environment_witnesses(cstk_query *query,
+                                       const cstk_environment *environment,
+                                       const cstk_environment *other,
+                                       double epsilon,
+                                       size_t max_count,
+                                       const cstk_object_pair_options *options,
+                                       cstk_witness_list *out);
 
 /** @} */
 

@@ -190,6 +190,8 @@ SET_WHERE = {
 OBJECT_IDS = {
     ("cstk_witness", "r_data"): "r_object",
     ("cstk_witness", "s_data"): "s_object",
+    ("cstk_object_pair", "r_data"): "r_object",
+    ("cstk_object_pair", "s_data"): "s_object",
     ("cstk_object_info", "data"): "id",
 }
 # Inputs, which have classes of their own.

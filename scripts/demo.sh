@@ -2,7 +2,8 @@
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
 # picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
 # demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/shortcut.png a Puma 560's shortcut that is not free, and two that
-# are; demo/workcell.png shows two arms that share a workcell; demo/planner.png paths that RRT-Connect found.
+# are; demo/contact_drop.png and demo/newton_cradle.png are simulations of contacts, demo/peg_in_hole.png a fine motion;
+# demo/workcell.png shows two arms that share a workcell; demo/planner.png paths that RRT-Connect found.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh demo
@@ -43,6 +44,13 @@ echo
 build/examples/motion demo/motion.svg
 rsvg-convert --width 1240 demo/motion.svg --output demo/motion.png
 echo
+for example in contact_drop newton_cradle peg_in_hole; do
+  build/examples/$example "demo/$example.svg"
+  rsvg-convert --width 1200 "demo/$example.svg" --output "demo/$example.png"
+  echo
+done
+build/examples/teleoperation
+echo
 build/examples/puma_shortcut "$meshes" demo
 for frame in contact free; do
   render "shortcut_$frame" 3.0,-1.9,2.0 0.25,0.1,0.65
@@ -82,6 +90,9 @@ echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
 echo "picture: $PWD/demo/motion.png"
+for example in contact_drop newton_cradle peg_in_hole; do
+  echo "picture: $PWD/demo/$example.png"
+done
 echo "picture: $PWD/demo/shortcut.png"
 echo "picture: $PWD/demo/workcell.png"
 echo "picture: $PWD/demo/maps.png"

@@ -5,6 +5,7 @@
 //
 // --quick leaves out the largest size and measures less often; --only asks for the rows whose scene
 // and name hold a text, such as "far classify". Ends with 1 where answers differ.
+#include "against.hpp"
 #include "fcl.hpp"
 #include "ours.hpp"
 #include "table.hpp"
@@ -170,6 +171,39 @@ void show_changes(const char *title, const char *name, Sizes sizes, const Workpl
     }
 }
 
+// Objects against objects, among themselves and in two sets.
+void show_pairs(const Options &options, Table &table) {
+    const std::size_t queries = 30;
+    std::vector<std::size_t> counts = {200, 1000};
+    if (!options.quick) {
+        counts.push_back(10000);
+    }
+    table.start("pairs", "Boxes against boxes, all moved before each query");
+    for (const bool two_sets : {false, true}) {
+        for (const bool with_moves : {false, true}) {
+            const std::string where = two_sets ? "of two sets" : "of one set";
+            const std::string what = where + (with_moves ? " + moves" : "");
+            std::vector<std::unique_ptr<Against>> all;
+            table.row("meeting pairs " + what, queries, 0, [&] {
+                std::vector<Question> asked;
+                for (const std::size_t count : counts) {
+                    all.push_back(std::make_unique<Against>(meeting_boxes(count, queries, options.seed), two_sets));
+                    asked.push_back(all.back()->meeting(with_moves));
+                }
+                return asked;
+            });
+            table.row("nearest pair " + what, queries, distances_allowed, [&] {
+                std::vector<Question> asked;
+                for (const std::size_t count : counts) {
+                    all.push_back(std::make_unique<Against>(boxes_apart(count, queries, options.seed), two_sets));
+                    asked.push_back(all.back()->nearest(with_moves));
+                }
+                return asked;
+            });
+        }
+    }
+}
+
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     const std::string key = "model name";
@@ -204,6 +238,7 @@ int run(const Options &options) {
          sizes(&Workplace::crowded), place, table);
     show_changes("Objects that move, all scattered at one density", "moves",
                  sizes(&Workplace::dense), place, table);
+    show_pairs(options, table);
     std::printf("\n%zu answers of FCL's compared, %zu differ\n", table.compared(),
                 table.differing());
     if (!options.csv.empty()) {

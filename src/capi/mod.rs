@@ -39,6 +39,8 @@ pub mod at_configuration;
 
 pub mod pair;
 
+pub mod object_pairs;
+
 pub mod motion;
 
 pub mod certificate;

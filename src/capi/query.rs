@@ -19,12 +19,14 @@ use super::handle;
 use super::handle::Noun;
 use super::input::Output;
 use crate::capi::at_configuration::answers::{
-    cstk_contact, cstk_penetration, cstk_penetration_list, cstk_witness, cstk_witness_list,
+    cstk_contact, cstk_distance_result, cstk_penetration, cstk_penetration_list, cstk_witness,
+    cstk_witness_list,
 };
 use crate::capi::at_configuration::explain::cstk_verdict;
 use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;
 use crate::capi::environment::environment::cstk_environment;
 use crate::capi::motion::path::cstk_path;
+use crate::capi::object_pairs::cstk_object_pair;
 use crate::capi::status::status::cstk_status;
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
@@ -53,6 +55,8 @@ pub(super) struct State {
     pub pairs: Vec<cstk_link_pair>,
     pub tested: Vec<u32>,
     path: Vec<f64>,
+    pub object_pairs: Vec<cstk_object_pair>,
+    pub distances: Vec<cstk_distance_result>,
     /// Memory for the link poses passed to a call.
     pub poses: Vec<Pose>,
 }
@@ -66,7 +70,7 @@ impl Noun for Query {
 }
 
 /// Refills an array, reusing its memory.
-fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
+pub(super) fn refill<'a, T: 'a, U: From<&'a T>>(array: &mut Vec<U>, items: &'a [T]) {
     array.clear();
     array.extend(items.iter().map(From::from));
 }

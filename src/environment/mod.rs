@@ -6,6 +6,7 @@ mod box_frame;
 pub mod box_tree;
 #[allow(clippy::module_inception)]
 mod environment;
+mod near_pairs;
 mod object_tree;
 mod places;
 mod snapshot;
@@ -16,6 +17,7 @@ pub use attachment::Attachment;
 pub use bounds::Bounds;
 pub use box_frame::{BoxFrame, FrameLimits};
 pub use environment::{Change, Environment};
+pub use near_pairs::NearPairScratch;
 pub use object_tree::ObjectTree;
 pub use places::SObject;
 pub use snapshot::Snapshot;

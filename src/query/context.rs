@@ -7,7 +7,7 @@ use super::combination::Answers;
 use super::scene::{Configuration, Scene, SceneMemory};
 use super::world::World;
 use crate::cobject::CObject;
-use crate::environment::Environment;
+use crate::environment::{Environment, NearPairScratch};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Scratch;
 use crate::work_meter::Statistics;
@@ -24,6 +24,7 @@ pub struct QueryContext {
     pub(super) answers: Answers,
     /// Which contacts witness lists hold.
     pub(super) contacts: ContactsListed,
+    pub(super) near_pairs: NearPairScratch,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
@@ -43,11 +44,16 @@ impl QueryContext {
     /// Begins a call: takes the current snapshots of the C-object's environments, and records their versions for
     /// [`QueryContext::version_seen`].
     pub(crate) fn look(&mut self, cobject: &CObject) -> World {
-        self.scratch.meter_mut().start_call();
         let world = World::of(cobject);
-        self.seen.clear();
-        self.seen.extend(world.versions());
+        self.start_looking(world.versions());
         world
+    }
+
+    /// Begins a call that sees these versions of environments, in order of their serial numbers.
+    pub(super) fn start_looking(&mut self, versions: impl IntoIterator<Item = (u64, u64)>) {
+        self.scratch.meter_mut().start_call();
+        self.seen.clear();
+        self.seen.extend(versions);
     }
 
     /// Begins an item of a batch, whose world is taken: its work is counted from 0. Under a limit nothing of earlier items is

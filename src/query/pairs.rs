@@ -50,7 +50,7 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
 
 /// Whether both bodies are a single primitive, so that no traversal is needed. Two polygons in space are excluded: only the
 /// traversal compares their outlines.
-fn are_singles(a: &Body, b: &Body) -> bool {
+pub(super) fn are_singles(a: &Body, b: &Body) -> bool {
     let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
     let are_planar = a.dimension() == 2;
     a.is_single() && b.is_single() && (are_planar || !has_outline(a) || !has_outline(b))
@@ -88,7 +88,11 @@ impl QueryContext {
     }
 
     /// The same of bodies of one primitive each, which need no search.
-    fn singles_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
+    pub(super) fn singles_distance(
+        &mut self,
+        target: &Target,
+        max_distance: f64,
+    ) -> Result<Distance> {
         self.count_body_pair()?;
         let pairing = target.pairing();
         if pairing.sphere_bound() > max_distance {
@@ -144,7 +148,7 @@ impl QueryContext {
     }
 
     /// The same of bodies of one primitive each, which need no search.
-    fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
+    pub(super) fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
         self.count_body_pair()?;
         if pairing.sphere_bound() > threshold {
             return Ok(false);

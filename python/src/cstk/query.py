@@ -9,12 +9,13 @@ from .enums import ContactsListed
 from .environment import Environment
 from .errors import check
 from .motion import Motions
+from .object_pairs import ObjectPairs
 from .records import QueryStatistics
 from .region import Regions
 from .slide import Slides
 
 
-class Query(AtConfiguration, PairQueries, Motions, Regions, Slides):
+class Query(AtConfiguration, PairQueries, ObjectPairs, Motions, Regions, Slides):
     """One thread's caches and scratch memory: make one for each thread; a call while another runs raises BusyError. Caches change how
     long an answer takes, never the answer. Calls release Python's lock while they run.
     """

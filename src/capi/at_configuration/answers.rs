@@ -80,7 +80,8 @@ pub struct cstk_contact {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_witness {
-    /// The link, by number in the space; 0 in queries on two bodies.
+    /// The link, by number in the space; 0 in queries on two bodies or on objects against
+    /// objects.
     pub r_link: u32,
     /// The second link, or the link that the s-object is attached to; CSTK_NONE for other s-objects and for bodies.
     pub s_link: u32,
@@ -116,7 +117,8 @@ pub struct cstk_witness {
     /// The data of the r-side's body, and of the s-object or, if it has none, of its body; NULL for none.
     pub r_data: *mut c_void,
     pub s_data: *mut c_void,
-    /// The s-object attached to `r_link` that is the r-side, or 0 for the link's own body.
+    /// The s-object attached to `r_link` that is the r-side, or 0 for the link's own body. In queries on objects against objects,
+    /// the first object.
     pub r_object: u64,
     pub reserved: [u64; 4],
 }

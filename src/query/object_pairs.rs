@@ -1,0 +1,529 @@
+//! The objects of an environment among themselves, or against those of another: which pairs are near, how near, and where.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use super::answer::{ContactsListed, Distance, SSide, Witness, WitnessList};
+use super::cache_key::CacheKey;
+use super::context::{QueryContext, check_threshold};
+use super::pairs::are_singles;
+use super::target::Target;
+use crate::cobject::{Class, InducedOptions, Leaf};
+use crate::environment::{Environment, SObject, Snapshot};
+use crate::error::{Error, ErrorKind, Result};
+use crate::pair::{Collect, PrimitiveScratch};
+
+/// Whether a pair of objects is asked about; may fail.
+pub type ObjectFilter<'f> = dyn FnMut(&SObject, &SObject) -> Result<bool> + 'f;
+
+/// The objects of one state of an environment, each with each, or with each of a second environment.
+pub struct ObjectSets<'f> {
+    environments: [u64; 2],
+    first: Arc<Snapshot>,
+    second: Option<Arc<Snapshot>>,
+    filter: Option<&'f mut ObjectFilter<'f>>,
+}
+
+/// Two objects that are near each other. Within one environment the first is the one with the lower id.
+#[derive(Clone, Debug)]
+pub struct ObjectPair {
+    /// The ids of the two.
+    pub ids: [u64; 2],
+    /// The data of the two objects, or of their bodies, or 0.
+    pub data: [usize; 2],
+    /// Inside where they meet, else in contact.
+    pub class: Class,
+}
+
+/// Pairs of objects in order of ids.
+#[derive(Clone, Debug, Default)]
+pub struct ObjectPairList {
+    /// The pairs.
+    pub pairs: Vec<ObjectPair>,
+    /// The distance of each pair, if asked for.
+    pub distances: Vec<Distance>,
+    /// There are more.
+    pub truncated: bool,
+    /// The larger version of the environments.
+    pub version: u64,
+}
+
+/// A pair of objects that the traversal found, by places, with a lower bound of its distance.
+#[derive(Clone, Copy)]
+struct NearPair {
+    places: [usize; 2],
+    bound: f64,
+}
+
+/// This many near pairs are looked at together: so many targets take 3 MB.
+const BLOCK: usize = 1 << 14;
+
+/// The same where one pair may decide.
+const SMALL_BLOCK: usize = 1 << 6;
+
+impl<'f> ObjectSets<'f> {
+    /// The current states of one or two environments. The same one twice is one. Refused are planar objects against spatial
+    /// ones, and attached objects, whose poses are unknown here.
+    pub fn new(
+        first: &Environment,
+        second: Option<&Environment>,
+        filter: Option<&'f mut ObjectFilter<'f>>,
+    ) -> Result<Self> {
+        let second = second.filter(|second| second.serial() != first.serial());
+        let environments = [first.serial(), second.unwrap_or(first).serial()];
+        let (first, second) = (first.snapshot(), second.map(Environment::snapshot));
+        for snapshot in [Some(&first), second.as_ref()].into_iter().flatten() {
+            if let Some(SObject { id, .. }) = snapshot.attached().next() {
+                return Err(Error::new(
+                    ErrorKind::Unsupported,
+                    format!(
+                        "s-object {id} is attached to a link: its place in the world is not known here"
+                    ),
+                ));
+            }
+        }
+        if let (Some(a), Some(b)) = (first.first(), second.as_ref().and_then(|s| s.first()))
+            && a.body.dimension() != b.body.dimension()
+        {
+            return Err(Error::invalid(format!(
+                "s-objects {} and {} differ in dimension",
+                a.id, b.id
+            )));
+        }
+        Ok(Self {
+            environments,
+            first,
+            second,
+            filter,
+        })
+    }
+
+    /// The states of the two sides.
+    fn sides(&self) -> [&Arc<Snapshot>; 2] {
+        [&self.first, self.second.as_ref().unwrap_or(&self.first)]
+    }
+
+    fn version(&self) -> u64 {
+        let [a, b] = self.sides();
+        a.version.max(b.version)
+    }
+
+    /// Whether there is no pair.
+    fn is_empty(&self) -> bool {
+        let [a, b] = self.sides().map(|side| side.len());
+        a == 0 || b == 0 || (self.second.is_none() && a == 1)
+    }
+
+    fn admits(&mut self, places: [usize; 2]) -> Result<bool> {
+        let second = self.second.as_ref().unwrap_or(&self.first);
+        match &mut self.filter {
+            Some(filter) => filter(self.first.object(places[0]), second.object(places[1])),
+            None => Ok(true),
+        }
+    }
+}
+
+/// Two objects as the target of a search.
+fn target<'a>([a, b]: [&'a Snapshot; 2], pair: &NearPair) -> Target<'a> {
+    let [a, b] = [a.object(pair.places[0]), b.object(pair.places[1])];
+    Target {
+        sides: [(&*a.body, &a.pose), (&*b.body, &b.pose)],
+        // No space has this number.
+        key: CacheKey::Candidate {
+            space: 0,
+            r_link: 0,
+            r_object: a.id,
+            s_side: SSide::Object(b.id),
+            body: b.body.serial(),
+        },
+        options: InducedOptions::default(),
+        data: [a.data(), b.data()],
+        s_carrier: None,
+        term: 0,
+        rank: 0,
+        bound: pair.bound,
+    }
+}
+
+/// The targets of a block, ranked by ids and sorted by bound.
+fn targets<'a>(sides: [&'a Snapshot; 2], block: &mut [NearPair]) -> Vec<Target<'a>> {
+    block.sort_unstable_by_key(|pair| pair.places);
+    let ranked = block.iter().zip(0..).map(|(pair, rank)| Target {
+        rank,
+        ..target(sides, pair)
+    });
+    let mut targets: Vec<Target> = ranked.collect();
+    targets.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
+    targets
+}
+
+impl QueryContext {
+    /// Whether two objects may be at most `threshold` apart: doubt within rounding counts as within.
+    pub fn environment_within(&mut self, sets: &mut ObjectSets, threshold: f64) -> Result<bool> {
+        check_threshold(threshold, "threshold")?;
+        self.look_at(sets);
+        if let Some(recent) = self.recent_pair(sets)?
+            && self.target_within(
+                &target(sets.sides().map(|side| &**side), &recent),
+                threshold,
+            )?
+        {
+            return Ok(true);
+        }
+        let mut found = false;
+        self.in_blocks(sets, threshold, SMALL_BLOCK, |context, sides, block| {
+            for pair in block.iter() {
+                let target = target(sides, pair);
+                if context.target_within(&target, threshold)? {
+                    context.recent = Some(target.key);
+                    found = true;
+                    return Ok(f64::NEG_INFINITY);
+                }
+            }
+            block.clear();
+            Ok(threshold)
+        })?;
+        Ok(found)
+    }
+
+    /// The distance of the nearest two objects, up to `max_distance`. Ties go to the lowest ids.
+    pub fn environment_distance(
+        &mut self,
+        sets: &mut ObjectSets,
+        max_distance: f64,
+    ) -> Result<Distance> {
+        check_threshold(max_distance, "max_distance")?;
+        self.look_at(sets);
+        let version = sets.version();
+        let empty = Distance::empty(version);
+        if sets.is_empty() {
+            return Ok(empty);
+        }
+        let mut limit = max_distance;
+        if let Some(recent) = self.recent_pair(sets)? {
+            let target = target(sets.sides().map(|side| &**side), &recent);
+            limit = self.target_distance(&target, limit)?.distance.min(limit);
+        }
+        let (mut best, mut lower) = (None, f64::INFINITY);
+        self.in_blocks_of_nearest(sets, limit, |context, sides, block| {
+            let targets = targets(sides, block);
+            let found = context.nearest(&targets, limit)?;
+            lower = found.lower.min(lower);
+            let nearest = found.hit.as_ref().map(|(hit, target)| {
+                limit = hit.distance;
+                block[target.rank as usize]
+            });
+            block.clear();
+            if nearest.is_some() {
+                let scratch = context.scratch.for_primitives();
+                best = Some(Distance::from_found(
+                    &found,
+                    limit,
+                    |_| Leaf::default(),
+                    scratch,
+                ));
+            }
+            // The next block ranks it among its own.
+            block.extend(nearest);
+            Ok(limit)
+        })?;
+        let found = match best {
+            Some(best) => Distance { lower, ..best },
+            // All pairs are left out by the filter, or none is within the maximum.
+            None if max_distance == f64::INFINITY => return Ok(empty),
+            None => Distance::beyond(max_distance, lower),
+        };
+        Ok(Distance { version, ..found })
+    }
+
+    /// All pairs of objects at most `distance` apart, in order of ids, at most `max_count` of them: doubt within rounding counts
+    /// as within.
+    pub fn environment_pairs(
+        &mut self,
+        sets: &mut ObjectSets,
+        distance: f64,
+        max_count: usize,
+        with_distances: bool,
+    ) -> Result<ObjectPairList> {
+        check_threshold(distance, "distance")?;
+        self.look_at(sets);
+        let mut found: Vec<NearPair> = Vec::new();
+        let mut truncated = false;
+        self.in_blocks(sets, distance, BLOCK, |context, sides, block| {
+            let last = found.last().filter(|_| truncated).map(|last| last.places);
+            for pair in block.drain(..) {
+                let is_behind = truncated && last.is_none_or(|last| pair.places > last);
+                if !is_behind && context.target_within(&target(sides, &pair), distance)? {
+                    found.push(pair);
+                }
+            }
+            found.sort_unstable_by_key(|pair| pair.places);
+            truncated |= found.len() > max_count;
+            found.truncate(max_count);
+            Ok(if truncated && max_count == 0 {
+                f64::NEG_INFINITY
+            } else {
+                distance
+            })
+        })?;
+        let mut list = ObjectPairList {
+            truncated,
+            version: sets.version(),
+            ..Default::default()
+        };
+        list.pairs.reserve(found.len());
+        for pair in &found {
+            let target = target(sets.sides().map(|side| &**side), pair);
+            let (_, a, b) = target.parties();
+            let meet = if with_distances {
+                let measured = self.target_distance(&target, f64::INFINITY)?;
+                let meet = measured.distance == 0.0;
+                list.distances.push(Distance {
+                    version: list.version,
+                    ..measured
+                });
+                meet
+            } else {
+                distance == 0.0 || self.target_within(&target, 0.0)?
+            };
+            list.pairs.push(ObjectPair {
+                ids: [a, object_of(b)],
+                data: target.data,
+                class: if meet { Class::Inside } else { Class::Contact },
+            });
+        }
+        Ok(list)
+    }
+
+    /// All primitive pairs of different objects at most `epsilon` apart, nearest first, at most `max_count` of them.
+    pub fn environment_witnesses(
+        &mut self,
+        sets: &mut ObjectSets,
+        epsilon: f64,
+        max_count: usize,
+    ) -> Result<WitnessList> {
+        check_threshold(epsilon, "epsilon")?;
+        self.look_at(sets);
+        let contacts = self.contacts;
+        let (mut lists, mut limit) = (Vec::new(), epsilon);
+        let mut count = 0;
+        self.in_blocks(sets, epsilon, BLOCK, |context, sides, block| {
+            let targets = targets(sides, block);
+            let list = context.block_witnesses(&targets, limit, max_count, contacts)?;
+            block.clear();
+            count += list.witnesses.len();
+            lists.push(list);
+            if count > max_count.saturating_mul(2) {
+                let merged = merged(&lists, max_count);
+                // What is farther than the last is not listed.
+                let last = merged.witnesses.last().filter(|_| merged.truncated);
+                limit = last.map_or(limit, |last| last.distance);
+                count = merged.witnesses.len();
+                lists = vec![merged];
+            }
+            let nothing_more = max_count == 0 && lists.iter().any(|list| list.truncated);
+            Ok(if nothing_more {
+                f64::NEG_INFINITY
+            } else {
+                limit
+            })
+        })?;
+        let list = match lists.len() {
+            0 | 1 => lists.pop().unwrap_or_default(),
+            _ => merged(&lists, max_count),
+        };
+        Ok(WitnessList {
+            version: sets.version(),
+            ..list
+        })
+    }
+
+    fn block_witnesses(
+        &mut self,
+        targets: &[Target],
+        epsilon: f64,
+        max_count: usize,
+        contacts: ContactsListed,
+    ) -> Result<WitnessList> {
+        let visitor = Collect::new(epsilon, max_count, false);
+        let (hits, truncated) = self.collect(targets, visitor)?;
+        let mut list = WitnessList {
+            truncated,
+            ..Default::default()
+        };
+        list.reserve(hits.len());
+        let mut by_rank: Vec<&Target> = targets.iter().collect();
+        by_rank.sort_unstable_by_key(|target| target.rank);
+        let mut scratch = PrimitiveScratch::default();
+        for hit in &hits {
+            let target = by_rank[hit.key.pair as usize];
+            let leaf = Leaf::default();
+            list.push(target, &target.pairing(), hit, leaf, contacts, &mut scratch);
+        }
+        Ok(list)
+    }
+
+    /// Begins a call, and records the versions of the environments.
+    fn look_at(&mut self, sets: &ObjectSets) {
+        let [a, b] = sets.environments;
+        let [first, second] = sets.sides().map(|side| side.version);
+        let mut seen = [(a, first), (b, second)];
+        seen.sort_unstable();
+        self.start_looking(seen.into_iter().skip(usize::from(a == b)));
+    }
+
+    /// The pair of objects found last, if both are there still and are asked about.
+    fn recent_pair(&mut self, sets: &mut ObjectSets) -> Result<Option<NearPair>> {
+        let Some(CacheKey::Candidate {
+            space: 0,
+            r_object,
+            s_side: SSide::Object(s_object),
+            ..
+        }) = self.recent
+        else {
+            return Ok(None);
+        };
+        let [a, b] = sets.sides();
+        let (Some(a), Some(b)) = (a.place_of(r_object), b.place_of(s_object)) else {
+            return Ok(None);
+        };
+        // Found between two environments, a pair may be one object twice, or have its higher id first.
+        let places = [a, b];
+        if sets.second.is_none() && a >= b || !sets.admits(places)? {
+            return Ok(None);
+        }
+        let bound = f64::NEG_INFINITY;
+        Ok(Some(NearPair { places, bound }))
+    }
+
+    /// Hands the pairs that may be within the limit to `each`, block by block, in any order. `each` takes pairs out of the block,
+    /// and returns the limit from then on.
+    fn in_blocks(
+        &mut self,
+        sets: &mut ObjectSets,
+        limit: f64,
+        size: usize,
+        each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
+    ) -> Result<()> {
+        self.blocks::<false>(sets, limit, size, each)
+    }
+
+    /// The same for the nearest pair alone: the limit falls with the pairs' bounds too.
+    fn in_blocks_of_nearest(
+        &mut self,
+        sets: &mut ObjectSets,
+        limit: f64,
+        each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
+    ) -> Result<()> {
+        self.blocks::<true>(sets, limit, SMALL_BLOCK, each)
+    }
+
+    fn blocks<const NEAREST: bool>(
+        &mut self,
+        sets: &mut ObjectSets,
+        limit: f64,
+        size: usize,
+        mut each: impl FnMut(&mut Self, [&Snapshot; 2], &mut Vec<NearPair>) -> Result<f64>,
+    ) -> Result<()> {
+        let mut scratch = std::mem::take(&mut self.near_pairs);
+        let mut block = Vec::new();
+        let (mut limit, mut done) = (limit, Ok(()));
+        let (first, second) = (sets.first.clone(), sets.second.clone());
+        let sides = [&*first, second.as_deref().unwrap_or(&first)];
+        let first_limit = limit;
+        let mut offer = |context: &mut Self, places: [usize; 2], at_least: f64| -> Result<f64> {
+            context.count_body_pair()?;
+            let [a, b] = [sides[0].bounds(places[0]), sides[1].bounds(places[1])];
+            let [lower, upper] = a.distance(b);
+            let bound = lower.max(at_least);
+            if bound <= limit && sets.admits(places)? {
+                if NEAREST {
+                    limit = limit.min(upper);
+                }
+                block.push(NearPair { places, bound });
+                if block.len() >= size {
+                    limit = each(context, sides, &mut block)?;
+                }
+            }
+            Ok(limit)
+        };
+        first.visit_near_pairs(
+            second.as_deref(),
+            first_limit,
+            &mut scratch,
+            |places, lower| {
+                if done.is_err() {
+                    return f64::NEG_INFINITY;
+                }
+                offer(self, places, lower).unwrap_or_else(|error| {
+                    done = Err(error);
+                    f64::NEG_INFINITY
+                })
+            },
+        );
+        self.near_pairs = scratch;
+        done?;
+        if !block.is_empty() {
+            each(self, sides, &mut block)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the distance of two objects may be at most `threshold`.
+    fn target_within(&mut self, target: &Target, threshold: f64) -> Result<bool> {
+        let [(a, _), (b, _)] = target.sides;
+        if are_singles(a, b) {
+            return self.singles_within(&target.pairing(), threshold);
+        }
+        self.any_within(std::slice::from_ref(target), |_| threshold)
+    }
+
+    /// The distance of two objects, up to a maximum.
+    fn target_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
+        let [(a, _), (b, _)] = target.sides;
+        if are_singles(a, b) {
+            return self.singles_distance(target, max_distance);
+        }
+        let targets = std::slice::from_ref(target);
+        let found = self.nearest(targets, max_distance)?;
+        let scratch = self.scratch.for_primitives();
+        Ok(Distance::from_found(
+            &found,
+            max_distance,
+            |_| Leaf::default(),
+            scratch,
+        ))
+    }
+}
+
+/// The nearest witnesses of some lists; ties go to the lowest ids.
+fn merged(lists: &[WitnessList], max_count: usize) -> WitnessList {
+    let each = lists
+        .iter()
+        .flat_map(|list| list.witnesses.iter().map(move |witness| (list, witness)));
+    let mut all: Vec<(&WitnessList, &Witness)> = each.collect();
+    all.sort_by(|(_, a), (_, b)| in_order(a, b));
+    let mut merged = WitnessList {
+        truncated: all.len() > max_count || lists.iter().any(|list| list.truncated),
+        ..Default::default()
+    };
+    for (list, witness) in all.into_iter().take(max_count) {
+        merged.take(list, witness);
+    }
+    merged
+}
+
+/// The order of hits within a block (see `Hit`).
+fn in_order(a: &Witness, b: &Witness) -> Ordering {
+    let key = |w: &Witness| (w.r_object, w.s_side, w.primitives, w.contained);
+    a.distance
+        .total_cmp(&b.distance)
+        .then_with(|| key(a).cmp(&key(b)))
+}
+
+fn object_of(side: SSide) -> u64 {
+    match side {
+        SSide::Object(id) => id,
+        SSide::Link(_) | SSide::PureSet(_) => 0,
+    }
+}
