@@ -24,3 +24,4 @@ mod slide_paths;
 mod slide_proofs;
 mod slide_to;
 mod stated_motion;
+mod trees;

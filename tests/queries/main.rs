@@ -14,6 +14,7 @@ mod gradients;
 mod grasping;
 mod held_objects;
 mod link_pairs;
+mod link_pairs_far;
 mod object_pairs;
 mod pure_sets;
 mod pure_sets_among_others;

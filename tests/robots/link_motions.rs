@@ -9,7 +9,7 @@ use cstk::robot::{
 use cstk::space::Space;
 
 use helpers::random::Random;
-use helpers::robots::{link, robot, space};
+use helpers::robots::{Screw, link, robot, space};
 
 /// The last two move on straight segments only.
 const KINDS: [JointKind; 7] = [
@@ -193,4 +193,132 @@ fn no_derivative_is_above_its_bound() {
         used[0] > 0.9 && used[1] > 0.8,
         "bounds of {used:?} of themselves are of no use"
     );
+}
+
+/// The links between two, the first of them carried by no other: those that carry one and not both.
+fn between(parents: &[Option<usize>], a: usize, b: Option<usize>) -> Vec<usize> {
+    let carriers = |link: Option<usize>| -> Vec<usize> {
+        std::iter::successors(link, |&link| parents[link]).collect()
+    };
+    let [a, b] = [carriers(Some(a)), carriers(b)];
+    let own = |list: &[usize], other: &[usize]| -> Vec<usize> {
+        list.iter()
+            .copied()
+            .filter(|link| !other.contains(link))
+            .collect()
+    };
+    [own(&a, &b), own(&b, &a)].concat()
+}
+
+/// Trees of several robots, some of whose joints are the caller's: bounds are known where no such joint moves between two links, whatever
+/// was asked before, and hold there.
+#[test]
+fn rates_of_branches_and_custom_joints_are_bounds() {
+    let mut random = Random::new(85);
+    let mut counts = [0; 2];
+    for _ in 0..700 {
+        let mut parents: Vec<Option<usize>> = Vec::new();
+        let mut is_custom = Vec::new();
+        let robots = (0..1 + random.below(3)).map(|_| {
+            let first = parents.len();
+            let links = (0..1 + random.below(7)).map(|i: usize| {
+                let parent = (i > 0 && random.below(6) > 0).then(|| random.below(i));
+                parents.push(parent.map(|parent| parent + first));
+                let kind = match random.below(9) {
+                    8 => JointKind::Custom(Arc::new(Screw)),
+                    i if i < 7 => KINDS[i].clone(),
+                    _ => JointKind::Revolute,
+                };
+                is_custom.push(matches!(kind, JointKind::Custom(_)));
+                let mut definition = LinkDefinition {
+                    at: random.pose(1.0),
+                    ..link(
+                        parent,
+                        kind,
+                        [random.point(1.0), Vec3::z()][random.below(2)],
+                    )
+                };
+                if definition.kind.has_axis() {
+                    definition.multiplier = random.within(-2.0, 2.0);
+                    definition.offset = random.within(-1.0, 1.0);
+                }
+                definition
+            });
+            let links: Vec<_> = links.collect();
+            robot(3, links)
+        });
+        let space = space(robots.collect());
+        let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
+            (0..space.nv())
+                .map(|_| random.within(-size, size) * f64::from(u8::from(random.below(4) > 0)))
+                .collect()
+        };
+        let q = space.step(&space.neutral(), &drawn(&mut random, 1.5));
+        let v = drawn(&mut random, 1.0);
+        let poses = |t: f64| {
+            let part: Vec<f64> = v.iter().map(|rate| rate * t).collect();
+            space.link_poses(&space.step(&q, &part)).unwrap()
+        };
+        let motions = space.link_motions(&q, &v);
+        let moves: Vec<bool> = (0..parents.len())
+            .map(|link| {
+                let (start, later) = (poses(0.0), poses(0.37));
+                let in_parent = |poses: &[Pose]| match parents[link] {
+                    None => poses[link],
+                    Some(parent) => poses[parent].inverse().compose(&poses[link]),
+                };
+                let [start, later] = [in_parent(&start), in_parent(&later)];
+                (start.rotation - later.rotation).amax() > 1e-9
+                    || (start.translation - later.translation).amax() > 1e-9
+            })
+            .collect();
+        let mut seen = RatesFrom::new(&motions, None);
+        for _ in 0..12 {
+            let link = random.below(parents.len());
+            match random.below(3) {
+                0 => seen.look_from(Some(random.below(parents.len()))),
+                1 if random.below(5) == 0 => seen.look_from(None),
+                _ => {}
+            }
+            let from = seen.from();
+            let is_known = !between(&parents, link, from)
+                .iter()
+                .any(|&link| is_custom[link] && moves[link]);
+            let found = seen.of(link).copied();
+            assert_eq!(found.is_some(), is_known, "{link} from {from:?}");
+            counts[usize::from(is_known)] += 1;
+            let Some(found) = found else {
+                continue;
+            };
+            let rates = found.rates;
+            let point = random.point(0.5);
+            let place = |t: f64| {
+                let poses = poses(t);
+                let there = poses[link].transform_point(&point);
+                from.map_or(there, |from| poses[from].inverse().transform_point(&there))
+            };
+            let bound = |k: usize| rates.origin[k] + rates.turn[k] * point.norm();
+            for i in 1..6 {
+                let (t, h) = (f64::from(i) / 6.0, 1e-3);
+                let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| place(t + k * h));
+                let derivatives = [
+                    (a - 8.0 * b + 8.0 * d - e) / (12.0 * h),
+                    (-a + 16.0 * b - 30.0 * c + 16.0 * d - e) / (12.0 * h * h),
+                    (-a + 2.0 * b - 2.0 * d + e) / (2.0 * h * h * h),
+                ];
+                for (k, derivative) in derivatives.into_iter().enumerate() {
+                    let size = 1.0 + bound(2) * (1.0 + rates.turn[0].powi(2));
+                    let slack = [1e-9, 1e-7, 1e-4][k] * size;
+                    let derivative = derivative.norm();
+                    assert!(
+                        derivative <= bound(k) + slack,
+                        "{k}: {derivative} of {}",
+                        bound(k)
+                    );
+                }
+            }
+        }
+    }
+    println!("unknown, known: {counts:?}");
+    assert!(counts.iter().all(|count| *count > 300));
 }
