@@ -113,7 +113,7 @@ fn check(
 fn boxes_of_links_are_safe_at_any_size_and_place() {
     let mut random = Random::new(911);
     let mut counts = [0; 2];
-    for round in 0..1500 {
+    for _ in 0..1500 {
         let count = 2 + random.below(20);
         let unit = [1e-6, 1.0, 1e6][random.below(3)];
         let far = [0.0, 1.0, 1e3, 1e6, 1e9][random.below(5)] * unit;
@@ -144,7 +144,6 @@ fn boxes_of_links_are_safe_at_any_size_and_place() {
             .collect();
         let found = check(&mut random, 3, &bodies, &poses);
         counts = [0, 1].map(|i| counts[i] + found[i]);
-        let _ = round;
     }
     println!("apart or within: {counts:?}");
     assert!(counts.iter().all(|count| *count > 1000));
