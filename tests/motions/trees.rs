@@ -251,9 +251,12 @@ fn boxes_and_curves_of_trees_are_what_samples_say() {
             let q = space.step(&space.neutral(), &v);
             let size = [1e-3, 0.05, 0.3, 1.0][random.below(4)];
             let half: Vec<f64> = (space.coordinates().iter())
-                .map(|coordinate| match coordinate {
-                    _ if rests(coordinate) || random.below(4) == 0 => 0.0,
-                    _ => random.within(0.0, size),
+                .map(|coordinate| {
+                    if rests(coordinate) || random.below(4) == 0 {
+                        0.0
+                    } else {
+                        random.within(0.0, size)
+                    }
                 })
                 .collect();
             let [low, high] = [-1.0, 1.0].map(|sign| {
