@@ -1,5 +1,7 @@
 //! Motions as functions of time, with bounds that their makers state.
 
+use std::cell::RefCell;
+
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::robot::{BlockKind, CourseState, LinkMotions};
 use crate::space::Space;
@@ -52,6 +54,8 @@ pub(super) struct StatedMotion<'a> {
     function: &'a dyn MotionFunction,
     /// The configuration at time 0.
     pub start: Vec<f64>,
+    /// What the function gave at time 0, and what it gave last, with their times.
+    known: [RefCell<Option<(f64, MotionMoment)>>; 2],
     max_rates: Vec<f64>,
     max_accelerations: Vec<f64>,
 }
@@ -73,6 +77,7 @@ impl<'a> StatedMotion<'a> {
             space,
             function,
             start: Vec::new(),
+            known: [RefCell::new(None), RefCell::new(None)],
             max_rates: larger(bounds.max_rates, "max_rates")?,
             max_accelerations: larger(bounds.max_accelerations, "max_accelerations")?,
         };
@@ -93,7 +98,9 @@ impl<'a> StatedMotion<'a> {
                 ));
             }
         }
-        motion.start = motion.asked(0.0)?.q;
+        let first = motion.asked(0.0)?;
+        motion.start.clone_from(&first.q);
+        motion.known[0] = RefCell::new(Some((0.0, first)));
         Ok(motion)
     }
 
@@ -113,7 +120,8 @@ impl<'a> StatedMotion<'a> {
         Ok(moment)
     }
 
-    /// The motion at a time. Fails where it is not within its bounds.
+    /// The motion at a time. Fails where it is not within its bounds, or where it and its rates do not fit what the function gave at
+    /// time 0 and when it was asked last.
     pub fn at(&self, t: f64) -> Result<MotionMoment> {
         let moment = self.asked(t)?;
         for c in 0..self.space.nq() {
@@ -141,7 +149,40 @@ impl<'a> StatedMotion<'a> {
                 return exceeds("the acceleration", value, "max_accelerations");
             }
         }
+        for known in &self.known {
+            if let Some(known) = &*known.borrow() {
+                self.check_between(known, (t, &moment))?;
+            }
+        }
+        *self.known[1].borrow_mut() = Some((t, moment.clone()));
         Ok(moment)
+    }
+
+    /// Refuses two moments that no motion has whose second derivatives are within their bounds: rates change by no more than the
+    /// bound times the time between, and what a motion is off the straight line along its rate by half of it times the
+    /// square of that time.
+    fn check_between(
+        &self,
+        (t0, before): &(f64, MotionMoment),
+        (t1, after): (f64, &MotionMoment),
+    ) -> Result<()> {
+        let time = t1 - t0;
+        for c in 0..self.space.nq() {
+            let most = self.max_accelerations[c] * time.abs();
+            let rate_slack = STATED_SLACK * self.max_rates[c];
+            let size = before.q[c].abs().max(after.q[c].abs()) + self.max_rates[c];
+            let slack = rate_slack * time.abs() + 64.0 * f64::EPSILON * size;
+            let [v0, v1] = [before.rates[c], after.rates[c]];
+            let change = after.q[c] - before.q[c];
+            let off = (change - v0 * time).abs().max((change - v1 * time).abs());
+            if (v1 - v0).abs() > most + rate_slack || off > 0.5 * most * time.abs() + slack {
+                return Err(Error::invalid(format!(
+                    "the motion at times {t0} and {t1}: coordinate {c} changes by {change} with rates of {v0} and {v1}, which are \
+                     not its derivative, or max_accelerations is too small"
+                )));
+            }
+        }
+        Ok(())
     }
 
     pub fn link_motions(&self) -> LinkMotions {

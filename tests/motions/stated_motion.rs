@@ -261,6 +261,25 @@ fn what_exceeds_its_bounds_is_refused_by_name() {
         kind == invalid && message.contains("coordinate 0"),
         "{message}"
     );
+    // Rates that are none, or half of what they should be, within bounds that hold of the motion.
+    let straight = MotionBounds {
+        max_rates: &[4.0],
+        max_accelerations: &[0.0],
+    };
+    for part in [0.0, 0.5, 0.999] {
+        let slow = |t: f64| [4.0 * t, 4.0 * part, 0.0];
+        let (kind, message) = refused(&Coordinate(slow), &straight);
+        assert!(
+            kind == invalid && message.contains("derivative"),
+            "{message}"
+        );
+        let slow = |t: f64| [parabola(t)[0], part * parabola(t)[1], part * -8.0];
+        let (kind, message) = refused(&Coordinate(slow), &SLIDE);
+        assert!(
+            kind == invalid && message.contains("derivative"),
+            "{message}"
+        );
+    }
     let unknown = |t: f64| [parabola(t)[0], f64::NAN, -8.0];
     assert_eq!(
         refused(&Coordinate(unknown), &SLIDE).0,

@@ -257,8 +257,9 @@ class Motions(Handle):
         tolerance: Optional[float] = None,
         any_contact: bool = False,
     ) -> Motion:
-        """The same on a motion that a function gives. What is proved holds if `max_rates` and `max_accelerations` bound the absolute
-        derivatives of every coordinate at all times from 0 to 1; they are compared with what the function gives where it is asked.
+        """The same on a motion that a function gives. What is proved holds if the rates are the derivatives of q, and `max_rates` and
+        `max_accelerations` bound the absolute derivatives of every coordinate at all times from 0 to 1; all is compared with what
+        the function gives where it is asked.
         What it raises passes through.
         """
         speeds, bends = vector("max_rates", max_rates), vector("max_accelerations", max_accelerations)
