@@ -335,13 +335,14 @@ impl Gathering<'_> {
 /// A body of the scene that a link carries: its own, or an object that is attached to it.
 fn carried<'a>(scene: &Scene, link: usize, (body, pose): Placement<'a>) -> Carried<'a, usize> {
     let of_link = &scene.poses()[link];
-    let held = scene
-        .held()
-        .iter()
-        .position(|held| ptr::eq(&held.pose, pose));
-    let (in_link, number) = match held {
-        None => (Pose::identity(), link),
-        Some(place) => (of_link.inverse().compose(pose), scene.poses().len() + place),
+    let (in_link, number) = if ptr::eq(pose, of_link) {
+        (Pose::identity(), link)
+    } else {
+        let held = scene.held();
+        let place = held.iter().position(|held| ptr::eq(&held.pose, pose));
+        debug_assert!(place.is_some(), "a pose that is not the scene's");
+        let in_link = of_link.inverse().compose(pose);
+        (in_link, scene.poses().len() + place.unwrap_or(held.len()))
     };
     Carried {
         body,

@@ -106,8 +106,14 @@ impl<V: FnMut([usize; 2], f64)> Work for VisitNear<'_, '_, V> {
                 tested = (names, lanes.array(found));
             }
             let bound = tested.1[at_s as usize % 8];
-            if bound <= cutoff {
-                (self.visit)([r, s], frame.lower(bound));
+            if bound > cutoff {
+                continue;
+            }
+            // Where a link is far from the others, its box is placed less exactly than its ball.
+            let [on_r, on_s] = [at_r, at_s].map(|place| &memory.bounds[place as usize]);
+            let lower = on_r.distance(on_s)[0].max(frame.lower(bound));
+            if lower <= self.limit {
+                (self.visit)([r, s], lower);
             }
         }
     }
