@@ -4511,8 +4511,9 @@ cstk_status cstk_motion_spline(cstk_query *query,
  * Proves that a motion that `function` gives keeps clear of a C-object, or finds its first contact, as cstk_motion does on a segment.
  * `user` is passed to `function`. `max_rates` and `max_accelerations` have `nq` doubles each, at least 0: bounds of the absolute
  * first and second derivatives of every coordinate for all times from 0 to 1. The configuration and its first derivative are
- * continuous; the second may jump. What is proved holds if these bounds do. They are compared with what `function` gives wherever it
- * is asked, at times in any order, and CSTK_ERROR_INVALID_ARGUMENT names the time and the coordinate that exceeds them.
+ * continuous; the second may jump. What is proved holds if the rates are the derivatives of q and these bounds hold. Both are
+ * compared with what `function` gives wherever it is asked, at times in any order, and CSTK_ERROR_INVALID_ARGUMENT names the time and
+ * the coordinate that does not fit.
  *
  * Coordinates on circles are not taken the shorter way round. Coordinates of joints with quaternions must not change, and their
  * max_rates be 0: CSTK_ERROR_UNSUPPORTED otherwise. `options`, `reached` and `out` as for cstk_motion. CSTK_ERROR_WRONG_SIZE if `nq`
