@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
 use crate::error::{Error, Result};
@@ -28,6 +29,7 @@ pub struct Body {
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
     pub(super) solid: Option<Solid>,
+    pub(super) parts: Vec<BodyPart>,
     /// Computed on first use, for solids with the body. Point clouds need none.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
@@ -78,6 +80,7 @@ impl Body {
             primitives,
             wrappers,
             solid: None,
+            parts: Vec::new(),
             pieces: OnceLock::new(),
             statistics,
             data: OnceLock::new(),
@@ -91,6 +94,22 @@ impl Body {
         }
         self.solid = solid;
         self
+    }
+
+    /// Adds where the bodies are that the body was put together of.
+    pub(super) fn with_parts(mut self, parts: Vec<BodyPart>) -> Self {
+        self.parts = parts;
+        self
+    }
+
+    /// The bodies that the body was put together of, in the order in which they were added.
+    pub fn parts(&self) -> &[BodyPart] {
+        &self.parts
+    }
+
+    /// The number of the part that a primitive belongs to; `None` if it was added by itself.
+    pub fn part_of(&self, primitive: u32) -> Option<u32> {
+        part_of(&self.parts, primitive)
     }
 
     /// A number that no other body of this process has; caches key on it.

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::body::{Body, BodyStatistics};
 use super::mesh::Mesh;
+use super::part::AddedBody;
 use super::solid::{DegenerateFace, Solid};
 use crate::body::mesh_file::read_mesh_file;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{HierarchyOptions, build_hierarchy};
+use crate::hierarchy::{HierarchyOptions, build_hierarchy, compose_hierarchy};
 use crate::pose::{Pose, Vec3, check_dimension};
 use crate::primitive::{
     Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
@@ -17,7 +18,10 @@ use crate::primitive::{
 #[derive(Debug)]
 pub struct BodyBuilder {
     pub(super) dimension: u32,
-    primitives: Primitives,
+    /// Those added by themselves.
+    pub(super) primitives: Primitives,
+    /// The bodies added.
+    pub(super) added: Vec<AddedBody>,
     /// Per shape added (points have no entry), whether it is a polygon that may bound a solid.
     is_face: Vec<bool>,
     /// The faces of meshes, or parts of them, that had no area.
@@ -34,6 +38,7 @@ impl BodyBuilder {
         Ok(Self {
             dimension,
             primitives: Primitives::default(),
+            added: Vec::new(),
             is_face: Vec::new(),
             scraps: Vec::new(),
             is_solid: false,
@@ -146,12 +151,13 @@ impl BodyBuilder {
 
     /// Number of primitives added so far.
     pub fn len(&self) -> usize {
-        self.primitives.len()
+        let of_bodies = self.added.iter().map(|added| added.part.count as usize);
+        self.primitives.len() + of_bodies.sum::<usize>()
     }
 
     /// Whether no primitive was added yet.
     pub fn is_empty(&self) -> bool {
-        self.primitives.is_empty()
+        self.primitives.is_empty() && self.added.is_empty()
     }
 
     /// Builds the body from the primitives added so far; the builder does not change and may be used further. Fails without
@@ -161,7 +167,7 @@ impl BodyBuilder {
         options: &HierarchyOptions,
         progress: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<Body> {
-        if self.primitives.is_empty() {
+        if self.is_empty() {
             return Err(Error::new(
                 ErrorKind::Empty,
                 if self.faces_dropped > 0 {
@@ -174,29 +180,34 @@ impl BodyBuilder {
                 },
             ));
         }
+        let singles = self.single_numbers();
         let boundary = match self.is_solid && self.dimension == 3 {
             true => Some(Solid::checked(
                 &self.primitives,
                 &self.is_face,
                 &self.scraps,
+                |single| singles[single as usize],
             )?),
             false => None,
         };
-        let (low, high) = self.primitives.extent();
+        let (low, high) = self.extent();
         let center = low * 0.5 + high * 0.5;
-        let primitives = self.primitives.recentered(&center);
-        let solid = boundary.and_then(|(signs, mut scraps)| {
-            for vertex in scraps.iter_mut().flatten() {
-                *vertex -= center;
+        let primitives = self.centered(&center);
+        let solid = self.solid_of_all(boundary, &center, &primitives);
+        let built = match self.added.is_empty() {
+            true => build_hierarchy(&primitives, options, progress)?,
+            false => {
+                let parts = self.part_hierarchies(&center);
+                compose_hierarchy(&primitives, &singles, &parts, options, progress)?
             }
-            Solid::new(signs, scraps, &primitives)
-        });
-        let built = build_hierarchy(&primitives, options, progress)?;
+        };
+        let of_bodies = self.added.iter().map(|added| added.statistics());
+        let sum = |count: &dyn Fn(&BodyStatistics) -> u64| of_bodies.clone().map(count).sum::<u64>();
         let statistics = BodyStatistics {
-            is_solid: self.is_solid,
+            is_solid: self.is_solid || of_bodies.clone().any(|of_body| of_body.is_solid),
             primitives: primitives.len() as u64,
-            faces_split: self.faces_split,
-            faces_dropped: self.faces_dropped,
+            faces_split: self.faces_split + sum(&|of_body| of_body.faces_split),
+            faces_dropped: self.faces_dropped + sum(&|of_body| of_body.faces_dropped),
             nodes: built.nodes as u64,
             depth: built.depth as u64,
             low: low.into(),
@@ -211,7 +222,8 @@ impl BodyBuilder {
             built.packed,
             statistics,
         )
-        .with_solid(solid))
+        .with_solid(solid)
+        .with_parts(self.added.iter().map(|added| added.part).collect()))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
@@ -224,7 +236,7 @@ impl BodyBuilder {
     /// Adds points of one shape, tagged with their indices in `points`: all of them or none.
     pub(super) fn push_points(&mut self, shape: &Convex, points: &[Vec3]) -> Result<()> {
         self.require_room(points.len())?;
-        self.primitives.push_points(shape, points);
+        self.primitives.push_points(shape, points.iter().copied());
         Ok(())
     }
 
@@ -238,8 +250,8 @@ impl BodyBuilder {
         Ok(())
     }
 
-    fn require_room(&self, more: usize) -> Result<()> {
-        if self.primitives.len() + more > u32::MAX as usize / 2 {
+    pub(super) fn require_room(&self, more: usize) -> Result<()> {
+        if self.len() + more > u32::MAX as usize / 2 {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 "a body holds at most 2^31 primitives",

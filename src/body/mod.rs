@@ -13,6 +13,7 @@ mod mesh;
 mod mesh_budget;
 pub mod mesh_file;
 mod mesh_form;
+mod part;
 mod pieces;
 mod shapes;
 mod solid;
@@ -28,6 +29,7 @@ pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };
 pub use mesh_form::MeshForm;
+pub use part::BodyPart;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;
 pub use solid::Solid;

@@ -2,6 +2,7 @@
 
 mod ball;
 mod build;
+mod composed;
 mod extremes;
 #[doc(hidden)]
 pub mod grouping;
@@ -17,6 +18,7 @@ pub mod wrapper;
 
 pub use ball::Ball;
 pub use build::{BuildTimes, Hierarchy, build_hierarchy};
+pub use composed::{PartHierarchy, compose_hierarchy};
 pub use extremes::{extremes, few_extremes};
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use parallel::Progress;

@@ -46,7 +46,23 @@ pub struct cstk_body_statistics {
     /// Whether it was declared solid (cstk_body_builder_set_solid).
     pub solid: bool,
     pub reserved_bytes: [u8; 7],
-    pub reserved: [u64; 6],
+    /// Bodies that it was put together of (cstk_body_builder_add_body).
+    pub part_count: u64,
+    pub reserved: [u64; 5],
+}
+
+/// A body that is part of a larger one (cstk_body_builder_add_body).
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_body_part {
+    /// The tag it was added with.
+    pub tag: u64,
+    /// Its primitives are `primitive_count` of the larger body's, from this one on, in their own order.
+    pub first_primitive: u32,
+    pub primitive_count: u32,
+    /// The pose it was added at, from its frame to that of the larger body.
+    pub pose: [f64; 12],
+    pub reserved: [u64; 4],
 }
 
 /// Kinds of features of a primitive.
@@ -157,7 +173,35 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
             piece_count: body.piece_count() as u64,
             solid: s.is_solid,
             reserved_bytes: [0; 7],
-            reserved: [0; 6],
+            part_count: body.parts().len() as u64,
+            reserved: [0; 5],
+        });
+        Ok(())
+    })
+}
+
+/// Writes which part of a body has this number; parts are numbered from 0 as they were added. CSTK_ERROR_NOT_FOUND if there
+/// is none. The parts of a part are its own: its primitive `i` is the larger body's `first_primitive + i`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_part(
+    body: *const cstk_body,
+    part: u32,
+    out: *mut cstk_body_part,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        let count = body.parts().len();
+        let found = body.parts().get(part as usize).ok_or_else(|| {
+            let message = format!("part {part} does not exist; the body has {count}");
+            Error::new(ErrorKind::NotFound, message)
+        })?;
+        out.write(cstk_body_part {
+            tag: found.tag,
+            first_primitive: found.first,
+            primitive_count: found.count,
+            pose: found.pose.to_row_major(),
+            reserved: [0; 4],
         });
         Ok(())
     })

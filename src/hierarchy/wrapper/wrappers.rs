@@ -8,7 +8,7 @@ use crate::boxes::Extent;
 use crate::hierarchy::grouping::Groups;
 use crate::hierarchy::packed::regroup;
 use crate::hierarchy::{
-    Ball, HierarchyOptions, Node, Progress, TreeStatistics, WrapperKind, of_extents,
+    Ball, HierarchyOptions, Node, Progress, SubsetTree, TreeStatistics, WrapperKind, of_extents,
 };
 use crate::primitive::Primitives;
 
@@ -65,6 +65,17 @@ impl Wrappers {
         match self {
             Self::Eager(tree) => tree.kind(),
             Self::OnDemand { options, .. } => options.wrapper,
+        }
+    }
+
+    /// The tree of sets and its pieces, unless they are computed anew when they are needed.
+    pub fn subsets(&self) -> Option<(&SubsetTree, &[u32])> {
+        match self {
+            Self::Eager(tree) => Some((tree.subsets(), tree.pieces())),
+            Self::OnDemand { groups, .. } => {
+                let groups = groups.as_ref()?;
+                Some((&groups.subsets, &groups.pieces))
+            }
         }
     }
 
