@@ -1,10 +1,11 @@
 //! A body: primitives, their user tags, and the tree over them.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};
+use super::refit::Joints;
 use super::solid::Solid;
 use crate::error::{Error, Result};
 use crate::hierarchy::packed::PackedTree;
@@ -30,6 +31,8 @@ pub struct Body {
     pub(super) packed: PackedTree,
     pub(super) solid: Option<Solid>,
     pub(super) parts: Vec<BodyPart>,
+    /// Computed when a solid is first refitted, shared with what it is refitted to.
+    pub(super) joints: Arc<OnceLock<Joints>>,
     /// Computed on first use, for solids with the body. Point clouds need none.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
@@ -81,6 +84,7 @@ impl Body {
             wrappers,
             solid: None,
             parts: Vec::new(),
+            joints: Arc::default(),
             pieces: OnceLock::new(),
             statistics,
             data: OnceLock::new(),

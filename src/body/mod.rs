@@ -15,6 +15,7 @@ pub mod mesh_file;
 mod mesh_form;
 mod part;
 mod pieces;
+mod refit;
 mod shapes;
 mod solid;
 mod surface_edges;

@@ -11,6 +11,7 @@ mod options;
 #[doc(hidden)]
 pub mod packed;
 mod parallel;
+mod refit;
 mod statistics;
 mod subset_tree;
 #[doc(hidden)]
@@ -22,5 +23,6 @@ pub use composed::{PartHierarchy, compose_hierarchy};
 pub use extremes::{extremes, few_extremes};
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use parallel::Progress;
+pub use refit::refit_hierarchy;
 pub use statistics::{LevelStatistics, TreeStatistics, of_extents, require_level};
 pub use subset_tree::{Node, SubsetTree};

@@ -118,14 +118,19 @@ impl Convex {
 
     /// The same primitive moved by `-center`.
     pub fn recentered(mut self, center: &Vec3) -> Self {
+        self.recenter(center);
+        self
+    }
+
+    /// Moves the primitive by `-center`.
+    pub(super) fn recenter(&mut self, center: &Vec3) {
         for vertex in &mut self.vertices {
             *vertex -= center;
         }
         if let Some(mut curve) = self.curve.take() {
-            curve.bound(&self);
+            curve.bound(self);
             self.curve = Some(curve);
         }
-        self
     }
 
     /// The vertices of a feature; `None` if the primitive has no such feature.

@@ -10,6 +10,7 @@ mod form;
 mod hull;
 mod incidence;
 mod kind;
+mod moved_vertices;
 mod planar_hull;
 mod point_tree;
 mod polygon;

@@ -183,6 +183,22 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
     Ok(normal)
 }
 
+/// The unit normal that [`check_convex_polygon`] gives for a triangle, without most of the work; `None` if the triangle is so
+/// slender or small that it should decide.
+pub(super) fn quick_triangle_normal([a, b, c]: [&Vec3; 3]) -> Result<Option<Vec3>> {
+    let vertices = [*a, *b, *c];
+    let extent = extent_of(&vertices)?;
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let squares = [ab, ac, bc].map(|edge| edge.norm_squared());
+    // The least edge is at least as long as the least height.
+    let longest = squares.into_iter().fold(0.0, f64::max);
+    let sum = ab.cross(&ac);
+    let least_width = 2.0 * extent.tolerance.max(1e-6 * extent.diameter);
+    let is_clear = extent.diameter > 2.0 * tolerance::SMALLEST_DIAMETER
+        && sum.norm_squared() > least_width * least_width * longest;
+    Ok(is_clear.then(|| upright(&sum.normalize(), &vertices)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -287,6 +287,16 @@ impl Primitives {
         }
     }
 
+    /// Moves the primitives by `-center`.
+    pub fn recenter(&mut self, center: &Vec3) {
+        for shape in &mut self.shapes {
+            shape.recenter(center);
+        }
+        for point in &mut self.points {
+            *point -= center;
+        }
+    }
+
     /// The lowest and highest coordinates of all.
     pub fn extent(&self) -> (Vec3, Vec3) {
         self.iter()

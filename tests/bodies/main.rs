@@ -2,6 +2,7 @@
 
 mod closed_surfaces;
 mod obj_files;
+mod parts;
 mod placed_meshes;
 mod solid_bodies;
 mod solid_clouds;
