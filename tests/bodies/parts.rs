@@ -2,150 +2,17 @@
 
 use std::sync::Arc;
 
-use cstk::body::{Body, BodyBuilder};
+use cstk::body::{BodyBuilder, Mesh};
 use cstk::error::ErrorKind;
 use cstk::hierarchy::{Grouping, HierarchyOptions, WrapperKind};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::QueryContext;
 use cstk_scenes as scenes;
 
+use crate::given::{Given, answers_are_equal, body_of, boxes_bound_their_primitives};
 use helpers::files::loaded;
 use helpers::models::{GROUPINGS, KINDS, built, options};
 use helpers::random::Random;
 use helpers::surfaces::*;
-
-/// A primitive as it is given to a builder.
-#[derive(Clone)]
-enum Given {
-    Polygon(Vec<Vec3>),
-    Hull(Vec<Vec3>),
-    Rounded(Vec<Vec3>, f64),
-    Cylinder(Pose, f64, f64),
-    Cone(Pose, f64, f64),
-    Ellipsoid(Pose, Vec3),
-    Points(Vec<Vec3>, f64),
-}
-
-impl Given {
-    fn random(random: &mut Random, kind: usize) -> Self {
-        let at = random.pose(1.0);
-        let near = |points: Vec<Vec3>| -> Vec<Vec3> {
-            points.iter().map(|p| at.transform_point(p)).collect()
-        };
-        match kind % 8 {
-            0 => Self::Polygon(near(random.polygon(3 + kind % 5, 0.4))),
-            1 => Self::Hull(near(random.points(4 + kind % 9, 0.3))),
-            2 => Self::Rounded(near(random.points(2, 0.4)), 0.1),
-            3 => Self::Rounded(near(random.polygon(4, 0.3)), 0.05),
-            4 => Self::Cylinder(at, 0.1, 0.3),
-            5 => Self::Cone(at, 0.2, 0.3),
-            6 => Self::Ellipsoid(at, Vec3::new(0.1, 0.2, 0.3)),
-            _ => Self::Points(near(random.points(30, 0.5)), 0.02 * (kind % 2) as f64),
-        }
-    }
-
-    /// Adds it after a motion.
-    fn add(&self, builder: &mut BodyBuilder, pose: &Pose, tag: u64) {
-        let moved = |points: &[Vec3]| -> Vec<Vec3> {
-            points.iter().map(|p| pose.transform_point(p)).collect()
-        };
-        match self {
-            Self::Polygon(points) => builder.add_polygon(&moved(points), tag),
-            Self::Hull(points) => builder.add_polyhedron(&moved(points), tag),
-            Self::Rounded(points, radius) => {
-                builder.add_rounded_polyhedron(&moved(points), *radius, tag)
-            }
-            Self::Cylinder(at, radius, half) => {
-                builder.add_cylinder(&pose.compose(at), *radius, *half, tag)
-            }
-            Self::Cone(at, radius, height) => {
-                builder.add_cone(&pose.compose(at), *radius, *height, tag)
-            }
-            Self::Ellipsoid(at, axes) => builder.add_ellipsoid(&pose.compose(at), axes, tag),
-            Self::Points(points, radius) => builder.add_points(&moved(points), *radius),
-        }
-        .unwrap();
-    }
-}
-
-fn body_of(given: &[Given], options: &HierarchyOptions) -> Arc<Body> {
-    let mut builder = BodyBuilder::new(3).unwrap();
-    for (tag, one) in (0..).zip(given) {
-        one.add(&mut builder, &Pose::identity(), tag);
-    }
-    Arc::new(built(&builder, options))
-}
-
-/// Every box of the packed tree bounds the points of the primitives below it, in both senses.
-fn boxes_bound_their_primitives(body: &Body) {
-    let tree = body.packed();
-    let mut below = vec![(tree.root(), Vec::new())];
-    while let Some((node, mut above)) = below.pop() {
-        let stored = tree.bounding_box(node);
-        above.push(stored);
-        if node.is_leaf() {
-            let entry = tree.primitives().entry(tree.place(node) as usize);
-            let primitive = body.primitives().get(entry.primitive as usize);
-            for point in primitive.bounding_points() {
-                let point = point / tree.scale();
-                for stored in &above {
-                    let axes = stored.axes.map(|axis| Vec3::from(axis.map(f64::from)));
-                    let center = Vec3::from(stored.center.map(f64::from));
-                    for (axis, half) in axes.iter().zip(stored.half) {
-                        let along = axis.dot(&(point - center)).abs();
-                        assert!(along <= f64::from(half) + 1e-14, "{along} {half}");
-                    }
-                }
-            }
-        } else {
-            let children = tree.children(tree.index(node));
-            let units = children.units[..children.count].iter();
-            below.extend(units.map(|&child| (child, above.clone())));
-        }
-    }
-}
-
-/// Distances, classes and witnesses of both bodies with a probe at random poses are the same, but for rounding.
-fn answers_are_equal(whole: &Body, flat: &Body, random: &mut Random, poses: usize) {
-    let probe = body_of(
-        &[0, 1, 2, 4, 8].map(|kind| Given::random(random, kind)),
-        &HierarchyOptions::default(),
-    );
-    let (mut query, mut other) = (QueryContext::new(), QueryContext::new());
-    let half = 1.2 * whole.radius();
-    for _ in 0..poses {
-        let at = random.pose(half);
-        let at = Pose {
-            translation: at.translation + whole.center(),
-            ..at
-        };
-        let b = (&*probe, &at);
-        let [x, y] = [whole, flat].map(|body| (body, Pose::identity()));
-        let one = query.pair_distance((x.0, &x.1), b, f64::INFINITY).unwrap();
-        let two = other.pair_distance((y.0, &y.1), b, f64::INFINITY).unwrap();
-        let size = 4.0 * whole.radius() + whole.center().norm();
-        // Smooth primitives are known to 1e-11 of their diameters.
-        let error = 1e-12 * size + 2e-11;
-        let off = (one.distance - two.distance).abs();
-        assert!(off <= error, "{} {}", one.distance, two.distance);
-        assert_eq!(one.lower == 0.0, two.lower == 0.0, "{} {}", one.lower, two.lower);
-        let shell = two.distance + 0.1;
-        let one = query.pair_witnesses((x.0, &x.1), b, shell, 10_000).unwrap();
-        let two = other.pair_witnesses((y.0, &y.1), b, shell, 10_000).unwrap();
-        let of = |list: &cstk::query::WitnessList| -> Vec<[u64; 3]> {
-            let sure = list.witnesses.iter().filter(|w| w.distance < shell - error);
-            let mut all: Vec<[u64; 3]> = sure
-                .map(|w| [w.primitives[0].into(), w.primitives[1].into(), w.tags[0]])
-                .collect();
-            all.sort_unstable();
-            all
-        };
-        let (one, two) = (of(&one), of(&two));
-        // A witness at the edge of the shell may be in one list alone.
-        let lone = one.iter().filter(|w| two.binary_search(w).is_err()).count();
-        assert!(lone == 0 && one.len() >= two.len() - lone, "{one:?} {two:?}");
-    }
-}
 
 #[test]
 fn parts_answer_as_their_primitives_one_by_one() {
@@ -271,7 +138,7 @@ fn the_union_of_solid_parts_is_solid() {
     ];
     for case in 0..40 {
         let mut builder = BodyBuilder::new(3).unwrap();
-        let mut placed: Vec<Vec<helpers::surfaces::Mesh>> = Vec::new();
+        let mut placed: Vec<Vec<Mesh>> = Vec::new();
         for _ in 0..2 + random.below(3) {
             let meshes = &meshes[random.below(meshes.len())];
             let pose = random.pose(0.6);

@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::capi::boundary::guard;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
-use crate::capi::input::{Output, OutputSlice, path};
+use crate::capi::input::{Output, OutputSlice, path, points};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::{CallerData, address};
@@ -258,6 +258,60 @@ pub unsafe extern "C" fn cstk_body_get_feature_vertices(
             .collect();
         room.write(&coordinates);
         count.write(indices.len());
+        Ok(())
+    })
+}
+
+/// Writes the vertices of all primitives, one primitive after the other, in the frame in which the body was given: those
+/// of a polygon as it was added (of a mesh, face after face, less those left out, and triangle after triangle where a face
+/// was split), the corners of a polyhedron's hull, the ends of a capsule, the centre of a sphere, the origin of a cylinder,
+/// cone or ellipsoid, the points of a cloud. At most `max_count` points of three doubles are written to `xyz` (NULL if
+/// `max_count` is 0), and their full number to `count`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_vertices(
+    body: *const cstk_body,
+    max_count: usize,
+    xyz: *mut f64,
+    count: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
+        let count = Output::checked(count, "count")?;
+        let first = body.vertices().take(max_count);
+        let coordinates: Vec<f64> = first.flat_map(<[f64; 3]>::from).collect();
+        room.write(&coordinates);
+        count.write(body.vertex_count());
+        Ok(())
+    })
+}
+
+/// Writes a new body like `body` but with other vertices: `vertex_count` points of three doubles, in the order of
+/// cstk_body_get_vertices. Primitives with their tags, features, radii and orientations stay, and so does the grouping of
+/// the hierarchy, which both bodies share: only its boxes are fitted anew. That takes a small part of the time of a build
+/// (docs/benchmarks.md), and answers are those of a body built of the moved primitives. Queries get slower as far as the
+/// vertices leave the neighbours they were grouped with: build anew when the shape has changed altogether. `body` does not
+/// change; it may be released. User data are not taken over. Parts keep their numbers, tags and the poses they were added at.
+///
+/// Each primitive is checked as when it was added; the message names it. CSTK_ERROR_WRONG_SIZE for another number of
+/// vertices, CSTK_ERROR_NOT_FINITE, CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_PLANAR (for a polyhedron, a face that is no longer
+/// planar), CSTK_ERROR_NOT_CONVEX (also for a polyhedron turned inside out). Of a solid, vertices of the boundary that had
+/// the same coordinates must have the same again: CSTK_ERROR_NOT_CLOSED; CSTK_ERROR_UNSUPPORTED if faces without area close
+/// it that share none of their vertices with others. Bodies with another wrapper than CSTK_WRAPPER_HULL, or with slabs
+/// (`aspect_limit`), get wrappers anew, which takes longer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_refit(
+    body: *const cstk_body,
+    xyz: *const f64,
+    vertex_count: usize,
+    out: *mut *mut cstk_body,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states the length.
+        let vertices = unsafe { points(xyz, vertex_count, "xyz")? };
+        out.write(handle::create(Arc::new(body.refit(&vertices)?)));
         Ok(())
     })
 }
