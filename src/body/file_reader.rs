@@ -1,5 +1,7 @@
 //! Reads numbers, primitives and hierarchies from the bytes of a body file.
 
+use smallvec::SmallVec;
+
 use super::file_writer::{
     CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, OF_CLOUD, OF_GROUPS, OF_TREE, PLAIN, POINTS, ROUNDED,
     SHAPE,
@@ -13,7 +15,9 @@ use crate::hierarchy::packed::{PackedTree, is_cloud};
 use crate::hierarchy::wrapper::{Frame, WrapperTree, Wrappers};
 use crate::hierarchy::{Ball, HierarchyOptions, Node, SubsetTree, WrapperKind};
 use crate::pose::{Mat3, Pose, Vec3};
-use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
+use crate::primitive::{
+    Convex, Curve, Face, Primitive, Primitives, SharedList, Smooth, SmoothKind, sphere,
+};
 use crate::sealed_file::Reader;
 
 /// The most levels of a tree: 2 log2 n for n = 2^31 leaves.
@@ -102,7 +106,7 @@ impl Reader<'_> {
         let edges: Vec<[u32; 2]> = (0..edges)
             .map(|_| Ok([self.index(vertices.len())?, self.index(vertices.len())?]))
             .collect::<Result<_>>()?;
-        let faces: Vec<Face> = (0..faces)
+        let faces: SmallVec<[Face; 1]> = (0..faces)
             .map(|_| {
                 let normal = self.vector()?;
                 let corners = self.short_count(4)?;
@@ -111,14 +115,14 @@ impl Reader<'_> {
                 }
                 let corners = (0..corners).map(|_| self.index(vertices.len()));
                 Ok(Face {
-                    vertices: corners.collect::<Result<_>>()?,
+                    vertices: SharedList::of_corners(corners.collect::<Result<_>>()?),
                     normal,
                 })
             })
             .collect::<Result<_>>()?;
         let mut read = Convex {
             vertices,
-            edges,
+            edges: SharedList::of_edges(edges),
             faces,
             deviation,
             curve: None,

@@ -18,21 +18,25 @@ pub struct StoredAxes {
 
 impl StoredAxes {
     /// Rounds two orthonormal axes.
+    #[inline(always)]
     pub fn rounded(first: &Vec3, second: &Vec3) -> Self {
         let numbers = [first, second].map(|axis| {
             each3(|k| {
-                let component = (axis[k] * 32768.0).round();
-                component.clamp(-MAX_AXIS, MAX_AXIS) as i16
+                // The nearest whole number.
+                let component = (axis[k] * 32768.0).clamp(-MAX_AXIS, MAX_AXIS);
+                (component + 0.5f64.copysign(component)) as i16
             })
         });
         Self::of_numbers(numbers)
     }
 
     /// The axes of a box of a node, as they are.
+    #[inline(always)]
     pub fn of(node: &WideNode, lane: usize) -> Self {
         Self::of_numbers([0, 1].map(|i: usize| each3(|k| node.axes[i][k][lane])))
     }
 
+    #[inline(always)]
     fn of_numbers(numbers: [[i16; 3]; 2]) -> Self {
         let [a, b] = numbers.map(|axis| axis.map(|number| f32::from(number) * AXIS_STEP));
         let axes = [a, b, cross3(&a, &b)].map(|axis| Vec3::from(axis.map(f64::from)));
@@ -54,6 +58,7 @@ pub struct AxisSpans {
 
 impl AxisSpans {
     /// The spans of at least one point.
+    #[inline(always)]
     pub fn of_points(axes: StoredAxes, points: impl Iterator<Item = Vec3>) -> Self {
         let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(-f64::INFINITY));
         for point in points {
@@ -89,6 +94,7 @@ impl AxisSpans {
     }
 
     /// The centre of the box between the planes: the point with the middle coordinate along each axis.
+    #[inline(always)]
     fn center(&self) -> Vec3 {
         let middle = (self.low + self.high) * 0.5;
         let near = self.axes.axes * middle;
@@ -96,11 +102,13 @@ impl AxisSpans {
         near + self.axes.axes * (middle - self.axes.axes.tr_mul(&near))
     }
 
+    #[inline(always)]
     fn half(&self) -> Vec3 {
         (self.high - self.low) * 0.5
     }
 
     /// Half sides that bound the set in both senses of [`PackedBox`](super::PackedBox) around another centre.
+    #[inline(always)]
     fn half_around(&self, center: &Vec3) -> Vec3 {
         let place = self.axes.axes.tr_mul(center);
         let along = (self.high - place).sup(&(place - self.low));
@@ -129,6 +137,7 @@ pub struct BoxMotion {
 
 impl WideNode {
     /// A node of up to eight boxes along stored axes; the caller sets `children`. Lengths are at most about 1.
+    #[inline(always)]
     pub fn of_spans(boxes: &[AxisSpans]) -> Self {
         let mut node = Self {
             count: boxes.len() as u32,
@@ -159,6 +168,7 @@ impl WideNode {
     }
 
     /// Sets a box; false if it does not fit the step.
+    #[inline(always)]
     fn set_spans(&mut self, lane: usize, one: &AxisSpans, center: &Vec3) -> bool {
         for k in 0..3 {
             for i in 0..2 {
@@ -247,7 +257,8 @@ mod tests {
                     .collect();
                 assert!(excess(&moved, lane, &after) <= 1e-15, "{seed}");
                 // Hardly larger than before.
-                let [before, since] = [&fitted, &moved].map(|node| Vec3::from(node.get(lane).half));
+                let [before, since] = [&fitted, &moved]
+                    .map(|node| Vec3::from(node.get(lane).half.map(f64::from)));
                 let room = 3e-4 * before.norm();
                 assert!((since - before * 0.5).max() <= room, "{before} {since}");
             }

@@ -183,6 +183,7 @@ impl WideNode {
     }
 
     /// Sets the centre of a box, rounded to the node's steps.
+    #[inline(always)]
     pub(super) fn set_center(&mut self, lane: usize, center: &Vec3) {
         for k in 0..3 {
             let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
@@ -197,6 +198,7 @@ impl WideNode {
     }
 
     /// Sets the half sides of a box, rounded up, and its size; false if they do not fit the step.
+    #[inline(always)]
     pub(super) fn set_half(&mut self, lane: usize, needed: &Vec3) -> bool {
         for i in 0..3 {
             let mut half = (needed[i] / f64::from(self.step())).ceil() as u16;

@@ -4,6 +4,8 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
+use smallvec::SmallVec;
+
 use super::ball::Ball;
 use super::build::{BuildTimes, Hierarchy, build_hierarchy};
 use super::options::{HierarchyOptions, WrapperKind};
@@ -14,7 +16,7 @@ use crate::hierarchy::grouping::{Groups, convex_pieces, group, parts};
 use crate::hierarchy::packed::{PackedPart, PackedTree, TopLeaf, pack_parts, pack_wrappers};
 use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::pose::{Pose, Vec3};
-use crate::primitive::{Convex, Primitives};
+use crate::primitive::{Convex, Primitives, SharedList};
 
 /// Deeper trees are grouped anew. Body files hold trees of up to 63 levels.
 const MAX_LEVELS: usize = 56;
@@ -118,8 +120,8 @@ impl PartHierarchy<'_> {
         };
         Convex {
             vertices: (0..8).map(corner).collect(),
-            edges: Vec::new(),
-            faces: Vec::new(),
+            edges: SharedList::default(),
+            faces: SmallVec::new(),
             deviation: 0.0,
             curve: None,
         }

@@ -20,6 +20,7 @@ mod primitives;
 mod ready_made;
 mod smooth;
 mod support_function;
+mod topology;
 
 pub use convex::{Convex, Face};
 pub use cuboid::Cuboid;
@@ -37,3 +38,4 @@ pub use primitives::{Primitive, PrimitiveGroup, Primitives};
 pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
 pub use smooth::{HIGH_END, LOW_END, Smooth, SmoothKind};
 pub use support_function::{SupportFunction, WatchedSupport};
+pub use topology::SharedList;

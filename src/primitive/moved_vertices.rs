@@ -1,5 +1,7 @@
 //! Primitives with other vertices: their topology stays, and they are checked as a body builder checks new ones.
 
+use smallvec::{SmallVec, smallvec};
+
 use super::polygon::{
     check_convex_polygon, convex_polygon, extent_of, newell_normal, quick_triangle_normal, upright,
 };
@@ -78,7 +80,7 @@ impl Convex {
         Ok(Self {
             vertices: vertices.to_vec(),
             edges: self.edges.clone(),
-            faces: Vec::new(),
+            faces: SmallVec::new(),
             deviation: self.deviation,
             curve: None,
         })
@@ -88,14 +90,14 @@ impl Convex {
         let [a, b, c] = vertices else {
             return convex_polygon(vertices);
         };
-        let normal = match quick_triangle_normal([a, b, c])? {
+        let normal = match quick_triangle_normal([a, b, c]) {
             Some(normal) => normal,
             None => check_convex_polygon(vertices)?,
         };
         let mut moved = Self {
             vertices: vertices.to_vec(),
             edges: self.edges.clone(),
-            faces: vec![Face {
+            faces: smallvec![Face {
                 vertices: self.faces[0].vertices.clone(),
                 normal,
             }],
@@ -109,7 +111,7 @@ impl Convex {
     fn polyhedron(&self, vertices: &[Vec3]) -> Result<Self> {
         let extent = extent_of(vertices)?;
         let tree = PointTree::new(vertices);
-        let mut faces = Vec::with_capacity(self.faces.len());
+        let mut faces = SmallVec::with_capacity(self.faces.len());
         let mut is_corner = vec![false; vertices.len()];
         let (mut above, mut thickness) = (0.0f64, f64::INFINITY);
         for (f, face) in self.faces.iter().enumerate() {

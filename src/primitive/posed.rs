@@ -1,5 +1,7 @@
 //! Primitives after a rigid motion: their features keep their numbers, and nothing is searched for or checked again.
 
+use smallvec::SmallVec;
+
 use super::{Convex, Face, PrimitiveGroup, Primitives};
 use crate::pose::{Pose, Vec3};
 
@@ -11,7 +13,7 @@ impl Convex {
             .iter()
             .map(|vertex| pose.transform_point(vertex))
             .collect();
-        let faces: Vec<Face> = self
+        let faces: SmallVec<[Face; 1]> = self
             .faces
             .iter()
             .map(|face| Face {

@@ -308,8 +308,8 @@ impl Primitives {
     /// The largest distance of a bounding point from the origin.
     pub fn radius(&self) -> f64 {
         let of_shape = |shape: &Convex| {
-            let norms = shape.bounding_points().iter().map(Vec3::norm);
-            norms.fold(0.0, f64::max)
+            let squares = shape.bounding_points().iter().map(Vec3::norm_squared);
+            squares.fold(0.0, f64::max).sqrt()
         };
         self.groups()
             .map(|group| match group {

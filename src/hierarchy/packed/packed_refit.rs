@@ -17,29 +17,67 @@ pub fn refit(old: &PackedTree, primitives: &Primitives, ball: Ball) -> PackedTre
         packed.primitives.push(entry.primitive, shape);
     }
     let points = LeafCoordinates::new(&packed, primitives);
-    let below = places_below(old);
-    packed.nodes.reserve_exact(old.nodes().len());
-    let mut boxes = Vec::with_capacity(8);
-    for (index, node) in old.nodes().iter().enumerate() {
-        boxes.clear();
-        for (lane, &child) in node.children().iter().enumerate() {
-            boxes.push(match PackedTree::place_of(child) {
-                Some(place) => {
-                    let entry = packed.primitives.entry(place as usize);
-                    let primitive = primitives.get(entry.primitive as usize);
-                    let axes = polygon_axes(&primitive);
-                    let axes = axes.unwrap_or_else(|| StoredAxes::of(node, lane));
-                    points.spans(axes, [place, place])
-                }
-                None => points.spans(StoredAxes::of(node, lane), below[child as usize]),
-            });
-        }
-        let mut refitted = WideNode::of_spans(&boxes);
-        refitted.children = old.nodes()[index].children;
-        packed.nodes.push(refitted);
-    }
+    packed.nodes = with_widest(Nodes {
+        old,
+        packed: &packed,
+        primitives,
+        points,
+        below: places_below(old),
+    });
     packed.finish(ball, primitives.only());
     packed
+}
+
+/// What the nodes are refitted to.
+struct Nodes<'a> {
+    old: &'a PackedTree,
+    /// The new tree, but for its nodes.
+    packed: &'a PackedTree,
+    primitives: &'a Primitives,
+    points: LeafCoordinates,
+    /// Of each node, the lowest and highest place below it.
+    below: Vec<[u32; 2]>,
+}
+
+impl Work for Nodes<'_> {
+    type Output = Vec<WideNode>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> Vec<WideNode> {
+        let mut nodes = Vec::with_capacity(self.old.nodes().len());
+        let mut boxes = Vec::with_capacity(8);
+        for node in self.old.nodes() {
+            boxes.clear();
+            for (lane, &child) in node.children().iter().enumerate() {
+                boxes.push(self.spans(lanes, node, lane, child));
+            }
+            let mut refitted = WideNode::of_spans(&boxes);
+            refitted.children = node.children;
+            nodes.push(refitted);
+        }
+        nodes
+    }
+}
+
+impl Nodes<'_> {
+    /// The spans of a child of a node. The boxes of polygons follow them, others keep their axes.
+    #[inline(always)]
+    fn spans<I: Instructions>(
+        &self,
+        lanes: I,
+        node: &WideNode,
+        lane: usize,
+        child: u32,
+    ) -> AxisSpans {
+        let Some(place) = PackedTree::place_of(child) else {
+            let axes = StoredAxes::of(node, lane);
+            return self.points.spans(lanes, axes, self.below[child as usize]);
+        };
+        let entry = self.packed.primitives().entry(place as usize);
+        let primitive = self.primitives.get(entry.primitive as usize);
+        let axes = polygon_axes(&primitive).unwrap_or_else(|| StoredAxes::of(node, lane));
+        self.points.spans(lanes, axes, [place, place])
+    }
 }
 
 /// The lowest and highest place below each node. Between them are no places of other nodes, except in files that the library
@@ -62,6 +100,7 @@ fn places_below(tree: &PackedTree) -> Vec<[u32; 2]> {
 }
 
 /// The axes along a polygon's longest edge and its normal.
+#[inline(always)]
 fn polygon_axes(primitive: &Primitive) -> Option<StoredAxes> {
     let [face] = &primitive.shape.faces[..] else {
         return None;
@@ -111,7 +150,8 @@ impl LeafCoordinates {
     }
 
     /// The spans of the leaves from one place to another.
-    fn spans(&self, axes: StoredAxes, [low, high]: [u32; 2]) -> AxisSpans {
+    #[inline(always)]
+    fn spans<I: Instructions>(&self, _: I, axes: StoredAxes, [low, high]: [u32; 2]) -> AxisSpans {
         let [from, to] = [self.first[low as usize], self.first[high as usize + 1]];
         let [x, y, z] = &self.coordinates;
         let range = from as usize..to as usize;
@@ -121,46 +161,29 @@ impl LeafCoordinates {
             let points = (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i]));
             return AxisSpans::of_points(axes, points);
         }
-        let (low, high) = with_widest(Spans {
-            axes: &axes.axes,
-            coordinates,
-        });
+        let (low, high) = spans(&axes.axes, coordinates);
         AxisSpans { axes, low, high }
     }
 }
 
 /// The lowest and highest coordinates of at least four points along axes.
-struct Spans<'a> {
-    axes: &'a Mat3,
-    coordinates: [&'a [f64]; 3],
-}
-
-impl Work for Spans<'_> {
-    type Output = (Vec3, Vec3);
-
-    #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> (Vec3, Vec3) {
-        let axes: [[f64; 3]; 3] = each3(|i| each3(|k| self.axes[(k, i)]));
-        let mut low = [F64x4::splat(f64::INFINITY); 3];
-        let mut high = [F64x4::splat(f64::NEG_INFINITY); 3];
-        let [x, y, z] = self.coordinates;
-        let mut see = |first: usize| {
-            let four = |from: &[f64]| F64x4([from[first], from[first + 1], from[first + 2], from[first + 3]]);
-            let points = [four(x), four(y), four(z)];
-            for i in 0..3 {
-                let along = along64(&points, &axes[i]);
-                low[i] = low[i].min(along);
-                high[i] = high[i].max(along);
-            }
-        };
-        let count = x.len().min(y.len()).min(z.len());
-        for first in (0..count - 3).step_by(4) {
-            see(first);
+#[inline(always)]
+fn spans(axes: &Mat3, [x, y, z]: [&[f64]; 3]) -> (Vec3, Vec3) {
+    let axes: [[f64; 3]; 3] = each3(|i| each3(|k| axes[(k, i)]));
+    let mut low = [F64x4::splat(f64::INFINITY); 3];
+    let mut high = [F64x4::splat(f64::NEG_INFINITY); 3];
+    let count = x.len().min(y.len()).min(z.len());
+    // The last four overlap those before.
+    for first in (0..count - 4).step_by(4).chain([count - 4]) {
+        let four = |from: &[f64]| F64x4(std::array::from_fn(|i| from[first + i]));
+        let points = [four(x), four(y), four(z)];
+        for i in 0..3 {
+            let along = along64(&points, &axes[i]);
+            low[i] = low[i].min(along);
+            high[i] = high[i].max(along);
         }
-        // The last four, some of which were seen before.
-        see(count - 4);
-        let low = each3(|i| low[i].least());
-        let high = each3(|i| high[i].greatest());
-        (low.into(), high.into())
     }
+    let low = each3(|i| low[i].least());
+    let high = each3(|i| high[i].greatest());
+    (low.into(), high.into())
 }
