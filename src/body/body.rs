@@ -1,7 +1,7 @@
 //! A body: primitives, their user tags, and the tree over them.
 
-use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};

@@ -202,7 +202,8 @@ impl BodyBuilder {
             }
         };
         let of_bodies = self.added.iter().map(|added| added.statistics());
-        let sum = |count: &dyn Fn(&BodyStatistics) -> u64| of_bodies.clone().map(count).sum::<u64>();
+        let sum =
+            |count: &dyn Fn(&BodyStatistics) -> u64| of_bodies.clone().map(count).sum::<u64>();
         let statistics = BodyStatistics {
             is_solid: self.is_solid || of_bodies.clone().any(|of_body| of_body.is_solid),
             primitives: primitives.len() as u64,

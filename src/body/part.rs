@@ -160,6 +160,10 @@ impl BodyBuilder {
         center: &Vec3,
         primitives: &Primitives,
     ) -> Option<Solid> {
+        let are_parts_solid = self.added.iter().any(|added| added.body.solid().is_some());
+        if own.is_none() && !are_parts_solid {
+            return None;
+        }
         let mut surfaces = Surfaces {
             signs: vec![0; primitives.len()],
             ..Surfaces::default()

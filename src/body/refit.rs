@@ -92,7 +92,10 @@ fn owner(body: &Body, place: usize) -> (usize, usize) {
 impl Body {
     /// The vertices of all primitives, one primitive after the other, in the frame in which the body was given.
     pub fn vertices(&self) -> impl Iterator<Item = Vec3> + '_ {
-        let all = self.primitives.iter().flat_map(|primitive| primitive.vertices);
+        let all = self
+            .primitives
+            .iter()
+            .flat_map(|primitive| primitive.vertices);
         all.map(|vertex| vertex + self.center)
     }
 
@@ -118,7 +121,10 @@ impl Body {
         {
             return Err(Error::new(
                 ErrorKind::NotPlanar,
-                format!("vertex {i} of a planar body has z = {}, not 0", vertices[i].z),
+                format!(
+                    "vertex {i} of a planar body has z = {}, not 0",
+                    vertices[i].z
+                ),
             ));
         }
         let mut primitives = self.primitives.with_vertices(vertices)?;

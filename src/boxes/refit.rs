@@ -195,7 +195,11 @@ mod tests {
         let at = Vec3::new(number(50), number(51), number(52)) * 0.5;
         (0..6)
             .map(|i| {
-                let flat = Vec3::new(number(3 * i), 0.1 * number(3 * i + 1), 1e-3 * number(3 * i + 2));
+                let flat = Vec3::new(
+                    number(3 * i),
+                    0.1 * number(3 * i + 1),
+                    1e-3 * number(3 * i + 2),
+                );
                 at + turn * flat * 0.3
             })
             .collect()
@@ -257,8 +261,8 @@ mod tests {
                     .collect();
                 assert!(excess(&moved, lane, &after) <= 1e-15, "{seed}");
                 // Hardly larger than before.
-                let [before, since] = [&fitted, &moved]
-                    .map(|node| Vec3::from(node.get(lane).half.map(f64::from)));
+                let [before, since] =
+                    [&fitted, &moved].map(|node| Vec3::from(node.get(lane).half.map(f64::from)));
                 let room = 3e-4 * before.norm();
                 assert!((since - before * 0.5).max() <= room, "{before} {since}");
             }

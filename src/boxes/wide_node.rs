@@ -213,8 +213,7 @@ impl WideNode {
         let size = Vec3::from(each3(|i| {
             f64::from(f32::from(self.half[i][lane]) * self.step())
         }));
-        let code =
-            SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.norm().max(f64::MIN_POSITIVE).log2();
+        let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.norm().max(f64::MIN_POSITIVE).log2();
         self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
         true
     }

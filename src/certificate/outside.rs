@@ -74,7 +74,10 @@ struct Face<'a> {
 fn is_outside(faces: &[Face], point: &Vec3, covered: &mut [f64]) -> bool {
     covered.fill(0.0);
     for face in faces {
-        let mut arms = face.vertices.iter().map(|vertex| (vertex - point).normalize());
+        let mut arms = face
+            .vertices
+            .iter()
+            .map(|vertex| (vertex - point).normalize());
         let (Some(first), Some(mut last)) = (arms.next(), arms.next()) else {
             continue;
         };

@@ -48,7 +48,13 @@ pub fn compose_hierarchy(
     let (groups, top) = {
         let mut progress = Progress::new(progress);
         progress.at(0.0)?;
-        let top = group_parts(primitives, single, parts, options, &mut progress.part(0.0, 0.4))?;
+        let top = group_parts(
+            primitives,
+            single,
+            parts,
+            options,
+            &mut progress.part(0.0, 0.4),
+        )?;
         (spliced(&top, single, parts), top)
     };
     if groups.subsets.depth() > MAX_LEVELS {
@@ -102,7 +108,13 @@ fn group_parts(
     let pieces = convex_pieces(&shapes, options.pieces, &mut progress.part(0.0, 0.2))?;
     shapes.extend(parts.iter().map(PartHierarchy::box_shape));
     let leaves = self::parts(&shapes, 0.0);
-    group(&shapes, &leaves, &pieces, options, &mut progress.part(0.2, 1.0))
+    group(
+        &shapes,
+        &leaves,
+        &pieces,
+        options,
+        &mut progress.part(0.2, 1.0),
+    )
 }
 
 impl PartHierarchy<'_> {
@@ -138,7 +150,10 @@ impl PartHierarchy<'_> {
 
 /// The top tree with the trees of the parts in the place of their leaves.
 fn spliced(top: &Groups, single: &[u32], parts: &[PartHierarchy]) -> Groups {
-    let count = parts.iter().map(|part| 2 * part.packed.primitives().len()).sum::<usize>();
+    let count = parts
+        .iter()
+        .map(|part| 2 * part.packed.primitives().len())
+        .sum::<usize>();
     let mut nodes: Vec<Node> = Vec::with_capacity(top.subsets.nodes.len() + count);
     let mut pieces = Vec::new();
     // Where each node of the top tree comes to stand.

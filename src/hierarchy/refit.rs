@@ -61,7 +61,9 @@ pub fn refit_hierarchy(
             (wrappers, packed_anew)
         }
     };
-    let nodes = wrappers.subsets().map_or(0, |(subsets, _)| subsets.nodes.len());
+    let nodes = wrappers
+        .subsets()
+        .map_or(0, |(subsets, _)| subsets.nodes.len());
     Ok(Hierarchy {
         wrappers,
         packed,

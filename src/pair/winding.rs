@@ -79,7 +79,11 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
         if sign != 0 {
             let ring = body.primitives().get(primitive as usize).vertices;
             let boundary = solid.boundary_of(primitive);
-            count(body.pieces().of(primitive), boundary, sign * ray.passes(ring));
+            count(
+                body.pieces().of(primitive),
+                boundary,
+                sign * ray.passes(ring),
+            );
         }
     }
     for (i, ring) in solid.scraps().iter().enumerate() {

@@ -2,10 +2,10 @@
 
 use smallvec::{SmallVec, smallvec};
 
+use super::point_tree::PointTree;
 use super::polygon::{
     check_convex_polygon, convex_polygon, extent_of, newell_normal, quick_triangle_normal, upright,
 };
-use super::point_tree::PointTree;
 use super::{Convex, Face, PrimitiveGroup, Primitives};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Vec3;
@@ -69,8 +69,8 @@ impl Convex {
 
     fn point_or_segment(&self, vertices: &[Vec3]) -> Result<Self> {
         let extent = extent_of(vertices)?;
-        let is_short = extent.spread < tolerance::SMALLEST_DIAMETER
-            || extent.diameter <= extent.tolerance;
+        let is_short =
+            extent.spread < tolerance::SMALLEST_DIAMETER || extent.diameter <= extent.tolerance;
         if vertices.len() > 1 && is_short {
             return Err(Error::new(
                 ErrorKind::Degenerate,
@@ -115,7 +115,11 @@ impl Convex {
         let mut is_corner = vec![false; vertices.len()];
         let (mut above, mut thickness) = (0.0f64, f64::INFINITY);
         for (f, face) in self.faces.iter().enumerate() {
-            let ring: Vec<Vec3> = face.vertices.iter().map(|&i| vertices[i as usize]).collect();
+            let ring: Vec<Vec3> = face
+                .vertices
+                .iter()
+                .map(|&i| vertices[i as usize])
+                .collect();
             let normal = newell_normal(&ring).ok_or_else(|| {
                 Error::new(ErrorKind::Degenerate, format!("face {f} has no area"))
             })?;

@@ -197,10 +197,8 @@ pub(super) fn quick_triangle_normal([a, b, c]: [&Vec3; 3]) -> Option<Vec3> {
     let largest = a.amax().max(b.amax()).max(c.amax());
     // The height is the root of square / longest. Comparisons with NaN are false.
     let is_tall = square > LEAST_HEIGHT * LEAST_HEIGHT * longest * longest;
-    let is_clear = longest > 1e-12 * largest * largest
-        && longest > 1e-60
-        && largest < 1e40
-        && is_tall;
+    let is_clear =
+        longest > 1e-12 * largest * largest && longest > 1e-60 && largest < 1e40 && is_tall;
     is_clear.then(|| sum / square.sqrt())
 }
 

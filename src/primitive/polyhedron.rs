@@ -166,7 +166,11 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
             continue;
         }
         faces.push(Face {
-            vertices: ring.iter().map(|&i| members[i as usize]).collect::<Vec<u32>>().into(),
+            vertices: ring
+                .iter()
+                .map(|&i| members[i as usize])
+                .collect::<Vec<u32>>()
+                .into(),
             normal,
         });
     }

@@ -142,7 +142,13 @@ pub fn answers_are_equal(whole: &Body, flat: &Body, random: &mut Random, poses: 
         let error = 1e-12 * size + 2e-11;
         let off = (one.distance - two.distance).abs();
         assert!(off <= error, "{} {}", one.distance, two.distance);
-        assert_eq!(one.lower == 0.0, two.lower == 0.0, "{} {}", one.lower, two.lower);
+        assert_eq!(
+            one.lower == 0.0,
+            two.lower == 0.0,
+            "{} {}",
+            one.lower,
+            two.lower
+        );
         let shell = two.distance + 0.1;
         let one = query.pair_witnesses((x.0, &x.1), b, shell, 10_000).unwrap();
         let two = other.pair_witnesses((y.0, &y.1), b, shell, 10_000).unwrap();
@@ -157,6 +163,9 @@ pub fn answers_are_equal(whole: &Body, flat: &Body, random: &mut Random, poses: 
         let (one, two) = (of(&one), of(&two));
         // A witness at the edge of the shell may be in one list alone.
         let lone = one.iter().filter(|w| two.binary_search(w).is_err()).count();
-        assert!(lone == 0 && one.len() >= two.len() - lone, "{one:?} {two:?}");
+        assert!(
+            lone == 0 && one.len() >= two.len() - lone,
+            "{one:?} {two:?}"
+        );
     }
 }

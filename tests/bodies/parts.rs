@@ -20,8 +20,16 @@ fn parts_answer_as_their_primitives_one_by_one() {
     for case in 0..60 {
         let how = match case % 3 {
             0 => HierarchyOptions::default(),
-            1 => options(GROUPINGS[case % GROUPINGS.len()], KINDS[case % KINDS.len()], 0.0),
-            _ => options(Grouping::TopDown, WrapperKind::Hull, 3.0 * (case % 2) as f64),
+            1 => options(
+                GROUPINGS[case % GROUPINGS.len()],
+                KINDS[case % KINDS.len()],
+                0.0,
+            ),
+            _ => options(
+                Grouping::TopDown,
+                WrapperKind::Hull,
+                3.0 * (case % 2) as f64,
+            ),
         };
         let mut whole = BodyBuilder::new(3).unwrap();
         let mut flat = BodyBuilder::new(3).unwrap();
@@ -58,7 +66,9 @@ fn parts_answer_as_their_primitives_one_by_one() {
         assert_eq!(whole.primitives().len(), flat.primitives().len());
         for (i, expected) in (0..).zip(&expected) {
             assert_eq!(whole.tag(i), flat.tag(i));
-            let part = whole.part_of(i).map(|part| whole.parts()[part as usize].tag);
+            let part = whole
+                .part_of(i)
+                .map(|part| whole.parts()[part as usize].tag);
             assert_eq!(part, *expected, "primitive {i}");
         }
         for k in 0..3 {
@@ -67,7 +77,10 @@ fn parts_answer_as_their_primitives_one_by_one() {
         }
         boxes_bound_their_primitives(&whole);
         assert!(whole.tree().subsets().is_sound(whole.primitives().len()));
-        assert_eq!(whole.statistics().depth, whole.tree().subsets().depth() as u64);
+        assert_eq!(
+            whole.statistics().depth,
+            whole.tree().subsets().depth() as u64
+        );
         answers_are_equal(&whole, &flat, &mut random, 12);
         let read = loaded(&whole);
         assert_eq!(read.packed(), whole.packed());
@@ -81,7 +94,9 @@ fn parts_answer_as_their_primitives_one_by_one() {
 #[test]
 fn parts_may_have_parts() {
     let mut random = Random::new(2);
-    let given: Vec<Given> = (0..9).map(|kind| Given::random(&mut random, kind)).collect();
+    let given: Vec<Given> = (0..9)
+        .map(|kind| Given::random(&mut random, kind))
+        .collect();
     let mut body = body_of(&given, &HierarchyOptions::default());
     let mut poses = vec![Pose::identity()];
     for _ in 0..3 {
@@ -90,7 +105,9 @@ fn parts_may_have_parts() {
         for (tag, step) in (0..).zip(&steps) {
             builder.add_body(&body, step, tag).unwrap();
         }
-        let outer = steps.iter().flat_map(|step| poses.iter().map(|pose| step.compose(pose)));
+        let outer = steps
+            .iter()
+            .flat_map(|step| poses.iter().map(|pose| step.compose(pose)));
         poses = outer.collect();
         body = Arc::new(built(&builder, &HierarchyOptions::default()));
     }
@@ -111,7 +128,10 @@ fn parts_may_have_parts() {
 #[test]
 fn deep_chains_of_parts_stay_shallow() {
     let mut random = Random::new(3);
-    let mut body = body_of(&[Given::random(&mut random, 1)], &HierarchyOptions::default());
+    let mut body = body_of(
+        &[Given::random(&mut random, 1)],
+        &HierarchyOptions::default(),
+    );
     for step in 0..150 {
         let mut builder = BodyBuilder::new(3).unwrap();
         builder.add_body(&body, &Pose::identity(), step).unwrap();
@@ -153,7 +173,10 @@ fn the_union_of_solid_parts_is_solid() {
             }
         }
         // A surface that bounds nothing.
-        let patch = body_of(&[Given::random(&mut random, 0)], &HierarchyOptions::default());
+        let patch = body_of(
+            &[Given::random(&mut random, 0)],
+            &HierarchyOptions::default(),
+        );
         builder.add_body(&patch, &random.pose(0.5), 0).unwrap();
         // Nested once more, and out of a file.
         let inner = Arc::new(built(&builder, &HierarchyOptions::default()));
@@ -204,7 +227,12 @@ fn planar_parts_stay_in_their_plane() {
     assert!(refused.message.contains("dimension"), "{}", refused.message);
     assert!(spatial.is_empty());
     let whole = built(&whole, &HierarchyOptions::default());
-    assert!(whole.primitives().iter().all(|p| p.vertices.iter().all(|v| v.z == 0.0)));
+    assert!(
+        whole
+            .primitives()
+            .iter()
+            .all(|p| p.vertices.iter().all(|v| v.z == 0.0))
+    );
 }
 
 /// The scene of figure 9 (§3.3): 44 robot bases of 276 polygons.

@@ -28,8 +28,16 @@ fn refitted_bodies_answer_as_those_built_anew() {
     for case in 0..40 {
         let how = match case % 3 {
             0 => HierarchyOptions::default(),
-            1 => options(GROUPINGS[case % GROUPINGS.len()], KINDS[case % KINDS.len()], 0.0),
-            _ => options(GROUPINGS[case % GROUPINGS.len()], KINDS[0], 3.0 * (case % 2) as f64),
+            1 => options(
+                GROUPINGS[case % GROUPINGS.len()],
+                KINDS[case % KINDS.len()],
+                0.0,
+            ),
+            _ => options(
+                GROUPINGS[case % GROUPINGS.len()],
+                KINDS[0],
+                3.0 * (case % 2) as f64,
+            ),
         };
         let are_points = case % 7 == 3;
         let given: Vec<Given> = (0..1 + random.below(30))
@@ -55,7 +63,12 @@ fn refitted_bodies_answer_as_those_built_anew() {
             assert!((a[0] - b[0]).abs() < 1e-10 && (a[1] - b[1]).abs() < 1e-10);
         }
         boxes_bound_their_primitives(&refitted);
-        assert!(refitted.tree().subsets().is_sound(refitted.primitives().len()));
+        assert!(
+            refitted
+                .tree()
+                .subsets()
+                .is_sound(refitted.primitives().len())
+        );
         answers_are_equal(&refitted, &anew, &mut random, 12);
         let read = loaded(&refitted);
         assert_eq!(read.packed(), refitted.packed());
@@ -147,9 +160,13 @@ fn what_is_no_body_any_more_is_refused() {
 fn bodies_with_parts_are_refitted() {
     let mut random = Random::new(14);
     let mut builder = BodyBuilder::new(3).unwrap();
-    builder.add_body(&solid_one(&cube(0.5)), &Pose::identity(), 1).unwrap();
+    builder
+        .add_body(&solid_one(&cube(0.5)), &Pose::identity(), 1)
+        .unwrap();
     let pose = random.pose(0.4);
-    builder.add_body(&solid_one(&inside_out(&cube(0.5))), &pose, 2).unwrap();
+    builder
+        .add_body(&solid_one(&inside_out(&cube(0.5))), &pose, 2)
+        .unwrap();
     let whole = built(&builder, &HierarchyOptions::default());
     let shear = |p: &Vec3| Vec3::new(p.x + 0.5 * p.z, p.y, p.z) * 1.5;
     let refitted = moved_body(&whole, shear);
@@ -180,5 +197,10 @@ fn refits_take_a_part_of_a_build() {
         best[1] = best[1].min(start.elapsed().as_secs_f64());
         assert_eq!(refitted.primitives().len(), body.primitives().len());
     }
-    println!("build {:.4} s, refit {:.4} s, {:.1} times", best[0], best[1], best[0] / best[1]);
+    println!(
+        "build {:.4} s, refit {:.4} s, {:.1} times",
+        best[0],
+        best[1],
+        best[0] / best[1]
+    );
 }

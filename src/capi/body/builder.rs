@@ -218,7 +218,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
 /// The part's hierarchy is taken over, not built again: cstk_body_build groups only the parts and what was added by itself,
 /// and moves the parts' boxes to their places. (Trees that would get deeper than 56 levels, as of parts nested one in the
 /// other, are grouped anew.) `aspect_limit` does not cut what is added beside parts. Answers are those of the same
-/// primitives added one by one, to 1e-12 of the largest coordinate for each level of parts. A part that was built as a
+/// primitives added one by one, but for the last digits of their vertices, which each motion rounds. A part that was built as a
 /// solid stays one, whatever cstk_body_builder_set_solid says of the faces added by themselves; the body is then the union
 /// of its solids.
 ///
