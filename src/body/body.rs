@@ -33,7 +33,7 @@ pub struct Body {
     pub(super) parts: Vec<BodyPart>,
     /// Computed when a solid is first refitted, shared with what it is refitted to.
     pub(super) joints: Arc<OnceLock<Joints>>,
-    /// Computed on first use, for solids with the body. Point clouds need none.
+    /// Computed on first use, for solids with the body unless that is refitted. Point clouds need none.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
@@ -222,8 +222,9 @@ impl Body {
 
     /// The connected pieces; computed on first use.
     pub fn pieces(&self) -> &Pieces {
+        let scraps = self.solid.as_ref().map_or(&[][..], Solid::scraps);
         self.pieces
-            .get_or_init(|| Pieces::new(&self.primitives, &[]))
+            .get_or_init(|| Pieces::new(&self.primitives, scraps))
     }
 
     /// Number of connected pieces.

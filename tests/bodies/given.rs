@@ -90,7 +90,7 @@ pub fn body_of(given: &[Given], options: &HierarchyOptions) -> Arc<Body> {
     Arc::new(built(&builder, options))
 }
 
-/// Every box of the packed tree bounds the points of the primitives below it, in both senses.
+/// Every box of the packed tree bounds the primitives below it along its axes.
 pub fn boxes_bound_their_primitives(body: &Body) {
     let tree = body.packed();
     let mut below = vec![(tree.root(), Vec::new())];
@@ -100,14 +100,14 @@ pub fn boxes_bound_their_primitives(body: &Body) {
         if node.is_leaf() {
             let entry = tree.primitives().entry(tree.place(node) as usize);
             let primitive = body.primitives().get(entry.primitive as usize);
-            for point in primitive.bounding_points() {
-                let point = point / tree.scale();
-                for stored in &above {
-                    let axes = stored.axes.map(|axis| Vec3::from(axis.map(f64::from)));
-                    let center = Vec3::from(stored.center.map(f64::from));
-                    for (axis, half) in axes.iter().zip(stored.half) {
-                        let along = axis.dot(&(point - center)).abs();
-                        assert!(along <= f64::from(half) + 1e-14, "{along} {half}");
+            for stored in &above {
+                let center = Vec3::from(stored.center.map(f64::from)) * tree.scale();
+                for (axis, half) in stored.axes.iter().zip(stored.half) {
+                    let axis = Vec3::from(axis.map(f64::from));
+                    let half = f64::from(half) * tree.scale();
+                    for axis in [axis, -axis] {
+                        let along = axis.dot(&(primitive.farthest(&axis) - center));
+                        assert!(along <= half + 1e-13 * body.radius(), "{along} {half}");
                     }
                 }
             }
