@@ -3,9 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
+use super::joints::Joints;
 use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};
-use super::refit::Joints;
 use super::solid::Solid;
 use crate::error::{Error, Result};
 use crate::hierarchy::packed::PackedTree;

@@ -1,10 +1,11 @@
 //! Collects primitives, checks each when it is added, and builds the body.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use super::added_bodies::AddedBodies;
 use super::body::{Body, BodyStatistics};
 use super::mesh::Mesh;
-use super::part::AddedBody;
 use super::solid::{DegenerateFace, Solid};
 use crate::body::mesh_file::read_mesh_file;
 use crate::error::{Error, ErrorKind, Result};
@@ -19,9 +20,8 @@ use crate::primitive::{
 pub struct BodyBuilder {
     pub(super) dimension: u32,
     /// Those added by themselves.
-    pub(super) primitives: Primitives,
-    /// The bodies added.
-    pub(super) added: Vec<AddedBody>,
+    primitives: Primitives,
+    added: AddedBodies,
     /// Per shape added (points have no entry), whether it is a polygon that may bound a solid.
     is_face: Vec<bool>,
     /// The faces of meshes, or parts of them, that had no area.
@@ -38,7 +38,7 @@ impl BodyBuilder {
         Ok(Self {
             dimension,
             primitives: Primitives::default(),
-            added: Vec::new(),
+            added: AddedBodies::default(),
             is_face: Vec::new(),
             scraps: Vec::new(),
             is_solid: false,
@@ -149,10 +149,26 @@ impl BodyBuilder {
         self.add_mesh(&mesh).map_err(named)
     }
 
+    /// Adds a body at a pose. Its primitives keep their order, tags and features; its hierarchy is taken over. If it is a
+    /// solid it stays one, whatever [`BodyBuilder::set_solid`] says of the faces added by themselves.
+    pub fn add_body(&mut self, body: &Arc<Body>, pose: &Pose, tag: u64) -> Result<()> {
+        if body.dimension != self.dimension {
+            return Err(Error::invalid(format!(
+                "the body's dimension is {}, the builder's {}",
+                body.dimension, self.dimension
+            )));
+        }
+        if self.dimension == 2 && !pose.is_planar() {
+            return Err(Error::invalid("the pose leaves the plane z = 0"));
+        }
+        self.require_room(body.primitives().len())?;
+        let first = self.len();
+        self.added.push(body, first, pose, tag)
+    }
+
     /// Number of primitives added so far.
     pub fn len(&self) -> usize {
-        let of_bodies = self.added.iter().map(|added| added.part.count as usize);
-        self.primitives.len() + of_bodies.sum::<usize>()
+        self.primitives.len() + self.added.primitive_count()
     }
 
     /// Whether no primitive was added yet.
@@ -180,7 +196,7 @@ impl BodyBuilder {
                 },
             ));
         }
-        let singles = self.single_numbers();
+        let singles = self.added.single_numbers(self.primitives.len());
         let boundary = match self.is_solid && self.dimension == 3 {
             true => Some(Solid::checked(
                 &self.primitives,
@@ -190,25 +206,24 @@ impl BodyBuilder {
             )?),
             false => None,
         };
-        let (low, high) = self.extent();
+        let (low, high) = self.added.extent(&self.primitives);
         let center = low * 0.5 + high * 0.5;
-        let primitives = self.centered(&center);
-        let solid = self.solid_of_all(boundary, &center, &primitives);
+        let primitives = self.added.centered(&self.primitives, &center);
+        let solid = self.added.solid(boundary, &center, &primitives);
         let built = match self.added.is_empty() {
             true => build_hierarchy(&primitives, options, progress)?,
             false => {
-                let parts = self.part_hierarchies(&center);
+                let parts = self.added.hierarchies(&center);
                 compose_hierarchy(&primitives, &singles, &parts, options, progress)?
             }
         };
-        let of_bodies = self.added.iter().map(|added| added.statistics());
         let sum =
-            |count: &dyn Fn(&BodyStatistics) -> u64| of_bodies.clone().map(count).sum::<u64>();
+            |count: fn(&BodyStatistics) -> u64| -> u64 { self.added.statistics().map(count).sum() };
         let statistics = BodyStatistics {
-            is_solid: self.is_solid || of_bodies.clone().any(|of_body| of_body.is_solid),
+            is_solid: self.is_solid || self.added.statistics().any(|of_body| of_body.is_solid),
             primitives: primitives.len() as u64,
-            faces_split: self.faces_split + sum(&|of_body| of_body.faces_split),
-            faces_dropped: self.faces_dropped + sum(&|of_body| of_body.faces_dropped),
+            faces_split: self.faces_split + sum(|of_body| of_body.faces_split),
+            faces_dropped: self.faces_dropped + sum(|of_body| of_body.faces_dropped),
             nodes: built.nodes as u64,
             depth: built.depth as u64,
             low: low.into(),
@@ -224,7 +239,7 @@ impl BodyBuilder {
             statistics,
         )
         .with_solid(solid)
-        .with_parts(self.added.iter().map(|added| added.part).collect()))
+        .with_parts(self.added.parts()))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
@@ -251,7 +266,7 @@ impl BodyBuilder {
         Ok(())
     }
 
-    pub(super) fn require_room(&self, more: usize) -> Result<()> {
+    fn require_room(&self, more: usize) -> Result<()> {
         if self.len() + more > u32::MAX as usize / 2 {
             return Err(Error::new(
                 ErrorKind::Unsupported,

@@ -1,5 +1,6 @@
 //! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
 
+mod added_bodies;
 #[allow(clippy::module_inception)]
 mod body;
 mod body_cache;
@@ -9,6 +10,7 @@ mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
+mod joints;
 mod mesh;
 mod mesh_budget;
 pub mod mesh_file;
