@@ -184,10 +184,10 @@ fn bodies_with_parts_are_refitted() {
 /// Prints the ratio that docs/benchmarks.md gives; `scripts/bench.sh builds` measures it on a quiet machine.
 #[test]
 fn refits_take_a_part_of_a_build() {
-    let ball = scenes::bumpy_sphere(20_000, 3);
+    let ball = scenes::bumpy_sphere(5_000, 3);
     let builder = helpers::models::builder(&ball);
     let mut best = [f64::INFINITY; 2];
-    for step in 0..5 {
+    for step in 0..3 {
         let start = Instant::now();
         let body = built(&builder, &HierarchyOptions::default());
         best[0] = best[0].min(start.elapsed().as_secs_f64());
