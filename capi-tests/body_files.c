@@ -352,7 +352,7 @@ static void sign(content *file) {
 
 /* The version counts before all else, whether the rest is right or not. */
 static void newer(content *whole) {
-    const uint32_t versions[] = {4, 6, 0x00010000, UINT32_MAX};
+    const uint32_t versions[] = {5, 7, 0x00010000, UINT32_MAX};
     for (int i = 0; i < 4; ++i) {
         char text[32];
         snprintf(text, sizeof text, "version %u", (unsigned)versions[i]);

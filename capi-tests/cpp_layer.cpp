@@ -54,6 +54,16 @@ static void bodies() {
     const cstk_primitive solid = body.primitive(0);
     REQUIRE(solid.kind == CSTK_PRIMITIVE_POLYHEDRON && solid.vertex_count == 8 && solid.tag == 7);
     REQUIRE(status_of([&] { body.primitive(4); }) == CSTK_ERROR_NOT_FOUND);
+    const cstk::Body twice =
+        cstk::BodyBuilder().add_body(body, cstk::translation(9, 0, 0), 3).add_body(body).build();
+    REQUIRE(twice.part(0).tag == 3 && twice.part(1).first_primitive == 4);
+    REQUIRE(status_of([&] { twice.part(2); }) == CSTK_ERROR_NOT_FOUND);
+    std::vector<double> all = body.vertices();
+    for (double &coordinate : all) {
+        coordinate *= 2;
+    }
+    REQUIRE(body.refit(all).vertices() == all);
+    REQUIRE(status_of([&] { body.refit(std::vector<double>(3)); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { builder.add_mesh_file("/nowhere.obj"); }) == CSTK_ERROR_IO);
     cstk::BodyBuilder placed;
     const cstk::BodyBuilder::Vector scale = {2, 3, -4};

@@ -543,8 +543,32 @@ typedef struct cstk_body_statistics {
    */
   bool solid;
   uint8_t reserved_bytes[7];
-  uint64_t reserved[6];
+  /**
+   * Bodies that it was put together of (cstk_body_builder_add_body).
+   */
+  uint64_t part_count;
+  uint64_t reserved[5];
 } cstk_body_statistics;
+
+/**
+ * A body that is part of a larger one (cstk_body_builder_add_body).
+ */
+typedef struct cstk_body_part {
+  /**
+   * The tag it was added with.
+   */
+  uint64_t tag;
+  /**
+   * Its primitives are `primitive_count` of the larger body's, from this one on, in their own order.
+   */
+  uint32_t first_primitive;
+  uint32_t primitive_count;
+  /**
+   * The pose it was added at, from its frame to that of the larger body.
+   */
+  double pose[12];
+  uint64_t reserved[4];
+} cstk_body_part;
 
 
 /**
@@ -621,6 +645,33 @@ cstk_status cstk_body_builder_add_mesh_file(cstk_body_builder *builder,
                                             const char *file,
                                             const double *pose,
                                             const double *scale);
+
+/**
+ * Adds a built body as a part, at `pose` (NULL for the identity; 12 doubles, from the part's frame to the builder's). The
+ * same body may be added any number of times; the builder keeps a reference to it until the builder is released.
+ *
+ * The primitives are copied to their place, in their order; their tags, features and feature numbers stay. `tag` is that of
+ * the part: witnesses give the number of the part (`r_part`, `s_part`), and cstk_body_get_part its tag, its pose and its
+ * first primitive. Parts are numbered from 0 in the order in which they are added; those of a part stay its own.
+ *
+ * The part's hierarchy is taken over, not built again: cstk_body_build groups only the parts and what was added by itself,
+ * and moves the parts' boxes to their places. (Trees that would get deeper than 56 levels, as of parts nested one in the
+ * other, are grouped anew.) `aspect_limit` does not cut what is added beside parts. Answers are those of the same
+ * primitives added one by one, but for the last digits of their vertices, which each motion rounds. A part that was built as a
+ * solid stays one, whatever cstk_body_builder_set_solid says of the faces added by themselves; the body is then the union
+ * of its solids.
+ *
+ * The primitives are copied because nodes and primitives are stored in the frame of their body: a query would otherwise
+ * have to change frames within its innermost loop. Where one body stands in many places and memory matters, add it to an
+ * environment as many objects instead: these share it.
+ *
+ * CSTK_ERROR_INVALID_ARGUMENT for a body of another dimension than the builder's, a pose that leaves the plane of a planar
+ * builder, or coordinates beyond 1e50 after the motion.
+ */
+cstk_status cstk_body_builder_add_body(cstk_body_builder *builder,
+                                       const cstk_body *body,
+                                       const double *pose,
+                                       uint64_t tag);
 
 /**
  * Declares that all polygons and mesh faces together are the closed boundary of a solid (true), or surfaces (false, the
@@ -825,6 +876,14 @@ cstk_status cstk_body_get_statistics(const cstk_body *body,
                                      cstk_body_statistics *out);
 
 /**
+ * Writes which part of a body has this number; parts are numbered from 0 as they were added. CSTK_ERROR_NOT_FOUND if there
+ * is none. The parts of a part are its own: its primitive `i` is the larger body's `first_primitive + i`.
+ */
+cstk_status cstk_body_get_part(const cstk_body *body,
+                               uint32_t part,
+                               cstk_body_part *out);
+
+/**
  * Writes the vertices of a feature of a primitive, in the frame in which the body was given. A polygon has one face (0),
  * and its edge i joins vertices i and i + 1; the features of a polyhedron are those of its hull. `kind` is a
  * cstk_feature_kind. At most `max_count` points of three doubles are written to `xyz` (NULL if `max_count` is 0), and
@@ -837,6 +896,38 @@ cstk_status cstk_body_get_feature_vertices(const cstk_body *body,
                                            size_t max_count,
                                            double *xyz,
                                            size_t *count);
+
+/**
+ * Writes the vertices of all primitives, one primitive after the other, in the frame in which the body was given: those
+ * of a polygon as it was added (of a mesh, face after face, less those left out, and triangle after triangle where a face
+ * was split), the corners of a polyhedron's hull, the ends of a capsule, the centre of a sphere, the origin of a cylinder,
+ * cone or ellipsoid, the points of a cloud. At most `max_count` points of three doubles are written to `xyz` (NULL if
+ * `max_count` is 0), and their full number to `count`.
+ */
+cstk_status cstk_body_get_vertices(const cstk_body *body,
+                                   size_t max_count,
+                                   double *xyz,
+                                   size_t *count);
+
+/**
+ * Writes a new body like `body` but with other vertices: `vertex_count` points of three doubles, in the order of
+ * cstk_body_get_vertices. Primitives with their tags, features, radii and orientations stay, and so does the grouping of
+ * the hierarchy, which both bodies share: only its boxes are fitted anew. That takes a small part of the time of a build
+ * (docs/benchmarks.md), and answers are those of a body built of the moved primitives. Queries get slower as far as the
+ * vertices leave the neighbours they were grouped with: build anew when the shape has changed altogether. `body` does not
+ * change; it may be released. User data are not taken over. Parts keep their numbers, tags and the poses they were added at.
+ *
+ * Each primitive is checked as when it was added; the message names it. CSTK_ERROR_WRONG_SIZE for another number of
+ * vertices, CSTK_ERROR_NOT_FINITE, CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_PLANAR (for a polyhedron, a face that is no longer
+ * planar), CSTK_ERROR_NOT_CONVEX (also for a polyhedron turned inside out). Of a solid, vertices of the boundary that had
+ * the same coordinates must have the same again: CSTK_ERROR_NOT_CLOSED; CSTK_ERROR_UNSUPPORTED if faces without area close
+ * it that share none of their vertices with others. Bodies with another wrapper than CSTK_WRAPPER_HULL, or with slabs
+ * (`aspect_limit`), get wrappers anew, which takes longer.
+ */
+cstk_status cstk_body_refit(const cstk_body *body,
+                            const double *xyz,
+                            size_t vertex_count,
+                            cstk_body **out);
 
 /**
  * Saves the body with its hierarchy to a file. An existing file is replaced only once everything is written. The format is
@@ -3418,7 +3509,13 @@ typedef struct cstk_witness {
    * the first object.
    */
   uint64_t r_object;
-  uint64_t reserved[4];
+  /**
+   * The parts of their bodies that the primitives belong to, by number (cstk_body_get_part); CSTK_NONE for primitives
+   * that were added to their bodies by themselves.
+   */
+  uint32_t r_part;
+  uint32_t s_part;
+  uint64_t reserved[3];
 } cstk_witness;
 
 /**
@@ -3686,7 +3783,12 @@ typedef struct cstk_penetration {
    */
   double r_point[3];
   double s_point[3];
-  uint64_t reserved[6];
+  /**
+   * The parts of their bodies that the primitives belong to, as in a cstk_witness.
+   */
+  uint32_t r_part;
+  uint32_t s_part;
+  uint64_t reserved[5];
 } cstk_penetration;
 
 /**

@@ -587,6 +587,32 @@ public:
         check(cstk_body_get_feature_vertices(get(), primitive, kind, feature, count, xyz.data(), &count));
         return xyz;
     }
+
+    /// A body that was added to the builder of this one.
+    cstk_body_part part(std::uint32_t number) const {
+        cstk_body_part out;
+        check(cstk_body_get_part(get(), number, &out));
+        return out;
+    }
+
+    /// The vertices of all primitives, three doubles each.
+    std::vector<double> vertices() const {
+        std::size_t count = 0;
+        check(cstk_body_get_vertices(get(), 0, nullptr, &count));
+        std::vector<double> xyz(3 * count);
+        check(cstk_body_get_vertices(get(), count, xyz.data(), &count));
+        return xyz;
+    }
+
+    /// A body with other vertices, in the order of vertices(), and the same topology.
+    Body refit(Span<double> xyz) const {
+        if (xyz.size() % 3 != 0) {
+            throw std::invalid_argument("cstk: a point has three coordinates");
+        }
+        cstk_body *out = nullptr;
+        check(cstk_body_refit(get(), xyz.data(), xyz.size() / 3, &out));
+        return Body(out);
+    }
 };
 
 class BodyBuilder
@@ -633,6 +659,12 @@ public:
     BodyBuilder &add_mesh_file(const std::string &file, const Pose &pose = identity(),
                                const Vector &scale = {1, 1, 1}) {
         check(cstk_body_builder_add_mesh_file(get(), file.c_str(), pose.data(), scale.data()));
+        return *this;
+    }
+
+    /// A built body as a part, with its hierarchy.
+    BodyBuilder &add_body(const Body &body, const Pose &pose = identity(), std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_body(get(), body.get(), pose.data(), tag));
         return *this;
     }
 

@@ -50,6 +50,33 @@ void write(std::ofstream &csv, const char *name, const Mesh &mesh, const std::ve
     }
 }
 
+void print(const char *what, const char *name, std::size_t triangles, const Again &again, std::ofstream &csv) {
+    std::printf("| %s | %s | %zu | %.4f | %.4f | %.1f | %.0f | %.0f | %.1e |\n", what, name, triangles, again.build,
+                again.again, again.build / again.again, again.bytes, again.bytes_again, again.difference);
+    std::fflush(stdout);
+    const std::string start = std::string(name) + ' ' + std::to_string(triangles) + ",-," + what;
+    csv << start << ",built anew," << again.build * 1e9 << '\n' << start << ",again," << again.again * 1e9 << '\n';
+}
+
+/// Bodies made of what is built already.
+void print_again(bool quick, std::uint64_t seed, std::ofstream &csv) {
+    std::printf("\n| | body | triangles | built, s | again, s | built / again | built, bytes a triangle | again, bytes a "
+                "triangle | distances differ by |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    const Mesh base = bumpy_sphere(276);
+    print("44 parts", "bumpy sphere", 44 * base.triangles.size(), built_of_parts(base, 44, 9), csv);
+    std::vector<std::size_t> sizes = {1000, 10000, 100000};
+    if (!quick) {
+        sizes.push_back(1000000);
+    }
+    for (const std::size_t size : sizes) {
+        const int times = size < 100000 ? 9 : 3;
+        const Mesh ball = bumpy_sphere(size);
+        print("refit", "bumpy sphere", ball.triangles.size(), refitted(ball, times), csv);
+        const Mesh loose = soup(size, seed);
+        print("refit", "soup", loose.triangles.size(), refitted(loose, times), csv);
+    }
+}
+
 } // namespace
 
 int main(int count, char **arguments) {
@@ -94,6 +121,7 @@ int main(int count, char **arguments) {
                 }
             }
         }
+        print_again(quick, seed, csv);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "builds: %s\n", error.what());
         return 1;

@@ -1,8 +1,10 @@
 //! A body: primitives, their user tags, and the tree over them.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
+use super::joints::Joints;
+use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};
 use super::solid::Solid;
 use crate::error::{Error, Result};
@@ -28,7 +30,10 @@ pub struct Body {
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
     pub(super) solid: Option<Solid>,
-    /// Computed on first use, for solids with the body. Point clouds need none.
+    pub(super) parts: Vec<BodyPart>,
+    /// Computed when a solid is first refitted, shared with what it is refitted to.
+    pub(super) joints: Arc<OnceLock<Joints>>,
+    /// Computed on first use, for solids with the body unless that is refitted. Point clouds need none.
     pieces: OnceLock<Pieces>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
@@ -78,6 +83,8 @@ impl Body {
             primitives,
             wrappers,
             solid: None,
+            parts: Vec::new(),
+            joints: Arc::default(),
             pieces: OnceLock::new(),
             statistics,
             data: OnceLock::new(),
@@ -91,6 +98,22 @@ impl Body {
         }
         self.solid = solid;
         self
+    }
+
+    /// Adds where the bodies are that the body was put together of.
+    pub(super) fn with_parts(mut self, parts: Vec<BodyPart>) -> Self {
+        self.parts = parts;
+        self
+    }
+
+    /// The bodies that the body was put together of, in the order in which they were added.
+    pub fn parts(&self) -> &[BodyPart] {
+        &self.parts
+    }
+
+    /// The number of the part that a primitive belongs to; `None` if it was added by itself.
+    pub fn part_of(&self, primitive: u32) -> Option<u32> {
+        part_of(&self.parts, primitive)
     }
 
     /// A number that no other body of this process has; caches key on it.
@@ -199,8 +222,9 @@ impl Body {
 
     /// The connected pieces; computed on first use.
     pub fn pieces(&self) -> &Pieces {
+        let scraps = self.solid.as_ref().map_or(&[][..], Solid::scraps);
         self.pieces
-            .get_or_init(|| Pieces::new(&self.primitives, &[]))
+            .get_or_init(|| Pieces::new(&self.primitives, scraps))
     }
 
     /// Number of connected pieces.

@@ -1,13 +1,15 @@
 //! Collects primitives, checks each when it is added, and builds the body.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use super::added_bodies::AddedBodies;
 use super::body::{Body, BodyStatistics};
 use super::mesh::Mesh;
 use super::solid::{DegenerateFace, Solid};
 use crate::body::mesh_file::read_mesh_file;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::{HierarchyOptions, build_hierarchy};
+use crate::hierarchy::{HierarchyOptions, build_hierarchy, compose_hierarchy};
 use crate::pose::{Pose, Vec3, check_dimension};
 use crate::primitive::{
     Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
@@ -17,7 +19,9 @@ use crate::primitive::{
 #[derive(Debug)]
 pub struct BodyBuilder {
     pub(super) dimension: u32,
+    /// Those added by themselves.
     primitives: Primitives,
+    added: AddedBodies,
     /// Per shape added (points have no entry), whether it is a polygon that may bound a solid.
     is_face: Vec<bool>,
     /// The faces of meshes, or parts of them, that had no area.
@@ -34,6 +38,7 @@ impl BodyBuilder {
         Ok(Self {
             dimension,
             primitives: Primitives::default(),
+            added: AddedBodies::default(),
             is_face: Vec::new(),
             scraps: Vec::new(),
             is_solid: false,
@@ -144,14 +149,31 @@ impl BodyBuilder {
         self.add_mesh(&mesh).map_err(named)
     }
 
+    /// Adds a body at a pose. Its primitives keep their order, tags and features; its hierarchy is taken over. If it is a
+    /// solid it stays one, whatever [`BodyBuilder::set_solid`] says of the faces added by themselves.
+    pub fn add_body(&mut self, body: &Arc<Body>, pose: &Pose, tag: u64) -> Result<()> {
+        if body.dimension != self.dimension {
+            return Err(Error::invalid(format!(
+                "the body's dimension is {}, the builder's {}",
+                body.dimension, self.dimension
+            )));
+        }
+        if self.dimension == 2 && !pose.is_planar() {
+            return Err(Error::invalid("the pose leaves the plane z = 0"));
+        }
+        self.require_room(body.primitives().len())?;
+        let first = self.len();
+        self.added.push(body, first, pose, tag)
+    }
+
     /// Number of primitives added so far.
     pub fn len(&self) -> usize {
-        self.primitives.len()
+        self.primitives.len() + self.added.primitive_count()
     }
 
     /// Whether no primitive was added yet.
     pub fn is_empty(&self) -> bool {
-        self.primitives.is_empty()
+        self.primitives.is_empty() && self.added.is_empty()
     }
 
     /// Builds the body from the primitives added so far; the builder does not change and may be used further. Fails without
@@ -161,7 +183,7 @@ impl BodyBuilder {
         options: &HierarchyOptions,
         progress: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<Body> {
-        if self.primitives.is_empty() {
+        if self.is_empty() {
             return Err(Error::new(
                 ErrorKind::Empty,
                 if self.faces_dropped > 0 {
@@ -174,29 +196,34 @@ impl BodyBuilder {
                 },
             ));
         }
+        let singles = self.added.single_numbers(self.primitives.len());
         let boundary = match self.is_solid && self.dimension == 3 {
             true => Some(Solid::checked(
                 &self.primitives,
                 &self.is_face,
                 &self.scraps,
+                |single| singles[single as usize],
             )?),
             false => None,
         };
-        let (low, high) = self.primitives.extent();
+        let (low, high) = self.added.extent(&self.primitives);
         let center = low * 0.5 + high * 0.5;
-        let primitives = self.primitives.recentered(&center);
-        let solid = boundary.and_then(|(signs, mut scraps)| {
-            for vertex in scraps.iter_mut().flatten() {
-                *vertex -= center;
+        let primitives = self.added.centered(&self.primitives, &center);
+        let solid = self.added.solid(boundary, &center, &primitives);
+        let built = match self.added.is_empty() {
+            true => build_hierarchy(&primitives, options, progress)?,
+            false => {
+                let parts = self.added.hierarchies(&center);
+                compose_hierarchy(&primitives, &singles, &parts, options, progress)?
             }
-            Solid::new(signs, scraps, &primitives)
-        });
-        let built = build_hierarchy(&primitives, options, progress)?;
+        };
+        let sum =
+            |count: fn(&BodyStatistics) -> u64| -> u64 { self.added.statistics().map(count).sum() };
         let statistics = BodyStatistics {
-            is_solid: self.is_solid,
+            is_solid: self.is_solid || self.added.statistics().any(|of_body| of_body.is_solid),
             primitives: primitives.len() as u64,
-            faces_split: self.faces_split,
-            faces_dropped: self.faces_dropped,
+            faces_split: self.faces_split + sum(|of_body| of_body.faces_split),
+            faces_dropped: self.faces_dropped + sum(|of_body| of_body.faces_dropped),
             nodes: built.nodes as u64,
             depth: built.depth as u64,
             low: low.into(),
@@ -211,7 +238,8 @@ impl BodyBuilder {
             built.packed,
             statistics,
         )
-        .with_solid(solid))
+        .with_solid(solid)
+        .with_parts(self.added.parts()))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {
@@ -224,7 +252,7 @@ impl BodyBuilder {
     /// Adds points of one shape, tagged with their indices in `points`: all of them or none.
     pub(super) fn push_points(&mut self, shape: &Convex, points: &[Vec3]) -> Result<()> {
         self.require_room(points.len())?;
-        self.primitives.push_points(shape, points);
+        self.primitives.push_points(shape, points.iter().copied());
         Ok(())
     }
 
@@ -239,7 +267,7 @@ impl BodyBuilder {
     }
 
     fn require_room(&self, more: usize) -> Result<()> {
-        if self.primitives.len() + more > u32::MAX as usize / 2 {
+        if self.len() + more > u32::MAX as usize / 2 {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 "a body holds at most 2^31 primitives",

@@ -12,7 +12,7 @@ use crate::pose::check_dimension;
 use crate::sealed_file::{FileFormat, Writer};
 use crate::whole_file::{read_whole, write_whole};
 
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 const FORMAT: FileFormat = FileFormat {
     magic: *b"cstkbody",
@@ -56,6 +56,7 @@ impl Body {
         payload.packed(&self.packed);
         payload.u32(self.statistics.is_solid.into());
         payload.solid(self.solid.as_ref());
+        payload.parts(&self.parts);
         Ok(FORMAT.seal(payload.0))
     }
 
@@ -94,11 +95,13 @@ impl Body {
         let packed = reader.packed(&primitives, wrappers.ball(&primitives))?;
         statistics.is_solid = reader.flag()?;
         let solid = reader.solid(&primitives)?;
+        let parts = reader.parts(primitives.len(), dimension == 2)?;
         reader.end()?;
         statistics.primitives = primitives.len() as u64;
         Ok(
             Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
-                .with_solid(solid),
+                .with_solid(solid)
+                .with_parts(parts),
         )
     }
 }
@@ -187,10 +190,10 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 6;
+        altered[8] = 7;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 6"), "{}", error.message);
+        assert!(error.message.contains("version 7"), "{}", error.message);
     }
 
     /// Forged content that passes the checksum must not cause reads out of bounds.

@@ -1,18 +1,23 @@
 //! Reads numbers, primitives and hierarchies from the bytes of a body file.
 
+use smallvec::SmallVec;
+
 use super::file_writer::{
     CONE, CYLINDER, ELLIPSOID, KINDS, LEAF, OF_CLOUD, OF_GROUPS, OF_TREE, PLAIN, POINTS, ROUNDED,
     SHAPE,
 };
-use super::solid::Solid;
+use super::part::BodyPart;
+use super::solid::{BoundaryRun, Solid, Surfaces};
 use crate::boxes::{NODE_BYTES, WideNode};
 use crate::error::Result;
 use crate::hierarchy::grouping::Groups;
 use crate::hierarchy::packed::{PackedTree, is_cloud};
 use crate::hierarchy::wrapper::{Frame, WrapperTree, Wrappers};
 use crate::hierarchy::{Ball, HierarchyOptions, Node, SubsetTree, WrapperKind};
-use crate::pose::{Mat3, Vec3};
-use crate::primitive::{Convex, Curve, Face, Primitive, Primitives, Smooth, SmoothKind, sphere};
+use crate::pose::{Mat3, Pose, Vec3};
+use crate::primitive::{
+    Convex, Curve, Face, Primitive, Primitives, SharedList, Smooth, SmoothKind, sphere,
+};
 use crate::sealed_file::Reader;
 
 /// The most levels of a tree: 2 log2 n for n = 2^31 leaves.
@@ -74,7 +79,7 @@ impl Reader<'_> {
                     let shape = shape.map_err(|_| self.damaged("a radius"))?;
                     let points: Vec<Vec3> =
                         (0..points).map(|_| self.vector()).collect::<Result<_>>()?;
-                    primitives.push_points(&shape, &points);
+                    primitives.push_points(&shape, points.into_iter());
                 }
                 _ => return Err(self.damaged("the sort of a primitive")),
             }
@@ -101,7 +106,7 @@ impl Reader<'_> {
         let edges: Vec<[u32; 2]> = (0..edges)
             .map(|_| Ok([self.index(vertices.len())?, self.index(vertices.len())?]))
             .collect::<Result<_>>()?;
-        let faces: Vec<Face> = (0..faces)
+        let faces: SmallVec<[Face; 1]> = (0..faces)
             .map(|_| {
                 let normal = self.vector()?;
                 let corners = self.short_count(4)?;
@@ -110,14 +115,14 @@ impl Reader<'_> {
                 }
                 let corners = (0..corners).map(|_| self.index(vertices.len()));
                 Ok(Face {
-                    vertices: corners.collect::<Result<_>>()?,
+                    vertices: SharedList::of_corners(corners.collect::<Result<_>>()?),
                     normal,
                 })
             })
             .collect::<Result<_>>()?;
         let mut read = Convex {
             vertices,
-            edges,
+            edges: SharedList::of_edges(edges),
             faces,
             deviation,
             curve: None,
@@ -277,22 +282,68 @@ impl Reader<'_> {
                 .then_some(sign)
                 .ok_or_else(|| self.damaged("a sign"))
         };
-        let signs = primitives.iter().map(&mut sign_of).collect::<Result<_>>()?;
-        let count = self.count(4)?;
-        let mut scraps = Vec::with_capacity(count);
+        let mut surfaces = Surfaces {
+            signs: primitives.iter().map(&mut sign_of).collect::<Result<_>>()?,
+            ..Surfaces::default()
+        };
+        let count = self.count(8)?;
         for _ in 0..count {
             let vertices = self.short_count(24)?;
             if vertices < 3 {
                 return Err(self.damaged("a face without area"));
             }
-            scraps.push(
-                (0..vertices)
-                    .map(|_| self.vector())
-                    .collect::<Result<_>>()?,
-            );
+            let vertices = (0..vertices).map(|_| self.vector());
+            surfaces.scraps.push(vertices.collect::<Result<_>>()?);
+            surfaces.scrap_boundaries.push(self.u32()?);
         }
-        let solid = Solid::new(signs, scraps, primitives);
+        let count = self.count(8)?;
+        for _ in 0..count {
+            surfaces.runs.push(BoundaryRun {
+                first: self.u32()?,
+                boundary: self.u32()?,
+            });
+        }
+        // Numbers are of boundaries that there are.
+        let most = count.max(1);
+        let runs = surfaces.runs.iter().map(|run| &run.boundary);
+        let are_few = runs
+            .chain(&surfaces.scrap_boundaries)
+            .all(|&boundary| (boundary as usize) < most);
+        let are_sorted = surfaces.runs.is_sorted_by(|a, b| a.first < b.first);
+        let count = surfaces.count();
+        let are_runs = surfaces.scrap_boundaries.iter().all(|&of| of < count);
+        if !are_few || !are_sorted || !are_runs {
+            return Err(self.damaged("the boundaries"));
+        }
+        let solid = Solid::new(surfaces, primitives);
         solid.map(Some).ok_or_else(|| self.damaged("a boundary"))
+    }
+
+    /// The bodies that a body of this many primitives was put together of.
+    pub fn parts(&mut self, primitives: usize, planar: bool) -> Result<Vec<BodyPart>> {
+        let count = self.count(112)?;
+        let mut end = 0;
+        let mut parts = Vec::with_capacity(count);
+        for _ in 0..count {
+            let (first, count, tag) = (self.u32()?, self.u32()?, self.u64()?);
+            let mut numbers = [0.0; 12];
+            for number in &mut numbers {
+                *number = self.f64()?;
+            }
+            let pose = Pose::from_row_major(&numbers).map_err(|_| self.damaged("a pose"))?;
+            let is_after = u64::from(first) >= end && count > 0;
+            end = u64::from(first) + u64::from(count);
+            if !is_after || end > primitives as u64 || (planar && !pose.is_planar()) {
+                return Err(self.damaged("a part"));
+            }
+            parts.push(BodyPart {
+                first,
+                count,
+                tag,
+                pose,
+            });
+        }
+        Ok(parts)
     }
 }
 

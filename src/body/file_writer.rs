@@ -1,5 +1,6 @@
 //! Writes numbers, primitives and hierarchies as the bytes of a body file.
 
+use super::part::BodyPart;
 use super::solid::Solid;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::grouping::Groups;
@@ -204,19 +205,38 @@ impl Writer {
         }
     }
 
-    /// Writes the signs and scraps of the solid, if there is one.
+    /// Writes the boundaries of the solid, if there is one.
     pub fn solid(&mut self, solid: Option<&Solid>) {
-        let Some(solid) = solid else {
+        let Some(Solid { surfaces, .. }) = solid else {
             return self.u32(0);
         };
         self.u32(1);
-        self.0
-            .extend(solid.signs.iter().flat_map(|sign| sign.to_le_bytes()));
-        self.count(solid.scraps().len());
-        for scrap in solid.scraps() {
+        let signs = surfaces.signs.iter();
+        self.0.extend(signs.flat_map(|sign| sign.to_le_bytes()));
+        self.count(surfaces.scraps.len());
+        for (scrap, &boundary) in surfaces.scraps.iter().zip(&surfaces.scrap_boundaries) {
             self.u32(scrap.len() as u32);
             for vertex in scrap {
                 self.vector(vertex);
+            }
+            self.u32(boundary);
+        }
+        self.count(surfaces.runs.len());
+        for run in &surfaces.runs {
+            self.u32(run.first);
+            self.u32(run.boundary);
+        }
+    }
+
+    /// Writes where the bodies are that the body was put together of.
+    pub fn parts(&mut self, parts: &[BodyPart]) {
+        self.count(parts.len());
+        for part in parts {
+            self.u32(part.first);
+            self.u32(part.count);
+            self.u64(part.tag);
+            for number in part.pose.to_row_major() {
+                self.f64(number);
             }
         }
     }

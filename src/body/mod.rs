@@ -1,5 +1,6 @@
 //! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
 
+mod added_bodies;
 #[allow(clippy::module_inception)]
 mod body;
 mod body_cache;
@@ -9,11 +10,14 @@ mod farthest;
 mod file;
 mod file_reader;
 mod file_writer;
+mod joints;
 mod mesh;
 mod mesh_budget;
 pub mod mesh_file;
 mod mesh_form;
+mod part;
 mod pieces;
+mod refit;
 mod shapes;
 mod solid;
 mod surface_edges;
@@ -28,6 +32,7 @@ pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };
 pub use mesh_form::MeshForm;
+pub use part::BodyPart;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;
 pub use solid::Solid;

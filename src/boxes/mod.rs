@@ -4,6 +4,7 @@ mod boxes_by_eight;
 mod extent;
 mod oriented_box;
 mod packed_box;
+mod refit;
 mod wide_node;
 mod wide_node_bytes;
 
@@ -11,6 +12,7 @@ pub use boxes_by_eight::BoxesByEight;
 pub use extent::Extent;
 pub use oriented_box::oriented_box;
 pub use packed_box::{PackedBox, fitted_axes, simply_fitted_axes};
+pub use refit::{AxisSpans, BoxMotion, StoredAxes};
 pub use wide_node::{ChildPoints, EightBoxes, SIZE_STEPS, WideNode};
 pub(crate) use wide_node::{MAX_AXIS, MAX_PLACE};
 pub use wide_node_bytes::NODE_BYTES;

@@ -11,13 +11,13 @@ use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
 /// The unit of the components of an axis, which are integers.
-const AXIS_STEP: f32 = 1.0 / 32768.0;
+pub(super) const AXIS_STEP: f32 = 1.0 / 32768.0;
 /// The largest component of an axis.
 pub(crate) const MAX_AXIS: f64 = 32767.0;
 /// The largest coordinate of a centre, in steps.
 pub(crate) const MAX_PLACE: f64 = 32767.0;
 /// The largest half side in steps before rounding; the rest up to `u16::MAX` is for the rounding of the centres.
-const MAX_HALF: f64 = 65500.0;
+pub(super) const MAX_HALF: f64 = 65500.0;
 
 /// An upper bound of the length of the axes and of the axes dual to them.
 const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
@@ -163,24 +163,46 @@ impl WideNode {
                 let component = (axes[(k, i)] * 32768.0).round();
                 self.axes[i][k][lane] = component.clamp(-MAX_AXIS, MAX_AXIS) as i16;
             }
-            let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
-            self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
         }
+        self.set_center(lane, center);
         // The half sides are fitted to the rounded axes and centre, and bound the points in both senses of `PackedBox`.
         let rounded = self.get(lane);
         let center = Vec3::from(rounded.center.map(f64::from));
         let axes = Mat3::from_columns(&rounded.axes.map(|axis| Vec3::from(axis.map(f64::from))));
         let inverse = axes.try_inverse().expect("the axes are almost upright");
-        for i in 0..3 {
+        let needed = Vec3::from(each3(|i| {
             let farthest = points.iter().fold(0.0, |farthest: f64, p| {
                 let from_center = p - center;
                 let along = axes.column(i).dot(&from_center).abs();
                 let place = inverse.row(i).dot(&from_center.transpose()).abs();
                 farthest.max(along).max(place)
             });
-            let needed = farthest + excess * LONGEST_AXIS;
-            let mut half = (needed / f64::from(self.step())).ceil() as u16;
-            while f64::from(f32::from(half) * self.step()) < needed {
+            farthest + excess * LONGEST_AXIS
+        }));
+        self.set_half(lane, &needed)
+    }
+
+    /// Sets the centre of a box, rounded to the node's steps.
+    #[inline(always)]
+    pub(super) fn set_center(&mut self, lane: usize, center: &Vec3) {
+        for k in 0..3 {
+            let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
+            self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
+        }
+    }
+
+    /// One coordinate of a box's centre.
+    #[inline(always)]
+    pub(super) fn center_of(&self, lane: usize, k: usize) -> f32 {
+        f32::from(self.center[k][lane]) * self.step() + self.frame[k]
+    }
+
+    /// Sets the half sides of a box, rounded up, and its size; false if they do not fit the step.
+    #[inline(always)]
+    pub(super) fn set_half(&mut self, lane: usize, needed: &Vec3) -> bool {
+        for i in 0..3 {
+            let mut half = (needed[i] / f64::from(self.step())).ceil() as u16;
+            while f64::from(f32::from(half) * self.step()) < needed[i] {
                 match half.checked_add(1) {
                     Some(more) => half = more,
                     None => return false,
@@ -188,8 +210,10 @@ impl WideNode {
             }
             self.half[i][lane] = half;
         }
-        let size = Vec3::from(self.get(lane).half.map(f64::from)).norm();
-        let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.max(f64::MIN_POSITIVE).log2();
+        let size = Vec3::from(each3(|i| {
+            f64::from(f32::from(self.half[i][lane]) * self.step())
+        }));
+        let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.norm().max(f64::MIN_POSITIVE).log2();
         self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
         true
     }
@@ -211,7 +235,7 @@ impl WideNode {
         let [a, b] = [0, 1].map(|i: usize| each3(|k| f32::from(self.axes[i][k][lane]) * AXIS_STEP));
         PackedBox {
             axes: [a, b, cross3(&a, &b)],
-            center: each3(|k| f32::from(self.center[k][lane]) * self.step() + self.frame[k]),
+            center: each3(|k| self.center_of(lane, k)),
             half: each3(|i| f32::from(self.half[i][lane]) * self.step()),
         }
     }

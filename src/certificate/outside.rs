@@ -38,22 +38,46 @@ fn are_outside((body, pose): (&Body, Pose), (outer, at): (&Body, Pose)) -> bool 
         return true;
     };
     let into_outer = at.inverse().compose(&pose);
-    let faces = outer.primitives().iter().enumerate();
-    let faces = faces.map(|(i, face)| (face.vertices, f64::from(solid.sign(i as u32))));
-    let scraps = solid.scraps().iter().map(|scrap| (&scrap[..], 1.0));
-    let faces: Vec<(&[Vec3], f64)> = faces.chain(scraps).filter(|face| face.1 != 0.0).collect();
+    let faces = (0..).zip(outer.primitives().iter());
+    let faces = faces.map(|(i, face)| Face {
+        vertices: face.vertices,
+        sign: f64::from(solid.sign(i)),
+        boundary: solid.boundary_of(i),
+    });
+    let scraps = solid.scraps().iter().enumerate().map(|(i, scrap)| Face {
+        vertices: scrap,
+        sign: 1.0,
+        boundary: solid.boundary_of_scrap(i),
+    });
+    let faces: Vec<Face> = faces
+        .chain(scraps)
+        .filter(|face| face.sign != 0.0)
+        .collect();
+    let mut covered = vec![0.0; solid.boundary_count() as usize];
     body.primitives().iter().all(|primitive| {
         primitive.vertices.iter().any(|vertex| {
             let point = into_outer.transform_point(&(vertex + body.center())) - outer.center();
-            solid.extent().outside(&point) > 0.0 || is_outside(&faces, &point)
+            solid.extent().outside(&point) > 0.0 || is_outside(&faces, &point, &mut covered)
         })
     })
 }
 
-fn is_outside(faces: &[(&[Vec3], f64)], point: &Vec3) -> bool {
-    let mut covered = 0.0;
-    for (vertices, sign) in faces {
-        let mut arms = vertices.iter().map(|vertex| (vertex - point).normalize());
+/// A face of a boundary.
+struct Face<'a> {
+    vertices: &'a [Vec3],
+    /// Which way the boundary runs round its vertices: 1 or -1.
+    sign: f64,
+    boundary: u32,
+}
+
+/// Whether no boundary winds around a point; `covered` is scratch memory for the solid angle of each.
+fn is_outside(faces: &[Face], point: &Vec3, covered: &mut [f64]) -> bool {
+    covered.fill(0.0);
+    for face in faces {
+        let mut arms = face
+            .vertices
+            .iter()
+            .map(|vertex| (vertex - point).normalize());
         let (Some(first), Some(mut last)) = (arms.next(), arms.next()) else {
             continue;
         };
@@ -65,9 +89,9 @@ fn is_outside(faces: &[(&[Vec3], f64)], point: &Vec3) -> bool {
             if !is_certain {
                 return false;
             }
-            covered += sign * 2.0 * triple.atan2(cosines);
+            covered[face.boundary as usize] += face.sign * 2.0 * triple.atan2(cosines);
             last = next;
         }
     }
-    covered.abs() < 0.5 * PI
+    covered.iter().all(|angle| angle.abs() < 0.5 * PI)
 }

@@ -2,6 +2,7 @@
 
 mod ball;
 mod build;
+mod composed;
 mod extremes;
 #[doc(hidden)]
 pub mod grouping;
@@ -10,6 +11,7 @@ mod options;
 #[doc(hidden)]
 pub mod packed;
 mod parallel;
+mod refit;
 mod statistics;
 mod subset_tree;
 #[doc(hidden)]
@@ -17,8 +19,10 @@ pub mod wrapper;
 
 pub use ball::Ball;
 pub use build::{BuildTimes, Hierarchy, build_hierarchy};
+pub use composed::{PartHierarchy, compose_hierarchy};
 pub use extremes::{extremes, few_extremes};
 pub use options::{Grouping, HierarchyOptions, Pieces, WrapperKind};
 pub use parallel::Progress;
+pub use refit::refit_hierarchy;
 pub use statistics::{LevelStatistics, TreeStatistics, of_extents, require_level};
 pub use subset_tree::{Node, SubsetTree};

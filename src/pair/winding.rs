@@ -24,9 +24,10 @@ const STEPS: f64 = (1u64 << 60) as f64;
 /// The winding of a solid's boundary around a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Winding {
-    /// The winding number, counter-clockwise seen from outside: 0 for a point outside the solid.
+    /// The winding number, counter-clockwise seen from outside: 0 for a point outside the solid. If the solid has several
+    /// boundaries, that of the first one around the point.
     pub number: i32,
-    /// The first of the body's pieces that winds around it.
+    /// The first of the body's pieces that winds around it, in a boundary that is around it.
     pub piece: Option<u32>,
 }
 
@@ -34,8 +35,15 @@ pub struct Winding {
 #[derive(Default)]
 pub struct RayScratch {
     pub(super) near: NearPrimitives,
-    /// The winding number of each piece that the ray crosses.
-    counts: Vec<(u32, i32)>,
+    /// The winding number of each piece that the ray crosses, in each boundary.
+    counts: Vec<Count>,
+}
+
+/// The winding number of a piece, as far as it belongs to a boundary.
+struct Count {
+    piece: u32,
+    boundary: u32,
+    number: i32,
 }
 
 /// The winding of a body's boundary around a point in the body's frame; 0 if the body is not a solid. Correct for points
@@ -53,11 +61,16 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
     let RayScratch { near, counts } = scratch;
     let primitives = near.find(body.packed(), ray_box, 2.0 * ROUNDING);
     counts.clear();
-    let mut count = |piece: u32, passes: i32| {
+    let mut count = |piece: u32, boundary: u32, passes: i32| {
         if passes != 0 {
-            match counts.iter_mut().find(|(known, _)| *known == piece) {
-                Some((_, count)) => *count += passes,
-                None => counts.push((piece, passes)),
+            let is_same = |count: &&mut Count| (count.piece, count.boundary) == (piece, boundary);
+            match counts.iter_mut().find(is_same) {
+                Some(count) => count.number += passes,
+                None => counts.push(Count {
+                    piece,
+                    boundary,
+                    number: passes,
+                }),
             }
         }
     };
@@ -65,16 +78,32 @@ pub fn winding(body: &Body, point: &Vec3, scratch: &mut RayScratch) -> Winding {
         let sign = solid.sign(primitive);
         if sign != 0 {
             let ring = body.primitives().get(primitive as usize).vertices;
-            count(body.pieces().of(primitive), sign * ray.passes(ring));
+            let boundary = solid.boundary_of(primitive);
+            count(
+                body.pieces().of(primitive),
+                boundary,
+                sign * ray.passes(ring),
+            );
         }
     }
     for (i, ring) in solid.scraps().iter().enumerate() {
-        count(body.pieces().of_scrap(i), ray.passes(ring));
+        let boundary = solid.boundary_of_scrap(i);
+        count(body.pieces().of_scrap(i), boundary, ray.passes(ring));
     }
-    let around = counts.iter().filter(|(_, count)| *count != 0);
+    winding_of(counts)
+}
+
+fn winding_of(counts: &[Count]) -> Winding {
+    let number_of = |boundary: u32| -> i32 {
+        let own = counts.iter().filter(|count| count.boundary == boundary);
+        own.map(|count| count.number).sum()
+    };
+    let is_around = |count: &&Count| count.number != 0 && number_of(count.boundary) != 0;
+    let around = || counts.iter().filter(is_around);
+    let first = around().map(|count| count.boundary).min();
     Winding {
-        number: counts.iter().map(|(_, count)| count).sum(),
-        piece: around.map(|(piece, _)| *piece).min(),
+        number: first.map_or(0, number_of),
+        piece: around().map(|count| count.piece).min(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! A convex primitive with its features.
 
-use super::{Curve, Feature, FeatureKind, Smooth};
+use smallvec::{SmallVec, smallvec};
+
+use super::{Curve, Feature, FeatureKind, SharedList, Smooth};
 use crate::gjk::{PointCloud, Support};
 use crate::pose::Vec3;
 
@@ -8,7 +10,7 @@ use crate::pose::Vec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// Indices of its corners into the primitive's vertices.
-    pub vertices: Vec<u32>,
+    pub vertices: SharedList<u32>,
     /// The unit normal, in the primitive's frame.
     pub normal: Vec3,
 }
@@ -21,9 +23,9 @@ pub struct Convex {
     /// The vertices of the core, in the primitive's frame.
     pub vertices: Vec<Vec3>,
     /// The two vertices of each edge, by index.
-    pub edges: Vec<[u32; 2]>,
+    pub edges: SharedList<[u32; 2]>,
     /// The faces; none for points and segments.
-    pub faces: Vec<Face>,
+    pub faces: SmallVec<[Face; 1]>,
     /// The representation error, as a length: how far a point of the set may lie outside the vertices' hull, or a vertex off
     /// the plane of its face. Above 0 only for polygons that are planar, and hulls that are complete, within a tolerance. For a
     /// smooth set, the error of its distances.
@@ -89,6 +91,11 @@ impl Convex {
 
     /// The same for other positions of the vertices.
     pub(super) fn extent_of(&self, vertices: &[Vec3]) -> (Vec3, Vec3) {
+        if self.curve.is_none() {
+            let first = (vertices[0], vertices[0]);
+            let ends = |(low, high): (Vec3, Vec3), p: &Vec3| (low.inf(p), high.sup(p));
+            return vertices.iter().fold(first, ends);
+        }
         let along = |axis: usize, sign: f64| {
             let mut direction = Vec3::zeros();
             direction[axis] = sign;
@@ -100,17 +107,18 @@ impl Convex {
 
     /// A flat polygon from vertices in cyclic order around `normal`, of which `corners` form a strictly convex outline.
     pub(super) fn from_cycle(vertices: Vec<Vec3>, corners: Vec<u32>, normal: Vec3) -> Self {
-        let n = vertices.len() as u32;
         let origin = vertices[corners[0] as usize];
         let heights = vertices.iter().map(|v| normal.dot(&(v - origin)).abs());
         let deviation = heights.fold(0.0, f64::max);
+        let edges = SharedList::cycle(vertices.len());
+        let face = Face {
+            vertices: SharedList::of_corners(corners),
+            normal,
+        };
         Self {
             vertices,
-            edges: (0..n).map(|i| [i, (i + 1) % n]).collect(),
-            faces: vec![Face {
-                vertices: corners,
-                normal,
-            }],
+            edges,
+            faces: smallvec![face],
             deviation,
             curve: None,
         }
@@ -118,14 +126,19 @@ impl Convex {
 
     /// The same primitive moved by `-center`.
     pub fn recentered(mut self, center: &Vec3) -> Self {
+        self.recenter(center);
+        self
+    }
+
+    /// Moves the primitive by `-center`.
+    pub(super) fn recenter(&mut self, center: &Vec3) {
         for vertex in &mut self.vertices {
             *vertex -= center;
         }
         if let Some(mut curve) = self.curve.take() {
-            curve.bound(&self);
+            curve.bound(self);
             self.curve = Some(curve);
         }
-        self
     }
 
     /// The vertices of a feature; `None` if the primitive has no such feature.
@@ -134,7 +147,7 @@ impl Convex {
         match feature.kind {
             FeatureKind::Vertex => (i < self.vertices.len()).then(|| vec![feature.index]),
             FeatureKind::Edge => self.edges.get(i).map(|edge| edge.to_vec()),
-            FeatureKind::Face => self.faces.get(i).map(|face| face.vertices.clone()),
+            FeatureKind::Face => self.faces.get(i).map(|face| face.vertices.to_vec()),
             FeatureKind::Interior => (i == 0).then(|| (0..self.vertices.len() as u32).collect()),
             FeatureKind::Surface => (i == 0 && self.smooth().is_some()).then(Vec::new),
         }

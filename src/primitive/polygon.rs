@@ -183,6 +183,25 @@ pub(super) fn check_convex_polygon(vertices: &[Vec3]) -> Result<Vec3> {
     Ok(normal)
 }
 
+/// The unit normal of a triangle that is far from having no area, without most of the work of [`check_convex_polygon`];
+/// `None` if that should decide.
+pub(super) fn quick_triangle_normal([a, b, c]: [&Vec3; 3]) -> Option<Vec3> {
+    /// The least height, times the longest edge. The normal of such a triangle needs no correction: its tilt lifts no vertex
+    /// off the plane by more than some 100 EPSILON of the longest edge.
+    const LEAST_HEIGHT: f64 = 0.02;
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let (x, y, z) = (ab.norm_squared(), ac.norm_squared(), bc.norm_squared());
+    let longest = x.max(y).max(z);
+    let sum = ab.cross(&ac);
+    let square = sum.norm_squared();
+    let largest = a.amax().max(b.amax()).max(c.amax());
+    // The height is the root of square / longest. Comparisons with NaN are false.
+    let is_tall = square > LEAST_HEIGHT * LEAST_HEIGHT * longest * longest;
+    let is_clear =
+        longest > 1e-12 * largest * largest && longest > 1e-60 && largest < 1e40 && is_tall;
+    is_clear.then(|| sum / square.sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,7 +258,7 @@ mod tests {
         .map(|(x, y)| Vec3::new(x, y, 0.0));
         let polygon = convex_polygon(&points).unwrap();
         assert_eq!(polygon.edges.len(), 6);
-        assert_eq!(polygon.faces[0].vertices, vec![0, 3, 4, 5]);
+        assert_eq!(*polygon.faces[0].vertices, [0, 3, 4, 5]);
     }
 
     #[test]

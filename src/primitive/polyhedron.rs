@@ -2,11 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 
+use smallvec::SmallVec;
+
 use super::hull::checked_hull;
 use super::planar_hull::planar_ring;
 use super::point_tree::PointTree;
 use super::polygon::{extent_of, upright};
-use super::{Convex, Face};
+use super::{Convex, Face, SharedList};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -43,8 +45,8 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     if length <= tolerance {
         return Ok(Convex {
             vertices: vec![points[0]],
-            edges: vec![[0, 0]],
-            faces: Vec::new(),
+            edges: SharedList::cycle(1),
+            faces: SmallVec::new(),
             deviation: 0.0,
             curve: None,
         });
@@ -55,8 +57,8 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     if width <= tolerance {
         return Ok(Convex {
             vertices: vec![first, second],
-            edges: vec![[0, 1]],
-            faces: Vec::new(),
+            edges: vec![[0, 1]].into(),
+            faces: SmallVec::new(),
             deviation: 0.0,
             curve: None,
         });
@@ -102,8 +104,8 @@ fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
     let deviation = hull.excess + deviation_of(&vertices, &faces, 4.0 * accepted);
     Ok(Convex {
         vertices,
-        edges,
-        faces,
+        edges: edges.into(),
+        faces: faces.into(),
         deviation,
         curve: None,
     })
@@ -164,7 +166,11 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
             continue;
         }
         faces.push(Face {
-            vertices: ring.iter().map(|&i| members[i as usize]).collect(),
+            vertices: ring
+                .iter()
+                .map(|&i| members[i as usize])
+                .collect::<Vec<u32>>()
+                .into(),
             normal,
         });
     }

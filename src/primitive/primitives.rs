@@ -129,8 +129,9 @@ impl Primitives {
     }
 
     /// Adds points, tagged by their indices among these. `shape` is what each is, at the origin.
-    pub fn push_points(&mut self, shape: &Convex, points: &[Vec3]) {
-        if points.is_empty() {
+    pub fn push_points(&mut self, shape: &Convex, points: impl ExactSizeIterator<Item = Vec3>) {
+        let count = points.len();
+        if count == 0 {
             return;
         }
         // Points are often added in batches of one radius.
@@ -138,8 +139,25 @@ impl Primitives {
             self.point_shapes.push(shape.clone());
         }
         self.begin(self.points.len(), Some(self.point_shapes.len() as u32 - 1));
-        self.points.extend_from_slice(points);
-        self.len += points.len();
+        self.points.extend(points);
+        self.len += count;
+    }
+
+    /// Reserves memory for as many more primitives as others hold.
+    pub(super) fn reserve(&mut self, others: &Self) {
+        self.runs.reserve(others.runs.len());
+        self.shapes.reserve(others.shapes.len());
+        self.tags.reserve(others.tags.len());
+        self.points.reserve(others.points.len());
+    }
+
+    /// Gives back spare capacity.
+    pub fn shrink(&mut self) {
+        self.runs.shrink_to_fit();
+        self.shapes.shrink_to_fit();
+        self.tags.shrink_to_fit();
+        self.points.shrink_to_fit();
+        self.point_shapes.shrink_to_fit();
     }
 
     fn begin(&mut self, place: usize, point_shape: Option<u32>) {
@@ -269,6 +287,16 @@ impl Primitives {
         }
     }
 
+    /// Moves the primitives by `-center`.
+    pub fn recenter(&mut self, center: &Vec3) {
+        for shape in &mut self.shapes {
+            shape.recenter(center);
+        }
+        for point in &mut self.points {
+            *point -= center;
+        }
+    }
+
     /// The lowest and highest coordinates of all.
     pub fn extent(&self) -> (Vec3, Vec3) {
         self.iter()
@@ -280,8 +308,8 @@ impl Primitives {
     /// The largest distance of a bounding point from the origin.
     pub fn radius(&self) -> f64 {
         let of_shape = |shape: &Convex| {
-            let norms = shape.bounding_points().iter().map(Vec3::norm);
-            norms.fold(0.0, f64::max)
+            let squares = shape.bounding_points().iter().map(Vec3::norm_squared);
+            squares.fold(0.0, f64::max).sqrt()
         };
         self.groups()
             .map(|group| match group {

@@ -81,6 +81,8 @@ pub struct Witness {
     pub primitives: [u32; 2],
     /// The tags of the two primitives.
     pub tags: [u64; 2],
+    /// The parts of their bodies that the two primitives belong to, if they do.
+    pub parts: [Option<u32>; 2],
     /// The user data of the two sides, or 0.
     pub data: [usize; 2],
     /// The distance less the margin, at least 0.
@@ -155,6 +157,8 @@ pub struct PrimitivePenetration {
     pub primitives: [u32; 2],
     /// The tags of the two primitives.
     pub tags: [u64; 2],
+    /// The parts of their bodies that the two primitives belong to, if they do.
+    pub parts: [Option<u32>; 2],
     /// The depth and the translation, in the world.
     pub penetration: Penetration,
 }

@@ -54,6 +54,7 @@ impl Visitor for Deepest<'_> {
                 self.list.offer(PrimitivePenetration {
                     primitives,
                     tags: self.target.tags(primitives),
+                    parts: self.target.parts(primitives),
                     penetration,
                 });
             }

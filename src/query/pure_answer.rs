@@ -106,6 +106,7 @@ impl PureAt<'_> {
             s_side: SSide::PureSet(place),
             primitives: [primitive, 0],
             tags: [body.map_or(0, |body| body.tag(primitive)), 0],
+            parts: [body.and_then(|body| body.part_of(primitive)), None],
             data: [body.map_or(0, |body| body.data()), 0],
             distance: bounds.distance,
             first_contact: 0,

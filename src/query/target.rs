@@ -58,6 +58,12 @@ impl<'a> Target<'a> {
         [a.tag(on_a), b.tag(on_b)]
     }
 
+    /// The parts of the bodies that two primitives belong to, one of each body.
+    pub fn parts(&self, [on_a, on_b]: [u32; 2]) -> [Option<u32>; 2] {
+        let [(a, _), (b, _)] = self.sides;
+        [a.part_of(on_a), b.part_of(on_b)]
+    }
+
     /// Both bodies in one frame. Made on demand: most targets turn out to be too far.
     pub fn pairing(&self) -> Pairing<'a> {
         let [a, b] = self.sides;

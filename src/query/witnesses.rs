@@ -327,6 +327,7 @@ impl Witness {
             s_side,
             primitives: hit.key.primitives,
             tags: target.tags(hit.key.primitives),
+            parts: target.parts(hit.key.primitives),
             data: target.data,
             distance: hit.distance,
             first_contact: 0,

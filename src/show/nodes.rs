@@ -49,7 +49,11 @@ pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
                     } else {
                         Surface {
                             vertices: primitive.vertices.clone(),
-                            faces: primitive.faces.iter().map(|f| f.vertices.clone()).collect(),
+                            faces: primitive
+                                .faces
+                                .iter()
+                                .map(|f| f.vertices.to_vec())
+                                .collect(),
                         }
                     }
                 }

@@ -1,8 +1,11 @@
 //! Bodies, solids and their files.
 
 mod closed_surfaces;
+mod given;
 mod obj_files;
+mod parts;
 mod placed_meshes;
+mod refits;
 mod solid_bodies;
 mod solid_clouds;
 mod solid_files;

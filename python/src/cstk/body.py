@@ -17,7 +17,7 @@ from ._user_data import Kept, data_of
 from .enums import FeatureKind
 from .errors import WrongSizeError, check
 from .hierarchy import HierarchyOptions, Mesh, hierarchy_options, mesh_of
-from .records import BodyStatistics, HierarchyNode, HierarchyStatistics, LevelStatistics, Primitive
+from .records import BodyPart, BodyStatistics, HierarchyNode, HierarchyStatistics, LevelStatistics, Primitive
 
 Array = NDArray[np.float64]
 Support = Callable[[Array], ArrayLike]
@@ -182,6 +182,27 @@ class Body(Handle):
         check(lib.cstk_body_get_feature_vertices(self._pointer, *arguments, count[0], xyz, count))
         return out
 
+    def part(self, number: int) -> BodyPart:
+        """A body that was added to the builder of this one (BodyBuilder.add_body): its tag, pose and primitives."""
+        out = ffi.new("cstk_body_part *")
+        check(lib.cstk_body_get_part(self._pointer, index("number", number), out))
+        return BodyPart(out)
+
+    def vertices(self) -> Array:
+        """The vertices of all primitives, one primitive after the other, (n, 3)."""
+        count = ffi.new("size_t *")
+        check(lib.cstk_body_get_vertices(self._pointer, 0, ffi.NULL, count))
+        out, xyz = empty(count[0], 3)
+        check(lib.cstk_body_get_vertices(self._pointer, count[0], xyz, count))
+        return out
+
+    def refit(self, xyz: ArrayLike) -> "Body":
+        """A body with other vertices, in the order of vertices(): topology and grouping stay, boxes are fitted anew."""
+        array = rows("xyz", xyz, 3)
+        out = ffi.new("cstk_body **")
+        check(lib.cstk_body_refit(self._pointer, doubles(array), len(array), out))
+        return self._take(out[0])
+
     def hierarchy_statistics(self) -> HierarchyStatistics:
         """Depth, balance, cost, build times and memory of the hierarchy."""
         out = ffi.new("cstk_hierarchy_statistics *")
@@ -330,6 +351,14 @@ class BodyBuilder(Handle):
         frame = frame_or_identity("pose", pose)
         path = file_name("file", file)
         check(lib.cstk_body_builder_add_mesh_file(self._pointer, path, frame, doubles(_scale(scale))))
+        return self
+
+    def add_body(self, body: Body, pose: Optional[ArrayLike] = None, tag: int = 0) -> "BodyBuilder":
+        """Adds a built body at a pose, as a part with its hierarchy. Witnesses give its number (`r_part`), Body.part its tag."""
+        if not isinstance(body, Body):
+            raise TypeError(f"body must be a Body, not {type(body).__name__}")
+        frame = frame_or_identity("pose", pose)
+        check(lib.cstk_body_builder_add_body(self._pointer, body._pointer, frame, index("tag", tag, 64)))
         return self
 
     def set_solid(self, solid: bool = True) -> "BodyBuilder":

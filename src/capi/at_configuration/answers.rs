@@ -120,7 +120,11 @@ pub struct cstk_witness {
     /// The s-object attached to `r_link` that is the r-side, or 0 for the link's own body. In queries on objects against objects,
     /// the first object.
     pub r_object: u64,
-    pub reserved: [u64; 4],
+    /// The parts of their bodies that the primitives belong to, by number (cstk_body_get_part); CSTK_NONE for primitives
+    /// that were added to their bodies by themselves.
+    pub r_part: u32,
+    pub s_part: u32,
+    pub reserved: [u64; 3],
 }
 
 // SAFETY: the caller's addresses are only handed back, never followed.
@@ -209,7 +213,10 @@ pub struct cstk_penetration {
     /// direction.
     pub r_point: [f64; 3],
     pub s_point: [f64; 3],
-    pub reserved: [u64; 6],
+    /// The parts of their bodies that the primitives belong to, as in a cstk_witness.
+    pub r_part: u32,
+    pub s_part: u32,
+    pub reserved: [u64; 5],
 }
 
 /// Primitive pairs that meet, deepest first. The array belongs to the query context and stays valid until its next call or
@@ -240,7 +247,9 @@ impl From<&PrimitivePenetration> for cstk_penetration {
             direction: penetration.direction.into(),
             r_point: penetration.points[0].into(),
             s_point: penetration.points[1].into(),
-            reserved: [0; 6],
+            r_part: pair.parts[0].unwrap_or(CSTK_NONE),
+            s_part: pair.parts[1].unwrap_or(CSTK_NONE),
+            reserved: [0; 5],
         }
     }
 }
@@ -326,7 +335,9 @@ impl From<&Witness> for cstk_witness {
             r_data: address(witness.data[0]),
             s_data: address(witness.data[1]),
             r_object: witness.r_object,
-            reserved: [0; 4],
+            r_part: witness.parts[0].unwrap_or(CSTK_NONE),
+            s_part: witness.parts[1].unwrap_or(CSTK_NONE),
+            reserved: [0; 3],
         }
     }
 }
@@ -354,7 +365,9 @@ impl cstk_witness {
             r_data: std::ptr::null_mut(),
             s_data: std::ptr::null_mut(),
             r_object: 0,
-            reserved: [0; 4],
+            r_part: CSTK_NONE,
+            s_part: CSTK_NONE,
+            reserved: [0; 3],
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::capi::boundary::guard;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
-use crate::capi::input::{Output, OutputSlice, path};
+use crate::capi::input::{Output, OutputSlice, path, points};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::{CallerData, address};
@@ -46,7 +46,23 @@ pub struct cstk_body_statistics {
     /// Whether it was declared solid (cstk_body_builder_set_solid).
     pub solid: bool,
     pub reserved_bytes: [u8; 7],
-    pub reserved: [u64; 6],
+    /// Bodies that it was put together of (cstk_body_builder_add_body).
+    pub part_count: u64,
+    pub reserved: [u64; 5],
+}
+
+/// A body that is part of a larger one (cstk_body_builder_add_body).
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct cstk_body_part {
+    /// The tag it was added with.
+    pub tag: u64,
+    /// Its primitives are `primitive_count` of the larger body's, from this one on, in their own order.
+    pub first_primitive: u32,
+    pub primitive_count: u32,
+    /// The pose it was added at, from its frame to that of the larger body.
+    pub pose: [f64; 12],
+    pub reserved: [u64; 4],
 }
 
 /// Kinds of features of a primitive.
@@ -157,7 +173,35 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
             piece_count: body.piece_count() as u64,
             solid: s.is_solid,
             reserved_bytes: [0; 7],
-            reserved: [0; 6],
+            part_count: body.parts().len() as u64,
+            reserved: [0; 5],
+        });
+        Ok(())
+    })
+}
+
+/// Writes which part of a body has this number; parts are numbered from 0 as they were added. CSTK_ERROR_NOT_FOUND if there
+/// is none. The parts of a part are its own: its primitive `i` is the larger body's `first_primitive + i`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_part(
+    body: *const cstk_body,
+    part: u32,
+    out: *mut cstk_body_part,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        let count = body.parts().len();
+        let found = body.parts().get(part as usize).ok_or_else(|| {
+            let message = format!("part {part} does not exist; the body has {count}");
+            Error::new(ErrorKind::NotFound, message)
+        })?;
+        out.write(cstk_body_part {
+            tag: found.tag,
+            first_primitive: found.first,
+            primitive_count: found.count,
+            pose: found.pose.to_row_major(),
+            reserved: [0; 4],
         });
         Ok(())
     })
@@ -214,6 +258,60 @@ pub unsafe extern "C" fn cstk_body_get_feature_vertices(
             .collect();
         room.write(&coordinates);
         count.write(indices.len());
+        Ok(())
+    })
+}
+
+/// Writes the vertices of all primitives, one primitive after the other, in the frame in which the body was given: those
+/// of a polygon as it was added (of a mesh, face after face, less those left out, and triangle after triangle where a face
+/// was split), the corners of a polyhedron's hull, the ends of a capsule, the centre of a sphere, the origin of a cylinder,
+/// cone or ellipsoid, the points of a cloud. At most `max_count` points of three doubles are written to `xyz` (NULL if
+/// `max_count` is 0), and their full number to `count`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_get_vertices(
+    body: *const cstk_body,
+    max_count: usize,
+    xyz: *mut f64,
+    count: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let room = OutputSlice::checked(xyz, max_count.saturating_mul(3), "xyz")?;
+        let count = Output::checked(count, "count")?;
+        let first = body.vertices().take(max_count);
+        let coordinates: Vec<f64> = first.flat_map(<[f64; 3]>::from).collect();
+        room.write(&coordinates);
+        count.write(body.vertex_count());
+        Ok(())
+    })
+}
+
+/// Writes a new body like `body` but with other vertices: `vertex_count` points of three doubles, in the order of
+/// cstk_body_get_vertices. Primitives with their tags, features, radii and orientations stay, and so does the grouping of
+/// the hierarchy, which both bodies share: only its boxes are fitted anew. That takes a small part of the time of a build
+/// (docs/benchmarks.md), and answers are those of a body built of the moved primitives. Queries get slower as far as the
+/// vertices leave the neighbours they were grouped with: build anew when the shape has changed altogether. `body` does not
+/// change; it may be released. User data are not taken over. Parts keep their numbers, tags and the poses they were added at.
+///
+/// Each primitive is checked as when it was added; the message names it. CSTK_ERROR_WRONG_SIZE for another number of
+/// vertices, CSTK_ERROR_NOT_FINITE, CSTK_ERROR_DEGENERATE, CSTK_ERROR_NOT_PLANAR (for a polyhedron, a face that is no longer
+/// planar), CSTK_ERROR_NOT_CONVEX (also for a polyhedron turned inside out). Of a solid, vertices of the boundary that had
+/// the same coordinates must have the same again: CSTK_ERROR_NOT_CLOSED; CSTK_ERROR_UNSUPPORTED if faces without area close
+/// it that share none of their vertices with others. Bodies with another wrapper than CSTK_WRAPPER_HULL, or with slabs
+/// (`aspect_limit`), get wrappers anew, which takes longer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_refit(
+    body: *const cstk_body,
+    xyz: *const f64,
+    vertex_count: usize,
+    out: *mut *mut cstk_body,
+) -> cstk_status {
+    guard(|| {
+        let body = &*handle::share::<Body>(body, "body")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states the length.
+        let vertices = unsafe { points(xyz, vertex_count, "xyz")? };
+        out.write(handle::create(Arc::new(body.refit(&vertices)?)));
         Ok(())
     })
 }

@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex};
 
-use crate::body::{BodyBuilder, Mesh};
+use crate::body::{Body, BodyBuilder, Mesh};
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::exclusive::exclusively;
@@ -204,6 +204,43 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
                 )
             };
             Ok(builder.add_mesh_file(file, &pose, &scale)?)
+        })
+    })
+}
+
+/// Adds a built body as a part, at `pose` (NULL for the identity; 12 doubles, from the part's frame to the builder's). The
+/// same body may be added any number of times; the builder keeps a reference to it until the builder is released.
+///
+/// The primitives are copied to their place, in their order; their tags, features and feature numbers stay. `tag` is that of
+/// the part: witnesses give the number of the part (`r_part`, `s_part`), and cstk_body_get_part its tag, its pose and its
+/// first primitive. Parts are numbered from 0 in the order in which they are added; those of a part stay its own.
+///
+/// The part's hierarchy is taken over, not built again: cstk_body_build groups only the parts and what was added by itself,
+/// and moves the parts' boxes to their places. (Trees that would get deeper than 56 levels, as of parts nested one in the
+/// other, are grouped anew.) `aspect_limit` does not cut what is added beside parts. Answers are those of the same
+/// primitives added one by one, but for the last digits of their vertices, which each motion rounds. A part that was built as a
+/// solid stays one, whatever cstk_body_builder_set_solid says of the faces added by themselves; the body is then the union
+/// of its solids.
+///
+/// The primitives are copied because nodes and primitives are stored in the frame of their body: a query would otherwise
+/// have to change frames within its innermost loop. Where one body stands in many places and memory matters, add it to an
+/// environment as many objects instead: these share it.
+///
+/// CSTK_ERROR_INVALID_ARGUMENT for a body of another dimension than the builder's, a pose that leaves the plane of a planar
+/// builder, or coordinates beyond 1e50 after the motion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_body(
+    builder: *mut cstk_body_builder,
+    body: *const cstk_body,
+    pose: *const f64,
+    tag: u64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let body = handle::share::<Body>(body, "body")?;
+            // SAFETY: the header states the length.
+            let pose = unsafe { pose_or_identity(pose)? };
+            Ok(builder.add_body(&body, &pose, tag)?)
         })
     })
 }

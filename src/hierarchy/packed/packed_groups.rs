@@ -44,8 +44,8 @@ pub fn pack_groups(
     Ok(packed)
 }
 
-/// The bounding points of the primitives, leaf after leaf, in units of the packed tree.
-struct LeafPoints {
+/// The bounding points of leaves, leaf after leaf, in units of the packed tree.
+pub struct LeafPoints {
     points: Vec<Vec3>,
     /// Index of each leaf's first point, then the number of all points.
     first: Vec<usize>,
@@ -54,28 +54,36 @@ struct LeafPoints {
 impl LeafPoints {
     fn new(primitives: &Primitives, packed: &PackedTree) -> Self {
         let unit = 1.0 / packed.scale();
-        let leaves = packed.primitives().entries();
+        Self::of_each(packed.primitives().entries().iter(), |leaf, points| {
+            let primitive = primitives.get(leaf.primitive as usize);
+            points.extend(primitive.bounding_points().map(|point| point * unit));
+        })
+    }
+
+    /// The points that `append` adds for each leaf.
+    pub fn of_each<T>(
+        leaves: impl ExactSizeIterator<Item = T>,
+        append: impl Fn(T, &mut Vec<Vec3>),
+    ) -> Self {
         let mut of_leaves = Self {
             points: Vec::with_capacity(3 * leaves.len()),
             first: Vec::with_capacity(leaves.len() + 1),
         };
         of_leaves.first.push(0);
         for leaf in leaves {
-            let primitive = primitives.get(leaf.primitive as usize);
-            let points = primitive.bounding_points();
-            of_leaves.points.extend(points.map(|point| point * unit));
+            append(leaf, &mut of_leaves.points);
             of_leaves.first.push(of_leaves.points.len());
         }
         of_leaves
     }
 
-    fn of(&self, leaves: Range<usize>) -> &[Vec3] {
+    pub fn of(&self, leaves: Range<usize>) -> &[Vec3] {
         &self.points[self.first[leaves.start]..self.first[leaves.end]]
     }
 }
 
 /// Half the diameter of each node's axis-aligned box.
-fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
+pub fn radii(subsets: &SubsetTree, points: &LeafPoints) -> Vec<f64> {
     let mut radii = vec![0.0; subsets.nodes.len()];
     let mut leaf = points.first.len() - 1;
     let mut open: Vec<Extent> = Vec::new();

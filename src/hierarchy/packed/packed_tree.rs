@@ -190,6 +190,11 @@ impl PackedTree {
         place | LEAF
     }
 
+    /// The place of an entry in `WideNode::children` that is a leaf.
+    pub(crate) fn place_of(child: u32) -> Option<u32> {
+        (child & LEAF != 0).then_some(child & !LEAF)
+    }
+
     /// Derives the root's bounds, the round core and the lowest primitives. `only` is the primitive, if the tree has just one.
     pub(crate) fn finish(&mut self, ball: Ball, only: Option<Primitive>) {
         let root = self.bounding_box(self.root());
@@ -323,6 +328,42 @@ impl PackedTree {
     #[inline(always)]
     fn target(&self, node: NodeRef) -> u32 {
         self.nodes[node.parent()].children[node.lane()]
+    }
+
+    /// The same sets as a binary tree: the children of a node are halved in their order.
+    pub fn subsets(&self) -> SubsetTree {
+        let mut nodes: Vec<Node> = Vec::with_capacity(2 * self.primitives.len());
+        // Children of a wide node, and the binary node whose second child they are.
+        let mut open = vec![(0, 0, 1, None)];
+        while let Some((mut index, mut from, mut to, second_of)) = open.pop() {
+            let at = nodes.len() as u32;
+            if let Some(parent) = second_of {
+                let children = [parent + 1, at];
+                nodes[parent as usize] = Node::Interior { children };
+            }
+            while to - from == 1 {
+                let child = self.nodes[index].children[from];
+                match Self::place_of(child) {
+                    Some(place) => {
+                        let primitive = self.primitives.entry(place as usize).primitive;
+                        nodes.push(Node::Leaf { primitive });
+                        break;
+                    }
+                    None => {
+                        index = child as usize;
+                        (from, to) = (0, self.nodes[index].count as usize);
+                    }
+                }
+            }
+            if to - from > 1 {
+                let middle = from + (to - from) / 2;
+                let children = [at + 1, 0];
+                nodes.push(Node::Interior { children });
+                open.push((index, middle, to, Some(at)));
+                open.push((index, from, middle, None));
+            }
+        }
+        SubsetTree { nodes }
     }
 
     /// Bytes of memory of the tree.

@@ -42,7 +42,11 @@ impl Wrapper<'_> {
         match convex_polyhedron(self.corners) {
             Ok(hull) => Surface {
                 vertices: hull.vertices,
-                faces: hull.faces.into_iter().map(|face| face.vertices).collect(),
+                faces: hull
+                    .faces
+                    .iter()
+                    .map(|face| face.vertices.to_vec())
+                    .collect(),
             },
             // A hull too thin to be checked is drawn as its box.
             Err(_) => aligned_box(&self.extent()),

@@ -1,14 +1,14 @@
 //! The wrapper tree of a body, for drawing, covers and access to single nodes; queries use the packed tree.
 
 use std::borrow::Cow;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::wrapper_tree::WrapperTree;
 use crate::boxes::Extent;
 use crate::hierarchy::grouping::Groups;
 use crate::hierarchy::packed::regroup;
 use crate::hierarchy::{
-    Ball, HierarchyOptions, Node, Progress, TreeStatistics, WrapperKind, of_extents,
+    Ball, HierarchyOptions, Node, Progress, SubsetTree, TreeStatistics, WrapperKind, of_extents,
 };
 use crate::primitive::Primitives;
 
@@ -20,8 +20,8 @@ pub enum Wrappers {
     Eager(Box<WrapperTree>),
     /// Built on first use.
     OnDemand {
-        /// `None` for a point cloud, whose groups are recomputed.
-        groups: Option<Groups>,
+        /// Shared with the bodies that were refitted to other vertices. `None` for a point cloud, whose groups are recomputed.
+        groups: Option<Arc<Groups>>,
         options: HierarchyOptions,
         tree: OnceLock<Box<WrapperTree>>,
     },
@@ -30,7 +30,7 @@ pub enum Wrappers {
 impl Wrappers {
     pub(crate) fn on_demand(groups: Option<Groups>, options: &HierarchyOptions) -> Self {
         Self::OnDemand {
-            groups,
+            groups: groups.map(Arc::new),
             options: *options,
             tree: OnceLock::new(),
         }
@@ -55,7 +55,7 @@ impl Wrappers {
                 options,
                 tree,
             } => tree.get_or_init(|| {
-                let groups = groups_of(groups.as_ref(), primitives, options).into_owned();
+                let groups = groups_of(groups.as_deref(), primitives, options).into_owned();
                 Box::new(wrap(groups, primitives, options))
             }),
         }
@@ -65,6 +65,17 @@ impl Wrappers {
         match self {
             Self::Eager(tree) => tree.kind(),
             Self::OnDemand { options, .. } => options.wrapper,
+        }
+    }
+
+    /// The tree of sets and its pieces, unless they are computed anew when they are needed.
+    pub fn subsets(&self) -> Option<(&SubsetTree, &[u32])> {
+        match self {
+            Self::Eager(tree) => Some((tree.subsets(), tree.pieces())),
+            Self::OnDemand { groups, .. } => {
+                let groups = groups.as_ref()?;
+                Some((&groups.subsets, &groups.pieces))
+            }
         }
     }
 
@@ -86,8 +97,8 @@ impl Wrappers {
                 options,
                 tree,
             } => {
-                let group_bytes = groups.as_ref().map_or(0, Groups::bytes);
-                let groups = groups_of(groups.as_ref(), primitives, options);
+                let group_bytes = groups.as_deref().map_or(0, Groups::bytes);
+                let groups = groups_of(groups.as_deref(), primitives, options);
                 TreeStatistics {
                     pieces: groups.pieces.len() as u64,
                     bytes: (group_bytes + tree.get().map_or(0, |tree| tree.bytes())) as u64,

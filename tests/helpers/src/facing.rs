@@ -53,7 +53,7 @@ pub fn supported(shape: &Convex, kind: char, planar: bool, random: &mut Random) 
         'e' => shape.edges[random.below(shape.edges.len())].to_vec(),
         _ => shape.faces[random.below(shape.faces.len())]
             .vertices
-            .clone(),
+            .to_vec(),
     };
     let points: Vec<Vec3> = corners
         .iter()

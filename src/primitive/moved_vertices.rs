@@ -1,0 +1,164 @@
+//! Primitives with other vertices: their topology stays, and they are checked as a body builder checks new ones.
+
+use smallvec::{SmallVec, smallvec};
+
+use super::point_tree::PointTree;
+use super::polygon::{
+    check_convex_polygon, convex_polygon, extent_of, newell_normal, quick_triangle_normal, upright,
+};
+use super::{Convex, Face, PrimitiveGroup, Primitives};
+use crate::error::{Error, ErrorKind, Result, require_coordinates};
+use crate::pose::Vec3;
+use crate::tolerance;
+
+impl Primitives {
+    /// The number of vertices of all primitives.
+    pub fn vertex_count(&self) -> usize {
+        let of_shapes = self.shapes().map(|(_, shape, _)| shape.vertices.len());
+        self.points().len() + of_shapes.sum::<usize>()
+    }
+
+    /// The same primitives with other vertices, given one primitive after the other, as many as before. The message of an
+    /// error names the primitive.
+    pub fn with_vertices(&self, vertices: &[Vec3]) -> Result<Self> {
+        let mut moved = Self::default();
+        moved.reserve(self);
+        let mut rest = vertices;
+        for group in self.groups() {
+            let named = |error: Error, more: usize| {
+                error.within(format_args!("primitive {}", moved.len() + more))
+            };
+            match group {
+                PrimitiveGroup::Shape(shape, tag) => {
+                    let (own, after) = rest.split_at(shape.vertices.len());
+                    let shape = shape.with_vertices(own).map_err(|error| named(error, 0))?;
+                    rest = after;
+                    moved.push(shape, tag);
+                }
+                PrimitiveGroup::Points(shape, points) => {
+                    let (own, after) = rest.split_at(points.len());
+                    for (i, point) in own.iter().enumerate() {
+                        let checked = require_coordinates(point.as_slice(), "coordinate");
+                        checked.map_err(|error| named(error, i))?;
+                    }
+                    rest = after;
+                    moved.push_points(shape, own.iter().copied());
+                }
+            }
+        }
+        moved.shrink();
+        Ok(moved)
+    }
+}
+
+impl Convex {
+    /// The primitive with other vertices, as many as before.
+    fn with_vertices(&self, vertices: &[Vec3]) -> Result<Self> {
+        let mut moved = match &self.faces[..] {
+            [] => self.point_or_segment(vertices)?,
+            [_] => self.polygon(vertices)?,
+            _ => self.polyhedron(vertices)?,
+        };
+        if let Some(curve) = &self.curve {
+            let mut curve = curve.clone();
+            curve.bound(&moved);
+            moved.curve = Some(curve);
+        }
+        Ok(moved)
+    }
+
+    fn point_or_segment(&self, vertices: &[Vec3]) -> Result<Self> {
+        let extent = extent_of(vertices)?;
+        let is_short =
+            extent.spread < tolerance::SMALLEST_DIAMETER || extent.diameter <= extent.tolerance;
+        if vertices.len() > 1 && is_short {
+            return Err(Error::new(
+                ErrorKind::Degenerate,
+                "the ends of the segment coincide",
+            ));
+        }
+        Ok(Self {
+            vertices: vertices.to_vec(),
+            edges: self.edges.clone(),
+            faces: SmallVec::new(),
+            deviation: self.deviation,
+            curve: None,
+        })
+    }
+
+    fn polygon(&self, vertices: &[Vec3]) -> Result<Self> {
+        let [a, b, c] = vertices else {
+            return convex_polygon(vertices);
+        };
+        let normal = match quick_triangle_normal([a, b, c]) {
+            Some(normal) => normal,
+            None => check_convex_polygon(vertices)?,
+        };
+        let mut moved = Self {
+            vertices: vertices.to_vec(),
+            edges: self.edges.clone(),
+            faces: smallvec![Face {
+                vertices: self.faces[0].vertices.clone(),
+                normal,
+            }],
+            deviation: 0.0,
+            curve: None,
+        };
+        moved.deviation = moved.height_off_faces();
+        Ok(moved)
+    }
+
+    fn polyhedron(&self, vertices: &[Vec3]) -> Result<Self> {
+        let extent = extent_of(vertices)?;
+        let tree = PointTree::new(vertices);
+        let mut faces = SmallVec::with_capacity(self.faces.len());
+        let mut is_corner = vec![false; vertices.len()];
+        let (mut above, mut thickness) = (0.0f64, f64::INFINITY);
+        for (f, face) in self.faces.iter().enumerate() {
+            let ring: Vec<Vec3> = face
+                .vertices
+                .iter()
+                .map(|&i| vertices[i as usize])
+                .collect();
+            let normal = newell_normal(&ring).ok_or_else(|| {
+                Error::new(ErrorKind::Degenerate, format!("face {f} has no area"))
+            })?;
+            let normal = upright(&normal, &ring);
+            for (&i, corner) in face.vertices.iter().zip(&ring) {
+                is_corner[i as usize] = true;
+                let height = normal.dot(&(corner - ring[0])).abs();
+                if height > extent.tolerance {
+                    let message = format!("vertex {i} is {height:.3e} off the plane of face {f}");
+                    return Err(Error::new(ErrorKind::NotPlanar, message));
+                }
+            }
+            let (highest, vertex) = tree.farthest(&normal, &ring[0]);
+            if highest > extent.tolerance {
+                let message = format!("vertex {vertex} is {highest:.3e} above face {f}");
+                return Err(Error::new(ErrorKind::NotConvex, message));
+            }
+            above = above.max(highest);
+            thickness = thickness.min(tree.farthest(&-normal, &ring[0]).0);
+            faces.push(Face {
+                vertices: face.vertices.clone(),
+                normal,
+            });
+        }
+        if thickness <= extent.tolerance {
+            let message = format!("the polyhedron is flat: its thickness is {thickness:e}");
+            return Err(Error::new(ErrorKind::Degenerate, message));
+        }
+        let mut moved = Self {
+            vertices: vertices.to_vec(),
+            edges: self.edges.clone(),
+            faces,
+            deviation: 0.0,
+            curve: None,
+        };
+        moved.deviation = moved.height_off_faces().max(above);
+        if is_corner.contains(&false) {
+            moved.deviation += extent.tolerance;
+        }
+        Ok(moved)
+    }
+}
