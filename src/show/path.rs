@@ -57,7 +57,7 @@ pub fn show_path(cobject: &CObject, points: &[f64], seconds: f64, file: &FilePat
 /// The times and the configurations at them: all points, and some between points that are far apart.
 fn moments(space: &Space, points: &[f64], seconds: f64) -> Result<Vec<(f64, Vec<f64>)>> {
     let nq = space.nq();
-    if nq == 0 || points.is_empty() || points.len() % nq != 0 {
+    if nq == 0 || points.is_empty() || !points.len().is_multiple_of(nq) {
         return Err(Error::new(
             ErrorKind::WrongSize,
             format!(
