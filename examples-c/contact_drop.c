@@ -1,4 +1,4 @@
-/* Boxes that fall onto the ground and onto each other, and come to rest in stacks: a simulation of contacts by impulses, which asks
+/* Boxes that fall on a stack and throw it over, until all lie still: a simulation of contacts by impulses, which asks
  * once a step for all that is near.
  *
  *   cc -std=c99 contact_drop.c rigid_boxes.c box_picture.c svg.c $(pkg-config --cflags --libs cstk) -lm -o contact_drop

@@ -249,23 +249,29 @@ impl QueryContext {
         self.look_at(sets);
         let mut found: Vec<NearPair> = Vec::new();
         let mut truncated = false;
+        let mut trim = |found: &mut Vec<NearPair>| {
+            found.sort_unstable_by_key(|pair| pair.places);
+            truncated |= found.len() > max_count;
+            found.truncate(max_count);
+            found.last().map(|last| last.places)
+        };
+        // Once more than enough were found, what comes behind the last is not asked about.
+        let mut last: Option<[usize; 2]> = None;
         self.in_blocks(sets, distance, BLOCK, |context, sides, block| {
-            let last = found.last().filter(|_| truncated).map(|last| last.places);
             for pair in block.drain(..) {
-                let is_behind = truncated && last.is_none_or(|last| pair.places > last);
+                let is_behind = last.is_some_and(|last| pair.places > last);
                 if !is_behind && context.target_within(&target(sides, &pair), distance)? {
                     found.push(pair);
                 }
             }
-            found.sort_unstable_by_key(|pair| pair.places);
-            truncated |= found.len() > max_count;
-            found.truncate(max_count);
-            Ok(if truncated && max_count == 0 {
-                f64::NEG_INFINITY
-            } else {
-                distance
-            })
+            if found.len() <= max_count.saturating_mul(2) {
+                return Ok(distance);
+            }
+            last = trim(&mut found);
+            // Without a last one, none is listed and no more need be known.
+            Ok(last.map_or(f64::NEG_INFINITY, |_| distance))
         })?;
+        trim(&mut found);
         let mut list = ObjectPairList {
             truncated,
             version: sets.version(),
