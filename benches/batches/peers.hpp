@@ -19,5 +19,6 @@ struct PeerBatch {
 std::vector<PeerBatch> fcl_loops(const problems::Workcell &workcell);
 
 /// Pinocchio's computeCollisionsInParallel, with Coal: meshes with OBBRSS, boxes as shapes, the first collision of a configuration ends
-/// it. None where the program was built without it.
+/// it; of pairs in turn or by a tree of boxes, whichever took less time for some random configurations. None where the program was
+/// built without it.
 std::vector<PeerBatch> pinocchio_batches(const problems::Workcell &workcell);

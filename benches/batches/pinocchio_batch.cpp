@@ -2,12 +2,15 @@
 
 #include "surface.hpp"
 
+#include <pinocchio/collision/parallel/broadphase.hpp>
 #include <pinocchio/collision/parallel/geometry.hpp>
 #include <pinocchio/multibody.hpp>
 
 #include <coal/BVH/BVH_model.h>
+#include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/shape/geometric_shapes.h>
 
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 
@@ -128,18 +131,38 @@ struct PinocchioCell {
     std::vector<std::size_t> shapes;
 };
 
+using Tree = pin::BroadPhaseManagerTpl<coal::DynamicAABBTreeCollisionManager>;
+using TreePool = pin::BroadPhaseManagerPoolBase<Tree, double, 0, pin::JointCollectionDefaultTpl>;
+
+template <class Pool> PeerBatch batch(const std::shared_ptr<const PinocchioCell> &cell, const std::string &way, std::size_t threads) {
+    const auto pool = std::make_shared<Pool>(cell->model, cell->geometry, threads);
+    return {"Pinocchio with Coal (" + way + ") on " + std::to_string(threads), [=](const std::vector<double> &q, std::size_t count) {
+                Eigen::Matrix<bool, Eigen::Dynamic, 1> meet(static_cast<Eigen::Index>(count));
+                pin::computeCollisionsInParallel(threads, *pool, cell->configurations(q, count), meet, true);
+                return PeerAnswers(meet.data(), meet.data() + count);
+            }};
+}
+
+double seconds(const PeerBatch &peer, const std::vector<double> &q, std::size_t count) {
+    const auto start = std::chrono::steady_clock::now();
+    peer.ask(q, count);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 } // namespace
 
 std::vector<PeerBatch> pinocchio_batches(const problems::Workcell &workcell) {
     const auto cell = std::make_shared<const PinocchioCell>(workcell);
-    std::vector<PeerBatch> made;
-    for (std::size_t threads = 1; threads <= 2; ++threads) {
-        const auto pool = std::make_shared<pin::GeometryPool>(cell->model, cell->geometry, threads);
-        made.push_back({"Pinocchio with Coal on " + std::to_string(threads), [=](const std::vector<double> &q, std::size_t count) {
-                            Eigen::Matrix<bool, Eigen::Dynamic, 1> meet(static_cast<Eigen::Index>(count));
-                            pin::computeCollisionsInParallel(threads, *pool, cell->configurations(q, count), meet, true);
-                            return PeerAnswers(meet.data(), meet.data() + count);
-                        }});
+    const std::size_t trials = 40;
+    std::vector<double> q;
+    std::uint64_t random = 1;
+    for (std::size_t i = 0; i < trials; ++i) {
+        const std::vector<double> at = workcell.space.sample(random);
+        q.insert(q.end(), at.begin(), at.end());
     }
-    return made;
+    const PeerBatch pairs = batch<pin::GeometryPool>(cell, "pairs", 1), tree = batch<TreePool>(cell, "tree", 1);
+    if (seconds(pairs, q, trials) < seconds(tree, q, trials)) {
+        return {pairs, batch<pin::GeometryPool>(cell, "pairs", 2)};
+    }
+    return {tree, batch<TreePool>(cell, "tree", 2)};
 }
