@@ -240,27 +240,19 @@ class CustomJoint:
         )
 
 
-@callback("int32_t(double *, size_t, double *, void *)")
+@callback("int32_t(double *, size_t, double *, void *)", keep_callback_error)
 def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
-    try:
-        out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
+    out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
+    return 0
 
 
-@callback("int32_t(double *, size_t, double *, void *)")
+@callback("int32_t(double *, size_t, double *, void *)", keep_callback_error)
 def _joint_jacobian(q: Any, n: int, out: Any, user: Any) -> int:
-    try:
-        found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
-        if found.shape != (6, n):
-            raise WrongSizeError(f"the joint's jacobian has shape {found.shape}; needed: (6, {n})")
-        out[0 : 6 * n] = found.ravel().tolist()
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
+    found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
+    if found.shape != (6, n):
+        raise WrongSizeError(f"the joint's jacobian has shape {found.shape}; needed: (6, {n})")
+    out[0 : 6 * n] = found.ravel().tolist()
+    return 0
 
 
 class RobotBuilder(Handle):
