@@ -345,6 +345,12 @@ static void batches(const cstk::Query &query, const cstk::CObject &obstacles, co
     REQUIRE(status_of([&] { batch.classify(obstacles, points, 3, cstk::batch_options(), stop); }) ==
             CSTK_ERROR_CANCELLED);
     REQUIRE(batch.statistics(true).primitive_pairs > 0);
+    const std::vector<double> none;
+    REQUIRE(batch.classify(obstacles, none, 0).values.empty() && batch.within(obstacles, none, 0, 0).statuses.empty());
+    REQUIRE(batch.distance(obstacles, none, 0, 9, q.size()).gradients.empty());
+    REQUIRE(batch.motion(obstacles, none, none, 0).done.answered == 0);
+    const std::vector<cstk::Pose> nowhere;
+    REQUIRE(batch.pair_within(body, nowhere, body, nowhere, 0).values.empty());
 }
 
 static void maps(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {

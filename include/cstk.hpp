@@ -2122,7 +2122,7 @@ public:
 template <typename T> struct BatchAnswers {
     std::vector<T> values;
     std::vector<cstk_status> statuses;
-    cstk_batch_result done;
+    cstk_batch_result done = {};
     /// Why the first item that failed did, or empty.
     std::string first_failure;
 };
@@ -2137,8 +2137,8 @@ struct BatchMotions : BatchAnswers<cstk_motion_result> {
     std::vector<double> reached;
 };
 
-/// Many questions in one call, on several threads; `q` and `points` hold `count` configurations, one after the other. Copies share what
-/// the threads remember.
+/// Many questions in one call, on several threads; `q` and `points` hold `count` configurations, one after the other; of none, the answers
+/// are empty. Copies share what the threads remember.
 class Batch : public Handle<cstk_batch, cstk_batch_retain, cstk_batch_release> {
 public:
     Batch() : Handle(create()) {}
@@ -2146,6 +2146,9 @@ public:
     BatchAnswers<cstk_class> classify(const CObject &cobject, Span<double> q, std::size_t count,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchAnswers<cstk_class>>(count, std::move(progress), [&](auto &out, auto &report) {
             return cstk_classify_batch(get(), cobject.get(), q.data(), count, nq, &options,
@@ -2159,6 +2162,9 @@ public:
                                       double threshold,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchAnswers<std::uint8_t>>(count, std::move(progress), [&](auto &out, auto &report) {
             return cstk_within_batch(get(), cobject.get(), q.data(), count, nq, threshold, &options,
@@ -2172,6 +2178,9 @@ public:
                             double max_distance = std::numeric_limits<double>::infinity(),
                             std::size_t nv = 0, const cstk_batch_options &options = batch_options(),
                             Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchDistances>(count, std::move(progress), [&](auto &out, auto &report) {
             out.gradients.resize(count * nv);
@@ -2188,6 +2197,9 @@ public:
                         const cstk_batch_options &options = batch_options(),
                         Progress progress = {}) const {
         detail::same_size(q0, q1);
+        if (count == 0 && q0.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q0, count);
         return run<BatchMotions>(count, std::move(progress), [&](auto &out, auto &report) {
             out.reached.resize(count * nq);
