@@ -76,7 +76,11 @@ CASES = [
     ("cobject | 3", TypeError, "CObject"),
     ("cstk.Body()", TypeError, "Body.box"),
     ("arm.robot.frozen([0.5], [0, 0])", TypeError, "joints"),
-    ("arm.robot.to_whole(space, [0, 0])", TypeError, "whole"),
+    ("arm.robot.to_whole([0, 0], space)", TypeError, "whole"),
+    ("arm.robot.to_whole([0, 0])", cstk.EmptyError, "whole"),
+    ("arm.robot.to_whole(arm.robot, [0, 0])", TypeError, "q holds object"),
+    ("arm.robot.frozen([0], [0, 0]).to_whole([0, 0])", cstk.WrongSizeError, "2 entries"),
+    ("arm.robot.frozen([0], [0, 0]).to_whole([0], arm.robot.frozen([0], [0, 0]))", cstk.WrongSizeError, "whole has 1 entries"),
     ("cstk.RobotBuilder().load_urdf_text('<robot/>', link_forms={3: 0})", TypeError, "link_forms"),
     # Numbers that are not finite.
     ("query.classify(cobject, [0, NAN])", cstk.NotFiniteError, "configuration entry"),
