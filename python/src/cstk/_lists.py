@@ -63,8 +63,8 @@ class WitnessList:
         return int(self._c.environment_version)
 
     def __reduce__(self) -> Any:
-        message = "a cstk.WitnessList cannot be pickled, since slide_step and spring_step follow its pointers; its witnesses, contacts and gradients can"
-        raise TypeError(message)
+        why = "slide_step and spring_step follow its pointers"
+        raise TypeError(f"a cstk.{type(self).__name__} cannot be pickled, since {why}; its witnesses, contacts and gradients can")
 
     def contacts_of(self, number: int) -> "list[Contact]":
         """The contacts of a witness."""
