@@ -39,7 +39,30 @@ template <typename Action> static bool is_invalid(Action action) {
 static const double cube[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
                               0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
 
+/* Each primitive's extent is a closed form. */
+static void bodies_of_one_call() {
+    const cstk::Pose at = cstk::translation(5, 0, 0);
+    const auto spans = [](const cstk::Body &body, std::array<double, 3> low, std::array<double, 3> high) {
+        const cstk_body_statistics found = body.statistics();
+        bool same = found.primitive_count == 1 && body.primitive(0).tag == 9;
+        for (int axis = 0; axis < 3; axis++) {
+            same = same && std::fabs(found.low[axis] - low[axis]) < 1e-9 && std::fabs(found.high[axis] - high[axis]) < 1e-9;
+        }
+        return same;
+    };
+    REQUIRE(spans(cstk::Body::polygon({0, 0, 0, 1, 0, 0, 0, 2, 0}, 2, 9), {0, 0, 0}, {1, 2, 0}));
+    REQUIRE(spans(cstk::Body::polyhedron({0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3}, 9), {0, 0, 0}, {1, 2, 3}));
+    REQUIRE(spans(cstk::Body::sphere(1, {1, 2, 3}, 3, 9), {0, 1, 2}, {2, 3, 4}));
+    REQUIRE(spans(cstk::Body::capsule({0, 0, 0}, {4, 0, 0}, 1, 3, 9), {-1, -1, -1}, {5, 1, 1}));
+    REQUIRE(spans(cstk::Body::box({1, 2, 3}, at, 9), {4, -2, -3}, {6, 2, 3}));
+    REQUIRE(spans(cstk::Body::cylinder(1, 3, at, 9), {4, -1, -3}, {6, 1, 3}));
+    REQUIRE(spans(cstk::Body::cone(1, 3, at, 9), {4, -1, -1.5}, {6, 1, 1.5}));
+    REQUIRE(spans(cstk::Body::ellipsoid({1, 2, 3}, at, 9), {4, -2, -3}, {6, 2, 3}));
+    REQUIRE(cstk::Body::sphere(1, {0, 0, 0}, 2).statistics().high[2] == 0);
+}
+
 static void bodies() {
+    bodies_of_one_call();
     cstk::BodyBuilder builder;
     REQUIRE(status_of([&] { builder.build(); }) == CSTK_ERROR_EMPTY);
     REQUIRE(status_of([] { cstk::BodyBuilder plane(4); }) == CSTK_ERROR_INVALID_ARGUMENT);
@@ -355,6 +378,12 @@ static void batches(const cstk::Query &query, const cstk::CObject &obstacles, co
     REQUIRE(status_of([&] { batch.classify(obstacles, points, 3, cstk::batch_options(), stop); }) ==
             CSTK_ERROR_CANCELLED);
     REQUIRE(batch.statistics(true).primitive_pairs > 0);
+    const std::vector<double> none;
+    REQUIRE(batch.classify(obstacles, none, 0).values.empty() && batch.within(obstacles, none, 0, 0).statuses.empty());
+    REQUIRE(batch.distance(obstacles, none, 0, 9, q.size()).gradients.empty());
+    REQUIRE(batch.motion(obstacles, none, none, 0).done.answered == 0);
+    const std::vector<cstk::Pose> nowhere;
+    REQUIRE(batch.pair_within(body, nowhere, body, nowhere, 0).values.empty());
 }
 
 static void maps(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
@@ -858,7 +887,10 @@ static void srdf() {
     const std::vector<double> q = robot.apply_state(state, {0.25, 0.0});
     REQUIRE(q[0] == 0.25 && q[1] == 0.5);
     const cstk::Robot frozen = robot.frozen({group.joints, group.joint_count}, q);
-    REQUIRE(frozen.nq() == 1 && frozen.from_whole(q)[0] == 0.5 && frozen.to_whole(robot, {0.75})[0] == 0.25);
+    REQUIRE(frozen.nq() == 1 && frozen.from_whole(q)[0] == 0.5 && frozen.to_whole({0.75})[0] == 0.25);
+    const cstk::Robot again = frozen;
+    REQUIRE(again.to_whole({0.75}) == (std::vector<double>{0.25, 0.75}));
+    REQUIRE(status_of([&] { robot.to_whole(q); }) == CSTK_ERROR_EMPTY);
     const auto pairs = cstk::Space(frozen).enabled_pairs();
     REQUIRE(pairs.size() == 2 && pairs[0][1] == 2 && pairs[1][0] == 1);
     REQUIRE(status_of([&] { robot.find_state("", "s"); }) == CSTK_ERROR_NOT_FOUND);

@@ -494,6 +494,19 @@ public:
 
     void save(const std::string &file) const { check(cstk_body_save(get(), file.c_str())); }
 
+    /// A point, a direction, or a factor for each axis.
+    using Vector = std::array<double, 3>;
+
+    /// Bodies of one primitive; BodyBuilder's methods say what each is.
+    static Body polygon(Span<double> xyz, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    static Body polyhedron(Span<double> xyz, std::uint64_t tag = 0);
+    static Body sphere(double radius, const Vector &center = {0, 0, 0}, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    static Body capsule(const Vector &a, const Vector &b, double radius, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    static Body box(const Vector &half_extents, const Pose &pose = identity(), std::uint64_t tag = 0);
+    static Body cylinder(double radius, double half_length, const Pose &pose = identity(), std::uint64_t tag = 0);
+    static Body cone(double radius, double height, const Pose &pose = identity(), std::uint64_t tag = 0);
+    static Body ellipsoid(const Vector &semi_axes, const Pose &pose = identity(), std::uint64_t tag = 0);
+
     /// Data that witnesses hand back; once for each body.
     void set_data(void *data, cstk_destroy_fn destroy = nullptr) const {
         check(cstk_body_set_data(get(), data, destroy));
@@ -632,8 +645,7 @@ public:
         return *this;
     }
 
-    /// A point, a direction, or a factor for each axis.
-    using Vector = std::array<double, 3>;
+    using Vector = Body::Vector;
 
     /// Triangles: three indices each; scaled, then moved.
     BodyBuilder &add_triangles(Span<double> vertices, Span<std::uint32_t> indices,
@@ -787,6 +799,36 @@ private:
     }
 };
 
+inline Body Body::polygon(Span<double> xyz, std::uint32_t dimension, std::uint64_t tag) {
+    return BodyBuilder(dimension).add_polygon(xyz, tag).build();
+}
+
+inline Body Body::polyhedron(Span<double> xyz, std::uint64_t tag) { return BodyBuilder().add_polyhedron(xyz, tag).build(); }
+
+inline Body Body::sphere(double radius, const Vector &center, std::uint32_t dimension, std::uint64_t tag) {
+    return BodyBuilder(dimension).add_sphere(center, radius, tag).build();
+}
+
+inline Body Body::capsule(const Vector &a, const Vector &b, double radius, std::uint32_t dimension, std::uint64_t tag) {
+    return BodyBuilder(dimension).add_capsule(a, b, radius, tag).build();
+}
+
+inline Body Body::box(const Vector &half_extents, const Pose &pose, std::uint64_t tag) {
+    return BodyBuilder().add_box(pose, half_extents, tag).build();
+}
+
+inline Body Body::cylinder(double radius, double half_length, const Pose &pose, std::uint64_t tag) {
+    return BodyBuilder().add_cylinder(pose, radius, half_length, tag).build();
+}
+
+inline Body Body::cone(double radius, double height, const Pose &pose, std::uint64_t tag) {
+    return BodyBuilder().add_cone(pose, radius, height, tag).build();
+}
+
+inline Body Body::ellipsoid(const Vector &semi_axes, const Pose &pose, std::uint64_t tag) {
+    return BodyBuilder().add_ellipsoid(pose, semi_axes, tag).build();
+}
+
 /// A link to be added: the defaults of cstk_link_def.
 struct Link {
     std::string name;
@@ -920,12 +962,14 @@ public:
     Robot frozen(Span<std::uint32_t> joints, Span<double> q) const {
         cstk_robot *out = nullptr;
         check(cstk_robot_create_frozen(get(), joints.data(), joints.size(), q.data(), q.size(), &out));
-        return Robot(out);
+        Robot made(out);
+        made.whole_nq_ = nq();
+        return made;
     }
 
-    /// Of a robot that `whole.frozen` made: the configuration of `whole`.
-    std::vector<double> to_whole(const Robot &whole, Span<double> q) const {
-        std::vector<double> out(whole.nq());
+    /// Of a robot that frozen() made: the configuration of the robot that it was made from.
+    std::vector<double> to_whole(Span<double> q) const {
+        std::vector<double> out(whole_nq_);
         check(cstk_robot_to_whole(get(), q.data(), q.size(), out.data(), out.size()));
         return out;
     }
@@ -964,6 +1008,9 @@ private:
         out.resize(length);
         return out;
     }
+
+    /* Of the robot that frozen() was called of. */
+    std::size_t whole_nq_ = 0;
 };
 
 class RobotBuilder
@@ -2154,7 +2201,7 @@ public:
 template <typename T> struct BatchAnswers {
     std::vector<T> values;
     std::vector<cstk_status> statuses;
-    cstk_batch_result done;
+    cstk_batch_result done = {};
     /// Why the first item that failed did, or empty.
     std::string first_failure;
 };
@@ -2169,8 +2216,8 @@ struct BatchMotions : BatchAnswers<cstk_motion_result> {
     std::vector<double> reached;
 };
 
-/// Many questions in one call, on several threads; `q` and `points` hold `count` configurations, one after the other. Copies share what
-/// the threads remember.
+/// Many questions in one call, on several threads; `q` and `points` hold `count` configurations, one after the other; of none, the answers
+/// are empty. Copies share what the threads remember.
 class Batch : public Handle<cstk_batch, cstk_batch_retain, cstk_batch_release> {
 public:
     Batch() : Handle(create()) {}
@@ -2178,6 +2225,9 @@ public:
     BatchAnswers<cstk_class> classify(const CObject &cobject, Span<double> q, std::size_t count,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchAnswers<cstk_class>>(count, std::move(progress), [&](auto &out, auto &report) {
             return cstk_classify_batch(get(), cobject.get(), q.data(), count, nq, &options,
@@ -2191,6 +2241,9 @@ public:
                                       double threshold,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchAnswers<std::uint8_t>>(count, std::move(progress), [&](auto &out, auto &report) {
             return cstk_within_batch(get(), cobject.get(), q.data(), count, nq, threshold, &options,
@@ -2204,6 +2257,9 @@ public:
                             double max_distance = std::numeric_limits<double>::infinity(),
                             std::size_t nv = 0, const cstk_batch_options &options = batch_options(),
                             Progress progress = {}) const {
+        if (count == 0 && q.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q, count);
         return run<BatchDistances>(count, std::move(progress), [&](auto &out, auto &report) {
             out.gradients.resize(count * nv);
@@ -2220,6 +2276,9 @@ public:
                         const cstk_batch_options &options = batch_options(),
                         Progress progress = {}) const {
         detail::same_size(q0, q1);
+        if (count == 0 && q0.size() == 0) {
+            return {};
+        }
         const std::size_t nq = detail::parts_of(q0, count);
         return run<BatchMotions>(count, std::move(progress), [&](auto &out, auto &report) {
             out.reached.resize(count * nq);

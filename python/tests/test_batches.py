@@ -291,7 +291,7 @@ CASES = [
     ("batch.classify(cobject, np.zeros((4, 2), complex))", TypeError, "q holds complex128"),
     ("batch.classify(cobject, [[None, 1]])", TypeError, "q holds object"),
     ("batch.classify(None, q)", TypeError, "cobject must be a cstk.CObject"),
-    ("batch.classify(cobject, q, progress=3)", TypeError, "callable"),
+    ("batch.classify(cobject, q, progress=3)", TypeError, "progress must be a function"),
     ("batch.within(cobject, q, -1)", cstk.InvalidArgumentError, "threshold"),
     ("batch.within(cobject, q, NAN)", cstk.Error, "threshold"),
     ("batch.within(cobject, q, 'far')", TypeError, "threshold"),

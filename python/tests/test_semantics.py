@@ -180,16 +180,16 @@ def test_a_frozen_group_answers_as_the_whole_robot(robot, query, rng):
     whole_set = cstk.CObject.induced(cstk.Space(robot), environment)
     alone_set = cstk.CObject.induced(cstk.Space(alone), environment)
     for q in rng.uniform(-3, 3, (50, 2)):
-        whole = alone.to_whole(robot, q)
+        whole = alone.to_whole(q)
         assert whole.tolist() == [*q, 0.7] and alone.from_whole(whole).tolist() == q.tolist()
         for number in range(robot.link_count):
             np.testing.assert_allclose(alone.link_pose(q, number), robot.link_pose(whole, number), atol=1e-15)
         assert query.classify(alone_set, q) == query.classify(whole_set, whole)
         assert query.distance(alone_set, q).distance == pytest.approx(query.distance(whole_set, whole).distance, abs=1e-12)
     still = robot.frozen([], [0.1, 0.2, 0.7])
-    assert still.nq == 0 and still.to_whole(robot, []).tolist() == [0.1, 0.2, 0.7]
+    assert still.nq == 0 and still.to_whole([]).tolist() == [0.1, 0.2, 0.7]
     with pytest.raises(cstk.EmptyError):
-        robot.to_whole(robot, [0, 0, 0])
+        robot.to_whole([0, 0, 0], robot)
     with pytest.raises(cstk.NotFoundError):
         robot.frozen([9], [0, 0, 0])
 

@@ -18,6 +18,7 @@ def numbers(name: str, value: ArrayLike) -> Doubles:
     """An array of doubles, row by row in memory: the given one where it is that already."""
     if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
         return value
+    _not_masked(name, value)
     try:
         array = np.asarray(value)
     except ValueError as error:
@@ -27,6 +28,12 @@ def numbers(name: str, value: ArrayLike) -> Doubles:
             raise TypeError(f"{name} holds {array.dtype}, not real numbers")
         array = array.astype(np.float64)
     return np.ascontiguousarray(array) if array.ndim else array
+
+
+def _not_masked(name: str, value: Any) -> None:
+    """Refuses arrays with a mask, which the library would not see."""
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{name} is a masked array; fill it, or leave out what is masked")
 
 
 def finite(name: str, array: Doubles) -> Doubles:
@@ -99,6 +106,7 @@ def frame_or_identity(name: str, value: Optional[ArrayLike]) -> Any:
 
 def integers(name: str, value: ArrayLike, dtype: Any) -> NDArray[Any]:
     """Whole numbers that fit into a type of C."""
+    _not_masked(name, value)
     try:
         array = np.asarray(value)
     except (ValueError, OverflowError) as error:

@@ -62,6 +62,10 @@ class WitnessList:
         """The version of the environment that the query saw, the largest of several."""
         return int(self._c.environment_version)
 
+    def __reduce__(self) -> Any:
+        why = "slide_step and spring_step follow its pointers"
+        raise TypeError(f"a cstk.{type(self).__name__} cannot be pickled, since {why}; its witnesses, contacts and gradients can")
+
     def contacts_of(self, number: int) -> "list[Contact]":
         """The contacts of a witness."""
         witness = self.witnesses[number]

@@ -3,6 +3,7 @@
 from typing import Any, Callable, Optional
 
 from ._callback import callback
+from ._callback_errors import has_to_raise, keep_to_raise
 from ._native import ffi
 from ._user_data import Kept, data_of
 from .errors import check
@@ -11,22 +12,10 @@ Progress = Callable[[float], Any]
 """Hears the part that is done, from 0 to 1. Returning False ends the call with CancelledError; what it raises passes through."""
 
 
-class Report:
-    """A progress function for the time of one call."""
-
-    def __init__(self, progress: Progress) -> None:
-        self.progress = progress
-        self.raised: Optional[BaseException] = None
-
-
-@callback("int32_t(double, void *)")
+@callback("int32_t(double, void *)", keep_to_raise)
 def _call(fraction: float, user: Any) -> int:
-    report: Report = data_of(user)
-    try:
-        return 1 if report.progress(fraction) is False else 0
-    except BaseException as error:
-        report.raised = error
-        return 1
+    # Another function of the caller's may have raised something meanwhile.
+    return 1 if has_to_raise() or data_of(user)(fraction) is False else 0
 
 
 def reporting(call: Callable[[Any, Any], int], progress: Optional[Progress]) -> None:
@@ -34,12 +23,11 @@ def reporting(call: Callable[[Any, Any], int], progress: Optional[Progress]) -> 
     if progress is None:
         check(call(ffi.NULL, ffi.NULL))
         return
-    report = Report(progress)
-    kept = Kept(report)
+    if not callable(progress):
+        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+    kept = Kept(progress)
     try:
         status = call(_call, kept.pointer)
     finally:
         kept.drop()
-    if report.raised is not None:
-        raise report.raised
     check(status)

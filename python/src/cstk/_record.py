@@ -1,12 +1,14 @@
 """Answers: views of C structures that belong to Python."""
 
+from copy import copy
 from functools import lru_cache
-from typing import Any, ClassVar, Generic, Iterator, Sequence, Tuple, Type, TypeVar, Union, overload
+from typing import Any, ClassVar, Dict, Generic, Iterator, Sequence, Tuple, Type, TypeVar, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._native import ffi
+from .errors import ParseError
 
 
 def vector_from(array: Any) -> NDArray[np.float64]:
@@ -22,8 +24,53 @@ def pose_from(array: Any) -> NDArray[np.float64]:
     return out
 
 
+@lru_cache(maxsize=None)
+def _pointers(ctype: Any) -> Tuple[int, ...]:
+    """Where the pointers of a C type are."""
+    if ctype.kind == "pointer":
+        return (0,)
+    if ctype.kind == "array":
+        size = ffi.sizeof(ctype.item)
+        return tuple(size * i + at for i in range(ctype.length) for at in _pointers(ctype.item))
+    if ctype.kind == "struct":
+        return tuple(field.offset + at for _, field in ctype.fields for at in _pointers(field.type))
+    return ()
+
+
+def _contents(ctype: str, first: Any, count: int) -> bytes:
+    """The bytes of structures, without their pointers, which no other process could follow."""
+    size, width = ffi.sizeof(ctype), ffi.sizeof("void *")
+    contents = bytearray(ffi.buffer(first, count * size)) if count else bytearray()
+    for at in _pointers(ffi.typeof(ctype)):
+        for begin in range(at, len(contents), size):
+            contents[begin : begin + width] = bytes(width)
+    return bytes(contents)
+
+
+def _structures(kind: "Type[Record]", ctype: str, size: int, contents: bytes) -> Any:
+    """An array of structures with these contents."""
+    if ctype != kind._type or size != ffi.sizeof(kind._type) or len(contents) % size:
+        raise ParseError(f"the cstk.{kind.__name__} was pickled by another version of cstk: a {ctype} of {size} bytes")
+    array = ffi.new(f"{ctype}[]", len(contents) // size)
+    ffi.memmove(array, contents, len(contents))
+    return array
+
+
+def _unpickled(kind: "Type[AnyRecord]", ctype: str, size: int, contents: bytes, more: Dict[str, Any]) -> "AnyRecord":
+    array = _structures(kind, ctype, size, contents)
+    if len(array) != 1:
+        raise ParseError(f"the pickled cstk.{kind.__name__} holds {len(array)} structures")
+    return kind._of(array[0], array, more)
+
+
+def _unpickled_all(kind: "Type[AnyRecord]", ctype: str, size: int, contents: bytes) -> "Records[AnyRecord]":
+    return Records(kind, _structures(kind, ctype, size, contents))
+
+
 class Record:
-    """An answer. Its properties read the structure that C wrote; no later call changes it."""
+    """An answer. Its properties read the structure that C wrote; no later call changes it. It is pickled without your data, which are None
+    in what is unpickled; numbers of objects stay.
+    """
 
     __slots__ = ("_c", "_owner")
     _type: ClassVar[str]
@@ -33,6 +80,29 @@ class Record:
         self._c = structure
         # Part of a structure does not keep the whole alive.
         self._owner = structure if owner is None else owner
+
+    @classmethod
+    def _of(cls: "Type[AnyRecord]", structure: Any, owner: Any, more: Dict[str, Any]) -> "AnyRecord":
+        """A record with what its class adds to the structure."""
+        record = cls.__new__(cls)
+        record._c, record._owner = structure, owner
+        for name, value in more.items():
+            setattr(record, name, value)
+        return record
+
+    def _more(self) -> Dict[str, Any]:
+        """What the class adds to the structure: arrays."""
+        return {name: getattr(self, name) for name in type(self).__slots__}
+
+    def __reduce__(self) -> Any:
+        first = self._c if ffi.typeof(self._c).kind == "pointer" else ffi.addressof(self._c)
+        return _unpickled, (type(self), self._type, ffi.sizeof(self._type), _contents(self._type, first, 1), self._more())
+
+    def __copy__(self: "AnyRecord") -> "AnyRecord":
+        return self._of(self._c, self._owner, self._more())
+
+    def __deepcopy__(self: "AnyRecord", memo: Any) -> "AnyRecord":
+        return self._of(self._c, self._owner, {name: copy(value) for name, value in self._more().items()})
 
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self._fields)
@@ -83,6 +153,16 @@ class Records(Sequence[AnyRecord], Generic[AnyRecord]):
         if count:
             ffi.memmove(array, first, count * ffi.sizeof(kind._type))
         return cls(kind, array)
+
+    def __reduce__(self) -> Any:
+        ctype = self._kind._type
+        return _unpickled_all, (self._kind, ctype, ffi.sizeof(ctype), _contents(ctype, self._c, len(self)))
+
+    def __copy__(self) -> "Records[AnyRecord]":
+        return Records.copied(self._kind, self._c, len(self))
+
+    def __deepcopy__(self, memo: Any) -> "Records[AnyRecord]":
+        return self.__copy__()
 
     def __len__(self) -> int:
         return len(self._c)

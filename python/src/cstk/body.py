@@ -264,16 +264,22 @@ class _SupportFunction:
         self.added = False
 
 
-@callback("int32_t(double *, double *, void *)")
+def _keep_or_print(error: BaseException) -> None:
+    if isinstance(error, Exception):
+        raise error  # Queries go on with the bounding box: cffi prints what was raised.
+    keep_callback_error(error)
+
+
+@callback("int32_t(double *, double *, void *)", _keep_or_print)
 def _support(direction: Any, point: Any, user: Any) -> int:
     support: _SupportFunction = data_of(user)
     try:
         found = vector("the support function's point", support.function(np.array(ffi.unpack(direction, 3))), 3)
         point[0:3] = found.tolist()
         return 0
-    except BaseException as error:
+    except Exception as error:
         if support.added:
-            raise  # Queries go on with the bounding box: cffi prints what was raised.
+            raise
         keep_callback_error(error)
         return 1
 

@@ -260,38 +260,23 @@ class _Predicate:
         self.classify, self.distance, self.gradient = classify, distance, gradient
 
 
-def _guarded(action: Callable[[], None]) -> int:
-    try:
-        action()
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
-
-
-@callback("int32_t(double *, size_t, int32_t *, void *)")
+@callback("int32_t(double *, size_t, int32_t *, void *)", keep_callback_error)
 def _classify(q: Any, nq: int, out: Any, user: Any) -> int:
-    def action() -> None:
-        out[0] = Class(data_of(user).classify(np.array(ffi.unpack(q, nq))))
-
-    return _guarded(action)
+    out[0] = Class(data_of(user).classify(np.array(ffi.unpack(q, nq))))
+    return 0
 
 
-@callback("int32_t(double *, size_t, double *, void *)")
+@callback("int32_t(double *, size_t, double *, void *)", keep_callback_error)
 def _distance(q: Any, nq: int, out: Any, user: Any) -> int:
-    def action() -> None:
-        out[0] = scalar("the predicate's distance", data_of(user).distance(np.array(ffi.unpack(q, nq))))
-
-    return _guarded(action)
+    out[0] = scalar("the predicate's distance", data_of(user).distance(np.array(ffi.unpack(q, nq))))
+    return 0
 
 
-@callback("int32_t(double *, size_t, double *, size_t, void *)")
+@callback("int32_t(double *, size_t, double *, size_t, void *)", keep_callback_error)
 def _gradient(q: Any, nq: int, row: Any, nv: int, user: Any) -> int:
-    def action() -> None:
-        found = vector("the predicate's gradient", data_of(user).gradient(np.array(ffi.unpack(q, nq))), nv)
-        row[0:nv] = found.tolist()
-
-    return _guarded(action)
+    found = vector("the predicate's gradient", data_of(user).gradient(np.array(ffi.unpack(q, nq))), nv)
+    row[0:nv] = found.tolist()
+    return 0
 
 
 def _induced(contact_epsilon: float, margin: float, **more: Any) -> Any:

@@ -5,7 +5,7 @@ All are `Error`; each is also the exception of Python's that fits best, so that 
 
 from typing import Any, Dict, Optional, Type
 
-from ._callback_errors import take_callback_error
+from ._callback_errors import raise_kept, take_callback_error
 from ._native import ffi, lib
 
 __all__ = [
@@ -131,7 +131,9 @@ class InternalError(Error, RuntimeError):
 
 
 class CallbackFailedError(Error, RuntimeError):
-    """A function of yours failed; `__cause__` is what it raised, where this thread called it."""
+    """A function of yours failed; `__cause__` is what it raised, where this thread called it. KeyboardInterrupt and SystemExit pass
+    through instead.
+    """
 
 
 class NotClosedError(Error, ValueError):
@@ -171,13 +173,14 @@ def error_of(status: int) -> Error:
     message = ffi.string(lib.cstk_last_error_message()).decode()
     error = BY_STATUS.get(status, Error)(message)
     error.status = status
-    cause: Optional[BaseException] = take_callback_error()
+    cause: Optional[Exception] = take_callback_error()
     if isinstance(error, CallbackFailedError):
         error.__cause__ = cause
     return error
 
 
 def check(status: int) -> None:
-    """Raises unless the call succeeded."""
+    """Raises unless the call succeeded, and what a function of the caller's raised to end the program."""
+    raise_kept()
     if status:
         raise error_of(status)

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, empty, index, pose, rows, same_length, scalar, vector
 from ._callback import callback
+from ._callback_errors import keep_to_raise
 from ._handle import Handle, pointer_of
 from ._lists import path_from
 from ._native import ffi, lib
@@ -117,28 +118,15 @@ MotionFunction = Callable[[float], Tuple[ArrayLike, ArrayLike, ArrayLike]]
 """From a time to the configuration, and the first and second derivatives of its coordinates."""
 
 
-class _Asked:
-    """A motion's function for the time of one call."""
-
-    def __init__(self, function: MotionFunction) -> None:
-        self.function = function
-        self.raised: Optional[BaseException] = None
-
-
-@callback("int32_t(double, double *, double *, double *, size_t, void *)")
+@callback("int32_t(double, double *, double *, double *, size_t, void *)", keep_to_raise)
 def _motion_at(t: float, q: Any, rates: Any, accelerations: Any, nq: int, user: Any) -> int:
-    asked: _Asked = data_of(user)
-    try:
-        found = asked.function(t)
-        if len(found) != 3:
-            raise WrongSizeError("a motion's function gives the configuration, its rates and its accelerations")
-        names = "the motion's configuration", "the motion's rates", "the motion's accelerations"
-        for out, name, given in zip((q, rates, accelerations), names, found):
-            out[0:nq] = vector(name, given, nq).tolist()
-        return 0
-    except BaseException as error:
-        asked.raised = error
-        return 1
+    found = data_of(user)(t)
+    if len(found) != 3:
+        raise WrongSizeError("a motion's function gives the configuration, its rates and its accelerations")
+    names = "the motion's configuration", "the motion's rates", "the motion's accelerations"
+    for out, name, given in zip((q, rates, accelerations), names, found):
+        out[0:nq] = vector(name, given, nq).tolist()
+    return 0
 
 
 class Motions(Handle):
@@ -269,16 +257,14 @@ class Motions(Handle):
         reached, reached_out = empty(nq)
         out = ffi.new("cstk_motion_result *")
         given = motion_options(threshold, tolerance, any_contact)
-        place, asked = pointer_of(CObject, "cobject", cobject), _Asked(function)
-        kept = Kept(asked)
+        place = pointer_of(CObject, "cobject", cobject)
+        kept = Kept(function)
         try:
             bounds = doubles(speeds), doubles(bends), nq
             arguments = _motion_at, kept.pointer, *bounds, given, reached_out, out
             status = lib.cstk_motion_function(self._pointer, place, *arguments)
         finally:
             kept.drop()
-        if asked.raised is not None:
-            raise asked.raised
         check(status)
         return Motion(out, reached)
 

@@ -48,14 +48,10 @@ class ObjectPairList:
         return iter(self.pairs)
 
 
-@callback("int32_t(uint64_t, uint64_t, void *, void *, bool *, void *)")
+@callback("int32_t(uint64_t, uint64_t, void *, void *, bool *, void *)", keep_callback_error)
 def _admit(r_object: int, s_object: int, r_data: Any, s_data: Any, out: Any, user: Any) -> int:
-    try:
-        out[0] = bool(data_of(user)(r_object, s_object))
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
+    out[0] = bool(data_of(user)(r_object, s_object))
+    return 0
 
 
 def _sides(environment: Environment, other: Optional[Environment]) -> Tuple[Any, Any]:

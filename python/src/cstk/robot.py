@@ -49,8 +49,9 @@ def name_of(call: Any, owner: Any, link: int) -> str:
 class Robot(Handle):
     """A tree of links. Made by RobotBuilder or load_urdf; it never changes."""
 
-    __slots__ = ()
+    __slots__ = ("_whole_nq",)
     _noun = "robot"
+    _whole_nq: int
 
     def __init__(self) -> None:
         raise TypeError("robots are built: Robot.load_urdf(file) or RobotBuilder")
@@ -176,13 +177,18 @@ class Robot(Handle):
         out = ffi.new("cstk_robot **")
         moved = pointer(left, "uint32_t")
         check(lib.cstk_robot_create_frozen(self._pointer, moved, left.size, doubles(array), array.size, out))
-        return Robot._take(out[0])
+        made = Robot._take(out[0])
+        made._whole_nq = array.size
+        return made
 
-    def to_whole(self, whole: "Robot", q: ArrayLike) -> Array:
-        """Of a robot that `whole.frozen` made: the configuration of `whole` at its own configuration q. EmptyError for any other."""
-        pointer_of(Robot, "whole", whole)
+    def to_whole(self, q: ArrayLike, whole: Optional["Robot"] = None) -> Array:
+        """Of a robot that frozen() made: the configuration of the robot that it was made from, at its own configuration q. EmptyError for
+        any other. Where `whole` is given, it must have as many coordinates as that robot.
+        """
         array = vector("q", q)
-        out, to = empty(whole.nq)
+        if whole is not None:
+            pointer_of(Robot, "whole", whole)
+        out, to = empty(getattr(self, "_whole_nq", 0) if whole is None else whole.nq)
         check(lib.cstk_robot_to_whole(self._pointer, doubles(array), array.size, to, out.size))
         return out
 
@@ -240,27 +246,19 @@ class CustomJoint:
         )
 
 
-@callback("int32_t(double *, size_t, double *, void *)")
+@callback("int32_t(double *, size_t, double *, void *)", keep_callback_error)
 def _joint_pose(q: Any, n: int, out: Any, user: Any) -> int:
-    try:
-        out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
+    out[0:12] = pose("the joint's pose", data_of(user).pose(np.array(ffi.unpack(q, n)))).ravel().tolist()
+    return 0
 
 
-@callback("int32_t(double *, size_t, double *, void *)")
+@callback("int32_t(double *, size_t, double *, void *)", keep_callback_error)
 def _joint_jacobian(q: Any, n: int, out: Any, user: Any) -> int:
-    try:
-        found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
-        if found.shape != (6, n):
-            raise WrongSizeError(f"the joint's jacobian has shape {found.shape}; needed: (6, {n})")
-        out[0 : 6 * n] = found.ravel().tolist()
-        return 0
-    except BaseException as error:
-        keep_callback_error(error)
-        return 1
+    found = np.asarray(data_of(user).jacobian(np.array(ffi.unpack(q, n))), np.float64)
+    if found.shape != (6, n):
+        raise WrongSizeError(f"the joint's jacobian has shape {found.shape}; needed: (6, {n})")
+    out[0 : 6 * n] = found.ravel().tolist()
+    return 0
 
 
 class RobotBuilder(Handle):

@@ -1,0 +1,93 @@
+"""What ends a program passes through calls: Ctrl-C in every function of the caller's, and before its first line."""
+
+import signal
+
+import numpy as np
+import pytest
+
+import cstk
+
+
+@pytest.fixture
+def q(rng):
+    return rng.uniform(-3, 3, (200_000, 2))
+
+
+@pytest.fixture
+def interrupt_after():
+    """Raises KeyboardInterrupt after so many seconds, as Ctrl-C does, wherever Python is then."""
+
+    def interrupt(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    yield lambda seconds: signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    signal.signal(signal.SIGALRM, before)
+
+
+def raises(error):
+    def function(*arguments):
+        raise error
+
+    return function
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit])
+def test_what_ends_the_program_passes_through(arm, query, error):
+    point = np.zeros(2)
+    cobject = cstk.CObject.predicate(arm.space, raises(error))
+    with pytest.raises(error):
+        query.classify(cobject, point)
+    with pytest.raises(error):
+        cstk.Batch(threads=1).classify(cobject, [point])
+    with pytest.raises(error):
+        cstk.Batch(threads=1).classify(arm.cobject, [point], progress=raises(error))
+    with pytest.raises(error):
+        query.motion_function(arm.cobject, raises(error), point, point)
+    with pytest.raises(error):
+        cstk.BodyBuilder().add_support(raises(error))
+    joint = cstk.CustomJoint(1, raises(error), raises(error))
+    builder = cstk.RobotBuilder()
+    with pytest.raises(error):
+        builder.add_link(cstk.JointKind.CUSTOM, custom=joint)
+        builder.build().link_pose([0.0], 0)
+    # Nothing is left over for a later call.
+    assert query.classify(arm.cobject, point) == cstk.Class.OUTSIDE
+    with pytest.raises(cstk.NotFiniteError) as later:
+        query.classify(arm.cobject, [np.nan, 0])
+    assert later.value.__cause__ is None
+
+
+def test_progress_ends_a_batch_whose_predicate_raised(arm, q):
+    asked = []
+
+    def classify(point):
+        asked.append(point)
+        raise KeyboardInterrupt
+
+    cobject = cstk.CObject.predicate(arm.space, classify)
+    with pytest.raises(KeyboardInterrupt):
+        cstk.Batch(threads=1).classify(cobject, q, progress=lambda part: None)
+    assert 0 < len(asked) < len(q) / 10
+
+
+@pytest.mark.parametrize("delay", [0.02, 0.03, 0.04])
+def test_signals_while_the_library_runs(arm, q, delay, interrupt_after, capfd):
+    """The signal is handled as the function begins, before its first line."""
+    parts = []
+    interrupt_after(delay)
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            cstk.Batch().classify(arm.cobject, q, progress=parts.append)
+    assert parts and "ignored" not in capfd.readouterr().err
+
+
+def test_signals_in_single_queries(arm, query, interrupt_after, capfd):
+    cobject = cstk.CObject.predicate(arm.space, lambda point: cstk.Class.OUTSIDE)
+    for _ in range(20):
+        interrupt_after(0.01)
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                query.classify(cobject, [0, 0])
+    assert "ignored" not in capfd.readouterr().err
