@@ -180,7 +180,7 @@ static void bad_arguments(const fixture *f) {
     CHECK_REFUSED(out, distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv");
     in.nv = NQ;
     in.without_gradients = true;
-    CHECK_REFUSED(out, distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv");
+    CHECK_REFUSED(out, distance(&in, &out), CSTK_ERROR_WRONG_SIZE, "nv must be 0 without");
     EACH_CALL(i, of_pairs) {
         EACH_BAD_HANDLE(f, NOUN_BODY, bad) {
             in = good_inputs(f);
@@ -341,12 +341,57 @@ static void progress(const fixture *f) {
             heard.stop_at = stop;
             CHECK_FAILS(all_calls[i](&in, &out), CSTK_ERROR_CANCELLED, "progress");
             CHECK(heard.calls == stop + 1);
+            size_t answered = 0;
             for (int k = 0; k < COUNT; ++k) {
                 CHECK(out.statuses[k] == CSTK_OK || out.statuses[k] == CSTK_ERROR_CANCELLED);
+                answered += out.statuses[k] == CSTK_OK;
             }
+            CHECK(out.done.answered == answered && out.done.failed == 0 && !out.done.has_hit);
+            CHECK(out.done.environment_version == (i < 4 ? 1 : 0));
+            memset(&out.done, 0xff, sizeof out.done);
             CHECK(stop > 0 || out.statuses[0] == CSTK_ERROR_CANCELLED);
         }
     }
+}
+
+/* Outputs that lie on inputs or on each other; what is only read may overlap. */
+static void overlaps(const fixture *f) {
+    static double path[2 * (COUNT + 1) * NQ];
+    cstk_motion_result *motions = out.motions;
+    cstk_status *statuses = out.statuses;
+    cstk_batch_result *done = &out.done;
+    cstk_batch *batch = f->batch;
+    memcpy(path, configurations, sizeof configurations);
+#define MOTIONS(reached, motions, statuses, done)                                                  \
+    cstk_motion_batch(batch, f->cobject, path, path + NQ, COUNT, NQ, NULL, NULL, NULL, NULL,       \
+                      (reached), (motions), (statuses), (done))
+    const cstk_status refused = CSTK_ERROR_INVALID_ARGUMENT;
+    CHECK_FAILS(MOTIONS(path, motions, statuses, done), refused, "reached overlaps q0");
+    CHECK_FAILS(MOTIONS(path + COUNT * NQ, motions, statuses, done), refused,
+                "reached overlaps q1");
+    CHECK_FAILS(MOTIONS((double *)motions, motions, statuses, done), refused,
+                "results overlaps reached");
+    CHECK_FAILS(MOTIONS(out.reached, motions, (cstk_status *)motions, done), refused,
+                "statuses overlaps results");
+    CHECK_FAILS(MOTIONS(out.reached, motions, statuses, (cstk_batch_result *)motions), refused,
+                "out overlaps results");
+    CHECK(memcmp(path, configurations, sizeof configurations) == 0);
+    CHECK_FAILS(cstk_classify_batch(batch, f->cobject, path, COUNT, NQ, NULL, NULL, NULL,
+                                    (cstk_class *)path, statuses, done),
+                refused, "classes overlaps q");
+    CHECK_FAILS(cstk_within_batch(batch, f->cobject, path, COUNT, NQ, 0, NULL, NULL, NULL,
+                                  (bool *)path, statuses, done),
+                refused, "within overlaps q");
+    CHECK_FAILS(cstk_distance_batch(batch, f->cobject, path, COUNT, NQ, 1, NULL, NULL, NULL,
+                                    out.gradients + 1, NULL, out.gradients, NQ, statuses, done),
+                refused, "gradients overlaps distances");
+    CHECK_FAILS(cstk_pair_within_batch(batch, f->body, poses_a, f->body, poses_b, COUNT, 0, NULL,
+                                       NULL, NULL, (bool *)poses_b, statuses, done),
+                refused, "within overlaps poses_b");
+    CHECK_FAILS(cstk_pair_distance_batch(batch, f->body, poses_a, f->body, poses_b, COUNT, 1, NULL,
+                                         NULL, NULL, poses_a, NULL, statuses, done),
+                refused, "distances overlaps poses_a");
+#undef MOTIONS
 }
 
 static int32_t release_batch(double fraction, void *user) {
@@ -494,6 +539,7 @@ int main(void) {
     no_items(&f);
     items_that_fail(&f);
     progress(&f);
+    overlaps(&f);
     released_meanwhile(&f);
     answers(&f);
     first_hits(&f);

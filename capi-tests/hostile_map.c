@@ -70,7 +70,7 @@ static void bad_axes(const fixture *f) {
                   CSTK_ERROR_WRONG_SIZE, "cells");
     axes[1].cells = SIZE_MAX / 64;
     CHECK_REFUSED(map, cstk_map_build(f->cobject, f->q, NQ, axes, 2, NULL, NULL, NULL, &map),
-                  CSTK_ERROR_OUT_OF_MEMORY, "");
+                  CSTK_ERROR_OUT_OF_MEMORY, "a map of");
 }
 
 static void refused_options(const fixture *f) {
@@ -126,6 +126,8 @@ static void bad_maps(const fixture *f) {
     CHECK_FAILS(cstk_map_show(f->map, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
     CHECK_FAILS(cstk_map_show(f->map, "hostile_map.png"), CSTK_ERROR_UNSUPPORTED, "axes");
     CHECK_FAILS(cstk_map_save(f->map, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
+    CHECK_FAILS(cstk_map_save(f->map, ""), CSTK_ERROR_INVALID_ARGUMENT, "file");
+    CHECK_FAILS(cstk_map_show(f->map, ""), CSTK_ERROR_INVALID_ARGUMENT, "file");
     CHECK_FAILS(cstk_map_save(f->map, "/nowhere/at/all.npy"), CSTK_ERROR_IO, "");
     CHECK_OK(cstk_map_retain(f->map));
     CHECK_OK(cstk_map_release(f->map));

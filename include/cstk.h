@@ -1670,11 +1670,11 @@ cstk_status cstk_robot_jacobian(const cstk_robot *robot,
 /**
  * Creates a robot of which only some joints move: a joint group as a robot of its own. It has the same links, by the same
  * numbers, names and bodies. `joints` holds `joint_count` numbers of links: the joints that move these, and those that
- * share their coordinates, are left; all others stand still where `q` (`nq` doubles) has them. Coordinates and velocities
- * that are left keep their order and are numbered anew; so are those of groups and states (see cstk_robot_get_group). A
- * space of it takes every query, gradient and motion, alone or with other robots. cstk_robot_to_whole and
- * cstk_robot_from_whole convert configurations. Without any joint the robot has no coordinate. Release it with
- * cstk_robot_release.
+ * share their coordinates, are left; all others stand still where `q` (`nq` doubles) has them. q need not lie within limits;
+ * duplicate joints count once. Coordinates and velocities that are left keep their order and are numbered anew; so are those
+ * of groups and states (see cstk_robot_get_group). A space of it takes every query, gradient and motion, alone or with other
+ * robots. cstk_robot_to_whole and cstk_robot_from_whole convert configurations. Without any joint the robot has no
+ * coordinate. Release it with cstk_robot_release.
  */
 cstk_status cstk_robot_create_frozen(const cstk_robot *robot,
                                      const uint32_t *joints,
@@ -2034,8 +2034,9 @@ typedef struct cstk_srdf_report {
    */
   uint32_t unknown_names;
   /**
-   * Values in states for joints without coordinates (a fixed one, or a base that was loaded with another joint), or whose
-   * coordinate another joint of the state sets.
+   * Values in states that are not applied: for joints that are not in the state's group, as MoveIt has it, for joints without
+   * coordinates (a fixed one, or a base that was loaded with another joint), and for those whose coordinate another joint of
+   * the state sets.
    */
   uint32_t unused_values;
   uint32_t reserved_number;
@@ -2156,7 +2157,7 @@ cstk_status cstk_srdf_options_default(cstk_srdf_options *out, size_t size);
  * prefixes. The pairs go to cstk_space_get_enabled_pairs and cstk_find_link_pairs.
  *
  * Error messages name the file, the line and the element; the builder is then unchanged. Refused are names that are not
- * there, two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
+ * there, URDF files, names with `${` (xacro that was not expanded), two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
  * that is no root, values of the wrong number. Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB; 2^12 groups and
  * 2^22 joints in all of them together; 2^12 states; 2^12 end effectors and 2^20 touch links in all of them; 2^8 virtual
  * joints; those of XML at cstk_robot_builder_load_urdf.
@@ -2762,7 +2763,7 @@ cstk_status cstk_scene_options_default(cstk_scene_options *out, size_t size);
 /**
  * Adds the objects of a MoveIt planning scene, a `.scene` file (the text that MoveIt exports, of either version), to an
  * environment: all of them in one change, or none. Each object becomes one s-object: boxes, spheres, cylinders, cones and
- * meshes at their poses, one body. Its user data (`s_data` of a witness) is its name, a NUL-terminated string that lives as
+ * meshes at their poses, one body. The scene ends at the word `.`; text after it is not read. Its user data (`s_data` of a witness) is its name, a NUL-terminated string that lives as
  * long as the object. Colours and subframes are skipped. The ids are written in the order of the file: at most `max_count` to
  * `ids` (NULL if `max_count` is 0), and their full number to `count`, which may be NULL. `scene_options` may be NULL.
  *
@@ -5466,10 +5467,14 @@ cstk_status cstk_slide_to(cstk_query *query,
  * Every item has a status. One that fails (a NaN among its coordinates, say) fails alone: the others are answered, and the call returns
  * CSTK_OK; cstk_last_error_message() then names the first that failed. Entries of items with another status than CSTK_OK mean nothing.
  * Where progress or the first hit ends a batch, the items that were not reached have CSTK_ERROR_CANCELLED, and those with CSTK_OK are
- * answered: unlike other calls, a batch that its progress function cancels has written to its arrays. A call that fails otherwise has
- * written nothing.
+ * answered: unlike other calls, a batch that its progress function cancels has written to its arrays, and its cstk_batch_result, which
+ * counts what was answered until then and has no hit. A call that fails otherwise has written nothing.
  *
- * The arrays are the caller's: they must not overlap, and nobody else may use them during the call. Callbacks of C-objects and bodies
+ * Progress is told between items, every 20 milliseconds or more often, also while the last items are with other threads; an item that
+ * has begun is answered before a cancelled call returns.
+ *
+ * The arrays are the caller's, and nobody else may use them during the call. What a batch reads may overlap; what it writes overlaps
+ * nothing else, which CSTK_ERROR_INVALID_ARGUMENT refuses. Callbacks of C-objects and bodies
  * are called from the batch's threads, several at once.
  *
  * @code
@@ -5521,7 +5526,7 @@ typedef struct cstk_batch_options {
 } cstk_batch_options;
 
 /**
- * How a batch ended.
+ * How a batch ended; also written where its progress function cancels it, of the items until then.
  */
 typedef struct cstk_batch_result {
   /**
@@ -5584,7 +5589,7 @@ cstk_status cstk_batch_get_statistics(cstk_batch *batch,
 
 /**
  * cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for
- * the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that was begun, and `user` is passed to
+ * the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that is done, and `user` is passed to
  * it. `classes` and `statuses` receive `count` entries each, in order. A count of 0 is a batch without items; its arrays may be NULL.
  * Configurations that lie near each other in the order of `q`, those of a path say, are answered in less time.
  *
@@ -5706,8 +5711,10 @@ cstk_status cstk_pair_distance_batch(cstk_batch *batch,
  * @defgroup map Maps
  *
  * What is free on a grid over one to six coordinates, the others held: the class or the distance at the middle of every cell, or what is
- * proved of every whole cell. Maps are built coarse to fine, so that the cost of classes and proofs follows the boundary of the set, not
- * the number of cells, and saved as arrays of NumPy's.
+ * proved of every whole cell. Maps are built coarse to fine: blocks of cells that are proved alike are filled at once, others are halved.
+ * For classes, blocks of up to 16 cells are not proved but asked cell by cell. Where the cells are small beside the bodies, the cost
+ * follows the boundary of the set rather than the number of cells; CSTK_MAP_CELLS costs more, as every cell at the boundary is a proof of
+ * up to max_boxes parts. Maps are saved as arrays of NumPy's.
  *
  * @code
      cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, 0, 0}, {1, 0, -3.14, 3.14, 512, 0, 0}};
@@ -5735,7 +5742,8 @@ enum cstk_map_kind
  {
   /**
    * The cstk_class at the middle of each cell, as cstk_classify has it. Where a C-object has contact epsilons or pure sets, what is
-   * proved not to be inside may be in contact, and is asked cell by cell.
+   * proved not to be inside may be in contact, and is asked cell by cell; so are all cells where nothing can be proved, since a
+   * predicate without distances or a custom joint states no speed.
    */
   CSTK_MAP_CLASSES = 0,
   /**
@@ -5850,13 +5858,13 @@ cstk_status cstk_map_options_default(cstk_map_options *out, size_t size);
 /**
  * Builds a map of a C-object. `axes` are `axis_count` intervals of different coordinates, 1 to 6; the other coordinates are those of
  * `q`, `nq` doubles. `options` may be NULL for the defaults. `progress` may be NULL; it is called on this thread, and `user` is passed
- * to it. All cells see the state that the environments are in at the call. Callbacks of C-objects and bodies are called from the map's
- * threads, several at once.
+ * to it, between blocks of cells and while other threads work. The first failure ends the work. All cells see the state that the
+ * environments are in at the call. Callbacks of C-objects and bodies are called from the map's threads, several at once.
  *
  * The map holds a byte a cell, or 8 of distances. CSTK_ERROR_WRONG_SIZE for too many axes or cells, CSTK_ERROR_OUT_OF_MEMORY where the
  * values do not fit into memory, CSTK_ERROR_CANCELLED where `progress` says so; CSTK_ERROR_UNSUPPORTED for coordinates of a
- * quaternion, for distances where lengths and units of C-space mix, and, but for distances, for custom joints that move without stating
- * their speeds.
+ * quaternion, for distances where lengths and units of C-space mix, and, of CSTK_MAP_CELLS, for custom joints and predicates that state
+ * no speed.
  */
 cstk_status cstk_map_build(const cstk_cobject *cobject,
                            const double *q,

@@ -129,7 +129,7 @@ pub fn require_coordinates(values: &[f64], what: &str) -> Result<()> {
     match values.iter().position(is_too_large) {
         None => Ok(()),
         Some(i) => Err(Error::invalid(format!(
-            "{what} {i} is too large: {}",
+            "{what} {i} is too large: {:e}",
             values[i]
         ))),
     }

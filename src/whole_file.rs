@@ -1,13 +1,16 @@
 //! Files that are read whole, and written whole or not at all; line numbers in texts.
 
 use std::fs::{self, File, OpenOptions, Permissions};
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, ErrorKind, Result};
 
 /// Symbolic links followed to a destination, at most: the limit of Linux for a path.
 const MAX_SYMLINKS: usize = 40;
+
+/// What is written piece by piece is gathered to so many bytes.
+const PIECE: usize = 1 << 16;
 
 /// Reads a regular file of at most `max_bytes`. FIFOs and devices are refused at once: reading one could block for ever or
 /// never end.
@@ -60,10 +63,18 @@ fn open_at_once(path: &Path) -> io::Result<File> {
 /// of that name is replaced and its mode kept; a symbolic link stays and its target is replaced, as editors do. A destination
 /// that is not a regular file is refused. File and folder are synced to disk when this returns.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_unnamed(path, bytes).map_err(|error| error.within(path.display()))
+    write_piecewise(path, |file| file.write_all(bytes))
 }
 
-fn write_unnamed(path: &Path, bytes: &[u8]) -> Result<()> {
+/// The same of what `write` writes, piece by piece.
+pub fn write_piecewise(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    write_unnamed(path, write).map_err(|error| error.within(path.display()))
+}
+
+fn write_unnamed(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let target = followed(path)?;
     let mode = match fs::symlink_metadata(&target) {
         Ok(there) if there.is_dir() => return Err(Error::new(ErrorKind::Io, "it is a folder")),
@@ -83,7 +94,10 @@ fn write_unnamed(path: &Path, bytes: &[u8]) -> Result<()> {
         builder.permissions(mode);
     }
     let written = builder.tempfile_in(folder).and_then(|mut part| {
-        part.write_all(bytes)?;
+        let mut pieces = BufWriter::with_capacity(PIECE, part.as_file_mut());
+        write(&mut pieces)?;
+        pieces.flush()?;
+        drop(pieces);
         if let Some(mode) = mode {
             part.as_file().set_permissions(mode)?;
         }

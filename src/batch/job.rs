@@ -10,11 +10,12 @@ pub struct BatchJob<'a, S> {
     pub options: &'a BatchOptions,
     /// Where the answers go.
     pub slots: S,
-    /// Called on the caller's thread with the fraction done; an error ends the batch and is its answer.
+    /// Called on the caller's thread with the fraction done, between items and while other threads work; an error ends the batch.
     pub progress: &'a mut dyn FnMut(f64) -> Result<()>,
 }
 
-/// How a batch ended. All items were answered or failed, but for those after the first hit if it stopped there.
+/// How a batch ended. All items were answered or failed, but for those after the first hit if it stopped there, and those that were not
+/// reached where progress ended it.
 #[derive(Clone, Debug)]
 pub struct BatchSummary {
     /// The first item with a hit: what is inside, within, at distance 0, or a motion not proved free. Known only where the batch was to
@@ -24,6 +25,8 @@ pub struct BatchSummary {
     pub first_failure: Option<(usize, Error)>,
     /// The largest version of the environments that all items saw; 0 without an environment.
     pub version: u64,
+    /// The error by which progress ended the batch; no first hit is known then.
+    pub end: Option<Error>,
 }
 
 impl BatchSummary {

@@ -166,6 +166,10 @@ impl<T> Output<T> {
         Ok(OptionalOutput(Some(Self::checked(out, argument)?)))
     }
 
+    pub fn address(&self) -> usize {
+        self.0.addr()
+    }
+
     pub fn write(self, value: T) {
         // SAFETY: checked at construction; the caller states that it is writable.
         unsafe { self.0.write(value) }

@@ -1,8 +1,10 @@
 //! Maps.
 //!
 //! What is free on a grid over one to six coordinates, the others held: the class or the distance at the middle of every cell, or what is
-//! proved of every whole cell. Maps are built coarse to fine, so that the cost of classes and proofs follows the boundary of the set, not
-//! the number of cells, and saved as arrays of NumPy's.
+//! proved of every whole cell. Maps are built coarse to fine: blocks of cells that are proved alike are filled at once, others are halved.
+//! For classes, blocks of up to 16 cells are not proved but asked cell by cell. Where the cells are small beside the bodies, the cost
+//! follows the boundary of the set rather than the number of cells; CSTK_MAP_CELLS costs more, as every cell at the boundary is a proof of
+//! up to max_boxes parts. Maps are saved as arrays of NumPy's.
 //!
 //! ```c
 //! cstk_map_axis axes[2] = {{0, 0, -3.14, 3.14, 512, 0, 0}, {1, 0, -3.14, 3.14, 512, 0, 0}};
@@ -19,6 +21,7 @@
 //! ```
 
 use std::ffi::{c_char, c_void};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::boundary::{Failure, guard};
@@ -58,7 +61,8 @@ impl Noun for CMap {
 #[derive(Clone, Copy)]
 pub enum cstk_map_kind {
     /// The cstk_class at the middle of each cell, as cstk_classify has it. Where a C-object has contact epsilons or pure sets, what is
-    /// proved not to be inside may be in contact, and is asked cell by cell.
+    /// proved not to be inside may be in contact, and is asked cell by cell; so are all cells where nothing can be proved, since a
+    /// predicate without distances or a custom joint states no speed.
     CSTK_MAP_CLASSES = 0,
     /// The distance at the middle of each cell, as cstk_distance has it; every cell is asked.
     CSTK_MAP_DISTANCES = 1,
@@ -152,13 +156,13 @@ pub unsafe extern "C" fn cstk_map_options_default(
 
 /// Builds a map of a C-object. `axes` are `axis_count` intervals of different coordinates, 1 to 6; the other coordinates are those of
 /// `q`, `nq` doubles. `options` may be NULL for the defaults. `progress` may be NULL; it is called on this thread, and `user` is passed
-/// to it. All cells see the state that the environments are in at the call. Callbacks of C-objects and bodies are called from the map's
-/// threads, several at once.
+/// to it, between blocks of cells and while other threads work. The first failure ends the work. All cells see the state that the
+/// environments are in at the call. Callbacks of C-objects and bodies are called from the map's threads, several at once.
 ///
 /// The map holds a byte a cell, or 8 of distances. CSTK_ERROR_WRONG_SIZE for too many axes or cells, CSTK_ERROR_OUT_OF_MEMORY where the
 /// values do not fit into memory, CSTK_ERROR_CANCELLED where `progress` says so; CSTK_ERROR_UNSUPPORTED for coordinates of a
-/// quaternion, for distances where lengths and units of C-space mix, and, but for distances, for custom joints that move without stating
-/// their speeds.
+/// quaternion, for distances where lengths and units of C-space mix, and, of CSTK_MAP_CELLS, for custom joints and predicates that state
+/// no speed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_map_build(
     cobject: *const cstk_cobject,
@@ -226,6 +230,16 @@ pub unsafe extern "C" fn cstk_map_get_view(
     })
 }
 
+/// The name of a file to be written.
+unsafe fn named<'a>(file: *const c_char) -> Result<&'a Path, Failure> {
+    // SAFETY: checked for NULL; the caller states the terminator.
+    let file = unsafe { path(file, "file")? };
+    if file.as_os_str().is_empty() {
+        return Err(Error::invalid("file is empty: it names no file").into());
+    }
+    Ok(file)
+}
+
 /// Writes the values to a file that NumPy's load reads (.npy): an array with as many dimensions as the map has axes, of 8-bit unsigned
 /// numbers, or of doubles for distances. The file is written whole or not at all; CSTK_ERROR_IO if that fails.
 #[unsafe(no_mangle)]
@@ -233,7 +247,7 @@ pub unsafe extern "C" fn cstk_map_save(map: *const cstk_map, file: *const c_char
     guard(|| {
         let CMap { map, .. } = handle::borrowed::<CMap>(map, "map")?;
         // SAFETY: checked for NULL; the caller states the terminator.
-        let file = unsafe { path(file, "file")? };
+        let file = unsafe { named(file)? };
         Ok(map.save(file)?)
     })
 }
@@ -252,7 +266,7 @@ pub unsafe extern "C" fn cstk_map_show(map: *const cstk_map, file: *const c_char
     guard(|| {
         let CMap { map, .. } = handle::borrowed::<CMap>(map, "map")?;
         // SAFETY: checked for NULL; the caller states the terminator.
-        let file = unsafe { path(file, "file")? };
+        let file = unsafe { named(file)? };
         Ok(show_map(map, file)?)
     })
 }

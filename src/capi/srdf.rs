@@ -79,8 +79,9 @@ pub struct cstk_srdf_report {
     pub skipped_elements: u32,
     /// Elements that were left out since they name what is not there; see skip_unknown.
     pub unknown_names: u32,
-    /// Values in states for joints without coordinates (a fixed one, or a base that was loaded with another joint), or whose
-    /// coordinate another joint of the state sets.
+    /// Values in states that are not applied: for joints that are not in the state's group, as MoveIt has it, for joints without
+    /// coordinates (a fixed one, or a base that was loaded with another joint), and for those whose coordinate another joint of
+    /// the state sets.
     pub unused_values: u32,
     pub reserved_number: u32,
     pub reserved: [u64; 4],
@@ -215,7 +216,7 @@ unsafe fn decode(given: *const cstk_srdf_options) -> Result<SrdfOptions, Failure
 /// prefixes. The pairs go to cstk_space_get_enabled_pairs and cstk_find_link_pairs.
 ///
 /// Error messages name the file, the line and the element; the builder is then unchanged. Refused are names that are not
-/// there, two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
+/// there, URDF files, names with `${` (xacro that was not expanded), two groups, end effectors or states of a group with one name, groups that hold each other, a virtual joint to a link
 /// that is no root, values of the wrong number. Limits, beyond which a file is CSTK_ERROR_UNSUPPORTED: 64 MiB; 2^12 groups and
 /// 2^22 joints in all of them together; 2^12 states; 2^12 end effectors and 2^20 touch links in all of them; 2^8 virtual
 /// joints; those of XML at cstk_robot_builder_load_urdf.

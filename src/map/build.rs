@@ -1,13 +1,13 @@
 //! Maps are built coarse to fine: blocks of cells that are proved free or inside are filled at once, others are halved.
 
-use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
 
 use super::blocks::Block;
 use super::grid::{Grid, MAX_AXES, MapAxis};
 use super::map::{Map, MapValues};
 use crate::batch::{Batch, BatchJob, BatchOptions};
 use crate::cobject::{CObject, Class};
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::motion::{RegionOptions, RegionOutcome};
 use crate::query::{Configuration, QueryContext, World, check_threshold};
 
@@ -62,7 +62,11 @@ enum Cells {
 
 fn zeros<T: Default>(count: usize) -> Result<Vec<T>> {
     let mut cells = Vec::new();
-    cells.try_reserve_exact(count).map_err(Error::memory)?;
+    let reserved = cells.try_reserve_exact(count);
+    reserved.map_err(|error| {
+        let bytes = count as u128 * size_of::<T>() as u128;
+        Error::memory(error).within(format_args!("a map of {count} cells takes {bytes} bytes"))
+    })?;
     cells.resize_with(count, T::default);
     Ok(cells)
 }
@@ -80,7 +84,12 @@ struct Builder<'a> {
     cells: Cells,
     proofs: AtomicU64,
     questions: AtomicU64,
+    /// How many cells have their value.
+    done: AtomicUsize,
 }
+
+/// Tells progress; fails where a map is to be left.
+type Pulse<'p> = &'p mut dyn FnMut() -> Result<()>;
 
 impl Builder<'_> {
     fn set(&self, cell: &[usize; MAX_AXES], value: u8) {
@@ -91,29 +100,41 @@ impl Builder<'_> {
 
     fn fill(&self, block: &Block, value: u8) {
         block.cells().for_each(|cell| self.set(&cell, value));
+        self.done.fetch_add(block.cell_count(), Ordering::Relaxed);
     }
 
     /// The class or the distance of each middle.
-    fn ask_each(&self, block: &Block, context: &mut QueryContext) -> Result<()> {
+    fn ask_each(&self, block: &Block, context: &mut QueryContext, pulse: Pulse) -> Result<()> {
         let mut q = self.grid.q.to_vec();
         for cell in block.cells() {
             self.grid.set_center(&cell, &mut q);
-            match &self.cells {
-                Cells::Bytes(_) => {
-                    let class = context.classify_in(self.world, self.cobject, &q)?;
-                    self.set(&cell, class as u8);
-                }
-                Cells::Numbers(cells) => {
-                    let at = Configuration::Coordinates(&q);
-                    let limit = self.options.max_distance;
-                    let found = context.distance_in(self.world, self.cobject, at, limit)?;
-                    let place = &cells[self.grid.number(&cell)];
-                    place.store(found.distance.to_bits(), Ordering::Relaxed);
-                }
-            }
+            let asked = self.ask(&cell, &q, context);
+            asked.map_err(|error| {
+                let place = &cell[..self.grid.axes.len()];
+                error.within(format_args!("cell {place:?}"))
+            })?;
+            self.done.fetch_add(1, Ordering::Relaxed);
+            pulse()?;
         }
         let count = block.cell_count() as u64;
         self.questions.fetch_add(count, Ordering::Relaxed);
+        Ok(())
+    }
+
+    fn ask(&self, cell: &[usize; MAX_AXES], q: &[f64], context: &mut QueryContext) -> Result<()> {
+        match &self.cells {
+            Cells::Bytes(_) => {
+                let class = context.classify_in(self.world, self.cobject, q)?;
+                self.set(cell, class as u8);
+            }
+            Cells::Numbers(cells) => {
+                let at = Configuration::Coordinates(q);
+                let limit = self.options.max_distance;
+                let found = context.distance_in(self.world, self.cobject, at, limit)?;
+                let place = &cells[self.grid.number(cell)];
+                place.store(found.distance.to_bits(), Ordering::Relaxed);
+            }
+        }
         Ok(())
     }
 
@@ -142,9 +163,10 @@ impl Builder<'_> {
 
     /// Decides all cells of a block that the map is of. Blocks that reach beyond the map are proved whole: so a part of a map is
     /// decided as in the whole, and equals it.
-    fn decide(&self, whole: &Block, context: &mut QueryContext) -> Result<()> {
+    fn decide(&self, whole: &Block, context: &mut QueryContext, pulse: Pulse) -> Result<()> {
         let mut rest = vec![*whole];
         while let Some(block) = rest.pop() {
+            pulse()?;
             let Some(kept) = &block.within(&self.part) else {
                 continue;
             };
@@ -154,7 +176,7 @@ impl Builder<'_> {
                 MapKind::Cells => false,
             };
             if is_asked {
-                self.ask_each(kept, context)?;
+                self.ask_each(kept, context, pulse)?;
                 continue;
             }
             let halves = block.halves();
@@ -162,7 +184,14 @@ impl Builder<'_> {
                 Some(_) => BOXES_PER_BLOCK,
                 None => self.options.max_boxes,
             };
-            let outcome = self.prove(&block, boxes, context)?;
+            let outcome = match (self.prove(&block, boxes, context), self.options.kind) {
+                // Classes need no proof: of what states no speeds, each middle is asked.
+                (Err(error), MapKind::Classes) if error.kind == ErrorKind::Unsupported => {
+                    self.ask_each(kept, context, pulse)?;
+                    continue;
+                }
+                (proved, _) => proved?,
+            };
             match (self.options.kind, outcome, halves) {
                 (MapKind::Classes, RegionOutcome::Inside, _) => {
                     self.fill(kept, Class::Inside as u8);
@@ -170,7 +199,9 @@ impl Builder<'_> {
                 (MapKind::Classes, RegionOutcome::Free, _) if self.never_touches => {
                     self.fill(kept, Class::Outside as u8);
                 }
-                (MapKind::Classes, RegionOutcome::Free, _) => self.ask_each(kept, context)?,
+                (MapKind::Classes, RegionOutcome::Free, _) => {
+                    self.ask_each(kept, context, pulse)?;
+                }
                 (_, RegionOutcome::Free, _) => self.fill(kept, 0),
                 (_, RegionOutcome::Inside, _) => self.fill(kept, 1),
                 (_, _, Some(halves)) => rest.extend(halves),
@@ -238,6 +269,7 @@ impl Map {
             cells,
             proofs: AtomicU64::new(0),
             questions: AtomicU64::new(0),
+            done: AtomicUsize::new(0),
         };
         let mut tiles = Block::whole(grid).parts(TILES);
         tiles.retain(|tile| tile.within(&builder.part).is_some());
@@ -248,14 +280,14 @@ impl Map {
         let job = BatchJob {
             options: &on_threads,
             slots: (),
-            progress,
+            progress: &mut |_| {
+                let done = builder.done.load(Ordering::Relaxed);
+                progress(done as f64 / grid.cell_count as f64)
+            },
         };
-        let done = Batch::new().work_off(job, tiles.len(), |context, tile| {
-            builder.decide(&tiles[tile], context)
+        Batch::new().work_off(job, tiles.len(), |context, tile, pulse| {
+            builder.decide(&tiles[tile], context, pulse)
         })?;
-        match done.first_failure {
-            Some((_, error)) => Err(error),
-            None => Ok(builder.finished()),
-        }
+        Ok(builder.finished())
     }
 }

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::grid::MapAxis;
-use super::npy::npy;
-use super::png::{Colors, png};
+use super::npy::npy_head;
+use super::png::{Colors, Png};
 use crate::error::{Error, ErrorKind, Result};
-use crate::whole_file::write_whole;
+use crate::whole_file::write_piecewise;
 
 /// The values of a map's cells, row-major: of the last axis, neighbours follow one another.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,16 +63,17 @@ impl Map {
     /// file is written whole or not at all.
     pub fn save(&self, file: &Path) -> Result<()> {
         let shape: Vec<usize> = self.axes.iter().map(MapAxis::part_length).collect();
-        let bytes = match &self.values {
+        write_piecewise(file, |file| match &self.values {
             MapValues::Classes(values) | MapValues::Cells(values) => {
-                npy("|u1", &shape, values.len(), values.iter().copied())?
+                file.write_all(&npy_head("|u1", &shape))?;
+                file.write_all(values)
             }
             MapValues::Distances(values) => {
-                let numbers = values.iter().flat_map(|value| value.to_le_bytes());
-                npy("<f8", &shape, 8 * values.len(), numbers)?
+                file.write_all(&npy_head("<f8", &shape))?;
+                let mut numbers = values.iter();
+                numbers.try_for_each(|number| file.write_all(&number.to_le_bytes()))
             }
-        };
-        write_whole(file, &bytes)
+        })
     }
 
     /// Writes a picture (.png) of a map with two axes, a pixel a cell: the first axis goes to the right, the second up. Classes are
@@ -86,39 +87,43 @@ impl Map {
             ));
         };
         let (width, height) = (first.part_length(), second.part_length());
-        let shades;
         let (colors, values) = match &self.values {
-            MapValues::Classes(values) => (Colors::Palette(&CLASS_COLORS), values),
-            MapValues::Cells(values) => (Colors::Palette(&CELL_COLORS), values),
-            MapValues::Distances(values) => {
-                shades = shades_of(values)?;
-                (Colors::Gray, &shades)
-            }
+            MapValues::Classes(values) => (Colors::Palette(&CLASS_COLORS), Pixels::Bytes(values)),
+            MapValues::Cells(values) => (Colors::Palette(&CELL_COLORS), Pixels::Bytes(values)),
+            MapValues::Distances(values) => (Colors::Gray, Pixels::shades(values)),
         };
-        let mut pixels = Vec::new();
-        pixels
-            .try_reserve_exact(values.len())
-            .map_err(Error::memory)?;
-        for row in (0..height).rev() {
-            pixels.extend((0..width).map(|column| values[column * height + row]));
-        }
-        write_whole(file, &png(width, &colors, &pixels)?)
+        let picture = Png::new([width, height], colors)?;
+        let pixel = |row: usize, column: usize| values.at(column * height + height - 1 - row);
+        write_piecewise(file, |file| picture.write(file, pixel))
     }
 }
 
-/// Black for 0, and for nothing else; white for the largest finite distance and all beyond.
-fn shades_of(distances: &[f64]) -> Result<Vec<u8>> {
-    let finite = distances.iter().filter(|distance| distance.is_finite());
-    let largest = finite.fold(0.0, |largest: f64, &distance| largest.max(distance));
-    let shade = |&distance: &f64| match distance {
-        0.0 => 0,
-        some if some >= largest => 255,
-        some => (255.0 * (some / largest)).round().max(1.0) as u8,
-    };
-    let mut shades = Vec::new();
-    shades
-        .try_reserve_exact(distances.len())
-        .map_err(Error::memory)?;
-    shades.extend(distances.iter().map(shade));
-    Ok(shades)
+/// What the cells look like.
+enum Pixels<'a> {
+    Bytes(&'a [u8]),
+    /// Of distances, up to the largest that is finite.
+    Shades {
+        distances: &'a [f64],
+        largest: f64,
+    },
+}
+
+impl<'a> Pixels<'a> {
+    fn shades(distances: &'a [f64]) -> Self {
+        let finite = distances.iter().filter(|distance| distance.is_finite());
+        let largest = finite.fold(0.0, |largest: f64, &distance| largest.max(distance));
+        Self::Shades { distances, largest }
+    }
+
+    /// Black for 0, and for nothing else; white for the largest finite distance and all beyond.
+    fn at(&self, cell: usize) -> u8 {
+        match *self {
+            Self::Bytes(values) => values[cell],
+            Self::Shades { distances, largest } => match distances[cell] {
+                0.0 => 0,
+                some if some >= largest => 255,
+                some => (255.0 * (some / largest)).round().max(1.0) as u8,
+            },
+        }
+    }
 }

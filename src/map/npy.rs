@@ -1,17 +1,10 @@
 //! NumPy's file format, version 1.0: a header in the syntax of a Python dictionary, then the numbers.
 
-use crate::error::{Error, Result};
-
 /// The header and what stands before it end at a multiple of this.
 const ALIGNMENT: usize = 64;
 
-/// A file of numbers in row-major order; `size` is how many bytes they are.
-pub(super) fn npy(
-    kind: &str,
-    shape: &[usize],
-    size: usize,
-    numbers: impl Iterator<Item = u8>,
-) -> Result<Vec<u8>> {
+/// What stands before the numbers, which follow in row-major order.
+pub(super) fn npy_head(kind: &str, shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length}, ")).collect();
     let mut header =
         format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({lengths}), }}");
@@ -20,14 +13,9 @@ pub(super) fn npy(
     let padding = unpadded.next_multiple_of(ALIGNMENT) - unpadded;
     header.extend(std::iter::repeat_n(' ', padding));
     header.push('\n');
-    let mut bytes = Vec::new();
-    bytes
-        .try_reserve_exact(before + header.len() + size)
-        .map_err(Error::memory)?;
-    bytes.extend_from_slice(b"\x93NUMPY\x01\x00");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     // Six axes of 20 digits are far below 2^16.
     bytes.extend_from_slice(&(header.len() as u16).to_le_bytes());
     bytes.extend_from_slice(header.as_bytes());
-    bytes.extend(numbers);
-    Ok(bytes)
+    bytes
 }

@@ -112,13 +112,14 @@ impl SceneReader<'_, '_> {
             let message = "it has no shape";
             return Err(self.words.fault(ErrorKind::Empty, message));
         }
+        let left = MAX_SHAPES - self.shapes;
+        if count > left as u64 {
+            let message = format!("{count} shapes: a scene has at most {MAX_SHAPES} shapes");
+            return Err(self.words.fault(ErrorKind::Unsupported, message));
+        }
+        self.shapes += count as usize;
         let mut builder = BodyBuilder::new(3)?;
         for tag in 0..count {
-            self.shapes += 1;
-            if self.shapes > MAX_SHAPES {
-                let message = format!("more than {MAX_SHAPES} shapes");
-                return Err(self.words.fault(ErrorKind::Unsupported, message));
-            }
             let shape = self.shape(&mut builder, tag);
             shape.map_err(|e| e.within(format_args!("shape {tag}")))?;
         }

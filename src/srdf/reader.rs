@@ -68,6 +68,7 @@ fn add_text(builder: &mut RobotBuilder, text: &str, options: &SrdfOptions) -> Re
         let message = "an SRDF file begins with <robot>";
         return Err(fault(root, ErrorKind::Parse, message));
     }
+    require_srdf(root)?;
     let mut extended = builder.clone();
     let semantics = extended.semantics().clone();
     let mut reader = Reader {
@@ -101,6 +102,30 @@ fn add_text(builder: &mut RobotBuilder, text: &str, options: &SrdfOptions) -> Re
     extended.set_semantics(semantics);
     *builder = extended;
     Ok(report)
+}
+
+/// Refuses a URDF file, and a file whose macros were not expanded.
+fn require_srdf(root: Node) -> Result<()> {
+    let is_read = |node: &Node| READ.contains(&node.tag_name().name());
+    let elements = || root.children().filter(Node::is_element);
+    if !elements().any(|node| is_read(&node)) {
+        let is_urdf = |node: &Node| ["link", "joint"].contains(&node.tag_name().name());
+        if let Some(node) = elements().find(is_urdf) {
+            let message = "the robot has none of SRDF's elements, but this: is it a URDF file?";
+            return Err(fault(node, ErrorKind::Parse, message));
+        }
+    }
+    for node in elements()
+        .filter(is_read)
+        .flat_map(|node| node.descendants())
+    {
+        if let Some(raw) = node.attributes().find(|name| name.value().contains("${")) {
+            let (name, value) = (raw.name(), raw.value());
+            let message = format!("{name} \"{value}\" is raw xacro: expand the macros first");
+            return Err(fault(node, ErrorKind::Parse, message));
+        }
+    }
+    Ok(())
 }
 
 fn require_count(root: Node, name: &str, max: usize) -> Result<()> {

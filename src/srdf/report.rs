@@ -19,6 +19,6 @@ pub struct SrdfReport {
     pub skipped_elements: usize,
     /// Elements that name links, joints or groups that are not there; only where the options let them be skipped.
     pub unknown_names: usize,
-    /// Values of states for joints that have no coordinate, or one that another joint sets.
+    /// Values of states for joints that are not in the state's group, have no coordinate, or one that another joint sets.
     pub unused_values: usize,
 }

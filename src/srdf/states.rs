@@ -44,7 +44,7 @@ impl Reader<'_> {
             let message = "another state of this group has this name";
             return Err(named(invalid(node, message)));
         }
-        let values = self.values(node).map_err(named)?;
+        let values = self.values(node, group).map_err(named)?;
         self.semantics.states.push(NamedState {
             name: SemanticName::new(&own_name),
             group,
@@ -55,7 +55,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn values(&mut self, node: Node) -> Result<BTreeMap<u32, Value>> {
+    fn values(&mut self, node: Node, group: Option<usize>) -> Result<BTreeMap<u32, Value>> {
         let mut values: BTreeMap<u32, Value> = BTreeMap::new();
         let mut seen = HashSet::new();
         for element in children(node, "joint") {
@@ -78,6 +78,15 @@ impl Reader<'_> {
             let mut virtual_joints = self.semantics.virtual_joints.iter();
             let is_virtual = virtual_joints.any(|joint| joint.child_link == link);
             let is_fixed = joint.kind.nq() == 0;
+            let is_outside = group.is_some_and(|group| {
+                let joints = &self.semantics.groups[group].joints;
+                joints.binary_search(&link).is_err()
+            });
+            if is_outside {
+                // The state is of its group alone.
+                self.report.unused_values += 1;
+                continue;
+            }
             if is_fixed || (is_virtual && numbers.len() != joint.kind.nq()) {
                 // The base was loaded with another joint than the file has in mind.
                 self.report.unused_values += 1;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use cstk::batch::{Batch, BatchOptions, Configurations, ItemAnswer};
 use cstk::cobject::{CObject, Class, Predicate, PureOptions, PureShape};
@@ -181,8 +182,9 @@ fn progress_rises_and_cancels() {
             let job = quiet(&options, &mut found[..], &mut end);
             // With threads that are faster than in the run before there are fewer calls.
             let done = batch.classify(&arm.contact, at(&q), job, keep);
-            assert_eq!(done.is_err(), calls > stop);
-            assert!(done.is_ok() || done.unwrap_err().kind == ErrorKind::Cancelled);
+            let end = done.unwrap().end;
+            assert_eq!(end.is_some(), calls > stop);
+            assert!(end.is_none_or(|end| end.kind == ErrorKind::Cancelled));
             for (found, expected) in found.iter().zip(&expected) {
                 assert!(found.is_none() || found == expected);
             }
@@ -306,4 +308,54 @@ fn few_items_have_few_threads() {
             .unwrap();
         assert_eq!(found, classes(&arm, &q));
     }
+}
+
+/// Takes its time over each configuration.
+struct Slow;
+
+impl Predicate for Slow {
+    fn classify(&self, _: &[f64]) -> Result<Class> {
+        std::thread::sleep(Duration::from_millis(25));
+        Ok(Class::Outside)
+    }
+
+    fn distance(&self, _: &[f64]) -> Result<Option<f64>> {
+        Ok(None)
+    }
+
+    fn measures(&self) -> bool {
+        false
+    }
+
+    fn is_exact(&self) -> bool {
+        false
+    }
+
+    fn knows_depth(&self) -> bool {
+        false
+    }
+
+    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
+        Ok(false)
+    }
+}
+
+/// Within a run of items progress is told after each that takes long, and cancels before the next.
+#[test]
+fn long_items_are_reported_one_by_one() {
+    let arm = Arm::new(31);
+    let shape = PureShape::Predicate(Arc::new(Slow));
+    let slow = CObject::pure(arm.space.clone(), shape, PureOptions::default()).unwrap();
+    // Runs of three items.
+    let q = arm.configurations(48, 32);
+    let mut found = vec![None; 48];
+    let mut end = |fraction: f64| match fraction {
+        0.0 => Ok(()),
+        _ => Err(Error::new(ErrorKind::Cancelled, "enough")),
+    };
+    let options = on_threads(1);
+    let job = quiet(&options, &mut found[..], &mut end);
+    let done = Batch::new().classify(&slow, at(&q), job, keep).unwrap();
+    assert_eq!(done.end.map(|end| end.kind), Some(ErrorKind::Cancelled));
+    assert_eq!(found.iter().flatten().count(), 1);
 }

@@ -143,7 +143,7 @@ fn motions_of_compound_sets_are_what_samples_say() {
 }
 
 /// A slider of a unit cube along x.
-fn slider() -> Arc<Space> {
+pub fn slider() -> Arc<Space> {
     space(vec![robot(
         3,
         vec![LinkDefinition {

@@ -9,6 +9,7 @@ mod curves;
 mod discs;
 mod forged;
 mod map_boundaries;
+mod map_ends;
 mod maps;
 mod motions;
 mod pair_motion;

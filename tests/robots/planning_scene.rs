@@ -154,9 +154,9 @@ fn faults_are_named_with_line_and_object() {
             vec!["line 3"],
         ),
         (
-            "s\n* a\n4000000000\nsphere\n1\n".into(),
-            Parse,
-            vec!["the file ends"],
+            "s\n* a\n100000000000\nsphere\n1\n".into(),
+            Unsupported,
+            vec!["line 3", "131072 shapes"],
         ),
         (many, Unsupported, vec!["131072 shapes"]),
         (

@@ -687,3 +687,48 @@ fn no_srdf_text_leads_to_a_fault() {
         "{taken} {refused}"
     );
 }
+
+/// As in MoveIt, a state is of its group: what it says of other joints is not applied.
+#[test]
+fn states_set_no_joint_outside_their_group() {
+    let (robot, report) = loaded(
+        r#"<group name="hand"><joint name="jleft"/></group>
+<group_state name="home" group="hand"><joint name="ja" value="0.5"/><joint name="jleft" value="0.1"/></group_state>
+<group_state name="all"><joint name="ja" value="0.5"/></group_state>"#,
+    );
+    assert_eq!(report.unused_values, 1);
+    let states = &robot.semantics().states;
+    assert_eq!(states[0].values, [0.1]);
+    assert_eq!(states[1].values, [0.5]);
+}
+
+#[test]
+fn texts_that_are_no_srdf_are_refused() {
+    let refused = |srdf: &str| {
+        let error = with(BaseJoint::Free, srdf, &SrdfOptions::default()).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Parse);
+        error.message
+    };
+    for urdf in [
+        "<link name='a'/>",
+        "<gazebo/><joint name='ja' type='fixed'/>",
+    ] {
+        let message = refused(urdf);
+        assert!(message.contains("URDF"), "{message}");
+    }
+    for raw in [
+        "<group name='${prefix}arm'/>",
+        "<disable_collisions link1='a' link2='${prefix}b'/>",
+        "<group name='arm'><joint name='${prefix}ja'/></group>",
+    ] {
+        let message = refused(raw);
+        assert!(
+            message.contains("raw xacro") && message.contains("${prefix}"),
+            "{message}"
+        );
+    }
+    // Nothing, or what is of neither kind, is an SRDF file without content.
+    loaded("");
+    loaded("<link_sphere_approximation link='a'/>");
+    loaded("<group name='g'/><link name='a'/>");
+}

@@ -1,6 +1,9 @@
 //! The arrays of a caller that a batch reads and fills.
 
 use std::mem::MaybeUninit;
+use std::ops::Range;
+
+use smallvec::SmallVec;
 
 use crate::batch::{BatchSummary, Slots};
 use crate::capi::batch::batch::cstk_batch_result;
@@ -55,6 +58,10 @@ impl<'a, T: Copy> Entries<'a, T> {
             items: &mut [],
             width: 0,
         }
+    }
+
+    pub fn place(&self, name: &'static str) -> Place {
+        Place::of(self.items, name)
     }
 
     pub fn is_absent(&self) -> bool {
@@ -131,7 +138,34 @@ impl Outcome {
         Ok((outcome, Statuses(entries)))
     }
 
-    /// Counts, and writes the result of a batch that was worked off. What was answered beyond the first hit does not count.
+    /// Refuses outputs that overlap inputs, or each other: threads write some while others read.
+    pub fn require_apart(
+        &self,
+        inputs: &[Place],
+        outputs: impl IntoIterator<Item = Place>,
+    ) -> Result<(), Failure> {
+        let array = |start: usize, size: usize, name| Place {
+            name,
+            bytes: start..start.saturating_add(size),
+        };
+        let statuses = self.count.saturating_mul(size_of::<cstk_status>());
+        let own = [
+            array(self.statuses.addr(), statuses, "statuses"),
+            array(self.out.address(), size_of::<cstk_batch_result>(), "out"),
+        ];
+        let outputs: SmallVec<[Place; 8]> = outputs.into_iter().chain(own).collect();
+        for (i, output) in outputs.iter().enumerate() {
+            let mut others = inputs.iter().chain(&outputs[..i]);
+            if let Some(other) = others.find(|other| output.meets(other)) {
+                let message = format!("{} overlaps {}", output.name, other.name);
+                return Err(Error::invalid(message).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts, and writes the result of a batch that was worked off, or cancelled: that is then the call's failure. What was answered
+    /// beyond the first hit does not count.
     pub fn write(self, summary: BatchSummary) -> Result<(), Failure> {
         let statuses: &mut [cstk_status] = if self.count == 0 {
             &mut []
@@ -161,7 +195,31 @@ impl Outcome {
             environment_version: summary.version,
             reserved: [0; 4],
         });
-        Ok(())
+        match summary.end {
+            Some(end) => Err(end.into()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Where an array of the caller's lies; one that was left out is empty.
+pub struct Place {
+    name: &'static str,
+    bytes: Range<usize>,
+}
+
+impl Place {
+    pub fn of<T>(items: &[T], name: &'static str) -> Self {
+        let ends = items.as_ptr_range();
+        Self {
+            name,
+            bytes: ends.start.addr()..ends.end.addr(),
+        }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        let (a, b) = (&self.bytes, &other.bytes);
+        !a.is_empty() && !b.is_empty() && a.start < b.end && b.start < a.end
     }
 }
 

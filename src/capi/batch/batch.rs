@@ -65,7 +65,7 @@ impl From<cstk_batch_options> for BatchOptions {
     }
 }
 
-/// How a batch ended.
+/// How a batch ended; also written where its progress function cancels it, of the items until then.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_batch_result {

@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, Statuses, numbers};
+use super::arrays::{Entries, Outcome, Place, Statuses, numbers};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
 use crate::batch::{Batch, BatchJob, BatchSummary, Configurations, ItemAnswer};
 use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result};
@@ -55,7 +55,7 @@ pub(super) fn put<A, T: Copy>(
 }
 
 /// cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for
-/// the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that was begun, and `user` is passed to
+/// the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that is done, and `user` is passed to
 /// it. `classes` and `statuses` receive `count` entries each, in order. A count of 0 is a batch without items; its arrays may be NULL.
 /// Configurations that lie near each other in the order of `q`, those of a path say, are answered in less time.
 ///
@@ -86,6 +86,7 @@ pub unsafe extern "C" fn cstk_classify_batch(
                 let at = configurations(cobject.space(), q, count, nq, "q")?;
                 let classes = Entries::checked(classes, count, 1, "classes")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(&[Place::of(at.q, "q")], [classes.place("classes")])?;
                 let job = BatchJob {
                     options,
                     slots: (classes, statuses),
@@ -127,6 +128,7 @@ pub unsafe extern "C" fn cstk_within_batch(
                 let at = configurations(cobject.space(), q, count, nq, "q")?;
                 let within = Entries::checked(within, count, 1, "within")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(&[Place::of(at.q, "q")], [within.place("within")])?;
                 let job = BatchJob {
                     options,
                     slots: (within, statuses),
@@ -199,14 +201,22 @@ pub unsafe extern "C" fn cstk_distance_batch(
                 let at = configurations(cobject.space(), q, count, nq, "q")?;
                 let numbers = Entries::optional(distances, count, 1, "distances")?;
                 let results = Entries::optional(results, count, 1, "results")?;
-                let width = if gradients.is_null() {
-                    0
-                } else {
-                    cobject.space().nv()
-                };
-                require_width(nv, width, "nv", "velocities, with gradients")?;
+                if !gradients.is_null() {
+                    require_width(nv, cobject.space().nv(), "nv", "velocities")?;
+                } else if nv != 0 {
+                    let message = format!("nv must be 0 without gradients, not {nv}");
+                    return Err(Error::new(ErrorKind::WrongSize, message).into());
+                }
                 let gradients = Entries::optional(gradients, count, nv, "gradients")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(
+                    &[Place::of(at.q, "q")],
+                    [
+                        numbers.place("distances"),
+                        results.place("results"),
+                        gradients.place("gradients"),
+                    ],
+                )?;
                 let slots = (numbers, (results, statuses));
                 let summary = if gradients.is_absent() {
                     let job = BatchJob {

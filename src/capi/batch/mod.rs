@@ -6,10 +6,14 @@
 //! Every item has a status. One that fails (a NaN among its coordinates, say) fails alone: the others are answered, and the call returns
 //! CSTK_OK; cstk_last_error_message() then names the first that failed. Entries of items with another status than CSTK_OK mean nothing.
 //! Where progress or the first hit ends a batch, the items that were not reached have CSTK_ERROR_CANCELLED, and those with CSTK_OK are
-//! answered: unlike other calls, a batch that its progress function cancels has written to its arrays. A call that fails otherwise has
-//! written nothing.
+//! answered: unlike other calls, a batch that its progress function cancels has written to its arrays, and its cstk_batch_result, which
+//! counts what was answered until then and has no hit. A call that fails otherwise has written nothing.
 //!
-//! The arrays are the caller's: they must not overlap, and nobody else may use them during the call. Callbacks of C-objects and bodies
+//! Progress is told between items, every 20 milliseconds or more often, also while the last items are with other threads; an item that
+//! has begun is answered before a cancelled call returns.
+//!
+//! The arrays are the caller's, and nobody else may use them during the call. What a batch reads may overlap; what it writes overlaps
+//! nothing else, which CSTK_ERROR_INVALID_ARGUMENT refuses. Callbacks of C-objects and bodies
 //! are called from the batch's threads, several at once.
 //!
 //! ```c

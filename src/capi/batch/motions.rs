@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome};
+use super::arrays::{Entries, Outcome, Place};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
 use super::configurations::configurations;
 use crate::batch::{BatchJob, Segments};
@@ -53,6 +53,13 @@ pub unsafe extern "C" fn cstk_motion_batch(
                 let reached = Entries::optional(reached, count, nq, "reached")?;
                 let results = Entries::<cstk_motion_result>::checked(results, count, 1, "results")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(
+                    &[
+                        Place::of(segments.starts.q, "q0"),
+                        Place::of(segments.ends.q, "q1"),
+                    ],
+                    [reached.place("reached"), results.place("results")],
+                )?;
                 let job = BatchJob {
                     options,
                     slots: (reached, (results, statuses)),

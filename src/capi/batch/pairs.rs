@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, poses};
+use super::arrays::{Entries, Outcome, Place, poses};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
 use super::configurations::{put, put_distance};
 use crate::batch::{BatchJob, PosePairs};
@@ -52,6 +52,13 @@ pub unsafe extern "C" fn cstk_pair_within_batch(
                 };
                 let within = Entries::checked(within, count, 1, "within")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(
+                    &[
+                        Place::of(pairs.poses[0], "poses_a"),
+                        Place::of(pairs.poses[1], "poses_b"),
+                    ],
+                    [within.place("within")],
+                )?;
                 let job = BatchJob {
                     options,
                     slots: (within, statuses),
@@ -107,6 +114,13 @@ pub unsafe extern "C" fn cstk_pair_distance_batch(
                 let numbers = Entries::optional(distances, count, 1, "distances")?;
                 let results = Entries::optional(results, count, 1, "results")?;
                 let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
+                outcome.require_apart(
+                    &[
+                        Place::of(pairs.poses[0], "poses_a"),
+                        Place::of(pairs.poses[1], "poses_b"),
+                    ],
+                    [numbers.place("distances"), results.place("results")],
+                )?;
                 let job = BatchJob {
                     options,
                     slots: (numbers, (results, statuses)),

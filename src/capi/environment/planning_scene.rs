@@ -63,7 +63,7 @@ pub unsafe extern "C" fn cstk_scene_options_default(
 
 /// Adds the objects of a MoveIt planning scene, a `.scene` file (the text that MoveIt exports, of either version), to an
 /// environment: all of them in one change, or none. Each object becomes one s-object: boxes, spheres, cylinders, cones and
-/// meshes at their poses, one body. Its user data (`s_data` of a witness) is its name, a NUL-terminated string that lives as
+/// meshes at their poses, one body. The scene ends at the word `.`; text after it is not read. Its user data (`s_data` of a witness) is its name, a NUL-terminated string that lives as
 /// long as the object. Colours and subframes are skipped. The ids are written in the order of the file: at most `max_count` to
 /// `ids` (NULL if `max_count` is 0), and their full number to `count`, which may be NULL. `scene_options` may be NULL.
 ///
