@@ -348,7 +348,7 @@ fn long_items_are_reported_one_by_one() {
     let slow = CObject::pure(arm.space.clone(), shape, PureOptions::default()).unwrap();
     // Runs of three items.
     let q = arm.configurations(48, 32);
-    let mut found = vec![None; 48];
+    let mut found = [None; 48];
     let mut end = |fraction: f64| match fraction {
         0.0 => Ok(()),
         _ => Err(Error::new(ErrorKind::Cancelled, "enough")),
