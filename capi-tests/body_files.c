@@ -362,7 +362,7 @@ static void newer(content *whole) {
         put(whole->bytes + SUM_AT, 0);
         refuse_bytes(whole->bytes, HEADER_SIZE + 1, CSTK_ERROR_UNSUPPORTED, text);
     }
-    put(whole->bytes + VERSION_AT, 5);
+    put(whole->bytes + VERSION_AT, 6);
     sign(whole);
     CHECK(checksum((const unsigned char *)"123456789", 9) == 0xCBF43926u);
     write_file("signed.cstk", whole->bytes, whole->size);

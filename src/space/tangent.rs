@@ -180,8 +180,10 @@ impl Space {
     pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
         let mut v: Velocity = SmallVec::from_elem(0.0, self.nv());
         self.write_difference(q0, q1, &mut v);
-        for (x, weight) in v.iter_mut().zip(weights.into_iter().flatten()) {
-            *x *= weight;
+        if let Some(weights) = weights {
+            for (x, weight) in v.iter_mut().zip(weights) {
+                *x *= weight;
+            }
         }
         let squares: f64 = v.iter().map(|x| x * x).sum();
         if (SMALL_SQUARES..LARGE_SQUARES).contains(&squares) {
