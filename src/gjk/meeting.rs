@@ -1,7 +1,7 @@
 //! Whether two sets meet: GJK that computes only on which side of the simplex the origin lies, not the closest point.
 
 use super::Support;
-use super::simplex::Corner;
+use super::simplex::{Corner, Simplex};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -51,65 +51,154 @@ impl<A: Support, B: Support> Work for MeetingSearch<'_, A, B> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> Option<bool> {
-        let mut v = if self.start == Vec3::zeros() {
-            Vec3::x()
-        } else {
-            self.start
-        };
-        let mut sides = Sides::Nothing;
-        for _ in 0..MAX_STEPS {
-            let square = v.norm_squared();
-            if square == 0.0 {
-                return None;
+        let in_units = |corner: Corner| corner.difference * self.inverse_unit;
+        match walk(self.a, self.b, self.start, in_units).1 {
+            End::Apart { newest, v } => {
+                // `v` separates the sets, but maybe by less than the cutoff.
+                let along = v.dot(&newest);
+                let is_apart = along * along > self.cutoff * self.cutoff * v.norm_squared();
+                is_apart.then_some(false)
             }
-            let corner = Corner::between(self.a.extreme(&-v), self.b.extreme(&v));
-            let newest = corner.difference * self.inverse_unit;
-            let along = v.dot(&newest);
-            if along > 0.0 {
-                // The origin is beyond the newest corner: `v` separates the sets, but maybe by less than the cutoff.
-                let is_apart = along * along > self.cutoff * self.cutoff * square;
-                return is_apart.then_some(false);
-            }
-            (sides, v) = match sides.with(newest) {
-                Next::Beyond(sides, towards) => (sides, -towards),
-                Next::Inside(corners) => {
-                    return is_deep_inside(&corners, self.depth).then_some(true);
-                }
-            };
+            End::Inside(corners) => is_deep_inside(&corners, self.depth).then_some(true),
+            End::Open => None,
         }
-        None
+    }
+}
+
+/// Corners of the difference A - B from which to search for its point nearest to the origin: a tetrahedron around the origin
+/// where the sets overlap by much, else some that a direction parts from the origin. At least one.
+#[inline(always)]
+pub(super) fn first_simplex<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -> Simplex {
+    let largest = start.amax();
+    let unit = if largest > 0.0 && largest < f64::INFINITY {
+        power_of_two(largest)
+    } else {
+        1.0
+    };
+    let inverse_unit = 1.0 / unit;
+    let in_units = |corner: Corner| Corner {
+        difference: corner.difference * inverse_unit,
+        ..corner
+    };
+    let (sides, end) = walk(a, b, start * inverse_unit, in_units);
+    let mut simplex = Simplex::empty();
+    let mut push = |corner: Corner| {
+        let difference = corner.difference * unit;
+        if !simplex.contains(&difference) {
+            simplex.push(Corner {
+                difference,
+                ..corner
+            });
+        }
+    };
+    match (sides, end) {
+        (_, End::Inside(corners)) => corners.into_iter().for_each(&mut push),
+        (sides, end) => {
+            match sides {
+                Sides::Nothing => (),
+                Sides::Point(a) => push(a),
+                Sides::Segment(a, b) => [b, a].into_iter().for_each(&mut push),
+                Sides::Triangle(a, b, c) => [c, b, a].into_iter().for_each(&mut push),
+            }
+            if let End::Apart { newest, .. } = end {
+                push(newest);
+            }
+        }
+    }
+    simplex
+}
+
+/// How a walk ended.
+enum End<C> {
+    /// The direction `v` parts the sets: the origin is beyond the newest corner.
+    Apart { newest: C, v: Vec3 },
+    /// The origin is inside these corners.
+    Inside([C; 4]),
+    /// Neither is known after the most steps.
+    Open,
+}
+
+/// Walks from simplex to simplex towards the origin. `kept` makes of a corner what is kept of it, in units in which the sets are
+/// about 1 large.
+#[inline(always)]
+fn walk<A: Support, B: Support, C: Place>(
+    a: &A,
+    b: &B,
+    start: Vec3,
+    kept: impl Fn(Corner) -> C,
+) -> (Sides<C>, End<C>) {
+    let mut v = if start == Vec3::zeros() {
+        Vec3::x()
+    } else {
+        start
+    };
+    let mut sides = Sides::Nothing;
+    for _ in 0..MAX_STEPS {
+        if v.norm_squared() == 0.0 {
+            break;
+        }
+        let newest = kept(Corner::between(a.extreme(&-v), b.extreme(&v)));
+        if v.dot(&newest.at()) > 0.0 {
+            return (sides, End::Apart { newest, v });
+        }
+        (sides, v) = match sides.with(newest) {
+            Next::Beyond(sides, towards) => (sides, -towards),
+            Next::Inside(corners) => return (sides, End::Inside(corners)),
+        };
+    }
+    (sides, End::Open)
+}
+
+/// What is kept of a corner of the difference A - B.
+trait Place: Copy {
+    /// The difference.
+    fn at(&self) -> Vec3;
+}
+
+impl Place for Vec3 {
+    #[inline(always)]
+    fn at(&self) -> Vec3 {
+        *self
+    }
+}
+
+impl Place for Corner {
+    #[inline(always)]
+    fn at(&self) -> Vec3 {
+        self.difference
     }
 }
 
 /// The simplex: corners of the difference A - B, the newest first.
 #[derive(Clone, Copy)]
-enum Sides {
+enum Sides<C> {
     Nothing,
-    Point(Vec3),
-    Segment(Vec3, Vec3),
+    Point(C),
+    Segment(C, C),
     /// Counter-clockwise as seen from the origin.
-    Triangle(Vec3, Vec3, Vec3),
+    Triangle(C, C, C),
 }
 
-enum Next {
+enum Next<C> {
     /// The origin is outside: the face of the simplex that it lies beyond, and the direction from that face to the origin.
-    Beyond(Sides, Vec3),
+    Beyond(Sides<C>, Vec3),
     /// The origin is on the inner side of the three new faces.
-    Inside([Vec3; 4]),
+    Inside([C; 4]),
 }
 
-impl Sides {
+impl<C: Place> Sides<C> {
     #[inline(always)]
-    fn with(self, a: Vec3) -> Next {
+    fn with(self, a: C) -> Next<C> {
         match self {
-            Self::Nothing => Next::Beyond(Self::Point(a), -a),
+            Self::Nothing => Next::Beyond(Self::Point(a), -a.at()),
             Self::Point(b) => beyond_segment(a, b),
             Self::Segment(b, c) => beyond_triangle(a, b, c),
             Self::Triangle(b, c, d) => {
-                let (ab, ac, ad) = (b - a, c - a, d - a);
+                let at = a.at();
+                let (ab, ac, ad) = (b.at() - at, c.at() - at, d.at() - at);
                 // These normals point out of the tetrahedron: the origin and the newest corner are on the same side of the old
                 // triangle.
-                let outside = |normal: Vec3| normal.dot(&a) < 0.0;
+                let outside = |normal: Vec3| normal.dot(&at) < 0.0;
                 if outside(ab.cross(&ac)) {
                     beyond_triangle(a, b, c)
                 } else if outside(ac.cross(&ad)) {
@@ -125,29 +214,31 @@ impl Sides {
 }
 
 #[inline(always)]
-fn beyond_segment(a: Vec3, b: Vec3) -> Next {
-    let ab = b - a;
-    if ab.dot(&a) < 0.0 {
-        Next::Beyond(Sides::Segment(a, b), ab.cross(&ab.cross(&a)))
+fn beyond_segment<C: Place>(a: C, b: C) -> Next<C> {
+    let at = a.at();
+    let ab = b.at() - at;
+    if ab.dot(&at) < 0.0 {
+        Next::Beyond(Sides::Segment(a, b), ab.cross(&ab.cross(&at)))
     } else {
-        Next::Beyond(Sides::Point(a), -a)
+        Next::Beyond(Sides::Point(a), -at)
     }
 }
 
 #[inline(always)]
-fn beyond_triangle(a: Vec3, b: Vec3, c: Vec3) -> Next {
-    let (ab, ac) = (b - a, c - a);
+fn beyond_triangle<C: Place>(a: C, b: C, c: C) -> Next<C> {
+    let at = a.at();
+    let (ab, ac) = (b.at() - at, c.at() - at);
     let normal = ab.cross(&ac);
-    if normal.cross(&ac).dot(&a) < 0.0 {
-        if ac.dot(&a) < 0.0 {
-            return Next::Beyond(Sides::Segment(a, c), ac.cross(&ac.cross(&a)));
+    if normal.cross(&ac).dot(&at) < 0.0 {
+        if ac.dot(&at) < 0.0 {
+            return Next::Beyond(Sides::Segment(a, c), ac.cross(&ac.cross(&at)));
         }
         return beyond_segment(a, b);
     }
-    if ab.cross(&normal).dot(&a) < 0.0 {
+    if ab.cross(&normal).dot(&at) < 0.0 {
         return beyond_segment(a, b);
     }
-    if normal.dot(&a) < 0.0 {
+    if normal.dot(&at) < 0.0 {
         Next::Beyond(Sides::Triangle(a, b, c), normal)
     } else {
         Next::Beyond(Sides::Triangle(a, c, b), -normal)

@@ -8,6 +8,7 @@ mod meeting;
 mod refined;
 mod simplex;
 
+use self::meeting::first_simplex;
 pub use self::meeting::meeting;
 pub use self::refined::{Nearby, RefinedBounds, refined};
 use self::simplex::{Corner, OriginPosition, Simplex};
@@ -130,13 +131,23 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             limits,
         } = self;
         let mut found = Gjk::unknown();
-        let mut v = if start == Vec3::zeros() {
-            Vec3::x()
-        } else {
-            start
+        let mut simplex = first_simplex(a, b, start);
+        let mut scale = simplex.scale();
+        let mut v = match simplex.reduce() {
+            OriginPosition::Inside { margin, at } => {
+                found.take_inside(margin, &at, scale);
+                return found;
+            }
+            OriginPosition::Outside(point) => point,
         };
-        let mut simplex = Simplex::empty();
-        let mut scale = 0.0f64;
+        found.upper = v.norm();
+        if found.upper <= limits.enough && found.take_near(&simplex, &v, limits.enough) {
+            return found;
+        }
+        if found.upper <= 4.0 * tolerance::EPSILON * scale.sqrt() {
+            found.nearest = simplex.nearest(&v);
+            return found;
+        }
         for _ in 0..MAX_STEPS {
             let inverse_length = 1.0 / v.norm();
             let on_a = a.extreme(&-v);

@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 
+use super::meeting::first_simplex;
 use super::simplex::{Corner, CornerNames, OriginPosition, Simplex};
 use super::{DistanceLimits, Support};
 use crate::lanes::{Instructions, Work, with_widest};
@@ -132,7 +133,10 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> RefinedBounds {
-        let mut iteration = Iteration::new(self.start);
+        let mut iteration = Iteration::new();
+        if iteration.begin(&self).is_break() {
+            return iteration.found;
+        }
         while iteration.found.iterations < MAX_STEPS {
             if iteration.step(&self).is_break() {
                 break;
@@ -173,7 +177,7 @@ enum Extended {
 
 impl Iteration {
     #[inline(always)]
-    fn new(start: Vec3) -> Self {
+    fn new() -> Self {
         Self {
             found: RefinedBounds {
                 lower: 0.0,
@@ -185,11 +189,7 @@ impl Iteration {
                 iterations: 0,
             },
             simplex: Simplex::empty(),
-            v: if start == Vec3::zeros() {
-                Vec3::x()
-            } else {
-                start
-            },
+            v: Vec3::zeros(),
             scale: 0.0,
             least_gap: f64::INFINITY,
             idle: 0,
@@ -197,6 +197,22 @@ impl Iteration {
             is_apart: false,
             finishes: 0,
             finish_at: FIRST_FINISH,
+        }
+    }
+
+    /// Finds the first simplex; breaks where the sets overlap or touch.
+    #[inline(always)]
+    fn begin<A, B, F>(&mut self, sets: &Refinement<'_, A, B, F>) -> ControlFlow<()>
+    where
+        A: Support,
+        B: Support,
+    {
+        self.simplex = first_simplex(sets.a, sets.b, sets.start);
+        self.scale = self.simplex.scale().sqrt();
+        let rounding = 4.0 * tolerance::EPSILON * self.scale;
+        match self.reduce(rounding) {
+            Extended::Nearest(nearest, foot) => self.take_nearest(&nearest, foot, rounding),
+            _ => ControlFlow::Break(()),
         }
     }
 
@@ -281,6 +297,13 @@ impl Iteration {
             let (nearest, foot) = simplex.nearest_apart();
             return Extended::Nearest(nearest, foot);
         }
+        self.reduce(rounding)
+    }
+
+    /// Reduces the simplex to the face nearest to the origin, unless it contains the origin.
+    #[inline(always)]
+    fn reduce(&mut self, rounding: f64) -> Extended {
+        let simplex = &mut self.simplex;
         match simplex.reduce() {
             OriginPosition::Inside { at, margin } if at.difference.norm() <= rounding => {
                 (self.found.upper, self.found.depth) = (0.0, margin);

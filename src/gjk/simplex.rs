@@ -100,6 +100,15 @@ impl Simplex {
         self.len += 1;
     }
 
+    /// The largest squared norm of its corners.
+    #[inline(always)]
+    pub fn scale(&self) -> f64 {
+        let squares = self.corners[..self.len].iter();
+        squares.fold(0.0, |most, corner| {
+            corner.difference.norm_squared().max(most)
+        })
+    }
+
     #[inline(always)]
     pub fn is_full(&self) -> bool {
         self.len == 4
