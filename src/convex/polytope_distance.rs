@@ -3,6 +3,7 @@
 
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
+use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
@@ -19,6 +20,7 @@ pub struct DistanceScratch {
 
 /// The closest points of the hulls of two primitives' vertices; `None` where these are proved to be farther apart than the
 /// cutoff.
+#[inline(always)]
 pub fn closest_polytopes(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -26,22 +28,52 @@ pub fn closest_polytopes(
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
-    let needs_bounds = |placed: &PlacedPrimitive| placed.shape.is_solid() || is_large(placed);
     let mut found = match closed_form(a, b, pair) {
         Some(found) => found,
-        None if pair.planar => planar_closest(a, b, pair, scratch),
-        None if needs_bounds(a) || needs_bounds(b) => bounded_closest(a, b, pair, limits, scratch)?,
-        None if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff => return None,
-        None => all_features(a, b, scratch),
+        None => closest_by_features(a, b, pair, limits, scratch)?,
     };
-    for (placed, side) in [(a, 0), (b, 1)] {
-        snap_to_vertex(placed, &mut found, side, pair.error);
-    }
+    let [on_a, on_b] = &found.points;
+    found.features = [
+        snapped(a, found.features[0], on_a, pair.error),
+        snapped(b, found.features[1], on_b, pair.error),
+    ];
     Some(found)
+}
+
+/// The same for primitives without a closed form.
+#[inline(never)]
+fn closest_by_features(
+    a: &PlacedPrimitive,
+    b: &PlacedPrimitive,
+    pair: &Precision,
+    limits: DistanceLimits,
+    scratch: &mut DistanceScratch,
+) -> Option<Closest> {
+    let needs_bounds = |placed: &PlacedPrimitive| placed.shape.is_solid() || is_large(placed);
+    if pair.planar {
+        return Some(planar_closest(a, b, pair, scratch));
+    }
+    if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
+        return match cuboids_closest([a, b], [on_a, on_b], pair.size, limits) {
+            CuboidsClosest::Beyond => None,
+            CuboidsClosest::Found(found) => Some(found),
+            CuboidsClosest::Unknown(start) => bounded_closest(a, b, start, pair, limits, scratch),
+        };
+    }
+    if needs_bounds(a) || needs_bounds(b) {
+        // A start that depends on the two primitives alone, so that the answer does too.
+        let start = a.middle() - b.middle();
+        return bounded_closest(a, b, start, pair, limits, scratch);
+    }
+    if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
+        return None;
+    }
+    Some(all_features(a, b, scratch))
 }
 
 /// The closest points in closed form, in space: of a point or segment with a point, segment or box, and of a point with a small
 /// polygon.
+#[inline(always)]
 pub fn closed_form(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<Closest> {
     if pair.planar {
         return None;
@@ -86,16 +118,17 @@ fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
     gap_of_primitives(other, flat, &normal).max(gap_of_primitives(flat, other, &normal))
 }
 
-/// Moves the feature from an edge to its end vertex where the point is within `slack` of it.
-fn snap_to_vertex(placed: &PlacedPrimitive, found: &mut Closest, side: usize, slack: f64) {
-    let feature = found.features[side];
-    if feature.kind == FeatureKind::Edge {
-        let ends = placed.shape.edges[feature.index as usize];
-        let near = |&i: &u32| (placed.vertex(i) - found.points[side]).norm() <= slack;
-        if let Some(i) = ends.into_iter().find(near) {
-            found.features[side] = Feature::vertex(i);
-        }
+/// The feature of a point; instead of an edge, its end vertex where the point is within `slack` of it.
+#[inline(always)]
+fn snapped(placed: &PlacedPrimitive, feature: Feature, point: &Vec3, slack: f64) -> Feature {
+    if feature.kind != FeatureKind::Edge {
+        return feature;
     }
+    let ends = placed.shape.edges[feature.index as usize];
+    let is_near = |&i: &u32| (placed.vertex(i) - point).norm() <= slack;
+    ends.into_iter()
+        .find(is_near)
+        .map_or(feature, Feature::vertex)
 }
 
 /// Polygons with at most this many edges are compared edge by edge; GJK finds the features of larger ones. The time of the
@@ -144,21 +177,17 @@ fn planar_closest(
 }
 
 /// The closest points of solids, and of polygons too large to enumerate: compares the features near the supporting planes.
+/// `start` is a guess of the direction from B to A.
 fn bounded_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
+    start: Vec3,
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<Closest> {
     let size = pair.size;
-    let bounds = gjk(
-        a,
-        b,
-        // A start that depends on the two primitives alone, so that the answer does too.
-        a.middle() - b.middle(),
-        limits,
-    );
+    let bounds = gjk(a, b, start, limits);
     if bounds.lower > limits.cutoff {
         return None;
     }
@@ -280,6 +309,7 @@ pub fn gap_of_primitives(a: &PlacedPrimitive, b: &PlacedPrimitive, direction: &V
 
 /// The normal that the features of a contact define by themselves, up to sign: that of a face, or the common
 /// perpendicular of two edges. Exact however close the points are.
+#[inline(always)]
 pub fn feature_normal(a: &PlacedPrimitive, b: &PlacedPrimitive, found: &Closest) -> Option<Vec3> {
     use FeatureKind::{Edge, Face, Vertex};
     let [on_a, on_b] = found.features;

@@ -115,15 +115,45 @@ impl Cuboid {
     #[inline(always)]
     pub fn farthest(&self, vertices: &[Vec3], direction: &Vec3) -> u32 {
         let along = turned_back(&self.axes, direction);
-        let bit = |k: usize| usize::from(along[k] > 0.0) << k;
         // Where the two ends of an edge are about level, the exact vertices decide, not the corners.
-        let level = 4.0 * self.doubt * (along.x.abs() + along.y.abs() + along.z.abs());
-        let is_clear = |k: usize| along[k].abs() * self.half[k] > level;
-        if is_clear(0) & is_clear(1) & is_clear(2) {
-            u32::from(self.corners[bit(0) | bit(1) | bit(2)])
-        } else {
-            PointCloud(vertices).extreme(direction).name
+        match self.corner_towards(&along) {
+            Some(corner) => corner,
+            None => PointCloud(vertices).extreme(direction).name,
         }
+    }
+
+    /// The corner farthest along a direction of the box's frame, as a vertex; `None` where the ends of an edge are about level.
+    #[inline(always)]
+    pub fn corner_towards(&self, along: &Vec3) -> Option<u32> {
+        let level = self.level(along);
+        let is_clear = |k: usize| along[k].abs() * self.half[k] > level;
+        let bit = |k: usize| usize::from(along[k] > 0.0) << k;
+        (is_clear(0) & is_clear(1) & is_clear(2))
+            .then(|| u32::from(self.corners[bit(0) | bit(1) | bit(2)]))
+    }
+
+    /// The edge along an axis that is farthest along a direction of the box's frame across it; `None` where the ends of another
+    /// edge are about level.
+    #[inline(always)]
+    pub fn edge_towards(&self, axis: usize, along: &Vec3) -> Option<Feature> {
+        let level = self.level(along);
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        let is_clear = |k: usize| along[k].abs() * self.half[k] > level;
+        let bit = |k: usize| usize::from(along[k] > 0.0) << k;
+        (is_clear(next) & is_clear(last))
+            .then(|| Feature::edge(self.edges[axis][bit(next) | bit(last)].into()))
+    }
+
+    /// The face at the low or the high end of an axis.
+    #[inline(always)]
+    pub fn face_across(&self, axis: usize, is_high: bool) -> Feature {
+        Feature::face(self.faces[axis][usize::from(is_high)].into())
+    }
+
+    /// Ends of an edge that are nearer to each other along a direction than this are told apart by the exact vertices only.
+    #[inline(always)]
+    fn level(&self, along: &Vec3) -> f64 {
+        4.0 * self.doubt * (along.x.abs() + along.y.abs() + along.z.abs())
     }
 
     /// The feature that holds the box's nearest point to an outside point, given in the box's frame.

@@ -1,0 +1,358 @@
+//! The closest points of two boxes by the separating axis test: of the axes the one with the largest gap proves the distance
+//! where the nearest features are a corner and a face, or two edges. It does for most pairs; GJK finds the others.
+
+use super::closest::{Closest, Segment, closest_parameters};
+use super::cuboid_axes::{CuboidAxes, EdgeGap, GAP_ERROR};
+use super::placed::PlacedPrimitive;
+use crate::gjk::DistanceLimits;
+use crate::lanes::{Instructions, Work, with_widest};
+use crate::pose::{Vec3, turned, turned_back};
+use crate::primitive::{Cuboid, Feature};
+use crate::tolerance;
+
+/// The closest points of two boxes.
+pub enum CuboidsClosest {
+    /// They are farther apart than the cutoff.
+    Beyond,
+    Found(Closest),
+    /// The axes do not tell. A guess of the direction from B to A, not a unit vector.
+    Unknown(Vec3),
+}
+
+/// `size` is no less than any coordinate of the two.
+pub fn cuboids_closest(
+    placed: [&PlacedPrimitive; 2],
+    cuboids: [&Cuboid; 2],
+    size: f64,
+    limits: DistanceLimits,
+) -> CuboidsClosest {
+    with_widest(Search {
+        placed,
+        cuboids,
+        size,
+        cutoff: limits.cutoff,
+    })
+}
+
+struct Search<'a> {
+    placed: [&'a PlacedPrimitive<'a>; 2],
+    cuboids: [&'a Cuboid; 2],
+    size: f64,
+    cutoff: f64,
+}
+
+/// The axis with the largest gap.
+#[derive(Clone, Copy)]
+enum Axis {
+    /// The normal of A's faces across this axis.
+    FaceOfA(usize),
+    FaceOfB(usize),
+    /// The cross product of an axis of each.
+    Edges(usize, usize),
+}
+
+/// The cross product of edges less steep to one another than this is too inaccurate an axis.
+const MIN_EDGE_CROSS: f64 = 0.01;
+
+impl Work for Search<'_> {
+    type Output = CuboidsClosest;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> CuboidsClosest {
+        let axes = CuboidAxes::new(self.placed, self.cuboids);
+        let error = GAP_ERROR * self.size;
+        let (mut largest, mut axis) = (f64::NEG_INFINITY, Axis::FaceOfA(0));
+        let (of_a, of_b) = (axes.gaps_at_a(), axes.gaps_at_b());
+        for k in 0..3 {
+            if of_a[k] > largest {
+                (largest, axis) = (of_a[k], Axis::FaceOfA(k));
+            }
+            if of_b[k] > largest {
+                (largest, axis) = (of_b[k], Axis::FaceOfB(k));
+            }
+        }
+        if largest > self.cutoff + error {
+            return CuboidsClosest::Beyond;
+        }
+        // The overlap along each axis is at least this; nearly parallel edges separate hardly better than faces do.
+        let mut overlap = -largest - error - 8.0 * tolerance::PARALLEL_EDGES * self.size;
+        for i in 0..3 {
+            for j in 0..3 {
+                let EdgeGap { gap, length } = axes.edge_gap(i, j);
+                if length < tolerance::PARALLEL_EDGES {
+                    continue;
+                }
+                let inverse = 1.0 / length;
+                overlap = overlap.min((-gap - error) * inverse);
+                if gap * inverse > largest {
+                    (largest, axis) = (gap * inverse, Axis::Edges(i, j));
+                }
+            }
+        }
+        let found = if overlap > tolerance::TOUCH_DEPTH * self.size {
+            self.common(&axes, overlap)
+        } else if largest > error {
+            match axis {
+                Axis::FaceOfA(k) => self.on_face_of_a(&axes, k),
+                Axis::FaceOfB(k) => self.on_face_of_b(&axes, k),
+                Axis::Edges(i, j) => self.between_edges(&axes, i, j),
+            }
+        } else {
+            None
+        };
+        match found {
+            Some(found) => CuboidsClosest::Found(found),
+            None => CuboidsClosest::Unknown(self.direction(&axes, axis)),
+        }
+    }
+}
+
+impl Search<'_> {
+    /// Boxes that overlap by `depth`, if a point of both is found: of one box the point nearest to the other's centre.
+    #[inline(always)]
+    fn common(&self, axes: &CuboidAxes, depth: f64) -> Option<Closest> {
+        let clamped =
+            |point: &Vec3, half: &Vec3| point.zip_map(half, |x, half| x.clamp(-half, half));
+        let holds = |half: &Vec3, point: &Vec3| {
+            (point.x.abs() < half.x) & (point.y.abs() < half.y) & (point.z.abs() < half.z)
+        };
+        let of_a = clamped(&axes.between, &axes.half_a);
+        let seen = turned_back(&axes.turn, &of_a) - axes.seen_by_b;
+        let common = if holds(&axes.half_b, &seen) {
+            of_a
+        } else {
+            let of_b = clamped(&-axes.seen_by_b, &axes.half_b);
+            let of_b = axes.between + turned(&axes.turn, &of_b);
+            holds(&axes.half_a, &of_b).then_some(of_b)?
+        };
+        let (a, on_a) = (self.placed[0], self.cuboids[0]);
+        let common = a.moved(&(on_a.center + turned(&on_a.axes, &common)));
+        Some(Closest {
+            depth,
+            ..Closest::meeting_at(common, [Feature::interior(); 2])
+        })
+    }
+
+    #[inline(always)]
+    fn on_face_of_a(&self, axes: &CuboidAxes, k: usize) -> Option<Closest> {
+        let is_high = axes.between[k] > 0.0;
+        let outward = if is_high { 1.0 } else { -1.0 };
+        let row = Vec3::new(axes.turn[(k, 0)], axes.turn[(k, 1)], axes.turn[(k, 2)]);
+        let corner = self.cuboids[1].corner_towards(&(row * -outward))?;
+        self.over_face(0, k, is_high, corner)
+    }
+
+    #[inline(always)]
+    fn on_face_of_b(&self, axes: &CuboidAxes, k: usize) -> Option<Closest> {
+        let is_high = axes.seen_by_b[k] < 0.0;
+        let outward = if is_high { 1.0 } else { -1.0 };
+        let column = Vec3::new(axes.turn[(0, k)], axes.turn[(1, k)], axes.turn[(2, k)]);
+        let corner = self.cuboids[0].corner_towards(&(column * -outward))?;
+        Some(self.over_face(1, k, is_high, corner)?.swapped())
+    }
+
+    /// A corner of the other box over the face of one box: the face's normal proves the distance, since no corner of the other
+    /// lies farther back. `None` where the foot is not well inside the face.
+    #[inline(always)]
+    fn over_face(&self, side: usize, axis: usize, is_high: bool, corner: u32) -> Option<Closest> {
+        let (placed, cuboid) = (self.placed[side], self.cuboids[side]);
+        let point = self.placed[1 - side].vertex(corner);
+        let seen = cuboid.seen(&placed.seen(&point));
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        let error = GAP_ERROR * self.size;
+        let is_inside = |k: usize| seen[k].abs() < cuboid.half[k] - error;
+        if !is_inside(next) || !is_inside(last) {
+            return None;
+        }
+        let face = cuboid.face_across(axis, is_high);
+        let normal = placed.normal(face.index as usize);
+        let ring = &placed.shape.faces[face.index as usize].vertices;
+        let height = normal.dot(&(point - placed.vertex(ring[0])));
+        (height > error).then(|| Closest {
+            distance: height,
+            ..Closest::between(
+                [point - normal * height, point],
+                [face, Feature::vertex(corner)],
+            )
+        })
+    }
+
+    #[inline(always)]
+    fn between_edges(&self, axes: &CuboidAxes, i: usize, j: usize) -> Option<Closest> {
+        let across = axes.across_edges(i, j);
+        let edges = [
+            self.cuboids[0].edge_towards(i, &across)?,
+            self.cuboids[1].edge_towards(j, &-turned_back(&axes.turn, &across))?,
+        ];
+        let segment = |side: usize| {
+            let placed = self.placed[side];
+            placed.edge_ends(placed.shape.edges[edges[side].index as usize])
+        };
+        let (ends_a, ends_b) = (segment(0), segment(1));
+        let (along_a, along_b) = (ends_a.1 - ends_a.0, ends_b.1 - ends_b.0);
+        let normal = along_a.cross(&along_b);
+        let length = normal.norm();
+        if length < MIN_EDGE_CROSS * along_a.norm() * along_b.norm() {
+            return None;
+        }
+        let (on_a, on_b) = (Segment::new(ends_a), Segment::new(ends_b));
+        let (s, t) = closest_parameters(&on_a, &on_b);
+        let is_between = |t: f64| t > 0.0 && t < 1.0;
+        if !is_between(s) || !is_between(t) {
+            return None;
+        }
+        let found = Closest::between([on_a.at(s), on_b.at(t)], edges);
+        let gap = normal.dot(&(ends_b.0 - ends_a.0)).abs() / length;
+        (found.distance - gap <= tolerance::CERTIFIED_GAP * self.size).then_some(found)
+    }
+
+    /// The direction from B to A along an axis, in the pair's frame.
+    fn direction(&self, axes: &CuboidAxes, axis: Axis) -> Vec3 {
+        let (a, on_a) = (self.placed[0], self.cuboids[0]);
+        let towards_b = match axis {
+            Axis::FaceOfA(k) => Vec3::from(std::array::from_fn(|i| {
+                if i == k {
+                    axes.between[k].signum()
+                } else {
+                    0.0
+                }
+            })),
+            Axis::FaceOfB(k) => axes.turn.column(k) * axes.seen_by_b[k].signum(),
+            Axis::Edges(i, j) => axes.across_edges(i, j),
+        };
+        -a.turned(&turned(&on_a.axes, &towards_b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convex::PlacedBuffer;
+    use crate::pose::{Pose, rotation_about};
+    use crate::primitive::{Form, block};
+
+    struct Random(u64);
+
+    impl Random {
+        fn within(&mut self, low: f64, high: f64) -> f64 {
+            self.0 = self
+                .0
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+        }
+
+        fn vector(&mut self) -> Vec3 {
+            Vec3::from([0; 3].map(|_| self.within(-1.0, 1.0)))
+        }
+
+        fn half(&mut self, spread: f64) -> Vec3 {
+            Vec3::from([0; 3].map(|_| 10f64.powf(self.within(-spread, 0.0))))
+        }
+
+        fn pose(&mut self, reach: f64) -> Pose {
+            let axis = self.vector().normalize();
+            Pose {
+                rotation: rotation_about(&axis, self.within(0.0, 6.0)),
+                translation: self.vector() * reach,
+            }
+        }
+    }
+
+    /// A box around the origin of a frame.
+    struct Block {
+        half: Vec3,
+        pose: Pose,
+    }
+
+    impl Block {
+        fn nearest(&self, point: &Vec3) -> Vec3 {
+            let seen = self.pose.inverse().transform_point(point);
+            let clamped = seen.zip_map(&self.half, |x, half| x.clamp(-half, half));
+            self.pose.transform_point(&clamped)
+        }
+
+        fn corners(&self) -> impl Iterator<Item = Vec3> {
+            (0..8).map(|bits| {
+                let sign = |k: usize| if bits >> k & 1 == 0 { -1.0 } else { 1.0 };
+                let signs = Vec3::new(sign(0), sign(1), sign(2));
+                self.pose.transform_point(&self.half.component_mul(&signs))
+            })
+        }
+    }
+
+    /// Alternating projections come to a point of both sets where there is one.
+    fn meet(a: &Block, b: &Block) -> bool {
+        let mut point = a.pose.translation;
+        (0..100_000).any(|_| {
+            let on_b = b.nearest(&point);
+            point = a.nearest(&on_b);
+            (point - on_b).norm() < 1e-9
+        })
+    }
+
+    /// The points lie in the boxes, and the direction between them parts all corners by their distance: no other points are nearer.
+    /// Boxes that overlap by a depth still do after a shorter move in any direction.
+    #[test]
+    fn points_and_depths_prove_themselves() {
+        let (mut apart, mut overlaps, mut all) = (0, 0, 0);
+        for spread in [0.0, 0.5, 2.0] {
+            let mut random = Random(7);
+            for _ in 0..3000 {
+                let pose = random.pose(1.5);
+                let a = Block {
+                    half: random.half(spread),
+                    pose: Pose::identity(),
+                };
+                let b = Block {
+                    half: random.half(spread),
+                    pose,
+                };
+                let [shape_a, shape_b] =
+                    [&a, &b].map(|one| block(&Pose::identity(), &one.half).unwrap());
+                let forms = [&shape_a, &shape_b].map(|shape| Form::of(shape).unwrap());
+                let mut buffer = PlacedBuffer::default();
+                let placed_a = PlacedPrimitive::at_home(&shape_a, Some(&forms[0]));
+                let placed_b = buffer.place(&shape_b, Some(&forms[1]), &b.pose);
+                let cuboids = [forms[0].cuboid().unwrap(), forms[1].cuboid().unwrap()];
+                let found =
+                    cuboids_closest([&placed_a, &placed_b], cuboids, 5.0, DistanceLimits::EXACT);
+                all += 1;
+                let CuboidsClosest::Found(found) = found else {
+                    continue;
+                };
+                let [on_a, on_b] = found.points;
+                assert!((a.nearest(&on_a) - on_a).norm() < 1e-14);
+                assert!((b.nearest(&on_b) - on_b).norm() < 1e-14);
+                if found.distance > 0.0 {
+                    apart += 1;
+                    assert!(((on_a - on_b).norm() - found.distance).abs() < 1e-14);
+                    let direction = (on_a - on_b) / found.distance;
+                    let from_a = a.corners().map(|p| direction.dot(&p));
+                    let from_b = b.corners().map(|p| direction.dot(&p));
+                    let gap = from_a.fold(f64::INFINITY, f64::min)
+                        - from_b.fold(f64::NEG_INFINITY, f64::max);
+                    assert!((gap - found.distance).abs() < 1e-13, "{gap} {found:?}");
+                } else if overlaps < 300 {
+                    overlaps += 1;
+                    assert_eq!(on_a, on_b);
+                    for _ in 0..5 {
+                        let step = random.vector().normalize() * (0.999 * found.depth);
+                        let moved = Block {
+                            half: b.half,
+                            pose: Pose {
+                                translation: b.pose.translation + step,
+                                ..b.pose
+                            },
+                        };
+                        assert!(meet(&a, &moved), "{found:?}");
+                    }
+                }
+            }
+        }
+        assert!(
+            apart > 3000 && overlaps == 300,
+            "{apart} {overlaps} of {all}"
+        );
+    }
+}
