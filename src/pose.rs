@@ -111,6 +111,7 @@ impl Pose {
     }
 
     /// A point of the child frame, in the parent frame.
+    #[inline]
     pub fn transform_point(&self, point: &Vec3) -> Vec3 {
         turned(&self.rotation, point) + self.translation
     }

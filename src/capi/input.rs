@@ -170,6 +170,7 @@ impl<T> Output<T> {
         self.0.addr()
     }
 
+    #[inline(always)]
     pub fn write(self, value: T) {
         // SAFETY: checked at construction; the caller states that it is writable.
         unsafe { self.0.write(value) }

@@ -20,6 +20,7 @@ use crate::capi::at_configuration::answers::{
 use crate::capi::body::body::cstk_body;
 use crate::capi::status::status::cstk_status;
 use crate::pose::Pose;
+use crate::query::Distance;
 
 type Placement<'a> = (&'a Body, &'a Pose);
 
@@ -75,8 +76,10 @@ pub unsafe extern "C" fn cstk_pair_distance(
             pose_b,
             out,
             |state, a, b, out| {
-                out.write((&state.context.pair_distance(a, b, max_distance)?).into());
-                Ok(())
+                let write = |distance: &Distance| out.write(distance.into());
+                Ok(state
+                    .context
+                    .take_pair_distance(a, b, max_distance, write)?)
             },
         )
     }

@@ -22,6 +22,7 @@ pub struct Closest {
 }
 
 impl Closest {
+    #[inline(always)]
     pub fn between(points: [Vec3; 2], features: [Feature; 2]) -> Self {
         Self {
             distance: (points[0] - points[1]).norm(),
@@ -32,6 +33,7 @@ impl Closest {
         }
     }
 
+    #[inline(always)]
     pub fn meeting_at(point: Vec3, features: [Feature; 2]) -> Self {
         Self {
             distance: 0.0,
@@ -60,6 +62,7 @@ impl Closest {
 }
 
 /// The closest points of two hulls of one vertex or two each.
+#[inline(always)]
 pub fn closest_segments(a: &PlacedPrimitive, b: &PlacedPrimitive) -> Closest {
     if a.vertex_count() == 1 && b.vertex_count() == 1 {
         let points = [a.vertex(0), b.vertex(0)];

@@ -6,6 +6,7 @@ use crate::primitive::{Feature, FeatureKind};
 
 /// The report's contact modes, r-feature first, and one for sets without features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum ContactMode {
     PointPoint,
     PointEdge,
@@ -17,6 +18,7 @@ pub enum ContactMode {
     PureSet,
 }
 
+#[inline(always)]
 pub fn mode_of(features: [Feature; 2]) -> Option<ContactMode> {
     use FeatureKind::{Edge, Face, Surface, Vertex};
     let as_point = |kind| if kind == Surface { Vertex } else { kind };

@@ -30,6 +30,7 @@ pub struct ContactPair<'a> {
 
 impl ContactPair<'_> {
     /// The unit normal from s to r, if the primitives are far enough apart for their closest points to determine it.
+    #[inline(always)]
     pub fn normal_if_apart(&self) -> Option<Vec3> {
         self.is_apart().then(|| self.normal_apart()).flatten()
     }
@@ -58,6 +59,7 @@ impl ContactPair<'_> {
     /// The normal of primitives that are apart. It is that of the features where they define one. Else it is the direction
     /// between the points, without its components along the edges that hold the points: these components are rounding. If a
     /// normal of the features around the points agrees with that direction within rounding, it is taken instead: it is exact.
+    #[inline(always)]
     fn normal_apart(&self) -> Option<Vec3> {
         let between = self.closest.points[0] - self.closest.points[1];
         let oriented = |n: Vec3| if n.dot(&between) < 0.0 { -n } else { n };
@@ -66,30 +68,38 @@ impl ContactPair<'_> {
         {
             return Some(oriented(normal));
         }
-        let mut direct = between;
-        for (placed, feature) in [
-            (self.r, self.closest.features[0]),
-            (self.s, self.closest.features[1]),
-        ] {
-            if feature.kind == FeatureKind::Edge {
-                let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
-                let along = (q - p).normalize();
-                direct -= along * along.dot(&direct);
-            }
-        }
+        let [on_r, on_s] = self.closest.features;
+        let direct = across(self.s, on_s, across(self.r, on_r, between));
         let direct = direct.try_normalize(0.0)?;
         let doubt = 64.0 * tolerance::EPSILON * self.precision.size / self.closest.distance;
         if doubt < tolerance::NORMAL_ERROR {
             return Some(direct);
         }
+        // A copy for the rare case: what is passed on by address is not kept in registers.
+        let closest = *self.closest;
+        let pair = ContactPair {
+            closest: &closest,
+            ..*self
+        };
+        Some(pair.normal_near(direct, doubt))
+    }
+
+    /// The candidate normal nearest to a unit direction, or the direction itself where none is within `doubt` of it.
+    #[inline(never)]
+    fn normal_near(&self, direct: Vec3, doubt: f64) -> Vec3 {
         let mut best = (doubt, direct);
         for candidate in self.local_normals() {
-            let off = (oriented(candidate) - direct).norm();
+            let oriented = if candidate.dot(&direct) < 0.0 {
+                -candidate
+            } else {
+                candidate
+            };
+            let off = (oriented - direct).norm();
             if off <= best.0 {
-                best = (off, oriented(candidate));
+                best = (off, oriented);
             }
         }
-        Some(best.1)
+        best.1
     }
 
     /// The normal of touching primitives: among the candidate normals of the touching features, the one along which the sets
@@ -171,6 +181,17 @@ impl ContactPair<'_> {
         }
         found
     }
+}
+
+/// A vector without its component along a feature, if that is an edge.
+#[inline(always)]
+fn across(placed: &PlacedPrimitive, feature: Feature, vector: Vec3) -> Vec3 {
+    if feature.kind != FeatureKind::Edge {
+        return vector;
+    }
+    let (p, q) = placed.edge_ends(placed.shape.edges[feature.index as usize]);
+    let along = (q - p).normalize();
+    vector - along * along.dot(&vector)
 }
 
 /// The depth of a point below the boundary of a set; at most 0 where it is not inside, or the set has no inside.

@@ -27,6 +27,7 @@ pub fn contacts(
 }
 
 /// The first contact that [`contacts`] returns.
+#[inline(always)]
 pub fn first_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -41,5 +42,15 @@ pub fn first_contact(
     if first.is_some() || measured.closest.depth > tolerance::JUST_INSIDE * precision.size {
         return first;
     }
-    contacts(r, s, measured, precision).into_iter().next()
+    first_of_all(r, s, *measured, precision)
+}
+
+#[inline(never)]
+fn first_of_all(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    measured: PrimitiveDistance,
+    precision: &Precision,
+) -> Option<Contact> {
+    contacts(r, s, &measured, precision).into_iter().next()
 }

@@ -33,6 +33,7 @@ pub fn curved_contacts(
 }
 
 /// The first of these contacts, if the cores are apart: it is then found without the others.
+#[inline(always)]
 pub fn first_curved_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -49,6 +50,7 @@ pub fn first_curved_contact(
 }
 
 /// Sets the distance of the cores to 0 where it is at most the pair's error.
+#[inline(always)]
 fn touching(cores: &Closest, precision: &Precision) -> Closest {
     let distance = if cores.distance <= precision.error {
         0.0
@@ -59,6 +61,7 @@ fn touching(cores: &Closest, precision: &Precision) -> Closest {
 }
 
 /// Moves a contact of the cores outwards by the radii.
+#[inline(always)]
 fn grow(contact: &mut Contact, sides: [&PlacedPrimitive; 2], precision: &Precision) {
     let [radius_r, radius_s] = sides.map(|placed| placed.shape.radius());
     let gap = contact.gap - radius_r - radius_s;

@@ -34,6 +34,7 @@ impl PrimitiveDistance {
 }
 
 /// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than the cutoff.
+#[inline(always)]
 pub fn measure(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -41,7 +42,7 @@ pub fn measure(
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
 ) -> Option<PrimitiveDistance> {
-    let radii = [a, b].map(|placed| placed.shape.radius());
+    let radii = [a.shape.radius(), b.shape.radius()];
     let limits = limits.of_cores(radii[0] + radii[1]);
     let (cores, direction) = core_closest(a, b, pair, limits, scratch)?;
     let mut closest = grown(&cores, radii);
@@ -57,6 +58,7 @@ pub fn measure(
 
 /// The closest points of the cores, and for smooth cores the unit direction from B to A that certifies their distance; zero if
 /// there is none. `None` where the cores are proved to be farther apart than the cutoff.
+#[inline(always)]
 fn core_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -80,6 +82,7 @@ fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
 
 /// The closest points of two sets, from those of their cores. Where the sets overlap, both are the same common point, between
 /// the cores.
+#[inline(always)]
 fn grown(cores: &Closest, radii: [f64; 2]) -> Closest {
     let apart = cores.distance;
     let [on_a, on_b] = cores.points;
@@ -171,11 +174,12 @@ pub fn meeting_or_beyond(
 }
 
 /// The distance of two primitives, if their cores have a closed form. It is not set to 0 below the pair's error.
+#[inline(always)]
 pub fn closed_distance(a: &PlacedPrimitive, b: &PlacedPrimitive, pair: &Precision) -> Option<f64> {
     if is_smooth(a, b) {
         return None;
     }
     let cores = closed_form(a, b, pair)?;
-    let radii = [a, b].map(|placed| placed.shape.radius());
+    let radii = [a.shape.radius(), b.shape.radius()];
     Some(beyond_radii(cores.distance, radii))
 }

@@ -52,6 +52,7 @@ pub struct PlacedBuffer {
 
 impl PlacedBuffer {
     /// A primitive moved by `pose`.
+    #[inline(always)]
     pub fn place<'a>(
         &'a mut self,
         primitive: impl Into<Primitive<'a>>,
@@ -226,6 +227,7 @@ impl<'a> PlacedPrimitive<'a> {
         }
     }
 
+    #[inline(always)]
     pub fn edge_ends(&self, edge: [u32; 2]) -> (Vec3, Vec3) {
         (self.vertex(edge[0]), self.vertex(edge[1]))
     }

@@ -12,6 +12,7 @@ use crate::primitive::{Feature, FeatureKind, convex_hull_2d, plane_axes};
 use crate::tolerance;
 
 /// The contact at the closest points of two hulls that are apart, if their features have a contact mode.
+#[inline(always)]
 pub fn first_polytope_contact(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
@@ -39,6 +40,7 @@ pub fn first_polytope_contact(
     ))
 }
 
+#[inline(always)]
 fn contact_between(
     points: [Vec3; 2],
     features: [Feature; 2],

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::gjk::DistanceLimits;
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
-use crate::pose::{Pose, Vec3, relative_centered};
+use crate::pose::{Pose, Vec3, relative_centered, turned};
 use crate::primitive::Form;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
@@ -77,6 +77,7 @@ pub struct WorldContact {
 }
 
 impl<'a> Pairing<'a> {
+    #[inline(always)]
     pub fn new(a: &'a Body, pose_a: &Pose, b: &'a Body, pose_b: &Pose) -> Self {
         let relative = relative_centered(pose_a, a.center(), pose_b, b.center());
         let size = a.radius().max(relative.translation.norm() + b.radius());
@@ -118,9 +119,10 @@ impl<'a> Pairing<'a> {
     }
 
     /// A safe lower bound of the distance, from the bodies' bounding spheres.
+    #[inline(always)]
     pub fn sphere_bound(&self) -> f64 {
-        let [a, b] = [self.a, self.b].map(|body| body.packed().whole().ball());
-        a.apart(&b, &self.relative) - self.slack()
+        let (a, b) = (self.a.packed().whole(), self.b.packed().whole());
+        a.ball().apart(&b.ball(), &self.relative) - self.slack()
     }
 
     /// The gap of A beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
@@ -328,10 +330,11 @@ impl<'a> Pairing<'a> {
         first_contact(&a, &b, measured, &self.precision).map(|c| self.in_world(c))
     }
 
+    #[inline(always)]
     pub(super) fn in_world(&self, contact: Contact) -> WorldContact {
         WorldContact {
-            points: contact.points.map(|p| self.frame.transform_point(&p)),
-            normal: self.frame.rotation * contact.normal,
+            points: self.points_in_world(&contact.points),
+            normal: turned(&self.frame.rotation, &contact.normal),
             contact,
         }
     }
@@ -354,18 +357,20 @@ impl<'a> Pairing<'a> {
     }
 
     /// The primitives at two places in A's centred frame.
+    #[inline(always)]
     pub(super) fn placed<'b>(
         &'b self,
         places: [u32; 2],
         buffer: &'b mut PlacedBuffer,
     ) -> [PlacedPrimitive<'b>; 2] {
-        let [a, b] = [self.a, self.b].map(|body| body.packed().primitives());
-        let entries = [a.entry(places[0] as usize), b.entry(places[1] as usize)];
-        let forms = [a.form(entries[0]), b.form(entries[1])];
-        self.place(entries.map(|entry| entry.primitive), forms, buffer)
+        let (a, b) = (self.a.packed().primitives(), self.b.packed().primitives());
+        let (on_a, on_b) = (a.entry(places[0] as usize), b.entry(places[1] as usize));
+        let forms = [a.form(on_a), b.form(on_b)];
+        self.place([on_a.primitive, on_b.primitive], forms, buffer)
     }
 
     /// Both primitives in A's centred frame, with their forms if given.
+    #[inline(always)]
     fn place<'b>(
         &'b self,
         primitives: [u32; 2],
@@ -381,8 +386,15 @@ impl<'a> Pairing<'a> {
     }
 
     /// The closest points in the world.
+    #[inline(always)]
     pub fn world_points(&self, closest: &Closest) -> [Vec3; 2] {
-        closest.points.map(|p| self.frame.transform_point(&p))
+        self.points_in_world(&closest.points)
+    }
+
+    #[inline(always)]
+    fn points_in_world(&self, [on_a, on_b]: &[Vec3; 2]) -> [Vec3; 2] {
+        let frame = &self.frame;
+        [frame.transform_point(on_a), frame.transform_point(on_b)]
     }
 }
 

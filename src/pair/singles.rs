@@ -18,6 +18,7 @@ pub struct Singles<'a> {
 
 impl<'a> Singles<'a> {
     /// For bodies of exactly one primitive each.
+    #[inline(always)]
     pub fn new(pairing: &'a Pairing<'a>, scratch: &'a mut PrimitiveScratch) -> Self {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = pairing.placed([0, 0], buffer);
@@ -30,6 +31,7 @@ impl<'a> Singles<'a> {
     }
 
     /// Whether their distance may be at most `threshold`; doubt counts as within.
+    #[inline(always)]
     pub fn are_within(&mut self, threshold: f64) -> bool {
         let limits = DistanceLimits {
             enough: threshold,
@@ -48,6 +50,7 @@ impl<'a> Singles<'a> {
     }
 
     /// Their distance and the full result; `None` if they are proved to be beyond the limits' cutoff.
+    #[inline(always)]
     pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
         let precision = &self.pairing.precision;
         let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
@@ -78,6 +81,7 @@ impl<'a> Singles<'a> {
     }
 
     /// The contact at the closest points, if the two are apart.
+    #[inline(always)]
     pub fn first_contact(&self, measured: &PrimitiveDistance) -> Option<WorldContact> {
         let found = first_contact(&self.a, &self.b, measured, &self.pairing.precision)?;
         Some(self.pairing.in_world(found))

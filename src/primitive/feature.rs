@@ -2,6 +2,7 @@
 
 /// Which kind of feature an index counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
 pub enum FeatureKind {
     /// A vertex.
     Vertex,

@@ -96,7 +96,7 @@ impl Distance {
     }
 
     /// The answer for a nearest pair with its witness points and contact.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of_pair(
         found: &NearestPair,
         lower: f64,

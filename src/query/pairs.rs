@@ -12,10 +12,17 @@ use crate::gjk::DistanceLimits;
 use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles};
 
 /// Refuses bodies of different dimension, and planar bodies that leave the plane.
+#[inline(always)]
 pub(crate) fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
     if a.0.dimension() == 3 && b.0.dimension() == 3 {
         return Ok(());
     }
+    check_planar(a, b)
+}
+
+/// The same where not both are spatial.
+#[inline(never)]
+fn check_planar(a: Placement, b: Placement) -> Result<()> {
     if a.0.dimension() != b.0.dimension() {
         return Err(Error::invalid(format!(
             "the bodies differ in dimension: {} and {}",
@@ -34,6 +41,7 @@ pub(crate) fn check_dimensions(a: Placement, b: Placement) -> Result<()> {
 }
 
 /// Two bodies as the target of a search.
+#[inline(always)]
 pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a>> {
     check_dimensions(a, b)?;
     Ok(Target {
@@ -50,6 +58,7 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
 
 /// Whether both bodies are a single primitive, so that no traversal is needed. Two polygons in space are excluded: only the
 /// traversal compares their outlines.
+#[inline(always)]
 pub(super) fn are_singles(a: &Body, b: &Body) -> bool {
     let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
     let are_planar = a.dimension() == 2;
@@ -69,6 +78,25 @@ impl QueryContext {
         self.bodies_distance(a, b, max_distance)
     }
 
+    /// The same, handed to `take`: moving an answer of this size takes as long as measuring two spheres.
+    #[inline(always)]
+    pub fn take_pair_distance<T>(
+        &mut self,
+        a: Placement,
+        b: Placement,
+        max_distance: f64,
+        take: impl FnOnce(&Distance) -> T,
+    ) -> Result<T> {
+        check_threshold(max_distance, "max_distance")?;
+        self.scratch.meter_mut().start_call();
+        let target = target(a, b)?;
+        if are_singles(a.0, b.0) {
+            let distance = self.singles_distance(&target, max_distance)?;
+            return Ok(take(&distance));
+        }
+        Ok(take(&self.searched_distance(&[target], max_distance)?))
+    }
+
     /// The same within a call, with a checked maximum.
     pub(crate) fn bodies_distance(
         &mut self,
@@ -80,14 +108,19 @@ impl QueryContext {
         if are_singles(a.0, b.0) {
             return self.singles_distance(&target, max_distance);
         }
-        let targets = [target];
-        let found = self.nearest(&targets, max_distance)?;
+        self.searched_distance(&[target], max_distance)
+    }
+
+    #[inline(never)]
+    fn searched_distance(&mut self, targets: &[Target], max_distance: f64) -> Result<Distance> {
+        let found = self.nearest(targets, max_distance)?;
         let leaf = |_| Leaf::default();
         let scratch = self.scratch.for_primitives();
         Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
 
     /// The same of bodies of one primitive each, which need no search.
+    #[inline(always)]
     pub(super) fn singles_distance(
         &mut self,
         target: &Target,
@@ -127,6 +160,7 @@ impl QueryContext {
     }
 
     /// Whether the distance of two bodies may be at most `threshold`: doubt within rounding counts as within.
+    #[inline(always)]
     pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         self.scratch.meter_mut().start_call();
@@ -134,6 +168,7 @@ impl QueryContext {
     }
 
     /// The same within a call, with a checked threshold.
+    #[inline(always)]
     pub(crate) fn bodies_within(
         &mut self,
         a: Placement,
@@ -148,6 +183,7 @@ impl QueryContext {
     }
 
     /// The same of bodies of one primitive each, which need no search.
+    #[inline(always)]
     pub(super) fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
         self.count_body_pair()?;
         if pairing.sphere_bound() > threshold {

@@ -65,6 +65,7 @@ impl<'a> Target<'a> {
     }
 
     /// Both bodies in one frame. Made on demand: most targets turn out to be too far.
+    #[inline(always)]
     pub fn pairing(&self) -> Pairing<'a> {
         let [a, b] = self.sides;
         Pairing::new(a.0, a.1, b.0, b.1)

@@ -317,6 +317,7 @@ impl WitnessList {
 
 impl Witness {
     /// A witness without contacts, which are added later.
+    #[inline(always)]
     pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
         let (r_link, r_object, s_side) = target.parties();
         Self {
@@ -341,6 +342,7 @@ impl Witness {
 
 impl ContactRecord {
     /// A contact, with the margin subtracted from its distances.
+    #[inline(always)]
     pub(super) fn new(found: WorldContact, margin: f64) -> Self {
         Self {
             points: found.points,

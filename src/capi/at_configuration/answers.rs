@@ -255,6 +255,7 @@ impl From<&PrimitivePenetration> for cstk_penetration {
 }
 
 impl From<&ContactRecord> for cstk_contact {
+    #[inline(always)]
     fn from(contact: &ContactRecord) -> Self {
         Self {
             r_point: contact.points[0].into(),
@@ -301,6 +302,7 @@ impl cstk_contact {
 }
 
 impl From<&Witness> for cstk_witness {
+    #[inline(always)]
     fn from(witness: &Witness) -> Self {
         let (r_link, s_object, s_link) = match witness.s_side {
             SSide::Object(id) => {
@@ -373,6 +375,7 @@ impl cstk_witness {
 }
 
 impl From<&Distance> for cstk_distance_result {
+    #[inline(always)]
     fn from(distance: &Distance) -> Self {
         Self {
             kind: match distance.kind {
