@@ -2,7 +2,7 @@
 //! It reaches the last digit in a few steps, where GJK alone halves the error in each.
 
 use super::core::Core;
-use super::surface_part::SurfacePart;
+use super::surface_part::{PartSupport, SurfacePart};
 use crate::gjk::{Nearby, Support};
 use crate::pose::Vec3;
 
@@ -75,7 +75,7 @@ impl<'a> NearestParts<'a> {
 
     /// The closest points of two lines, for a direction that satisfies both constraints.
     fn between_lines(&self, direction: &Vec3) -> Option<Nearby> {
-        let [p, q] = self.points(direction);
+        let [p, q] = self.supports(direction).map(|at| at.point);
         let (along_p, half_p) = self.parts[0].line(&-direction)?;
         let (along_q, half_q) = self.parts[1].line(direction)?;
         let across = along_p.cross(&along_q);
@@ -102,7 +102,8 @@ impl<'a> NearestParts<'a> {
         };
         let mut direction = on_circle(guess)?;
         for _ in 0..MAX_STEPS {
-            let (points, places) = self.points_on_line(&direction);
+            let supports = self.supports(&direction);
+            let (points, places) = self.points_on_line(&supports, &direction);
             let (off, apart) = split(&points, &direction);
             if self.is_within_accepted(&off, apart)
                 && let Some(found) = self.accept(&direction, points)
@@ -110,7 +111,7 @@ impl<'a> NearestParts<'a> {
                 return Some(found);
             }
             let tangent = axis.cross(&direction) / radius;
-            let stiffness = tangent.dot(&self.bend(&direction, &tangent, places)) + apart;
+            let stiffness = tangent.dot(&self.bend(&supports, &tangent, places)) + apart;
             let step = tangent * (tangent.dot(&off) / stiffness);
             direction = on_circle(&turned_by(&direction, &step)?)?;
         }
@@ -121,7 +122,8 @@ impl<'a> NearestParts<'a> {
     fn turn_freely(&self, guess: &Vec3) -> Option<Nearby> {
         let mut direction = *guess;
         for _ in 0..MAX_STEPS {
-            let points = self.points(&direction);
+            let supports = self.supports(&direction);
+            let points = [supports[0].point, supports[1].point];
             let (off, apart) = split(&points, &direction);
             if self.is_within_accepted(&off, apart)
                 && let Some(found) = self.accept(&direction, points)
@@ -130,8 +132,8 @@ impl<'a> NearestParts<'a> {
             }
             let (x, y) = perpendicular_to(&direction);
             let (by_x, by_y) = (
-                self.bend(&direction, &x, [0.0; 2]),
-                self.bend(&direction, &y, [0.0; 2]),
+                self.bend(&supports, &x, [0.0; 2]),
+                self.bend(&supports, &y, [0.0; 2]),
             );
             let (xx, xy, yy) = (x.dot(&by_x) + apart, x.dot(&by_y), y.dot(&by_y) + apart);
             let determinant = xx * yy - xy * xy;
@@ -144,15 +146,19 @@ impl<'a> NearestParts<'a> {
     }
 
     /// The support points of both parts towards each other, for a direction from B to A.
-    fn points(&self, direction: &Vec3) -> [Vec3; 2] {
+    fn supports(&self, direction: &Vec3) -> [PartSupport; 2] {
         let [a, b] = &self.parts;
-        [a.point(&-direction), b.point(direction)]
+        [a.support(&-direction), b.support(direction)]
     }
 
     /// The same where one part is a line: its point nearest to the other part, and the places of both points along their lines.
-    fn points_on_line(&self, direction: &Vec3) -> ([Vec3; 2], [f64; 2]) {
+    fn points_on_line(
+        &self,
+        supports: &[PartSupport; 2],
+        direction: &Vec3,
+    ) -> ([Vec3; 2], [f64; 2]) {
         let [a, b] = &self.parts;
-        let [p, q] = self.points(direction);
+        let (p, q) = (supports[0].point, supports[1].point);
         if let Some((along, half)) = a.line(&-direction) {
             let place = along.dot(&(q - p)).clamp(-half, half);
             ([p + along * place, q], [place, 0.0])
@@ -165,9 +171,9 @@ impl<'a> NearestParts<'a> {
     }
 
     /// Minus the derivative of the vector between the points as the direction turns by `by`.
-    fn bend(&self, direction: &Vec3, by: &Vec3, places: [f64; 2]) -> Vec3 {
+    fn bend(&self, [at_a, at_b]: &[PartSupport; 2], by: &Vec3, places: [f64; 2]) -> Vec3 {
         let [a, b] = &self.parts;
-        b.bend(direction, by, places[1]) - a.bend(&-direction, &-by, places[0])
+        b.bend(at_b, by, places[1]) - a.bend(at_a, &-by, places[0])
     }
 
     /// Whether the remaining offset across the direction lengthens the distance by no more than the accepted gap.

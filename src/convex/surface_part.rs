@@ -41,6 +41,16 @@ pub enum SurfacePart {
     },
 }
 
+/// A support point of a part, and what its derivative is computed from.
+pub struct PartSupport {
+    /// Of a line of such points, its middle.
+    pub point: Vec3,
+    /// Of a circle, the unit vector from its centre; of an ellipsoid, the vector from its centre to the point along its axes.
+    outwards: Vec3,
+    /// Of a circle, the length of the direction's component in its plane; of an ellipsoid, its extent along the direction.
+    length: f64,
+}
+
 impl SurfacePart {
     /// The part of a core between the extreme points of these names; `None` for a support function of the caller's.
     pub fn between(core: &Core, names: &[u32]) -> Option<Self> {
@@ -113,12 +123,25 @@ impl SurfacePart {
         })
     }
 
-    /// The support point along a direction: of a line of such points, its middle.
-    pub fn point(&self, direction: &Vec3) -> Vec3 {
+    /// The support point along a direction.
+    pub fn support(&self, direction: &Vec3) -> PartSupport {
+        let at = |point: Vec3| PartSupport {
+            point,
+            outwards: Vec3::zeros(),
+            length: 1.0,
+        };
+        let around = |center: &Vec3, axis: &Vec3, radius: f64| {
+            let (outwards, length) = across(direction, axis);
+            PartSupport {
+                point: center + outwards * radius,
+                outwards,
+                length,
+            }
+        };
         match self {
-            Self::Vertex(point) => *point,
-            Self::Edge { middle, .. } => *middle,
-            Self::Facet([a, ..]) => *a,
+            Self::Vertex(point) => at(*point),
+            Self::Edge { middle, .. } => at(*middle),
+            Self::Facet([a, ..]) => at(*a),
             Self::Rim {
                 center,
                 axis,
@@ -129,13 +152,13 @@ impl SurfacePart {
                 axis,
                 radius,
                 ..
-            } => center + across(direction, axis).0 * *radius,
+            } => around(center, axis, *radius),
             Self::Cone {
                 center,
                 axis,
                 radius,
                 ..
-            } => center + across(direction, axis).0 * (0.5 * radius),
+            } => around(center, axis, 0.5 * radius),
             Self::Ellipsoid {
                 center,
                 axes,
@@ -143,7 +166,13 @@ impl SurfacePart {
             } => {
                 let local = turned_back(axes, direction);
                 let stretched = squares.component_mul(&local);
-                center + turned(axes, &(stretched / local.dot(&stretched).sqrt()))
+                let length = local.dot(&stretched).sqrt();
+                let outwards = stretched / length;
+                PartSupport {
+                    point: center + turned(axes, &outwards),
+                    outwards,
+                    length,
+                }
             }
         }
     }
@@ -182,12 +211,11 @@ impl SurfacePart {
         }
     }
 
-    /// The derivative of the support point as the unit direction turns by `by`; for a line, of the point at `place` along it.
-    pub fn bend(&self, direction: &Vec3, by: &Vec3, place: f64) -> Vec3 {
+    /// The derivative of a support point as the unit direction turns by `by`; for a line, of the point at `place` along it.
+    pub fn bend(&self, at: &PartSupport, by: &Vec3, place: f64) -> Vec3 {
         let around = |axis: &Vec3, radius: f64| {
-            let (outwards, length) = across(direction, axis);
-            let tangent = axis.cross(&outwards);
-            tangent * (radius / length * tangent.dot(by))
+            let tangent = axis.cross(&at.outwards);
+            tangent * (radius / at.length * tangent.dot(by))
         };
         match self {
             Self::Vertex(_) | Self::Edge { .. } | Self::Facet(_) => Vec3::zeros(),
@@ -204,15 +232,9 @@ impl SurfacePart {
                 around(axis, there.max(0.0))
             }
             Self::Ellipsoid { axes, squares, .. } => {
-                let local = turned_back(axes, direction);
-                let stretched = squares.component_mul(&local);
-                let length = local.dot(&stretched).sqrt();
                 let by = turned_back(axes, by);
-                let point = stretched / length;
-                turned(
-                    axes,
-                    &((squares.component_mul(&by) - point * point.dot(&by)) / length),
-                )
+                let along = at.outwards * at.outwards.dot(&by);
+                turned(axes, &((squares.component_mul(&by) - along) / at.length))
             }
         }
     }

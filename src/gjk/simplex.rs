@@ -130,8 +130,8 @@ impl Simplex {
     }
 
     /// The closest point to the origin of a simplex known not to contain it, as a combination of its corners. Of a tetrahedron
-    /// each face is tried. On which side of a face the origin lies does not matter: where the corners are nearly coplanar,
-    /// rounding decides it.
+    /// each face is tried that the origin does not clearly lie behind: where the corners are nearly coplanar, rounding decides on
+    /// which side it is.
     ///
     /// Also returns the foot, whose direction is the triangle's normal and therefore more accurate.
     #[inline(always)]
@@ -148,6 +148,9 @@ impl Simplex {
         let mut least = f64::INFINITY;
         let mut best = None;
         for &[i, j, k] in faces {
+            if self.len == 4 && self.hides_origin([i, j, k]) {
+                continue;
+            }
             let (foot, kept) = self.on_triangle(i, j, k);
             // No combination is nearer to the origin than the foot.
             if foot.norm_squared() > (1.0 + 1e-9) * least {
@@ -164,6 +167,19 @@ impl Simplex {
             Some(best) => self.reduced_to(best),
             None => (self.corners[0], self.corners[0].difference),
         }
+    }
+
+    /// Whether the origin clearly lies behind a face of a tetrahedron, as the fourth corner does.
+    #[inline(always)]
+    fn hides_origin(&self, [i, j, k]: [usize; 3]) -> bool {
+        let a = self.at(i);
+        let normal = (self.at(j) - a).cross(&(self.at(k) - a));
+        let towards = self.at(6 - i - j - k) - a;
+        let (origin, fourth) = (-normal.dot(&a), normal.dot(&towards));
+        let doubt = CLEARLY_BEHIND * normal.norm_squared();
+        origin * fourth > 0.0
+            && origin * origin > doubt * a.norm_squared()
+            && fourth * fourth > doubt * towards.norm_squared()
     }
 
     /// Reduces the simplex to a face, and returns the combined corner and the foot on the face.
@@ -406,6 +422,9 @@ impl Simplex {
 
 /// Each step reduces the error to the rounding of a quotient of volumes, so one suffices except for needles.
 const MAX_WEIGHT_STEPS: usize = 4;
+
+/// The square of the sine of the angle under which a point must be seen over a face, to be clearly on one side of it.
+const CLEARLY_BEHIND: f64 = 1e-12;
 
 /// The one to three corners whose hull holds the closest point.
 struct ClosestFace {
