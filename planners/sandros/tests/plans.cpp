@@ -2,9 +2,7 @@
 // are the same each time, a closed trap has no way out, and a finer resolution finds what a coarser
 // one found:
 //
-//   plans [--all] [PUMA_MESHES]
-//
-// --all halves the resolution of the windows too, which takes half a minute, and of the Puma 560.
+//   plans [PUMA_MESHES]
 #include "../path.hpp"
 #include "../planner.hpp"
 #include "../problems/problems.hpp"
@@ -100,25 +98,18 @@ void bad_ends_are_refused() {
 } // namespace
 
 int main(int count, char **arguments) {
-    bool all = false;
     std::vector<Problem> known = problems::generated();
-    for (int i = 1; i < count; ++i) {
-        if (std::string(arguments[i]) == "--all") {
-            all = true;
-        } else if (std::ifstream(std::string(arguments[i]) + "/link6.stl")) {
-            known.push_back(problems::puma560(arguments[i]));
-        } else {
-            std::printf("SKIPPED: the Puma 560, whose meshes are not there\n");
-        }
+    if (count > 1 && std::ifstream(std::string(arguments[1]) + "/link6.stl")) {
+        known.push_back(problems::puma560(arguments[1]));
+    } else {
+        std::printf("SKIPPED: the Puma 560, whose meshes are not there\n");
     }
     for (const Problem &problem : known) {
         if (problem.name == "bug_trap") {
             continue;
         }
         paths_are_proved_and_the_same_each_time(problem);
-        if (all || (problem.name != "windows" && problem.name != "puma560")) {
-            halving_loses_no_solution(problem);
-        }
+        halving_loses_no_solution(problem);
     }
     a_closed_trap_has_no_way_out();
     bad_ends_are_refused();
