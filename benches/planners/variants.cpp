@@ -107,7 +107,7 @@ std::vector<Variant> variants() {
     return {{"RRT-Connect", "cstk proved", by_ours},
             {"OMPL RRTConnect", "cstk proved", by_ompl_proved},
             {"OMPL RRTConnect", "cstk sampled", by_ompl_sampled},
-            {"OMPL RRTConnect, simplified", "FCL sampled", [](const Task &task) { return by_ompl_fcl(task, true); }},
+            {"OMPL RRTConnect simplified", "FCL sampled", [](const Task &task) { return by_ompl_fcl(task, true); }},
             {"OMPL RRTConnect", "FCL sampled", [](const Task &task) { return by_ompl_fcl(task, false); }}};
 }
 
