@@ -24,12 +24,12 @@ render() {
     tiles+=(-label "$4" "demo/sandros/$1_$moment.png")
   done
 }
-render puma560 2.5,-2.0,2.1 0.35,0.1,0.55 "Puma 560 in its workcell" "0 1 2 3"
-render windows -3.5,-8,5 0.3,0,0 "L through windows" "0 1 2 3"
+render puma560 2.95,-2.45,2.45 0.4,0.1,0.5 "Puma 560 in its workcell" "0 1 2 3"
+render windows -2.4,-8.3,2.4 0,0,0 "L through windows" "0 1 2 3"
 render two_arms 0.9,-1.9,1.9 0,0,0.15 "two arms change sides" "0 1 2 3"
-render two_carts 0,-2.5,6 0,0.3,0 "two carts change places" "0 1 2 3"
-render bug_trap_open 0.3,-3,5 0.3,0,0 "bug trap, open" "0 2 3"
-render bug_trap 0.3,-3,5 0.3,0,0 "bug trap, closed: no path" "0"
+render two_carts 0,-1.3,6.6 0,0.5,0 "two carts change places" "0 1 2 3"
+render bug_trap_open 0.3,-2,4.8 0.3,-0.1,0 "bug trap, open" "0 2 3"
+render bug_trap 0.3,-2,4.8 0.3,-0.1,0 "bug trap, closed: no path" "0"
 montage -font /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "${tiles[@]}" -tile 4x -geometry 400x300+4+4 -pointsize 16 \
   +dither -colors 96 demo/sandros.png
 echo "picture: $PWD/demo/sandros.png"

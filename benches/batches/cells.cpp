@@ -50,7 +50,7 @@ std::vector<Cell> cells(const std::string &puma, const std::string &panda, std::
     if (!panda.empty()) {
         const problems::Panda source(panda);
         const auto workcell = source.problems(source.scenes().front(), 1).front().workcell;
-        add("Panda", workcell->robot, workcell->space, workcell->pairs);
+        add("Panda", workcell->robots.front(), workcell->space, workcell->pairs);
     }
     return made;
 }

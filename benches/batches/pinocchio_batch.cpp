@@ -53,7 +53,7 @@ struct JointValue {
 
 struct PinocchioCell {
     explicit PinocchioCell(const problems::Workcell &workcell) {
-        add_links(workcell.robot);
+        add_links(workcell.robots.front());
         const std::size_t links = geometry.ngeoms;
         for (const problems::Obstacle &obstacle : workcell.obstacles) {
             add_obstacle(obstacle);

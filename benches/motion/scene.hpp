@@ -38,6 +38,7 @@ class Scene : public problems::Workcell {
     }
 
     const std::string name;
+    const cstk::Robot robot;
     /// So many motions are drawn at most for a row of each kind.
     const std::size_t tries;
 

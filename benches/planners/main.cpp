@@ -1,19 +1,21 @@
-// RRT-Connect over this library, and OMPL's RRTConnect over this library and over FCL, on the same problems with the same seeds:
+// SANDROS and RRT-Connect over this library, and OMPL's RRTConnect over this library and over FCL, on the same problems with the same
+// seeds:
 //
 //     planners [--panda FOLDER] [--puma FOLDER] [--csv FILE] [--quick] [--seed N] [--only TEXT] [--samples N]
 //
 // The folders are those of scripts/fetch_motion_bench_maker.sh and scripts/fetch_puma560.sh; a scene without one is left out and
-// named. --quick takes fewer problems and runs, --only the scenes whose names hold a text. Each path is judged by FCL at so many places
+// named. --quick takes fewer problems and runs, --only the scenes whose names hold a text: --only sandros those of SANDROS. Each path is judged by FCL at so many places
 // of each segment, 10^4, or 10^3 with --quick: that takes most of the time. A planner that finds no path ends after 20 seconds.
 #include "built_in.hpp"
 #include "dense.hpp"
 #include "fcl_cell.hpp"
 #include "motion_bench_maker.hpp"
-#include "variants.hpp"
+#include "results.hpp"
+#include "sandros_problems.hpp"
+#include "shorten.hpp"
 
 #include <ompl/util/Console.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -70,115 +72,92 @@ Arguments read(int count, char **given) {
     return arguments;
 }
 
-struct Result {
-    bool solved, invalid;
-    double milliseconds;
-    std::size_t checks;
-};
-
-/// The results of all runs of a variant.
-struct Results {
-    std::vector<Result> runs;
-
-    double milliseconds(std::size_t percent) const {
-        std::vector<double> times;
-        for (const Result &run : runs) {
-            times.push_back(run.milliseconds);
-        }
-        std::sort(times.begin(), times.end());
-        return times[std::min(times.size() - 1, times.size() * percent / 100)];
-    }
-
-    double mean_checks() const {
-        double sum = 0;
-        for (const Result &run : runs) {
-            sum += static_cast<double>(run.checks);
-        }
-        return sum / static_cast<double>(runs.size());
-    }
-
-    long count(bool Result::*member) const {
-        return std::count_if(runs.begin(), runs.end(), [&](const Result &run) { return run.*member; });
-    }
-};
-
-using ByVariant = std::vector<Results>;
-
-void print(const std::string &scene, const ByVariant &results) {
-    const std::vector<Variant> names = variants();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const Results &of = results[i];
-        std::printf("| %s | %s | %s | %zu | %ld | %.2f | %.2f | %.2f | %.0f | %ld |\n", scene.c_str(), names[i].planner.c_str(),
-                    names[i].library.c_str(), of.runs.size(), of.count(&Result::solved), of.milliseconds(50),
-                    of.milliseconds(95), results.back().milliseconds(50) / of.milliseconds(50), of.mean_checks(),
-                    of.count(&Result::invalid));
-    }
-    std::fflush(stdout);
-}
-
 class Bench {
   public:
-    explicit Bench(const Arguments &arguments) : arguments_(arguments), variants_(variants()), csv_(arguments.csv) {
+    explicit Bench(const Arguments &arguments) : arguments_(arguments), csv_(arguments.csv) {
         csv_ << "problem,planner,library,milliseconds,checks,invalid\n";
     }
 
-    /// Each problem with so many seeds, by all variants in turn.
-    ByVariant measure(const std::vector<Problem> &scene, std::size_t runs) {
+    /// Each problem with so many seeds, by all variants in turn. Of a tenth of the seeds, where a variant takes none.
+    std::vector<Results> measure(const std::vector<Problem> &scene, std::size_t runs, const std::vector<Variant> &variants) {
         const std::string way = FclCell::fastest_way(*scene.front().workcell);
-        ByVariant results(variants_.size());
+        std::vector<Results> results(variants.size());
         // Each problem has seeds of its own.
         std::uint64_t seed = arguments_.seed;
         for (const Problem &problem : scene) {
             const FclCell judge(*problem.workcell, FclCell::exact_way());
             for (std::size_t k = 0; k < runs; ++k, ++seed) {
-                for (std::size_t i = 0; i < variants_.size(); ++i) {
-                    const Run run = variants_[i].solve({problem, seed, way});
-                    results[i].runs.push_back(judged(problem, variants_[i], run, judge));
+                for (std::size_t i = 0; i < variants.size(); ++i) {
+                    if (variants[i].has_seeds || k % 10 == 0) {
+                        results[i].add(judged(problem, variants[i], variants[i].solve({problem, seed, way}), judge));
+                    }
                 }
             }
         }
-        print(scene.front().scene, results);
+        print(scene.front().scene, variants, results);
         return results;
+    }
+
+    static void print(const std::string &scene, const std::vector<Variant> &variants, const std::vector<Results> &results) {
+        for (std::size_t i = 0; i < variants.size(); ++i) {
+            results[i].print(scene, variants[i], results.back());
+        }
     }
 
   private:
     Result judged(const Problem &problem, const Variant &variant, const Run &run, const FclCell &judge) {
+        const cstk::Space &space = problem.workcell->space;
         const auto is_free = [&](const problems::Configuration &q) { return !judge.meets(q); };
-        const bool invalid = !everywhere(problem.workcell->space, run.path, arguments_.sample_count(), is_free);
+        const bool invalid = !everywhere(space, run.path, arguments_.sample_count(), is_free);
         csv_ << problem.scene << ' ' << problem.name << ',' << variant.planner << ',' << variant.library << ','
              << run.milliseconds << ',' << run.checks << ',' << (run.path.empty() ? "" : invalid ? "1" : "0") << '\n';
-        return {!run.path.empty(), invalid, run.milliseconds, run.checks};
+        const std::size_t motions = run.path.empty() ? 0 : run.path.size() - 1;
+        return {run.milliseconds, run.checks, run.answer, invalid, motions, rrt_connect::length(space, run.path)};
     }
 
     const Arguments &arguments_;
-    std::vector<Variant> variants_;
     std::ofstream csv_;
 };
 
+void measure_sandros(const Arguments &arguments, Bench &bench) {
+    for (const SandrosProblem &each : sandros_problems(arguments.puma)) {
+        if (arguments.takes(each.problem.scene)) {
+            std::vector<Variant> all = variants();
+            all.insert(all.begin(), each.sandros);
+            // Where there is no path most planners search until their time is over.
+            bench.measure({each.problem}, each.has_path ? arguments.run_count() : 1, all);
+        }
+    }
+}
+
+void measure_panda(const Arguments &arguments, Bench &bench) {
+    const problems::Panda panda(arguments.panda);
+    std::vector<Results> all(variants().size());
+    for (const std::string &scene : panda.scenes()) {
+        if (!arguments.takes(scene)) {
+            continue;
+        }
+        const std::vector<Results> results = bench.measure(panda.problems(scene, arguments.problem_count()), 1, variants());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i].add(results[i]);
+        }
+    }
+    if (arguments.only.empty()) {
+        Bench::print("all of the Panda", variants(), all);
+    }
+}
+
 void measure_all(const Arguments &arguments) {
     Bench bench(arguments);
-    std::printf("| scene | planner | edges | runs | solved | median ms | 95 %% ms | times faster | checks | invalid |\n"
-                "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    Results::print_head();
+    measure_sandros(arguments, bench);
     for (const Problem &problem : problems::built_in(arguments.puma)) {
         if (arguments.takes(problem.scene)) {
-            bench.measure({problem}, arguments.run_count());
+            bench.measure({problem}, arguments.run_count(), variants());
         }
     }
     if (!arguments.panda.empty()) {
-        const problems::Panda panda(arguments.panda);
-        ByVariant all(variants().size());
-        for (const std::string &scene : panda.scenes()) {
-            if (!arguments.takes(scene)) {
-                continue;
-            }
-            const ByVariant results = bench.measure(panda.problems(scene, arguments.problem_count()), 1);
-            for (std::size_t i = 0; i < all.size(); ++i) {
-                all[i].runs.insert(all[i].runs.end(), results[i].runs.begin(), results[i].runs.end());
-            }
-        }
-        if (arguments.only.empty()) {
-            print("all of the Panda", all);
-        }
+        measure_panda(arguments, bench);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "planning.hpp"
 #include "rrt_connect.hpp"
 
+#include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
 #include <ctime>
@@ -33,17 +34,14 @@ class FclChecker : public ob::StateValidityChecker {
     FclCell cell_;
 };
 
-/// Of this thread's processor time, which other programs do not lengthen.
-double processor_milliseconds() {
+double clock_milliseconds() {
     timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-template <class Work> double milliseconds(Work work) {
-    const double start = processor_milliseconds();
-    work();
-    return processor_milliseconds() - start;
+Run run_of(const std::vector<problems::Configuration> &path, double time, std::size_t checks) {
+    return {path.empty() ? Answer::gave_up : Answer::path, path, time, checks};
 }
 
 Run by_ours(const Task &task) {
@@ -53,23 +51,29 @@ Run by_ours(const Task &task) {
     options.range = task.problem.range;
     options.seed = task.seed;
     rrt_connect::Plan plan;
-    const double time = milliseconds([&] {
+    const double time = processor_milliseconds([&] {
         plan = rrt_connect::plan(query, cell.space, cell.contact, task.problem.start, task.problem.goal, options);
     });
-    return {plan.path, time, plan.checks};
+    return run_of(plan.path, time, plan.checks);
 }
 
-Run by_ompl(ompl::geometric::SimpleSetup &setup, const Task &task) {
+/// Of a path that is found OMPL may cut corners, as SimpleSetup does by default.
+Run by_ompl(ompl::geometric::SimpleSetup &setup, const Task &task, bool simplifies = false) {
     setup.getStateSpace()->as<cstk_ompl::StateSpace>()->set_seed(task.seed);
     const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup.getSpaceInformation());
     planner->setRange(task.problem.range);
     setup.setPlanner(planner);
     setup.setup();
     bool solved = false;
-    const double time = milliseconds([&] { solved = setup.solve(time_limit) == ob::PlannerStatus::EXACT_SOLUTION; });
+    const double time = processor_milliseconds([&] {
+        solved = setup.solve(time_limit) == ob::PlannerStatus::EXACT_SOLUTION;
+        if (solved && simplifies) {
+            setup.simplifySolution();
+        }
+    });
     const ob::MotionValidatorPtr &motions = setup.getSpaceInformation()->getMotionValidator();
     const std::size_t checks = motions->getValidMotionCount() + motions->getInvalidMotionCount();
-    return {solved ? configurations(setup.getSolutionPath()) : std::vector<problems::Configuration>(), time, checks};
+    return run_of(solved ? configurations(setup.getSolutionPath()) : std::vector<problems::Configuration>(), time, checks);
 }
 
 Run by_ompl_proved(const Task &task) {
@@ -89,12 +93,12 @@ Run by_ompl_sampled(const Task &task) {
     return by_ompl(*setup, task);
 }
 
-Run by_ompl_fcl(const Task &task) {
+Run by_ompl_fcl(const Task &task, bool simplifies) {
     const auto setup = proved_setup(task.problem);
     set_sampled(*setup);
     setup->setStateValidityChecker(
         std::make_shared<FclChecker>(setup->getSpaceInformation(), *task.problem.workcell, task.fcl_way));
-    return by_ompl(*setup, task);
+    return by_ompl(*setup, task, simplifies);
 }
 
 } // namespace
@@ -103,5 +107,12 @@ std::vector<Variant> variants() {
     return {{"RRT-Connect", "cstk proved", by_ours},
             {"OMPL RRTConnect", "cstk proved", by_ompl_proved},
             {"OMPL RRTConnect", "cstk sampled", by_ompl_sampled},
-            {"OMPL RRTConnect", "FCL sampled", by_ompl_fcl}};
+            {"OMPL RRTConnect simplified", "FCL sampled", [](const Task &task) { return by_ompl_fcl(task, true); }},
+            {"OMPL RRTConnect", "FCL sampled", [](const Task &task) { return by_ompl_fcl(task, false); }}};
+}
+
+double processor_milliseconds(const std::function<void()> &work) {
+    const double start = clock_milliseconds();
+    work();
+    return clock_milliseconds() - start;
 }

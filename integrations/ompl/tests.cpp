@@ -121,7 +121,7 @@ void a_projection_is_where_the_link_is(const Problem &problem) {
     Eigen::VectorXd found(3);
     projection.project(state, found);
     space.freeState(state);
-    const cstk::Pose pose = problem.workcell->robot.link_pose(problem.goal, last);
+    const cstk::Pose pose = problem.workcell->robots.front().link_pose(problem.goal, last);
     expect(found[0] == pose[3] && found[1] == pose[7] && found[2] == pose[11], "the projection of " + problem.scene);
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -14,9 +15,15 @@ const std::size_t trials = 1000;
 
 PeerScene scene_of(const problems::Workcell &workcell) {
     PeerScene scene;
-    for (std::uint32_t link = 0; link < workcell.robot.link_count(); ++link) {
-        const bool has_body = workcell.robot.link_info(link).has_body;
-        scene.links.push_back(has_body ? surface_of(workcell.robot.body(link)) : Surface());
+    std::set<std::uint32_t> asked(workcell.moving.begin(), workcell.moving.end());
+    for (const problems::LinkPair &pair : workcell.pairs) {
+        asked.insert(pair.begin(), pair.end());
+    }
+    for (const cstk::Robot &robot : workcell.robots) {
+        for (std::uint32_t link = 0; link < robot.link_count(); ++link) {
+            const bool is_asked = asked.count(static_cast<std::uint32_t>(scene.links.size())) != 0;
+            scene.links.push_back(is_asked ? surface_of(robot.body(link)) : Surface());
+        }
     }
     for (const problems::Obstacle &obstacle : workcell.obstacles) {
         if (obstacle.cylinder) {

@@ -17,16 +17,6 @@ bool moves(const cstk::Robot &robot, std::uint32_t link) {
     return false;
 }
 
-std::vector<std::uint32_t> moving_links(const cstk::Robot &robot) {
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t link = 0; link < robot.link_count(); ++link) {
-        if (robot.link_info(link).has_body && moves(robot, link)) {
-            found.push_back(link);
-        }
-    }
-    return found;
-}
-
 cstk::Environment environment_of(const std::vector<Obstacle> &obstacles) {
     cstk::Environment made;
     for (const Obstacle &obstacle : obstacles) {
@@ -46,6 +36,16 @@ cstk::CObject contact_of(const cstk::Space &space, const cstk::Environment &envi
 
 } // namespace
 
+std::vector<std::uint32_t> moving_links(const cstk::Robot &robot) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t link = 0; link < robot.link_count(); ++link) {
+        if (robot.link_info(link).has_body && moves(robot, link)) {
+            found.push_back(link);
+        }
+    }
+    return found;
+}
+
 Obstacle box(const cstk::Pose &pose, const std::array<double, 3> &half_extents) {
     return {cstk::BodyBuilder().add_box(cstk::identity(), half_extents).build(), pose, half_extents, {}};
 }
@@ -57,8 +57,12 @@ Obstacle cylinder(const cstk::Pose &pose, double radius, double half_length) {
 
 Workcell::Workcell(const cstk::Robot &robot, const cstk::Space &space, std::vector<Obstacle> obstacles,
                    std::vector<LinkPair> pairs)
-    : robot(robot), space(space), obstacles(std::move(obstacles)), pairs(std::move(pairs)), moving(moving_links(robot)),
+    : Workcell(std::vector<cstk::Robot>{robot}, space, std::move(obstacles), moving_links(robot), std::move(pairs)) {}
+
+Workcell::Workcell(std::vector<cstk::Robot> robots, const cstk::Space &space, std::vector<Obstacle> obstacles,
+                   std::vector<std::uint32_t> moving, std::vector<LinkPair> pairs)
+    : robots(std::move(robots)), space(space), obstacles(std::move(obstacles)), moving(std::move(moving)), pairs(std::move(pairs)),
       environment(environment_of(this->obstacles)),
-      contact(contact_of(space, environment, moving, this->pairs)) {}
+      contact(contact_of(space, environment, this->moving, this->pairs)) {}
 
 } // namespace problems

@@ -30,19 +30,25 @@ struct Obstacle {
 Obstacle box(const cstk::Pose &pose, const std::array<double, 3> &half_extents);
 Obstacle cylinder(const cstk::Pose &pose, double radius, double half_length);
 
-/// A robot among obstacles. All links that move are tested against the obstacles, the pairs against each other.
+/// The links that have a body and that a joint moves.
+std::vector<std::uint32_t> moving_links(const cstk::Robot &robot);
+
+/// Robots among obstacles. Links have the numbers of the space. Those of `moving` are tested against the obstacles, the pairs against
+/// each other.
 struct Workcell {
+    Workcell(std::vector<cstk::Robot> robots, const cstk::Space &space, std::vector<Obstacle> obstacles,
+             std::vector<std::uint32_t> moving, std::vector<LinkPair> pairs);
+    /// Of one robot all links that move.
     Workcell(const cstk::Robot &robot, const cstk::Space &space, std::vector<Obstacle> obstacles,
              std::vector<LinkPair> pairs);
 
-    cstk::Robot robot;
+    std::vector<cstk::Robot> robots;
     cstk::Space space;
     std::vector<Obstacle> obstacles;
-    std::vector<LinkPair> pairs;
-    /// The links that have a body and that a joint moves.
     std::vector<std::uint32_t> moving;
+    std::vector<LinkPair> pairs;
     cstk::Environment environment;
-    /// Where the robot meets an obstacle or itself.
+    /// Where a robot meets an obstacle, itself or another.
     cstk::CObject contact;
 };
 

@@ -16,7 +16,7 @@ void draw_path(const problems::Workcell &workcell, const std::vector<problems::C
         for (; away <= edge; away += step) {
             const std::vector<cstk::Pose> poses = space.link_poses(space.interpolate(path[i], path[i + 1], away / edge));
             for (const std::uint32_t link : workcell.moving) {
-                environment.add(workcell.robot.body(link), poses[link]);
+                environment.add(workcell.robots.front().body(link), poses[link]);
             }
         }
         away -= edge;

@@ -28,8 +28,8 @@ class Grid {
     Configuration low(const Cells &cells, const Configuration &rest) const;
     Configuration high(const Cells &cells, const Configuration &rest) const;
 
-    /// Those of the box well within the set, a quarter of a cell from its faces; coordinates that are
-    /// free may have any value.
+    /// The least and the greatest of a box within the set, a quarter of a cell from its faces: free
+    /// coordinates reach from -infinity to infinity.
     Configuration inner_low(const Cells &cells) const;
     Configuration inner_high(const Cells &cells) const;
 
@@ -40,7 +40,7 @@ class Grid {
         bool circle;
     };
 
-    /// The places, in parts of a cell, within the cells; what is free has the value of `rest`.
+    /// The configuration that is so far along each cell: at part 0 its least, at 1 its greatest.
     Configuration within(const Cells &cells, double part, const Configuration &rest) const;
 
     std::vector<CutAxis> axes_;

@@ -34,7 +34,7 @@ std::optional<Path> LocalPlanner::reach(const Configuration &from, const Configu
         return std::nullopt;
     }
     Path path = path_of(led.path);
-    /* Where it was there already it stays. */
+    /* The path begins with `from`; with one point `from` is in the box already. */
     if (path.size() > 1) {
         path.erase(path.begin());
     }

@@ -9,6 +9,25 @@ namespace {
 /// Shortcuts that are tried on a path.
 const std::uint64_t SHORTCUTS = 300;
 
+/// The path without the corners whose neighbours are joined by a straight motion that is proved
+/// free. Each shortcut puts its two ends on the path: most of them are of no more use in the end.
+Path without_corners(Path path, const cstk::CObject &obstacles, const cstk::Query &query) {
+    cstk_motion_options options = cstk::motion_options();
+    options.any_contact = 1;
+    for (std::size_t before = 0; before != path.size();) {
+        before = path.size();
+        for (std::size_t i = 1; i + 1 < path.size();) {
+            if (query.motion(obstacles, path[i - 1], path[i + 1], options).outcome ==
+                CSTK_MOTION_FREE) {
+                path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
+            } else {
+                ++i;
+            }
+        }
+    }
+    return path;
+}
+
 } // namespace
 
 std::vector<double> flat(const Path &path) {
@@ -45,9 +64,10 @@ double length(const Problem &problem, const Path &path) {
 
 Path shortened(const Problem &problem, const Path &path) {
     const cstk::Query query;
-    const cstk_shortcut_result found = query.path_shortcut(
-        obstacles_of(problem), flat(path), path.size(), cstk::shortcut_options(SHORTCUTS));
-    return path_of(found.path);
+    const cstk::CObject obstacles = obstacles_of(problem);
+    const cstk_shortcut_result found = query.path_shortcut(obstacles, flat(path), path.size(),
+                                                           cstk::shortcut_options(SHORTCUTS));
+    return without_corners(path_of(found.path), obstacles, query);
 }
 
 } // namespace sandros

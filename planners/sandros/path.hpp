@@ -18,8 +18,8 @@ bool is_free(const Problem &problem, const Path &path);
 /// The sum of the distances between neighbours.
 double length(const Problem &problem, const Path &path);
 
-/// The path with shortcuts, straight motions that are proved free; the path itself where that
-/// cannot be proved of the whole.
+/// A shorter path with fewer motions: shortcuts, and corners left out, by straight motions that are
+/// proved free. What is not replaced is as free as it was.
 Path shortened(const Problem &problem, const Path &path);
 
 } // namespace sandros

@@ -15,6 +15,7 @@ const double SHELLS_OF_ROOM = 2;
 /// A configuration that is joined with the start or the goal.
 struct Reached {
     Configuration q;
+    /// What it was reached from, NONE at the start and the goal.
     std::size_t from;
     /// The configurations between that one and this, this one last.
     Path way;
@@ -26,9 +27,9 @@ Side other(Side side) { return side == START ? GOAL : START; }
 class Search {
   public:
     Search(const Problem &problem, const Grid &grid, const cstk::Query &query)
-        : grid_(grid), sets_(obstacles_of_first_axes(problem)),
-          local_(problem, sets_.back(), query),
-          graph_(grid, sets_, SHELLS_OF_ROOM * problem.slide.shell, query) {
+        : grid_(grid), obstacles_(obstacles_of_first_axes(problem)),
+          local_(problem, obstacles_.back(), query),
+          graph_(grid, obstacles_, SHELLS_OF_ROOM * problem.slide.shell, query) {
         ends_[START] = add({problem.start, NONE, {problem.start}}, START);
         ends_[GOAL] = add({problem.goal, NONE, {problem.goal}}, GOAL);
     }
@@ -49,12 +50,16 @@ class Search {
     Path way_to(std::size_t reached) const;
 
     const Grid &grid_;
-    const std::vector<cstk::CObject> sets_;
+    /// By number of axes: those that the links meet that so many axes place.
+    const std::vector<cstk::CObject> obstacles_;
     LocalPlanner local_;
     SubgoalGraph graph_;
     std::vector<Reached> reached_;
+    /// By side: the start, the goal.
     std::size_t ends_[2];
+    /// The end that went last.
     Side turn_ = START;
+    /// Empty until it is found.
     Path path_;
     std::size_t attempts_ = 0, refinements_ = 0;
 };
@@ -91,7 +96,8 @@ void Search::follow(const std::vector<SubgoalId> &sequence) {
     }
     turn_ = other(turn_);
     const std::size_t last = sequence.size() - 1;
-    /* A torn subgoal was reached from both sides: only the other end can get on. */
+    /* A torn subgoal was reached from the goal too, and going there again gains nothing: then the
+       start's end has its turn. */
     const Side side =
         turn_ == GOAL && graph_[sequence[last - 1]].reached[GOAL] != NONE ? START : turn_;
     const SubgoalId from = side == START ? sequence[0] : sequence[last];
@@ -147,7 +153,7 @@ void Search::refine_one_of(SubgoalId a, SubgoalId b) {
 
 void Search::refine(SubgoalId id) {
     ++refinements_;
-    std::vector<const Configuration *> reached(2);
+    std::array<const Configuration *, 2> reached;
     for (const Side side : {START, GOAL}) {
         const std::size_t at = graph_[id].reached[side];
         reached[side] = at == NONE ? nullptr : &reached_[at].q;

@@ -50,7 +50,7 @@ bool SubgoalGraph::has_failed(SubgoalId a, SubgoalId b) const {
     return find_neighbour(subgoals_[a].neighbours, b)->failed;
 }
 
-void SubgoalGraph::refine(SubgoalId id, const std::vector<const Configuration *> &reached) {
+void SubgoalGraph::refine(SubgoalId id, const std::array<const Configuration *, 2> &reached) {
     const std::size_t axis = subgoals_[id].cells.size();
     std::vector<SubgoalId> children;
     for (std::size_t cell = 0; cell < grid_.cell_count(axis); ++cell) {

@@ -67,9 +67,9 @@ class SubgoalGraph {
 
     bool can_refine(SubgoalId id) const { return subgoals_[id].cells.size() < grid_.axis_count(); }
 
-    /// Cuts a subgoal along its next axis. `reached` are the configurations that the numbers stand
-    /// for.
-    void refine(SubgoalId id, const std::vector<const Configuration *> &reached);
+    /// Cuts a subgoal along its next axis. What was reached in it is then reached in the child that
+    /// holds it: `reached` has these configurations by side, nullptr where there is none.
+    void refine(SubgoalId id, const std::array<const Configuration *, 2> &reached);
 
     /// The cheapest sequence of neighbours from a subgoal reached from the start to one reached
     /// from the goal; none if there is none. What failed costs more where one of the two can be
@@ -86,6 +86,7 @@ class SubgoalGraph {
     const std::vector<cstk::CObject> obstacles_;
     const double clearance_;
     const cstk::Query query_;
+    /// For the coordinates that a subgoal leaves free: the links asked about do not depend on them.
     const Configuration rest_;
     std::vector<Subgoal> subgoals_;
     GraphWork work_;

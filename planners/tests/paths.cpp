@@ -69,7 +69,7 @@ void what_cannot_be_reached_gets_no_path() {
     // Without windows.
     std::vector<problems::Obstacle> obstacles = cell.obstacles;
     obstacles.push_back(problems::box(cstk::translation(0.5, 0, 0), {0.02, 1.5, 1.5}));
-    const problems::Workcell closed(cell.robot, cell.space, obstacles, {});
+    const problems::Workcell closed(cell.robots.front(), cell.space, obstacles, {});
     expect(rrt_connect::plan(query, closed.space, closed.contact, problem.start, problem.goal, options).path.empty(),
            "a goal behind a closed wall gets no path");
 }
