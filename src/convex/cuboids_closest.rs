@@ -332,7 +332,9 @@ mod tests {
                     let from_b = b.corners().map(|p| direction.dot(&p));
                     let gap = from_a.fold(f64::INFINITY, f64::min)
                         - from_b.fold(f64::NEG_INFINITY, f64::max);
-                    assert!((gap - found.distance).abs() < 1e-13, "{gap} {found:?}");
+                    // The direction is off by the points' rounding over their distance.
+                    let rounding = 1e-14 + 4e-15 / found.distance;
+                    assert!((gap - found.distance).abs() < rounding, "{gap} {found:?}");
                 } else if overlaps < 300 {
                     overlaps += 1;
                     assert_eq!(on_a, on_b);
