@@ -4,8 +4,9 @@
 //     planners [--panda FOLDER] [--puma FOLDER] [--csv FILE] [--quick] [--seed N] [--only TEXT] [--samples N]
 //
 // The folders are those of scripts/fetch_motion_bench_maker.sh and scripts/fetch_puma560.sh; a scene without one is left out and
-// named. --quick takes fewer problems and runs, --only the scenes whose names hold a text: --only sandros those of SANDROS. Each path is judged by FCL at so many places
-// of each segment, 10^4, or 10^3 with --quick: that takes most of the time. A planner that finds no path ends after 20 seconds.
+// named. --quick takes fewer problems and runs, --only the scenes whose names hold a text: --only sandros those of SANDROS. Each path
+// is judged by FCL at so many places of each segment, 10^4, or 10^3 with --quick: that takes most of the time. An OMPL planner that
+// finds no path ends after 20 seconds.
 #include "built_in.hpp"
 #include "dense.hpp"
 #include "fcl_cell.hpp"
