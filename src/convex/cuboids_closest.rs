@@ -353,7 +353,7 @@ mod tests {
             }
         }
         assert!(
-            apart > 3000 && overlaps == 300,
+            apart > 1000 && overlaps == 300,
             "{apart} {overlaps} of {all}"
         );
     }
