@@ -139,26 +139,31 @@ impl Octree {
         whole_body(&self.cells, self.resolution, options, progress)
     }
 
-    /// Places the octree in an environment, where it follows all further changes, or moves it there if it is in it. It can be
-    /// in one environment only. Data are those of its objects; where it is moved, they stay as they are.
+    /// Places the octree in an environment, where it follows all further changes. It can be in one environment only. Data are
+    /// those of its objects.
     pub fn place(
         &mut self,
         environment: &Arc<Environment>,
         pose: &Pose,
         data: Option<UserData>,
     ) -> Result<()> {
+        if self.placement.is_some() {
+            return Err(Error::invalid(
+                "the octree is in an environment; remove it there first",
+            ));
+        }
+        let placed = Placement::new(environment, pose, data, &self.cells, self.resolution)?;
+        self.placement = Some(placed);
+        Ok(())
+    }
+
+    /// Moves the octree within its environment.
+    pub fn move_to(&mut self, pose: &Pose) -> Result<()> {
         match &mut self.placement {
-            None => {
-                let placed = Placement::new(environment, pose, data, &self.cells, self.resolution)?;
-                self.placement = Some(placed);
-                Ok(())
-            }
-            Some(placement) if placement.is_in(environment) => {
-                placement.move_to(pose, self.resolution)
-            }
-            Some(_) => Err(Error::new(
-                ErrorKind::Unsupported,
-                "the octree is in another environment; remove it there first",
+            Some(placement) => placement.move_to(pose, self.resolution),
+            None => Err(Error::new(
+                ErrorKind::NotFound,
+                "the octree is in no environment",
             )),
         }
     }

@@ -39,11 +39,6 @@ impl Placement {
         Ok(placement)
     }
 
-    /// Whether it is in this environment.
-    pub fn is_in(&self, environment: &Environment) -> bool {
-        self.environment.serial() == environment.serial()
-    }
-
     /// The number of objects.
     pub fn object_count(&self) -> usize {
         self.tiles.len()

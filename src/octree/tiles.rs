@@ -9,8 +9,8 @@ use crate::body::Body;
 use crate::error::Result;
 
 /// A tile has 4 cells along an edge, or it is a larger cube of occupied cells. Larger tiles make fewer objects for queries to
-/// find, but a change of a cell builds the body of its tile anew: with 8 cells along an edge that took 3 times as long
-/// (`cargo test --release --test queries octree_costs -- --ignored --nocapture`).
+/// find, but a change of a cell builds the body of its tile anew. Measured by
+/// `cargo test --release --test queries octree_costs -- --ignored --nocapture`.
 pub const TILE_LEVEL: u32 = 2;
 
 /// A tile and its object.

@@ -195,7 +195,7 @@ fn queries_see_each_change_as_brute_force_does() {
         for step in 0..40 {
             if step == 25 {
                 pose = random.pose(2.0);
-                octree.place(&world, &pose, None).unwrap();
+                octree.move_to(&pose).unwrap();
             }
             random_change(&mut random, &mut octree, &mut model, 10);
             for _ in 0..6 {
@@ -223,8 +223,8 @@ fn queries_see_each_change_as_brute_force_does() {
                     assert_eq!(class, expected);
                 }
                 let list = ball.query.witnesses(&set, at, 0.2, 10_000).unwrap();
-                for witness in &list.witnesses {
-                    let on_cells = pose.inverse().transform_point(&witness.points[1]);
+                for contact in &list.contacts {
+                    let on_cells = pose.inverse().transform_point(&contact.points[1]);
                     assert!(from_cells(&model, resolution, &on_cells) < 1e-12);
                 }
                 assert_eq!(!list.witnesses.is_empty(), expected <= 0.2);
@@ -321,11 +321,13 @@ fn snapshots_stay_and_refused_changes_change_nothing() {
     let kept = Arc::new(world.freeze());
     octree.set(&[Vec3::new(5.5, 0.5, 0.5)], true).unwrap();
     assert_eq!((kept.snapshot().len(), world.snapshot().len()), (1, 2));
-    let error = octree.place(&kept, &Pose::identity(), None).unwrap_err();
-    assert_eq!(error.kind, ErrorKind::Unsupported);
+    let error = octree.place(&world, &Pose::identity(), None).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::InvalidArgument);
     let mut other = Octree::new(1.0).unwrap();
     let error = other.place(&kept, &Pose::identity(), None).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Unsupported);
+    let error = other.move_to(&Pose::identity()).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::NotFound);
     // Planar bodies keep boxes out, so that the next change fails.
     let mut flat = BodyBuilder::new(2).unwrap();
     let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];

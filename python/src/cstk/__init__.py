@@ -25,6 +25,7 @@ from .errors import *  # noqa: F403
 from .hierarchy import HierarchyOptions, Mesh
 from .map import Map, MapAxis
 from .motion import Clearance, Motion, MotionFunction, Path, PathClearance, Shortcut
+from .octree import Octree
 from .object_pairs import ObjectPairList
 from .poses import (
     euler_from_rotation,
