@@ -5,12 +5,13 @@
 //! before it or after it. It is read from OctoMap's files, and gives a body where it need not change.
 //!
 //! ```c
+//! const double seen[6] = {1.52, 0.33, 0.71, 1.52, 0.38, 0.71}, vanished[3] = {0.97, 0.12, 0.05};
 //! cstk_octree *map;
-//! size_t changed;
 //! check(cstk_octree_load("room.bt", 0.5, &map));
-//! check(cstk_octree_place(map, environment, room_pose, NULL, NULL));
-//! check(cstk_octree_set(map, seen_xyz, seen_count, true, &changed));
-//! check(cstk_octree_set(map, vanished_xyz, vanished_count, false, NULL));
+//! check(cstk_octree_place(map, environment, pose_a, NULL, NULL));
+//! check(cstk_octree_set(map, seen, 2, true, NULL));
+//! check(cstk_octree_set(map, vanished, 1, false, NULL));
+//! check(cstk_octree_release(map));
 //! ```
 
 use std::ffi::{c_char, c_void};
