@@ -1,8 +1,8 @@
 //! Octrees.
 //!
-//! An octree holds which cells of a grid are occupied: what a depth camera maps. Its cells are changed one by one or many together,
-//! also while it is placed in an environment: only the objects around them are replaced, in one change, so that a query sees the cells
-//! before it or after it. It is read from OctoMap's files, and gives a body where it need not change.
+//! An octree holds which cells of a grid are occupied: what a depth camera maps. Its cells are changed one by one or many
+//! together, also while it is placed in an environment: only the objects around them are replaced, in one change, so that a
+//! query sees the cells before it or after it. It is read from OctoMap's files, and gives a body where it need not change.
 //!
 //! ```c
 //! const double seen[6] = {1.52, 0.33, 0.71, 1.52, 0.38, 0.71}, vanished[3] = {0.97, 0.12, 0.05};
@@ -112,8 +112,9 @@ pub unsafe extern "C" fn cstk_octree_release(octree: *mut cstk_octree) -> cstk_s
 ///
 /// Where the octree is placed, the environment changes once, by the objects around the changed cells: each holds 4 x 4 x 4
 /// cells, or a larger cube of occupied cells. The time is that of these objects' bodies, and does not depend on how
-/// many other cells there are, but for the upkeep of the environment's tree (see cstk_environment_apply). CSTK_ERROR_NOT_FINITE or CSTK_ERROR_INVALID_ARGUMENT for a point beyond the grid, with
-/// its number; CSTK_ERROR_UNSUPPORTED above 2^24 inner nodes. Nothing has changed then.
+/// many other cells there are, but for the upkeep of the environment's tree (see cstk_environment_apply).
+/// CSTK_ERROR_NOT_FINITE or CSTK_ERROR_INVALID_ARGUMENT for a point that is not finite or beyond the grid, with its number;
+/// CSTK_ERROR_UNSUPPORTED above 2^24 inner nodes. Nothing has changed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_octree_set(
     octree: *mut cstk_octree,
