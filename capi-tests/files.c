@@ -244,7 +244,7 @@ static void paths(void) {
     check_refused("missing.obj", CSTK_ERROR_IO, "");
     check_refused("missing.stl", CSTK_ERROR_IO, "");
     check_refused("plain.obj/below.obj", CSTK_ERROR_IO, "");
-    refuse_text("mesh.ply", "ply\n", CSTK_ERROR_UNSUPPORTED, "ply");
+    refuse_text("mesh.ply", "ply\n", CSTK_ERROR_PARSE, "mesh.ply");
     refuse_text("mesh", SQUARE "f 1 2 3\n", CSTK_ERROR_UNSUPPORTED, "obj");
     refuse_text(".obj", SQUARE "f 1 2 3\n", CSTK_ERROR_UNSUPPORTED, "obj");
     /* STL in a file called OBJ, and the other way round. */

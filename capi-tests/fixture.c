@@ -75,9 +75,11 @@ static void keep_handles(fixture *f) {
     f->live[NOUN_CERTIFICATE] = f->certificate;
     f->live[NOUN_BATCH] = f->batch;
     f->live[NOUN_MAP] = f->map;
+    f->live[NOUN_OCTREE] = f->octree;
 }
 
 static void release_handles(void *const handles[NOUN_COUNT]) {
+    CHECK_OK(cstk_octree_release(handles[NOUN_OCTREE]));
     CHECK_OK(cstk_map_release(handles[NOUN_MAP]));
     CHECK_OK(cstk_batch_release(handles[NOUN_BATCH]));
     CHECK_OK(cstk_certificate_release(handles[NOUN_CERTIFICATE]));
@@ -116,6 +118,9 @@ static void create_scene(fixture *f) {
     CHECK_OK(cstk_batch_create(&f->batch));
     const cstk_map_axis axis = {0, 0, 0, 0.2, 1, 0, 0};
     CHECK_OK(cstk_map_build(f->cobject, f->q, FIXTURE_NQ, &axis, 1, NULL, NULL, NULL, &f->map));
+    const double origin[3] = {0, 0, 0};
+    CHECK_OK(cstk_octree_create(0.25, &f->octree));
+    CHECK_OK(cstk_octree_set(f->octree, origin, 1, true, NULL));
     keep_handles(f);
 }
 
@@ -172,8 +177,17 @@ static void builders_unchanged(const fixture *f) {
     CHECK_OK(cstk_robot_release(robot));
 }
 
+static void octree_unchanged(const fixture *f) {
+    double resolution = 0;
+    uint64_t cells = 0;
+    size_t objects = 1;
+    CHECK_OK(cstk_octree_get_state(f->octree, &resolution, &cells, &objects));
+    CHECK(resolution == 0.25 && cells == 1 && objects == 0);
+}
+
 void fixture_unchanged(const fixture *f) {
     cstk_distance_result again;
+    octree_unchanged(f);
     environment_unchanged(f);
     builders_unchanged(f);
     mesh_unchanged(f);

@@ -18,6 +18,7 @@ typedef enum noun {
     NOUN_CERTIFICATE,
     NOUN_BATCH,
     NOUN_MAP,
+    NOUN_OCTREE,
     NOUN_COUNT
 } noun;
 
@@ -42,6 +43,8 @@ typedef struct fixture {
     cstk_batch *batch;
     /* Of one cell. */
     cstk_map *map;
+    /* Of one occupied cell, around the origin's upper side; in no environment. */
+    cstk_octree *octree;
     double q[FIXTURE_NQ];
     double link_poses[12 * FIXTURE_LINKS];
     /* The answer at q when all was made. */

@@ -235,8 +235,8 @@ static void add_mesh_file(const fixture *f) {
     cstk_body_builder *b = f->body_builder;
     CHECK_FAILS(cstk_body_builder_add_mesh_file(b, NULL, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "file");
     CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "", NULL, NULL), CSTK_ERROR_UNSUPPORTED, "obj");
-    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.ply", NULL, NULL), CSTK_ERROR_UNSUPPORTED,
-                "missing.ply");
+    CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.xyz", NULL, NULL), CSTK_ERROR_UNSUPPORTED,
+                "missing.xyz");
     CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing.obj", NULL, NULL), CSTK_ERROR_IO,
                 "missing.obj");
     CHECK_FAILS(cstk_body_builder_add_mesh_file(b, "missing \xff.stl", NULL, NULL), CSTK_ERROR_IO,

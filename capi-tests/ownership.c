@@ -49,6 +49,7 @@ static void every_noun(void) {
     TWO_REFERENCES(certificate, "certificate", f.certificate,
                    cstk_certificate_get_summary(f.certificate, &summary));
     TWO_REFERENCES(map, "map", f.map, cstk_map_get_view(f.map, &cells));
+    TWO_REFERENCES(octree, "octree", f.octree, cstk_octree_get_state(f.octree, NULL, NULL, NULL));
     TWO_REFERENCES(batch, "batch", f.batch, cstk_batch_get_statistics(f.batch, false, &done));
     TWO_REFERENCES(query, "query", f.query, cstk_query_get_statistics(f.query, false, &done));
     TWO_REFERENCES(cobject, "cobject", f.cobject,
@@ -139,6 +140,7 @@ static void parts_before_the_whole(void) {
     CHECK_OK(cstk_map_get_view(f.map, &cells));
     CHECK(cells.cell_count == 1 && cells.values[0] == CSTK_CLASS_OUTSIDE);
     CHECK_OK(cstk_map_release(f.map));
+    CHECK_OK(cstk_octree_release(f.octree));
     cstk_certificate_summary summary;
     CHECK_OK(cstk_certificate_get_summary(f.certificate, &summary));
     CHECK_OK(cstk_certificate_release(f.certificate));

@@ -16,6 +16,7 @@
  *   @ref srdf               SRDF
  *   @ref space              Spaces
  *   @ref environment        Environments
+ *   @ref octree             Octrees
  *   @ref cobject            C-objects
  *   @ref query              Query contexts
  *   @ref at_configuration   Queries at a configuration
@@ -637,14 +638,32 @@ cstk_status cstk_body_builder_add_mesh(cstk_body_builder *builder,
 
 /**
  * Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
- * .obj, .stl (ASCII or binary) or .dae (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as in the ROS
- * tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
+ * .obj, .stl (ASCII or binary), .ply (the faces of a PLY file of any encoding) or .dae (COLLADA; scaled to metres by the
+ * file's unit, `up_axis` not applied, as in the ROS tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
  * for another ending.
  */
 cstk_status cstk_body_builder_add_mesh_file(cstk_body_builder *builder,
                                             const char *file,
                                             const double *pose,
                                             const double *scale);
+
+/**
+ * Adds the point cloud in a file as cstk_body_builder_add_points does: balls of `radius` around its points, scaled by `scale`
+ * and moved by `pose` as a mesh is. The name must end in .pcd (the Point Cloud Library's files: ascii, binary and
+ * binary_compressed) or .ply (the vertices of a PLY file: ascii, binary little or big endian). The viewpoint of a .pcd file
+ * is not applied. Its points with a coordinate that is NaN were not measured, and are left out: `left_out` receives their
+ * number, or is NULL. The others are tagged with their indices among those added.
+ *
+ * CSTK_ERROR_IO if the file cannot be read; CSTK_ERROR_PARSE if it is damaged or truncated; CSTK_ERROR_NOT_FINITE for an
+ * infinite coordinate, in a .ply file also for NaN; CSTK_ERROR_EMPTY without points; CSTK_ERROR_UNSUPPORTED for another
+ * ending, above 1 GiB (also unpacked) or above 2^26 points. The message names the line or the point, and nothing is added.
+ */
+cstk_status cstk_body_builder_add_cloud_file(cstk_body_builder *builder,
+                                             const char *file,
+                                             const double *pose,
+                                             const double *scale,
+                                             double radius,
+                                             uint64_t *left_out);
 
 /**
  * Adds a built body as a part, at `pose` (NULL for the identity; 12 doubles, from the part's frame to the builder's). The
@@ -2787,6 +2806,156 @@ cstk_status cstk_environment_load_scene_text(cstk_environment *environment,
                                              size_t max_count,
                                              uint64_t *ids,
                                              size_t *count);
+
+/** @} */
+
+/**
+ * @defgroup octree Octrees
+ *
+ * An octree holds which cells of a grid are occupied: what a depth camera maps. Its cells are changed one by one or many
+ * together, also while it is placed in an environment: only the objects around them are replaced, in one change, so that a
+ * query sees the cells before it or after it. It is read from OctoMap's files, and gives a body where it need not change.
+ *
+ * @code
+     const double seen[6] = {1.52, 0.33, 0.71, 1.52, 0.38, 0.71}, vanished[3] = {0.97, 0.12, 0.05};
+     cstk_octree *map;
+     check(cstk_octree_load("room.bt", 0.5, &map));
+     check(cstk_octree_place(map, environment, pose_a, NULL, NULL));
+     check(cstk_octree_set(map, seen, 2, true, NULL));
+     check(cstk_octree_set(map, vanished, 1, false, NULL));
+     check(cstk_octree_release(map));
+ * @endcode
+ * @{
+ */
+
+/**
+ * Which cells of a grid are occupied. Serves one call at a time; another call meanwhile is CSTK_ERROR_BUSY. Queries on the
+ * environment that it is placed in may run at any time.
+ */
+typedef struct cstk_octree cstk_octree;
+
+
+/**
+ * Creates an octree without occupied cells. Cell (i, j, k) reaches from i to i + 1 times `resolution` along x, and so on, in
+ * the octree's frame, for whole numbers from -2^15 to 2^15 - 1: the grid of an OcTree of OctoMap with 16 levels.
+ * CSTK_ERROR_INVALID_ARGUMENT, CSTK_ERROR_NOT_FINITE for a resolution that is not positive or finite, or whose grid would
+ * pass 1e50.
+ */
+cstk_status cstk_octree_create(double resolution,
+                               cstk_octree **out);
+
+/**
+ * Reads an octree from a file of OctoMap's: .bt, whose leaves are occupied or free, or .ot (of kind OcTree, OcTreeStamped or
+ * ColorOcTree), whose leaves are occupied if their probability is at least `min_occupancy` (between 0 and 1; OctoMap takes
+ * .5). What is free or unknown is empty. Which of both a file is, its first line tells.
+ *
+ * CSTK_ERROR_PARSE for a file that is no such file, truncated, longer than its nodes, deeper than 16 levels, or of another
+ * number of nodes than it says; CSTK_ERROR_NOT_FINITE for an occupancy that is NaN; CSTK_ERROR_UNSUPPORTED for another kind
+ * of tree, above 1 GiB, or above 2^24 inner nodes. The message names the line or the node.
+ */
+cstk_status cstk_octree_load(const char *file,
+                             double min_occupancy,
+                             cstk_octree **out);
+
+/**
+ * Adds a reference.
+ */
+cstk_status cstk_octree_retain(cstk_octree *octree);
+
+/**
+ * Drops a reference. NULL is a no-op. The objects of an octree that is placed stay in the environment as they are when the
+ * last reference goes: cstk_octree_remove takes them out before.
+ */
+cstk_status cstk_octree_release(cstk_octree *octree);
+
+/**
+ * Makes the cells around `point_count` points (three doubles each, in the octree's frame) occupied, or empty. A point between
+ * two cells belongs to the upper one. `changed` receives the number of cells that were not so before, or is NULL.
+ *
+ * Where the octree is placed, the environment changes once, by the objects around the changed cells: each holds 4 x 4 x 4
+ * cells, or a larger cube of occupied cells. The time is that of these objects' bodies, and does not depend on how
+ * many other cells there are, but for the upkeep of the environment's tree (see cstk_environment_apply).
+ * CSTK_ERROR_NOT_FINITE or CSTK_ERROR_INVALID_ARGUMENT for a point that is not finite or beyond the grid, with its number;
+ * CSTK_ERROR_UNSUPPORTED above 2^24 inner nodes. Nothing has changed then.
+ */
+cstk_status cstk_octree_set(cstk_octree *octree,
+                            const double *xyz,
+                            size_t point_count,
+                            bool occupied,
+                            size_t *changed);
+
+/**
+ * Writes to `occupied` (`point_count` entries) whether the cells around points are occupied. Errors as of cstk_octree_set.
+ */
+cstk_status cstk_octree_get(const cstk_octree *octree,
+                            const double *xyz,
+                            size_t point_count,
+                            bool *occupied);
+
+/**
+ * Makes the cells that are occupied in `other` occupied. CSTK_ERROR_INVALID_ARGUMENT if the resolutions differ. The
+ * environment follows as after cstk_octree_set.
+ */
+cstk_status cstk_octree_insert(cstk_octree *octree,
+                               const cstk_octree *other);
+
+/**
+ * Writes the edge of a cell, the number of occupied cells, and the number of objects that the octree is in its environment;
+ * each may be NULL.
+ */
+cstk_status cstk_octree_get_state(const cstk_octree *octree,
+                                  double *resolution,
+                                  uint64_t *cell_count,
+                                  size_t *object_count);
+
+/**
+ * Writes the occupied cells as cubes: eight cells, or cubes, that fill a cube of the octree are one. Four doubles each, the
+ * lowest corner and the edge: at most `max_count` cubes to `cubes` (NULL if `max_count` is 0), and their full number to
+ * `count`. Equal cells have equal cubes in equal order, however they became so.
+ */
+cstk_status cstk_octree_get_cubes(const cstk_octree *octree,
+                                  size_t max_count,
+                                  double *cubes,
+                                  size_t *count);
+
+/**
+ * Builds a body of the occupied cells, in the octree's frame: each cube of cstk_octree_get_cubes is a solid box, tagged with
+ * its number. It does not change any more, and may be a link or a part as any body. `options` may be NULL; `progress` may be
+ * NULL; `user` is passed to it. CSTK_ERROR_EMPTY if no cell is occupied, CSTK_ERROR_UNSUPPORTED above 2^22 cubes.
+ */
+cstk_status cstk_octree_build_body(const cstk_octree *octree,
+                                   const cstk_hierarchy_options *options,
+                                   cstk_progress_fn progress,
+                                   void *user,
+                                   cstk_body **out);
+
+/**
+ * Places the octree in an environment, its frame at `pose` (12 doubles), in one change. From now on changes of cells change
+ * the environment too. It can be in one environment at a time: CSTK_ERROR_INVALID_ARGUMENT if it is in one.
+ *
+ * To queries the octree is several s-objects, which cover its occupied cells and are as exact as boxes; their ids change with
+ * the cells. All have the user data `data`, so that the `s_data` of a witness names the octree. `destroy` may be NULL; it is
+ * called once, by the thread that drops the last state that holds an object, and not if this call fails; it must not call
+ * the octree. A C-object that is to be about the octree alone takes all objects of an environment that holds nothing else.
+ * Do not move, attach or delete the objects one by one; those that are gone are not missed.
+ *
+ * CSTK_ERROR_UNSUPPORTED for a snapshot.
+ */
+cstk_status cstk_octree_place(cstk_octree *octree,
+                              cstk_environment *environment,
+                              const double *pose,
+                              void *data,
+                              cstk_destroy_fn destroy);
+
+/**
+ * Moves an octree within its environment, in one change. CSTK_ERROR_NOT_FOUND if it is in none.
+ */
+cstk_status cstk_octree_move(cstk_octree *octree, const double *pose);
+
+/**
+ * Takes an octree out of its environment, in one change; its cells stay. A no-op if it is in none.
+ */
+cstk_status cstk_octree_remove(cstk_octree *octree);
 
 /** @} */
 

@@ -95,6 +95,9 @@ pub mod space;
 // S-objects, changed while others query; the dynamic tree over them.
 pub mod environment;
 
+// Octrees of occupied cells: from OctoMap's files, changed cell by cell while in an environment.
+pub mod octree;
+
 // MoveIt's planning scenes as objects of an environment.
 pub mod planning_scene;
 

@@ -8,8 +8,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use cstk::body::Mesh;
+use cstk::body::cloud_file::read_cloud_file;
 use cstk::body::mesh_file::read_mesh_file;
 use cstk::error::{Error, ErrorKind};
+use cstk::octree::Octree;
 use cstk::robot::RobotBuilder;
 use cstk::urdf::{UrdfOptions, add_urdf_file};
 
@@ -288,6 +290,55 @@ fn xml_does_not_multiply() {
     );
     let path = folder.write("deep.dae", deep);
     assert!(read_mesh_file(&path).is_err());
+}
+
+/// Headers that claim much, and data that unpack to much: memory follows what is there.
+#[test]
+fn point_clouds_and_octrees_ask_for_no_memory_on_their_word() {
+    let _alone = alone();
+    let folder = Folder::new("clouds");
+    let head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 60000000\nDATA";
+    // 720,000,000 bytes, it says, from 2,000 bytes that repeat the first.
+    let mut bomb = format!("{head} binary_compressed\n").into_bytes();
+    bomb.extend(2_000u32.to_le_bytes());
+    bomb.extend(720_000_000u32.to_le_bytes());
+    bomb.extend([0, 0]);
+    bomb.extend([0xE0, 0xFF, 0x00].repeat(666));
+    let vertices =
+        "element vertex 60000000\nproperty double x\nproperty double y\nproperty double z";
+    let faces = "element face 8000000\nproperty list uchar int vertex_index";
+    let ply = |format: &str, elements: &str| {
+        format!("ply\nformat {format} 1.0\n{elements}\nend_header\n0 ")
+    };
+    let clouds = [
+        ("bomb.pcd", bomb),
+        ("text.pcd", format!("{head} ascii\n1 2 3\n").into_bytes()),
+        ("bytes.pcd", format!("{head} binary\n1 2 3\n").into_bytes()),
+        ("text.ply", ply("ascii", vertices).into_bytes()),
+        ("bytes.ply", ply("binary_big_endian", vertices).into_bytes()),
+        ("faces.ply", ply("binary_little_endian", faces).into_bytes()),
+    ];
+    for (name, bytes) in clouds {
+        let path = folder.write(name, bytes);
+        let (read, peak) = with_peak(|| read_cloud_file(&path));
+        refused(read, ErrorKind::Parse, &[]);
+        assert!(peak < MEGABYTE, "{name}: {peak} bytes");
+    }
+    let head = "# Octomap OcTree file\nid OcTree\nsize 4000000000\nres 1\ndata\n";
+    let mut tree = head.as_bytes().to_vec();
+    tree.extend([0, 0, 0, 0, 0xFF].repeat(16));
+    let path = folder.write("tree.ot", tree);
+    let (read, peak) = with_peak(|| Octree::load(&path, 0.5));
+    refused(read, ErrorKind::Parse, &["node 17"]);
+    assert!(peak < MEGABYTE, "{peak} bytes");
+    // One occupied child of half the grid: no cell is made on its own.
+    let head = "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 1\ndata\n";
+    let path = folder.write("half.bt", [head.as_bytes(), &[2, 0]].concat());
+    let (read, peak) = with_peak(|| Octree::load(&path, 0.5).unwrap());
+    assert!(
+        read.cell_count() == 1 << 45 && peak < MEGABYTE,
+        "{peak} bytes"
+    );
 }
 
 fn load(path: &Path) -> Result<RobotBuilder, Error> {

@@ -16,7 +16,7 @@ LEFT_OUT = {
     **{
         f"cstk_{noun}_retain": "Python's references are to one of the library's"
         for noun in (
-            "body_builder robot robot_builder space environment cobject query certificate mesh batch map".split()
+            "body_builder robot robot_builder space environment cobject query certificate mesh batch map octree".split()
         )
     },
 }

@@ -7,6 +7,7 @@ use super::added_bodies::AddedBodies;
 use super::body::{Body, BodyStatistics};
 use super::mesh::Mesh;
 use super::solid::{DegenerateFace, Solid};
+use crate::body::cloud_file::read_cloud_file;
 use crate::body::mesh_file::read_mesh_file;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::{HierarchyOptions, build_hierarchy, compose_hierarchy};
@@ -141,12 +142,33 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Adds the mesh in an OBJ, STL or COLLADA file, scaled and moved as by [`Mesh::placed`].
+    /// Adds the mesh in an OBJ, STL, COLLADA or PLY file, scaled and moved as by [`Mesh::placed`].
     pub fn add_mesh_file(&mut self, path: &Path, pose: &Pose, scale: &Vec3) -> Result<()> {
         let named = |error: Error| error.within(path.display());
         let mesh = read_mesh_file(path).map_err(named)?;
         let mesh = mesh.placed(pose, scale).map_err(named)?;
         self.add_mesh(&mesh).map_err(named)
+    }
+
+    /// Adds balls of one radius around the points in a PCD file, or around the vertices in a PLY file, scaled and moved as by
+    /// [`Mesh::placed`]; they are tagged with their indices. Points that a PCD file marks as not measured are left out; returns
+    /// their number.
+    pub fn add_cloud_file(
+        &mut self,
+        path: &Path,
+        pose: &Pose,
+        scale: &Vec3,
+        radius: f64,
+    ) -> Result<u64> {
+        let named = |error: Error| error.within(path.display());
+        let cloud = read_cloud_file(path).map_err(named)?;
+        let mesh = Mesh {
+            vertices: cloud.points,
+            ..Mesh::default()
+        };
+        let points = mesh.placed(pose, scale).map_err(named)?.vertices;
+        self.add_points(&points, radius).map_err(named)?;
+        Ok(cloud.left_out)
     }
 
     /// Adds a body at a pose. Its primitives keep their order, tags and features; its hierarchy is taken over. If it is a

@@ -42,6 +42,32 @@ impl BodyBuilder {
         self.push(block(pose, half_extents)?, tag, false)
     }
 
+    /// Adds solid cubes along the axes, each with its lowest corner and its edge, tagged with their indices: polyhedra, exact to
+    /// 1e-12 L.
+    pub fn add_cubes(&mut self, cubes: &[(Vec3, f64)]) -> Result<()> {
+        self.require_space("a cube")?;
+        // The hull is made once for each size.
+        let mut made: Vec<(f64, Convex)> = Vec::new();
+        let mut added = Vec::with_capacity(cubes.len());
+        for (i, &(low, edge)) in cubes.iter().enumerate() {
+            let named = |e: Error| e.within(format_args!("cube {i}"));
+            require_coordinates(low.as_slice(), "coordinate").map_err(named)?;
+            let half = Vec3::repeat(0.5 * edge);
+            let known = made.iter().position(|(of, _)| *of == edge);
+            let known = match known {
+                Some(known) => known,
+                None => {
+                    let cube = block(&Pose::identity(), &half).map_err(named)?;
+                    made.push((edge, cube));
+                    made.len() - 1
+                }
+            };
+            let cube = made[known].1.clone().recentered(&-(low + half));
+            added.push((cube, i as u64));
+        }
+        self.push_all(added, false)
+    }
+
     /// Adds the solid cylinder around the z axis of `pose`, from -half_length to half_length. Distances are known to
     /// [`SMOOTH_ERROR`](crate::tolerance::SMOOTH_ERROR) times its diameter plus 1e-12 L. It gives one contact only, even
     /// if it stands or lies on a face, and no penetration depth.

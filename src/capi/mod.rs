@@ -31,6 +31,8 @@ pub mod space;
 
 pub mod environment;
 
+pub mod octree;
+
 pub mod cobject;
 
 pub mod query;

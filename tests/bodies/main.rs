@@ -1,6 +1,7 @@
 //! Bodies, solids and their files.
 
 mod closed_surfaces;
+mod cloud_files;
 mod given;
 mod obj_files;
 mod parts;

@@ -16,6 +16,8 @@ mod held_objects;
 mod link_pairs;
 mod link_pairs_far;
 mod object_pairs;
+mod octomap_files;
+mod octrees;
 mod pure_sets;
 mod pure_sets_among_others;
 mod refusals;

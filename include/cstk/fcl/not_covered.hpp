@@ -14,9 +14,8 @@ template <typename> constexpr bool is_covered = false;
 } // namespace detail
 
 template <typename S> class OcTree {
-    static_assert(detail::is_covered<S>, "cstk_fcl has no OcTree: give the occupied cells as a BVHModel of their centres "
-                                         "(addSubModel of points) and half a cell's diagonal as CollisionRequest::security_margin, "
-                                         "or as boxes of one body (cstk::BodyBuilder::add_box) in a cstk::Environment");
+    static_assert(detail::is_covered<S>, "cstk_fcl has no OcTree: read OctoMap's files, or set occupied cells, with cstk::Octree, and place "
+                                         "it in a cstk::Environment (place), where it may change, or make a body of it (build_body)");
 };
 
 template <typename S> class SplineMotion {

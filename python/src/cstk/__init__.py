@@ -26,6 +26,7 @@ from .hierarchy import HierarchyOptions, Mesh
 from .map import Map, MapAxis
 from .motion import Clearance, Motion, MotionFunction, Path, PathClearance, Shortcut
 from .object_pairs import ObjectPairList
+from .octree import Octree
 from .poses import (
     euler_from_rotation,
     euler_rates,

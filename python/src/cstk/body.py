@@ -70,7 +70,7 @@ class Body(Handle):
         scale: ArrayLike = 1.0,
         hierarchy: Optional[HierarchyOptions] = None,
     ) -> "Body":
-        """The mesh in an .obj, .stl or .dae file. See BodyBuilder.add_mesh_file."""
+        """The mesh in an .obj, .stl, .dae or .ply file. See BodyBuilder.add_mesh_file."""
         return BodyBuilder().add_mesh_file(file, pose=pose, scale=scale).set_solid(solid).build(hierarchy)
 
     @classmethod
@@ -353,11 +353,29 @@ class BodyBuilder(Handle):
     def add_mesh_file(
         self, file: "os.PathLike[str] | str", *, pose: Optional[ArrayLike] = None, scale: ArrayLike = 1.0
     ) -> "BodyBuilder":
-        """Adds the mesh in an .obj, .stl or .dae file (scaled to metres by a .dae file's unit)."""
+        """Adds the mesh in an .obj, .stl, .ply or .dae file (scaled to metres by a .dae file's unit)."""
         frame = frame_or_identity("pose", pose)
         path = file_name("file", file)
         check(lib.cstk_body_builder_add_mesh_file(self._pointer, path, frame, doubles(_scale(scale))))
         return self
+
+    def add_cloud_file(
+        self,
+        file: "os.PathLike[str] | str",
+        radius: float = 0.0,
+        *,
+        pose: Optional[ArrayLike] = None,
+        scale: ArrayLike = 1.0,
+    ) -> int:
+        """Adds balls around the points in a .pcd file, or around the vertices in a .ply file; radius 0 adds the points themselves. They
+        are tagged with their number. Points of a .pcd file that are NaN were not measured: they are left out, and their number returned.
+        """
+        frame = frame_or_identity("pose", pose)
+        left_out = ffi.new("uint64_t *")
+        factors, size = doubles(_scale(scale)), scalar("radius", radius)
+        path = file_name("file", file)
+        check(lib.cstk_body_builder_add_cloud_file(self._pointer, path, frame, factors, size, left_out))
+        return int(left_out[0])
 
     def add_body(self, body: Body, pose: Optional[ArrayLike] = None, tag: int = 0) -> "BodyBuilder":
         """Adds a built body at a pose, as a part with its hierarchy. Witnesses give its number (`r_part`), Body.part its tag."""

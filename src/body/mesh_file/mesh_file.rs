@@ -1,9 +1,10 @@
-//! Reads mesh files: OBJ, STL and COLLADA, chosen by the file name's extension.
+//! Reads mesh files: OBJ, STL, COLLADA and PLY, chosen by the file name's extension.
 
 use std::path::Path;
 
 use super::collada::parse_collada;
 use super::obj::parse_obj;
+use super::ply::parse_ply;
 use super::stl::parse_stl;
 use crate::body::{MAX_MESH_FILE_BYTES, Mesh, require_face_sizes};
 use crate::error::{Error, ErrorKind, Result};
@@ -18,6 +19,8 @@ pub enum MeshFormat {
     Stl,
     /// COLLADA 1.4 or 1.5.
     Collada,
+    /// PLY 1.0, ASCII or binary.
+    Ply,
 }
 
 impl MeshFormat {
@@ -28,13 +31,14 @@ impl MeshFormat {
             .map(|e| e.to_string_lossy().to_ascii_lowercase())
             .unwrap_or_default();
         let refused = |what: &str| {
-            let message = format!("mesh files end in .obj, .stl or .dae{what}");
+            let message = format!("mesh files end in .obj, .stl, .dae or .ply{what}");
             Err(Error::new(ErrorKind::Unsupported, message))
         };
         match ending.as_str() {
             "obj" => Ok(Self::Obj),
             "stl" => Ok(Self::Stl),
             "dae" => Ok(Self::Collada),
+            "ply" => Ok(Self::Ply),
             "" => refused("; this name has no ending"),
             other => refused(&format!(", not \".{other}\"")),
         }
@@ -46,6 +50,7 @@ impl MeshFormat {
             Self::Obj => parse_obj(bytes),
             Self::Stl => parse_stl(bytes),
             Self::Collada => parse_collada(bytes),
+            Self::Ply => parse_ply(bytes),
         }?;
         if mesh.face_sizes.is_empty() {
             return Err(Error::new(ErrorKind::Empty, "the file holds no face"));

@@ -183,8 +183,8 @@ unsafe fn scale_or_one(values: *const f64) -> Result<Vec3, Failure> {
 }
 
 /// Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
-/// .obj, .stl (ASCII or binary) or .dae (COLLADA; scaled to metres by the file's unit, `up_axis` not applied, as in the ROS
-/// tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
+/// .obj, .stl (ASCII or binary), .ply (the faces of a PLY file of any encoding) or .dae (COLLADA; scaled to metres by the
+/// file's unit, `up_axis` not applied, as in the ROS tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
 /// for another ending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
@@ -204,6 +204,41 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
                 )
             };
             Ok(builder.add_mesh_file(file, &pose, &scale)?)
+        })
+    })
+}
+
+/// Adds the point cloud in a file as cstk_body_builder_add_points does: balls of `radius` around its points, scaled by `scale`
+/// and moved by `pose` as a mesh is. The name must end in .pcd (the Point Cloud Library's files: ascii, binary and
+/// binary_compressed) or .ply (the vertices of a PLY file: ascii, binary little or big endian). The viewpoint of a .pcd file
+/// is not applied. Its points with a coordinate that is NaN were not measured, and are left out: `left_out` receives their
+/// number, or is NULL. The others are tagged with their indices among those added.
+///
+/// CSTK_ERROR_IO if the file cannot be read; CSTK_ERROR_PARSE if it is damaged or truncated; CSTK_ERROR_NOT_FINITE for an
+/// infinite coordinate, in a .ply file also for NaN; CSTK_ERROR_EMPTY without points; CSTK_ERROR_UNSUPPORTED for another
+/// ending, above 1 GiB (also unpacked) or above 2^26 points. The message names the line or the point, and nothing is added.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_add_cloud_file(
+    builder: *mut cstk_body_builder,
+    file: *const c_char,
+    pose: *const f64,
+    scale: *const f64,
+    radius: f64,
+    left_out: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        with_builder(builder, |builder| {
+            let left_out = Output::optional(left_out, "left_out")?;
+            // SAFETY: checked for NULL; the caller states that it is terminated, and the header the lengths.
+            let (file, pose, scale) = unsafe {
+                (
+                    path(file, "file")?,
+                    pose_or_identity(pose)?,
+                    scale_or_one(scale)?,
+                )
+            };
+            left_out.write(builder.add_cloud_file(file, &pose, &scale, radius)?);
+            Ok(())
         })
     })
 }

@@ -1,0 +1,124 @@
+//! An octree in an environment: the objects of its tiles, and how they follow the cells.
+
+use std::sync::Arc;
+
+use super::cells::{Cells, Cube, WHOLE};
+use super::cubes::steps;
+use super::tiles::{TILE_LEVEL, Tile, TileBodies, Tiles, outdated, within};
+use crate::environment::{Change, Environment};
+use crate::error::Result;
+use crate::pose::{Pose, Vec3};
+use crate::user_data::UserData;
+
+/// Where an octree is.
+#[derive(Debug)]
+pub struct Placement {
+    environment: Arc<Environment>,
+    pose: Pose,
+    data: Option<UserData>,
+    tiles: Tiles,
+}
+
+impl Placement {
+    /// Adds the tiles of the cells to an environment, in one change.
+    pub fn new(
+        environment: &Arc<Environment>,
+        pose: &Pose,
+        data: Option<UserData>,
+        cells: &Cells,
+        resolution: f64,
+    ) -> Result<Self> {
+        let mut placement = Self {
+            environment: environment.clone(),
+            pose: *pose,
+            data,
+            tiles: Tiles::new(),
+        };
+        // Also of no tiles, so that an environment that refuses changes is refused at once.
+        placement.replace(cells, resolution, &[WHOLE])?;
+        Ok(placement)
+    }
+
+    /// The number of objects.
+    pub fn object_count(&self) -> usize {
+        self.tiles.len()
+    }
+
+    /// Follows changes of some cubes' cells, in one change of the environment.
+    pub fn follow(&mut self, cells: &Cells, resolution: f64, changed: &[Cube]) -> Result<()> {
+        let cubes = outdated(&self.tiles, cells, changed);
+        match cubes.is_empty() {
+            true => Ok(()),
+            false => self.replace(cells, resolution, &cubes),
+        }
+    }
+
+    /// Moves all objects, in one change.
+    pub fn move_to(&mut self, pose: &Pose, resolution: f64) -> Result<()> {
+        let now = self.environment.snapshot();
+        let tiles = self.tiles.values();
+        let present = tiles.filter(|tile| now.find(tile.id).is_some());
+        let moves = present.map(|tile| Change::Move {
+            id: tile.id,
+            pose: pose_of(pose, tile.cube, resolution),
+        });
+        self.environment.apply(&moves.collect::<Vec<_>>())?;
+        self.pose = *pose;
+        Ok(())
+    }
+
+    /// Deletes all objects, in one change.
+    pub fn remove(&mut self) -> Result<()> {
+        let deletions = self.deletions(self.tiles.values().copied());
+        self.environment.apply(&deletions)?;
+        self.tiles.clear();
+        Ok(())
+    }
+
+    /// Makes the tiles within cubes anew.
+    fn replace(&mut self, cells: &Cells, resolution: f64, cubes: &[Cube]) -> Result<()> {
+        let old: Vec<(u64, Tile)> = cubes
+            .iter()
+            .flat_map(|&cube| within(&self.tiles, cube))
+            .collect();
+        let mut new = Vec::new();
+        for &cube in cubes {
+            cells.visit(cube, TILE_LEVEL, &mut |tile| new.push(tile));
+        }
+        let mut changes = self.deletions(old.iter().map(|(_, tile)| *tile));
+        let deleted = changes.len();
+        let mut bodies = TileBodies::default();
+        for &cube in &new {
+            changes.push(Change::Add {
+                body: bodies.body(cells, cube, resolution)?,
+                pose: pose_of(&self.pose, cube, resolution),
+                data: self.data.clone(),
+            });
+        }
+        let (ids, _) = self.environment.apply(&changes)?;
+        for (place, _) in old {
+            self.tiles.remove(&place);
+        }
+        for (cube, &id) in new.into_iter().zip(&ids[deleted..]) {
+            let place = super::tiles::place_of(cube.low);
+            self.tiles.insert(place, Tile { cube, id });
+        }
+        Ok(())
+    }
+
+    /// The deletions of those tiles' objects that are still there.
+    fn deletions(&self, tiles: impl Iterator<Item = Tile>) -> Vec<Change> {
+        let now = self.environment.snapshot();
+        let present = tiles.filter(|tile| now.find(tile.id).is_some());
+        present.map(|tile| Change::Delete { id: tile.id }).collect()
+    }
+}
+
+/// The pose of a tile's body.
+fn pose_of(pose: &Pose, tile: Cube, resolution: f64) -> Pose {
+    let low: Vec3 = steps(tile.low) * resolution;
+    Pose {
+        translation: pose.transform_point(&low),
+        ..*pose
+    }
+}

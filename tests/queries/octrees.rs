@@ -1,0 +1,423 @@
+//! Octrees: their cells against a set of cells, and queries against them where they are placed against brute force over the
+//! cells' boxes, while cells change.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Instant;
+
+use cstk::body::{Body, BodyBuilder};
+use cstk::cobject::Class;
+use cstk::environment::{Change, Environment};
+use cstk::error::ErrorKind;
+use cstk::hierarchy::HierarchyOptions;
+use cstk::octree::Octree;
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{Configuration, QueryContext};
+
+use helpers::random::Random;
+use helpers::robots::{against, environment, free_body, space};
+
+/// Cells by how many steps they begin from the origin.
+type Model = BTreeSet<[i64; 3]>;
+
+fn middle(cell: &[i64; 3], resolution: f64) -> Vec3 {
+    Vec3::from(cell.map(|c| (c as f64 + 0.5) * resolution))
+}
+
+/// Changes a box of cells, in the octree and the model.
+fn change(octree: &mut Octree, model: &mut Model, low: [i64; 3], edges: [i64; 3], occupied: bool) {
+    let mut points = Vec::new();
+    let mut changed = 0;
+    for x in 0..edges[0] {
+        for y in 0..edges[1] {
+            for z in 0..edges[2] {
+                let cell = [low[0] + x, low[1] + y, low[2] + z];
+                points.push(middle(&cell, octree.resolution()));
+                changed += usize::from(match occupied {
+                    true => model.insert(cell),
+                    false => model.remove(&cell),
+                });
+            }
+        }
+    }
+    assert_eq!(octree.set(&points, occupied).unwrap(), changed);
+}
+
+fn random_change(random: &mut Random, octree: &mut Octree, model: &mut Model, half: i64) {
+    let mut any = |n: i64| random.below(n as usize) as i64;
+    let edge = [1, 1, 2, 4, 8][any(5) as usize];
+    // Often along the cubes of the octree.
+    let step = [1, edge][any(2) as usize];
+    let low = [0; 3].map(|_| (any(2 * half) - half).div_euclid(step) * step);
+    let edges = [0; 3].map(|_| if step == edge { edge } else { 1 + any(edge) });
+    let occupied = any(3) > 0;
+    change(octree, model, low, edges, occupied);
+}
+
+/// The cells of a cube.
+fn cells_of(cube: &(Vec3, f64), resolution: f64) -> (Vec<[i64; 3]>, i64) {
+    let low = [0, 1, 2].map(|axis| (cube.0[axis] / resolution).round() as i64);
+    let edge = (cube.1 / resolution).round() as i64;
+    let mut cells = Vec::new();
+    for x in 0..edge {
+        for y in 0..edge {
+            cells.extend((0..edge).map(|z| [low[0] + x, low[1] + y, low[2] + z]));
+        }
+    }
+    (cells, edge)
+}
+
+#[test]
+fn cubes_are_the_largest_and_hold_each_occupied_cell_once() {
+    let mut random = Random::new(2);
+    let resolution = 0.1;
+    for _ in 0..20 {
+        let mut octree = Octree::new(resolution).unwrap();
+        let mut model = Model::new();
+        for _ in 0..40 {
+            random_change(&mut random, &mut octree, &mut model, 12);
+        }
+        assert_eq!(octree.cell_count(), model.len() as u64);
+        let cubes = octree.cubes();
+        let mut covered = Model::new();
+        for cube in &cubes {
+            let (cells, edge) = cells_of(cube, resolution);
+            assert!(edge & (edge - 1) == 0 && cells[0].iter().all(|c| c % edge == 0));
+            for cell in &cells {
+                assert!(covered.insert(*cell));
+            }
+            // The next larger cube is not full.
+            let parent = (
+                Vec3::from(
+                    cells[0]
+                        .map(|c| c.div_euclid(2 * edge) as f64 * 2.0 * edge as f64 * resolution),
+                ),
+                2.0 * edge as f64 * resolution,
+            );
+            let (around, _) = cells_of(&parent, resolution);
+            assert!(!around.iter().all(|cell| model.contains(cell)));
+        }
+        assert_eq!(covered, model);
+        // The same cells in another order.
+        let mut again = Octree::new(resolution).unwrap();
+        let mut cells: Vec<[i64; 3]> = model.iter().copied().collect();
+        while !cells.is_empty() {
+            let cell = cells.swap_remove(random.below(cells.len()));
+            change(&mut again, &mut Model::new(), cell, [1; 3], true);
+        }
+        assert_eq!(again.cubes(), cubes);
+        let mut points: Vec<Vec3> = Vec::new();
+        let mut expected = Vec::new();
+        for _ in 0..200 {
+            let cell = [0; 3].map(|_| random.below(40) as i64 - 20);
+            points.push(middle(&cell, resolution));
+            expected.push(model.contains(&cell));
+        }
+        assert_eq!(octree.are_occupied(&points).unwrap(), expected);
+    }
+}
+
+#[test]
+fn the_grid_ends_where_it_says() {
+    let mut octree = Octree::new(0.5).unwrap();
+    let end = 16384.0;
+    let corners = [Vec3::repeat(-end), Vec3::repeat(end - 1e-9)];
+    assert_eq!(octree.set(&corners, true).unwrap(), 2);
+    let cubes = octree.cubes();
+    assert_eq!(
+        cubes,
+        [(Vec3::repeat(-end), 0.5), (Vec3::repeat(end - 0.5), 0.5)]
+    );
+    for (beyond, kind) in [
+        (Vec3::new(end, 0.0, 0.0), ErrorKind::InvalidArgument),
+        (Vec3::new(0.0, -end - 1e-9, 0.0), ErrorKind::InvalidArgument),
+        (Vec3::new(0.0, 0.0, f64::NAN), ErrorKind::NotFinite),
+        (Vec3::new(f64::INFINITY, 0.0, 0.0), ErrorKind::NotFinite),
+    ] {
+        let error = octree.set(&[Vec3::zeros(), beyond], true).unwrap_err();
+        assert!(
+            error.kind == kind && error.message.contains("point 1"),
+            "{error}"
+        );
+    }
+    assert_eq!(octree.cell_count(), 2);
+    for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e60, 1e-60] {
+        assert!(Octree::new(resolution).is_err());
+    }
+}
+
+/// A ball that moves freely, and the distance of its centre from the nearest cell.
+struct Ball {
+    radius: f64,
+    query: QueryContext,
+}
+
+impl Ball {
+    fn new(radius: f64) -> (Self, Arc<Body>) {
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder.add_sphere(&Vec3::zeros(), radius, 0).unwrap();
+        let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+        let query = QueryContext::new();
+        (Self { radius, query }, Arc::new(body.unwrap()))
+    }
+}
+
+/// The distance of a point from the boxes of the cells.
+fn from_cells(model: &Model, resolution: f64, point: &Vec3) -> f64 {
+    let from_cell = |cell: &[i64; 3]| {
+        let away = |axis: usize| {
+            let low = cell[axis] as f64 * resolution;
+            (low - point[axis])
+                .max(point[axis] - low - resolution)
+                .max(0.0)
+        };
+        Vec3::new(away(0), away(1), away(2)).norm()
+    };
+    model.iter().map(from_cell).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn queries_see_each_change_as_brute_force_does() {
+    let mut random = Random::new(77);
+    let resolution = 0.07;
+    for round in 0..6 {
+        let (mut ball, body) = Ball::new(0.11);
+        let space = space(vec![free_body(&body)]);
+        let world = Arc::new(Environment::default());
+        let set = against(&space, &world);
+        let mut octree = Octree::new(resolution).unwrap();
+        let mut model = Model::new();
+        let mut pose = random.pose(2.0);
+        if round % 2 == 0 {
+            random_change(&mut random, &mut octree, &mut model, 10);
+        }
+        octree.place(&world, &pose, None).unwrap();
+        for step in 0..40 {
+            if step == 25 {
+                pose = random.pose(2.0);
+                octree.move_to(&pose).unwrap();
+            }
+            random_change(&mut random, &mut octree, &mut model, 10);
+            for _ in 0..6 {
+                let center = random.point(1.0);
+                let at = pose.transform_point(&center);
+                let q = [at.x, at.y, at.z, 0.3, 0.1, -0.4];
+                let expected = from_cells(&model, resolution, &center) - ball.radius;
+                let at = Configuration::Coordinates(&q);
+                let found = ball.query.distance(&set, at, f64::INFINITY).unwrap();
+                if model.is_empty() {
+                    assert!(found.upper.is_infinite());
+                    continue;
+                }
+                assert!(
+                    (found.upper - expected.max(0.0)).abs() < 1e-12,
+                    "{found:?} {expected}"
+                );
+                if expected.abs() > 1e-9 {
+                    let class = ball.query.classify(&set, at).unwrap();
+                    let expected = if expected > 0.0 {
+                        Class::Outside
+                    } else {
+                        Class::Inside
+                    };
+                    assert_eq!(class, expected);
+                }
+                let list = ball.query.witnesses(&set, at, 0.2, 10_000).unwrap();
+                for contact in &list.contacts {
+                    let on_cells = pose.inverse().transform_point(&contact.points[1]);
+                    assert!(from_cells(&model, resolution, &on_cells) < 1e-12);
+                }
+                assert_eq!(!list.witnesses.is_empty(), expected <= 0.2);
+            }
+        }
+        octree.remove().unwrap();
+        assert!(world.snapshot().is_empty());
+    }
+}
+
+/// A tetrahedron against the octree that changed, and against the body of its cells built anew.
+#[test]
+fn answers_are_those_of_a_body_built_anew() {
+    let mut random = Random::new(8);
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let corners = random.points(4, 0.3);
+    builder.add_polyhedron(&corners, 0).unwrap();
+    let built = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    let space = space(vec![free_body(&Arc::new(built.unwrap()))]);
+    let mut query = QueryContext::new();
+    let pose = random.pose(3.0);
+    let changing = Arc::new(Environment::default());
+    let mut octree = Octree::new(0.05).unwrap();
+    octree.place(&changing, &pose, None).unwrap();
+    let mut model = Model::new();
+    for _ in 0..30 {
+        random_change(&mut random, &mut octree, &mut model, 16);
+        if model.is_empty() {
+            continue;
+        }
+        let body = octree.body(&HierarchyOptions::default(), &mut |_| Ok(()));
+        let body = Arc::new(body.unwrap());
+        assert_eq!(body.primitives().len(), octree.cubes().len());
+        let (anew, _) = environment(&[(&body, pose)]);
+        for _ in 0..20 {
+            let at = pose.transform_point(&random.point(1.2));
+            let angles = random.point(3.0);
+            let q = [at.x, at.y, at.z, angles.x, angles.y, angles.z];
+            let at = Configuration::Coordinates(&q);
+            let [a, b] = [&changing, &anew].map(|world| {
+                let set = against(&space, world);
+                let distance = query.distance(&set, at, f64::INFINITY).unwrap();
+                (distance.upper, query.classify(&set, at).unwrap())
+            });
+            assert!((a.0 - b.0).abs() < 1e-12 && a.1 == b.1, "{a:?} {b:?}");
+        }
+    }
+}
+
+fn ids(world: &Environment) -> BTreeSet<u64> {
+    world.snapshot().objects().map(|object| object.id).collect()
+}
+
+#[test]
+fn a_change_replaces_only_the_objects_around_it() {
+    let world = Arc::new(Environment::default());
+    let mut octree = Octree::new(1.0).unwrap();
+    let mut model = Model::new();
+    change(&mut octree, &mut model, [-32, -32, 0], [64, 64, 1], true);
+    octree.place(&world, &Pose::identity(), None).unwrap();
+    assert_eq!(octree.object_count(), 256);
+    let mut before = ids(&world);
+    let version = world.snapshot().version;
+    let mut random = Random::new(4);
+    for _ in 0..50 {
+        let low = [
+            random.below(60) as i64 - 30,
+            random.below(60) as i64 - 30,
+            0,
+        ];
+        let occupied = !model.contains(&low);
+        change(&mut octree, &mut model, low, [1; 3], occupied);
+        let after = ids(&world);
+        assert!(before.difference(&after).count() <= 1 && after.difference(&before).count() <= 1);
+        before = after;
+    }
+    assert_eq!(world.snapshot().version, version + 50);
+    // A cube that becomes full replaces its tiles by one object, and one cell less parts it again.
+    change(&mut octree, &mut model, [0, 0, 8], [16, 16, 16], true);
+    let one = octree.object_count();
+    change(&mut octree, &mut model, [0, 0, 0], [16, 16, 8], true);
+    assert!(octree.object_count() < one);
+    octree.set(&[Vec3::repeat(3.5)], false).unwrap();
+    assert_eq!(octree.cell_count(), (model.len() - 1) as u64);
+}
+
+/// A snapshot keeps its cells; an environment that refuses a change leaves the octree as it was.
+#[test]
+fn snapshots_stay_and_refused_changes_change_nothing() {
+    let world = Arc::new(Environment::default());
+    let mut octree = Octree::new(1.0).unwrap();
+    octree.set(&[Vec3::repeat(0.5)], true).unwrap();
+    octree.place(&world, &Pose::identity(), None).unwrap();
+    let kept = Arc::new(world.freeze());
+    octree.set(&[Vec3::new(5.5, 0.5, 0.5)], true).unwrap();
+    assert_eq!((kept.snapshot().len(), world.snapshot().len()), (1, 2));
+    let error = octree.place(&world, &Pose::identity(), None).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::InvalidArgument);
+    let mut other = Octree::new(1.0).unwrap();
+    let error = other.place(&kept, &Pose::identity(), None).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::Unsupported);
+    let error = other.move_to(&Pose::identity()).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::NotFound);
+    // Planar bodies keep boxes out, so that the next change fails.
+    let mut flat = BodyBuilder::new(2).unwrap();
+    let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+    flat.add_polygon(&corners, 0).unwrap();
+    let flat = flat.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    let planar = Arc::new(Environment::default());
+    other.place(&planar, &Pose::identity(), None).unwrap();
+    let add = Change::Add {
+        body: Arc::new(flat.unwrap()),
+        pose: Pose::identity(),
+        data: None,
+    };
+    planar.apply(&[add]).unwrap();
+    assert!(other.set(&[Vec3::zeros(), Vec3::x()], true).is_err());
+    assert!(other.insert(&octree).is_err());
+    assert_eq!((other.cell_count(), other.object_count()), (0, 0));
+    // Objects that somebody else deleted are not missed.
+    let all = ids(&world).into_iter().map(|id| Change::Delete { id });
+    world.apply(&all.collect::<Vec<_>>()).unwrap();
+    octree.set(&[Vec3::repeat(0.5)], false).unwrap();
+    assert_eq!((octree.cell_count(), world.snapshot().len()), (1, 0));
+    octree.remove().unwrap();
+    octree.remove().unwrap();
+}
+
+#[test]
+fn octrees_are_united() {
+    let mut random = Random::new(19);
+    let world = Arc::new(Environment::default());
+    for _ in 0..10 {
+        let (mut one, mut other) = (Octree::new(0.2).unwrap(), Octree::new(0.2).unwrap());
+        let (mut a, mut b) = (Model::new(), Model::new());
+        for _ in 0..10 {
+            random_change(&mut random, &mut one, &mut a, 12);
+            random_change(&mut random, &mut other, &mut b, 12);
+        }
+        one.place(&world, &Pose::identity(), None).unwrap();
+        one.insert(&other).unwrap();
+        assert_eq!(one.cell_count(), a.union(&b).count() as u64);
+        let mut same = Octree::new(0.2).unwrap();
+        same.insert(&one).unwrap();
+        same.place(&world, &Pose::identity(), None).unwrap();
+        assert_eq!(
+            (same.cubes(), same.object_count()),
+            (one.cubes(), one.object_count())
+        );
+        one.remove().unwrap();
+        same.remove().unwrap();
+    }
+    let coarse = Octree::new(0.4).unwrap();
+    assert!(Octree::new(0.2).unwrap().insert(&coarse).is_err());
+}
+
+/// What changes cost beside the body built anew; to be run by hand.
+#[test]
+#[ignore = "a measurement"]
+fn octree_costs() {
+    for edge in [64, 256] {
+        let world = Arc::new(Environment::default());
+        let mut octree = Octree::new(0.05).unwrap();
+        let mut model = Model::new();
+        change(&mut octree, &mut model, [0, 0, 0], [edge, edge, 1], true);
+        let start = Instant::now();
+        let body = octree
+            .body(&HierarchyOptions::default(), &mut |_| Ok(()))
+            .unwrap();
+        let anew = start.elapsed();
+        let start = Instant::now();
+        octree.place(&world, &Pose::identity(), None).unwrap();
+        let placed = start.elapsed();
+        let mut random = Random::new(1);
+        let rounds = 200;
+        let mut one = || {
+            let cell = [
+                random.below(edge as usize) as i64,
+                random.below(edge as usize) as i64,
+                0,
+            ];
+            let occupied = !model.contains(&cell);
+            change(&mut octree, &mut model, cell, [1; 3], occupied);
+        };
+        one();
+        let start = Instant::now();
+        (0..rounds).for_each(|_| one());
+        let each = start.elapsed() / rounds;
+        println!(
+            "{} cells, {} cubes: the body anew {anew:?}, placed as {} objects {placed:?}, a cell changed {each:?}",
+            octree.cell_count(),
+            body.primitives().len(),
+            octree.object_count(),
+        );
+    }
+}
