@@ -1,0 +1,201 @@
+//! Depths of unions: closed forms, an exact oracle for unions of boxes, the definition itself by translations at random.
+
+use cstk::body::{Body, BodyBuilder};
+use cstk::hierarchy::HierarchyOptions;
+use cstk::pose::{Mat3, Pose, Vec3};
+use cstk::query::{DepthOptions, PairDepth, QueryContext};
+
+use helpers::all_cases;
+use helpers::random::Random;
+use helpers::shapes::{cube_surface, cuboid, dented_ball};
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose::from_translation(Vec3::new(x, y, z))
+}
+
+fn depth_to(a: (&Body, &Pose), b: (&Body, &Pose), tolerance: f64, max_steps: u64) -> PairDepth {
+    let options = DepthOptions { tolerance, max_steps };
+    let found = QueryContext::new().pair_depth(a, b, &options).unwrap();
+    check(a, b, &found);
+    found
+}
+
+fn depth(a: (&Body, &Pose), b: (&Body, &Pose)) -> PairDepth {
+    depth_to(a, b, 0.0, 2000)
+}
+
+/// The translation parts the bodies, and has the length that is claimed.
+fn check(a: (&Body, &Pose), b: (&Body, &Pose), found: &PairDepth) {
+    assert!(found.lower <= found.upper);
+    assert!((found.translation.norm() - found.upper).abs() <= 1e-12 * (1.0 + found.upper));
+    let away = moved(a.1, &found.translation);
+    let apart = QueryContext::new().pair_distance((a.0, &away), b, f64::INFINITY).unwrap();
+    assert!(apart.lower > 0.0, "the way out does not part the bodies");
+}
+
+fn moved(pose: &Pose, way: &Vec3) -> Pose {
+    Pose {
+        translation: pose.translation + way,
+        ..*pose
+    }
+}
+
+fn built(add: impl FnOnce(&mut BodyBuilder)) -> Body {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    add(&mut builder);
+    builder.build(&HierarchyOptions::default(), &mut |_| Ok(())).unwrap()
+}
+
+type Box3 = [Vec3; 2];
+
+fn boxes(parts: &[Box3], turn: &Mat3) -> Body {
+    built(|builder| {
+        for (i, [low, high]) in parts.iter().enumerate() {
+            let middle = Pose {
+                rotation: *turn,
+                translation: turn * (0.5 * (low + high)),
+            };
+            builder.add_box(&middle, &(0.5 * (high - low)), i as u64).unwrap();
+        }
+    })
+}
+
+/// The depth of two unions of boxes along the axes, A moved by `way`: the shortest vector outside all Minkowski differences.
+/// Its coordinates are 0 or faces of differences, by the grid of these.
+fn grid_depth(a: &[Box3], b: &[Box3], way: &Vec3) -> f64 {
+    let mut differences: Vec<Box3> = Vec::new();
+    for [low_a, high_a] in a {
+        for [low_b, high_b] in b {
+            differences.push([low_b - high_a - way, high_b - low_a - way]);
+        }
+    }
+    let cuts = [0, 1, 2].map(|k| {
+        let mut cuts: Vec<f64> = differences.iter().flat_map(|d| [d[0][k], d[1][k]]).collect();
+        cuts.sort_by(f64::total_cmp);
+        cuts.insert(0, cuts[0] - 1.0);
+        cuts.push(cuts[cuts.len() - 1] + 1.0);
+        cuts
+    });
+    let mut best = f64::INFINITY;
+    for i in 1..cuts[0].len() {
+        for j in 1..cuts[1].len() {
+            for k in 1..cuts[2].len() {
+                let low = Vec3::new(cuts[0][i - 1], cuts[1][j - 1], cuts[2][k - 1]);
+                let high = Vec3::new(cuts[0][i], cuts[1][j], cuts[2][k]);
+                // The outermost cells go on for ever.
+                let near = Vec3::zeros().sup(&low).inf(&high);
+                if near.norm() >= best || (0..3).any(|k| low[k] >= high[k]) {
+                    continue;
+                }
+                let middle = 0.5 * (low + high);
+                let holds = |d: &Box3| (0..3).all(|k| d[0][k] < middle[k] && middle[k] < d[1][k]);
+                if !differences.iter().any(holds) {
+                    best = near.norm();
+                }
+            }
+        }
+    }
+    best
+}
+
+#[test]
+fn two_boxes_have_the_depth_of_their_least_overlap() {
+    let (a, b) = (cuboid([2.0, 2.0, 2.0]).body, cuboid([2.0, 4.0, 6.0]).body);
+    let found = depth((&a, &at(1.7, 0.5, 0.2)), (&b, &at(0.0, 0.0, 0.0)));
+    assert!((found.lower - 0.3).abs() < 1e-12 && (found.upper - 0.3).abs() < 1e-12);
+    assert!((found.translation - Vec3::new(0.3, 0.0, 0.0)).norm() < 1e-12);
+    let apart = depth_or_apart((&a, &at(2.1, 0.0, 0.0)), (&b, &at(0.0, 0.0, 0.0)));
+    assert!(!apart.meet && apart.lower == 0.0 && apart.upper == 0.0);
+}
+
+fn depth_or_apart(a: (&Body, &Pose), b: (&Body, &Pose)) -> PairDepth {
+    QueryContext::new().pair_depth(a, b, &DepthOptions::default()).unwrap()
+}
+
+#[test]
+fn unions_of_boxes_have_the_depth_of_the_grid() {
+    let mut random = Random::new(1);
+    let cases = if all_cases() { 50_000 } else { 2_000 };
+    let mut most = 0;
+    for case in 0..cases {
+        let mut some = |n: usize| -> Vec<Box3> {
+            (0..n)
+                .map(|_| {
+                    let middle = random.point(1.0);
+                    let half = Vec3::new(
+                        random.within(0.1, 0.8),
+                        random.within(0.1, 0.8),
+                        random.within(0.1, 0.8),
+                    );
+                    [middle - half, middle + half]
+                })
+                .collect()
+        };
+        let (a, b) = (some(1 + case % 3), some(1 + case / 3 % 3));
+        let turn = if case % 2 == 0 { Mat3::identity() } else { random.rotation() };
+        let way = random.point(0.5);
+        let exact = grid_depth(&a, &b, &way);
+        let (body_a, body_b) = (boxes(&a, &turn), boxes(&b, &turn));
+        let here = Pose::identity();
+        let placed = Pose::from_translation(turn * way);
+        if exact < 1e-9 {
+            continue;
+        }
+        let found = depth((&body_a, &placed), (&body_b, &here));
+        most = most.max(found.steps);
+        assert!(
+            found.lower <= exact + 1e-12 && found.upper >= exact - 1e-12,
+            "case {case}: {} in {} .. {}", exact, found.lower, found.upper
+        );
+        assert!(found.is_tight && found.upper - found.lower < 1e-11, "case {case}: {found:?}, {exact}");
+    }
+    println!("{cases} unions of boxes, at most {most} steps");
+}
+
+#[test]
+fn balls_and_capsules_have_closed_forms() {
+    let ball = |radius: f64| built(|b| b.add_sphere(&Vec3::zeros(), radius, 0).unwrap());
+    let found = depth((&ball(1.0), &at(0.6, 0.8, 0.3)), (&ball(0.5), &at(0.0, 0.0, 0.0)));
+    let exact = 1.5 - Vec3::new(0.6, 0.8, 0.3).norm();
+    assert!((found.lower - exact).abs() < 1e-11 && (found.upper - exact).abs() < 1e-11, "{found:?}");
+    // Concentric: every direction is as good.
+    let found = depth((&ball(1.0), &at(0.0, 0.0, 0.0)), (&ball(0.5), &at(0.0, 0.0, 0.0)));
+    assert!((found.upper - 1.5).abs() < 1e-10 && (found.lower - 1.5).abs() < 1e-10, "{found:?}");
+    // Two balls side by side, and one between them that must move across, not along.
+    let pair = built(|b| {
+        b.add_sphere(&Vec3::new(-0.4, 0.0, 0.0), 0.5, 0).unwrap();
+        b.add_sphere(&Vec3::new(0.4, 0.0, 0.0), 0.5, 1).unwrap();
+    });
+    let found = depth_to((&ball(0.5), &at(0.0, 0.1, 0.0)), (&pair, &at(0.0, 0.0, 0.0)), 1e-4, 5000);
+    // The way out ends where both balls touch: at height sqrt(1 - .16).
+    let exact = 0.84f64.sqrt() - 0.1;
+    assert!(found.lower <= exact && found.upper >= exact - 1e-12, "{found:?}");
+    assert!(found.upper - exact < 1e-9 && found.is_tight, "{exact} {found:?}");
+}
+
+#[test]
+fn cylinders_have_bounds_too() {
+    let cylinder = built(|b| b.add_cylinder(&Pose::identity(), 0.5, 1.0, 0).unwrap());
+    let block = cuboid([4.0, 4.0, 1.0]).body;
+    for (pose, exact) in [(at(0.1, 0.2, 1.2), 0.3), (at(2.2, 0.1, 0.0), 0.3)] {
+        let found = depth_to((&cylinder, &pose), (&block, &at(0.0, 0.0, 0.0)), 1e-3, 4000);
+        assert!(found.lower <= exact + 1e-9 && found.upper >= exact - 1e-9, "{found:?}");
+        assert!(found.upper - exact < 1e-8 && found.is_tight, "{exact} {found:?}");
+    }
+}
+
+#[test]
+fn solids_have_bounds() {
+    let (a, b) = (cube_surface(2.0).body, cube_surface(1.0).body);
+    assert!(a.solid().is_some());
+    for (x, exact) in [(1.2, 0.3), (0.0, 1.5), (0.4, 1.1)] {
+        let found = depth_to((&a, &at(0.0, 0.0, 0.0)), (&b, &at(x, 0.0, 0.0)), 0.02, 2000);
+        println!("cube in cube at {x}: {found:?}");
+        assert!(found.lower <= exact && found.upper >= exact - 1e-12, "{found:?}");
+        assert!(found.upper - exact < 0.02, "{found:?}");
+    }
+    let mut random = Random::new(4);
+    let ball = dented_ball(|| random.within(0.8, 1.0)).body;
+    let found = depth_to((&ball, &at(0.0, 0.0, 0.0)), (&b, &at(0.9, 0.1, 0.2)), 0.02, 2000);
+    println!("dented ball: {found:?}");
+}
