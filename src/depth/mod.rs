@@ -12,4 +12,4 @@ mod search;
 mod touching;
 
 pub use search::{Depth, DepthOptions, DepthSearch, require_inside};
-pub use touching::{Touching, WayOut};
+pub use touching::{Touching, WayOut, touching_at};

@@ -2,7 +2,7 @@
 
 use super::least::least;
 use crate::convex::HalfSpace;
-use crate::pair::{Collect, Pairing, Scratch};
+use crate::pair::{Collect, Pairing, Scratch, traverse};
 use crate::pose::Vec3;
 
 /// A contact after the translation of A. Everything in A's centred frame before it moved.
@@ -22,8 +22,9 @@ pub struct Touching {
 pub struct WayOut {
     /// Weights with contacts of the same normal, which span the common part of parallel features.
     pub terms: Vec<(f64, Vec<Touching>)>,
-    /// The contacts explain the direction, no other contact would take a part of it: moved a little, the bodies have one
-    /// shortest way out near this one.
+    /// The contacts explain the direction.
+    pub is_explained: bool,
+    /// They do, and no other contact would take a part of it: moved a little, the bodies have one shortest way out near this one.
     pub is_regular: bool,
 }
 
@@ -45,7 +46,7 @@ pub fn touching_at(
 ) -> (Vec<Touching>, bool) {
     let shifted = pairing.shifted(way);
     let mut visitor = Collect::new(reach, MAX_CONTACTS, false);
-    let _ = crate::pair::traverse(&shifted, None, scratch, &mut visitor);
+    let _ = traverse(&shifted, None, scratch, &mut visitor);
     let (hits, is_truncated) = visitor.finish();
     let mut found = Vec::new();
     for hit in &hits {
@@ -112,6 +113,7 @@ impl WayOut {
             .all(|(_, m)| *m > DIRECTION_ERROR * length);
         Self {
             terms: terms.collect(),
+            is_explained,
             is_regular: is_explained && !has_others && is_strict,
         }
     }

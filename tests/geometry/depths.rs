@@ -14,7 +14,10 @@ fn at(x: f64, y: f64, z: f64) -> Pose {
 }
 
 fn depth_to(a: (&Body, &Pose), b: (&Body, &Pose), tolerance: f64, max_steps: u64) -> PairDepth {
-    let options = DepthOptions { tolerance, max_steps };
+    let options = DepthOptions {
+        tolerance,
+        max_steps,
+    };
     let found = QueryContext::new().pair_depth(a, b, &options).unwrap();
     check(a, b, &found);
     found
@@ -29,7 +32,9 @@ fn check(a: (&Body, &Pose), b: (&Body, &Pose), found: &PairDepth) {
     assert!(found.lower <= found.upper);
     assert!((found.translation.norm() - found.upper).abs() <= 1e-12 * (1.0 + found.upper));
     let away = moved(a.1, &found.translation);
-    let apart = QueryContext::new().pair_distance((a.0, &away), b, f64::INFINITY).unwrap();
+    let apart = QueryContext::new()
+        .pair_distance((a.0, &away), b, f64::INFINITY)
+        .unwrap();
     assert!(apart.lower > 0.0, "the way out does not part the bodies");
 }
 
@@ -43,7 +48,9 @@ fn moved(pose: &Pose, way: &Vec3) -> Pose {
 fn built(add: impl FnOnce(&mut BodyBuilder)) -> Body {
     let mut builder = BodyBuilder::new(3).unwrap();
     add(&mut builder);
-    builder.build(&HierarchyOptions::default(), &mut |_| Ok(())).unwrap()
+    builder
+        .build(&HierarchyOptions::default(), &mut |_| Ok(()))
+        .unwrap()
 }
 
 type Box3 = [Vec3; 2];
@@ -55,7 +62,9 @@ fn boxes(parts: &[Box3], turn: &Mat3) -> Body {
                 rotation: *turn,
                 translation: turn * (0.5 * (low + high)),
             };
-            builder.add_box(&middle, &(0.5 * (high - low)), i as u64).unwrap();
+            builder
+                .add_box(&middle, &(0.5 * (high - low)), i as u64)
+                .unwrap();
         }
     })
 }
@@ -70,7 +79,10 @@ fn grid_depth(a: &[Box3], b: &[Box3], way: &Vec3) -> f64 {
         }
     }
     let cuts = [0, 1, 2].map(|k| {
-        let mut cuts: Vec<f64> = differences.iter().flat_map(|d| [d[0][k], d[1][k]]).collect();
+        let mut cuts: Vec<f64> = differences
+            .iter()
+            .flat_map(|d| [d[0][k], d[1][k]])
+            .collect();
         cuts.sort_by(f64::total_cmp);
         cuts.insert(0, cuts[0] - 1.0);
         cuts.push(cuts[cuts.len() - 1] + 1.0);
@@ -109,7 +121,9 @@ fn two_boxes_have_the_depth_of_their_least_overlap() {
 }
 
 fn depth_or_apart(a: (&Body, &Pose), b: (&Body, &Pose)) -> PairDepth {
-    QueryContext::new().pair_depth(a, b, &DepthOptions::default()).unwrap()
+    QueryContext::new()
+        .pair_depth(a, b, &DepthOptions::default())
+        .unwrap()
 }
 
 #[test]
@@ -132,7 +146,11 @@ fn unions_of_boxes_have_the_depth_of_the_grid() {
                 .collect()
         };
         let (a, b) = (some(1 + case % 3), some(1 + case / 3 % 3));
-        let turn = if case % 2 == 0 { Mat3::identity() } else { random.rotation() };
+        let turn = if case % 2 == 0 {
+            Mat3::identity()
+        } else {
+            random.rotation()
+        };
         let way = random.point(0.5);
         let exact = grid_depth(&a, &b, &way);
         let (body_a, body_b) = (boxes(&a, &turn), boxes(&b, &turn));
@@ -145,9 +163,15 @@ fn unions_of_boxes_have_the_depth_of_the_grid() {
         most = most.max(found.steps);
         assert!(
             found.lower <= exact + 1e-12 && found.upper >= exact - 1e-12,
-            "case {case}: {} in {} .. {}", exact, found.lower, found.upper
+            "case {case}: {} in {} .. {}",
+            exact,
+            found.lower,
+            found.upper
         );
-        assert!(found.is_tight && found.upper - found.lower < 1e-11, "case {case}: {found:?}, {exact}");
+        assert!(
+            found.is_tight && found.upper - found.lower < 1e-11,
+            "case {case}: {found:?}, {exact}"
+        );
     }
     println!("{cases} unions of boxes, at most {most} steps");
 }
@@ -155,22 +179,45 @@ fn unions_of_boxes_have_the_depth_of_the_grid() {
 #[test]
 fn balls_and_capsules_have_closed_forms() {
     let ball = |radius: f64| built(|b| b.add_sphere(&Vec3::zeros(), radius, 0).unwrap());
-    let found = depth((&ball(1.0), &at(0.6, 0.8, 0.3)), (&ball(0.5), &at(0.0, 0.0, 0.0)));
+    let found = depth(
+        (&ball(1.0), &at(0.6, 0.8, 0.3)),
+        (&ball(0.5), &at(0.0, 0.0, 0.0)),
+    );
     let exact = 1.5 - Vec3::new(0.6, 0.8, 0.3).norm();
-    assert!((found.lower - exact).abs() < 1e-11 && (found.upper - exact).abs() < 1e-11, "{found:?}");
+    assert!(
+        (found.lower - exact).abs() < 1e-11 && (found.upper - exact).abs() < 1e-11,
+        "{found:?}"
+    );
     // Concentric: every direction is as good.
-    let found = depth((&ball(1.0), &at(0.0, 0.0, 0.0)), (&ball(0.5), &at(0.0, 0.0, 0.0)));
-    assert!((found.upper - 1.5).abs() < 1e-10 && (found.lower - 1.5).abs() < 1e-10, "{found:?}");
+    let found = depth(
+        (&ball(1.0), &at(0.0, 0.0, 0.0)),
+        (&ball(0.5), &at(0.0, 0.0, 0.0)),
+    );
+    assert!(
+        (found.upper - 1.5).abs() < 1e-10 && (found.lower - 1.5).abs() < 1e-10,
+        "{found:?}"
+    );
     // Two balls side by side, and one between them that must move across, not along.
     let pair = built(|b| {
         b.add_sphere(&Vec3::new(-0.4, 0.0, 0.0), 0.5, 0).unwrap();
         b.add_sphere(&Vec3::new(0.4, 0.0, 0.0), 0.5, 1).unwrap();
     });
-    let found = depth_to((&ball(0.5), &at(0.0, 0.1, 0.0)), (&pair, &at(0.0, 0.0, 0.0)), 1e-4, 5000);
+    let found = depth_to(
+        (&ball(0.5), &at(0.0, 0.1, 0.0)),
+        (&pair, &at(0.0, 0.0, 0.0)),
+        1e-4,
+        5000,
+    );
     // The way out ends where both balls touch: at height sqrt(1 - .16).
     let exact = 0.84f64.sqrt() - 0.1;
-    assert!(found.lower <= exact && found.upper >= exact - 1e-12, "{found:?}");
-    assert!(found.upper - exact < 1e-9 && found.is_tight, "{exact} {found:?}");
+    assert!(
+        found.lower <= exact && found.upper >= exact - 1e-12,
+        "{found:?}"
+    );
+    assert!(
+        found.upper - exact < 1e-9 && found.is_tight,
+        "{exact} {found:?}"
+    );
 }
 
 #[test]
@@ -179,8 +226,14 @@ fn cylinders_have_bounds_too() {
     let block = cuboid([4.0, 4.0, 1.0]).body;
     for (pose, exact) in [(at(0.1, 0.2, 1.2), 0.3), (at(2.2, 0.1, 0.0), 0.3)] {
         let found = depth_to((&cylinder, &pose), (&block, &at(0.0, 0.0, 0.0)), 1e-3, 4000);
-        assert!(found.lower <= exact + 1e-9 && found.upper >= exact - 1e-9, "{found:?}");
-        assert!(found.upper - exact < 1e-8 && found.is_tight, "{exact} {found:?}");
+        assert!(
+            found.lower <= exact + 1e-9 && found.upper >= exact - 1e-9,
+            "{found:?}"
+        );
+        assert!(
+            found.upper - exact < 1e-8 && found.is_tight,
+            "{exact} {found:?}"
+        );
     }
 }
 
@@ -191,11 +244,19 @@ fn solids_have_bounds() {
     for (x, exact) in [(1.2, 0.3), (0.0, 1.5), (0.4, 1.1)] {
         let found = depth_to((&a, &at(0.0, 0.0, 0.0)), (&b, &at(x, 0.0, 0.0)), 0.02, 2000);
         println!("cube in cube at {x}: {found:?}");
-        assert!(found.lower <= exact && found.upper >= exact - 1e-12, "{found:?}");
+        assert!(
+            found.lower <= exact && found.upper >= exact - 1e-12,
+            "{found:?}"
+        );
         assert!(found.upper - exact < 0.02, "{found:?}");
     }
     let mut random = Random::new(4);
     let ball = dented_ball(|| random.within(0.8, 1.0)).body;
-    let found = depth_to((&ball, &at(0.0, 0.0, 0.0)), (&b, &at(0.9, 0.1, 0.2)), 0.02, 2000);
+    let found = depth_to(
+        (&ball, &at(0.0, 0.0, 0.0)),
+        (&b, &at(0.9, 0.1, 0.2)),
+        0.02,
+        2000,
+    );
     println!("dented ball: {found:?}");
 }
