@@ -273,11 +273,9 @@ impl<'a, 's> DepthSearch<'a, 's> {
             self.offer(found.direction * (found.depth + self.clearance));
         }
         self.first_ways();
-        if self.upper - least_depth <= self.tolerance
-            && let Some(places) = deepest
-        {
+        if self.upper - least_depth <= self.tolerance {
             self.floor = least_depth;
-            self.has_rival = self.has_equal_depths(places);
+            self.has_rival = deepest.is_none_or(|places| self.has_equal_depths(places));
         }
         least_depth
     }
