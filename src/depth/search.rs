@@ -156,6 +156,9 @@ const MAX_HALVINGS: usize = 24;
 /// Corrections of the way out by what touches after it.
 const MAX_CORRECTIONS: usize = 12;
 
+/// Normals closer than this differ by rounding: what is beyond one half-space and not beyond the other is nearer than the error.
+const SAME_NORMAL: f64 = 8.0 * EPSILON;
+
 /// Ways out farther apart than this, times their length, are different ones.
 const OTHER_WAY: f64 = 1e-2;
 
@@ -543,11 +546,23 @@ impl<'a, 's> DepthSearch<'a, 's> {
         }
     }
 
-    /// The half-spaces that part the primitives at two places.
+    /// The half-spaces that part the primitives at two places, each once.
     fn parting(&mut self, places: [u32; 2]) -> Vec<HalfSpace> {
         let mut buffer = Default::default();
         let [a, b] = self.pairing.placed(places, &mut buffer);
-        parting_half_spaces(&a, &b, &self.pairing.precision, self.scratch.meter_mut())
+        let found = parting_half_spaces(&a, &b, &self.pairing.precision, self.scratch.meter_mut());
+        let mut kept: Vec<HalfSpace> = Vec::with_capacity(found.len());
+        for space in found {
+            // Parallel faces of both have the same normal up to its rounding; the wider half-space covers both.
+            let is_same = |other: &&mut HalfSpace| {
+                (other.normal - space.normal).norm_squared() <= SAME_NORMAL * SAME_NORMAL
+            };
+            match kept.iter_mut().find(is_same) {
+                Some(other) => other.offset = other.offset.min(space.offset),
+                None => kept.push(space),
+            }
+        }
+        kept
     }
 
     /// The number of a difference, which is made when first asked for.
@@ -649,19 +664,20 @@ impl<'a, 's> DepthSearch<'a, 's> {
                 difference,
                 part,
             }));
+            let spaces: Vec<HalfSpace> = faces.iter().map(|face| face.space).collect();
+            let found = least(&spaces, 0.0, self.rounding);
+            let bound = found.bound.max(node.bound);
+            if bound > self.upper + self.clearance {
+                continue;
+            }
+            self.keep_active(&mut faces, &found.point);
             let mut key: Vec<(u32, u32)> = faces
                 .iter()
                 .map(|face| (face.difference, face.part))
                 .collect();
             key.sort_unstable();
             key.dedup();
-            if !self.seen.insert(key) {
-                continue;
-            }
-            let spaces: Vec<HalfSpace> = faces.iter().map(|face| face.space).collect();
-            let found = least(&spaces, 0.0, self.rounding);
-            let bound = found.bound.max(node.bound);
-            if bound <= self.upper + self.clearance {
+            if self.seen.insert(key) {
                 self.nodes.push(Node {
                     bound,
                     point: found.point,
@@ -669,6 +685,20 @@ impl<'a, 's> DepthSearch<'a, 's> {
                 });
             }
         }
+    }
+
+    /// Leaves out the half-spaces that do not hold the point of a node back: the others have the same shortest translation. Nodes
+    /// that were reached on several ways are then equal. What was left out may be taken again further on.
+    fn keep_active(&self, faces: &mut Vec<Face>, point: &Vec3) {
+        let slack = 4.0 * (self.clearance + self.error);
+        let is_active = |face: &Face| face.space.normal.dot(point) - face.space.offset <= slack;
+        let active: Vec<(u32, u32)> = faces
+            .iter()
+            .filter(|face| is_active(face))
+            .map(|face| (face.difference, face.part))
+            .collect();
+        // A cone stays whole.
+        faces.retain(|face| active.contains(&(face.difference, face.part)));
     }
 
     /// Shortens the way out by what touches after it, as long as that helps.

@@ -7,7 +7,7 @@ use cstk::query::{DepthOptions, PairDepth, QueryContext};
 
 use helpers::all_cases;
 use helpers::random::Random;
-use helpers::shapes::{cube_surface, cuboid, dented_ball};
+use helpers::shapes::{Shape, cube_surface, cuboid, dented_ball};
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
     Pose::from_translation(Vec3::new(x, y, z))
@@ -237,10 +237,18 @@ fn cylinders_have_bounds_too() {
     }
 }
 
+fn solid(shape: &Shape) -> Body {
+    built(|builder| {
+        for part in &shape.parts {
+            builder.add_polygon(part, 0).unwrap();
+        }
+        builder.set_solid(true);
+    })
+}
+
 #[test]
 fn solids_have_bounds() {
-    let (a, b) = (cube_surface(2.0).body, cube_surface(1.0).body);
-    assert!(a.solid().is_some());
+    let (a, b) = (solid(&cube_surface(2.0)), solid(&cube_surface(1.0)));
     for (x, exact) in [(1.2, 0.3), (0.0, 1.5), (0.4, 1.1)] {
         let found = depth_to((&a, &at(0.0, 0.0, 0.0)), (&b, &at(x, 0.0, 0.0)), 0.02, 2000);
         println!("cube in cube at {x}: {found:?}");
@@ -251,12 +259,16 @@ fn solids_have_bounds() {
         assert!(found.upper - exact < 0.02, "{found:?}");
     }
     let mut random = Random::new(4);
-    let ball = dented_ball(|| random.within(0.8, 1.0)).body;
-    let found = depth_to(
-        (&ball, &at(0.0, 0.0, 0.0)),
-        (&b, &at(0.9, 0.1, 0.2)),
-        0.02,
-        2000,
-    );
+    let ball = solid(&dented_ball(|| random.within(0.8, 1.0)));
+    let (here, there) = (at(0.0, 0.0, 0.0), at(0.9, 0.1, 0.2));
+    let found = depth_to((&ball, &here), (&b, &there), 0.02, 2000);
     println!("dented ball: {found:?}");
+    assert!(found.lower > 0.5 * found.upper, "{found:?}");
+    // By the definition: no shorter translation parts them.
+    for _ in 0..1000 {
+        let way = random.unit() * found.lower * random.within(0.0, 1.0).cbrt();
+        let moved = moved(&here, &way);
+        let met = QueryContext::new().pair_within((&ball, &moved), (&b, &there), 0.0);
+        assert!(met.unwrap(), "{way} parts them, {found:?}");
+    }
 }
