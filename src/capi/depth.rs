@@ -34,7 +34,7 @@ pub struct cstk_depth_options {
     /// mostly end closer than any tolerance.
     pub tolerance: f64,
     /// The search ends after this many steps, with the bounds that it has; 0, the default, for 1000. A step takes some
-    /// microseconds between few primitives, up to a millisecond between solids of many faces.
+    /// microseconds between few primitives, up to some milliseconds between solids of many faces.
     pub max_steps: u64,
     pub reserved: [u64; 2],
 }
@@ -62,6 +62,7 @@ impl From<&cstk_depth_options> for DepthOptions {
                 0 => DepthOptions::default().max_steps,
                 steps => steps,
             },
+            ..Default::default()
         }
     }
 }

@@ -30,6 +30,9 @@ pub struct DepthOptions {
     pub tolerance: f64,
     /// Nodes to take, at most.
     pub max_steps: u64,
+    /// Goes on between polytopes until other ways out of the same length are found or excluded: they tell whether the depth has a
+    /// derivative.
+    pub seeks_rivals: bool,
 }
 
 impl DepthOptions {
@@ -42,6 +45,7 @@ impl Default for DepthOptions {
         Self {
             tolerance: 0.0,
             max_steps: 1000,
+            seeks_rivals: false,
         }
     }
 }
@@ -125,6 +129,7 @@ pub struct DepthSearch<'a, 's> {
     rays: RayScratch,
     tolerance: f64,
     max_steps: u64,
+    seeks_rivals: bool,
     /// Bodies farther apart than this are proved apart, with room for rounding.
     clearance: f64,
     /// How far half-spaces are moved outwards, so that rounding excludes nothing.
@@ -209,6 +214,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
             rays: RayScratch::default(),
             tolerance,
             max_steps: options.max_steps,
+            seeks_rivals: options.seeks_rivals,
             clearance: 4.0 * precision.error,
             error: 2.0 * precision.error,
             rounding: 8.0 * EPSILON * precision.size,
@@ -366,9 +372,8 @@ impl<'a, 's> DepthSearch<'a, 's> {
         });
         while let Some(node) = self.nodes.peek() {
             let is_close = self.upper - node.bound.max(least_depth) <= self.tolerance;
-            // Other ways of the same length tell whether this one may be differentiated.
-            let is_done =
-                node.bound > self.upper + self.clearance || (is_close && self.has_round());
+            let is_enough = is_close && (!self.seeks_rivals || self.has_round());
+            let is_done = is_enough || node.bound > self.upper + self.clearance;
             let is_full = self.steps >= self.max_steps || self.nodes.len() > MAX_NODES;
             if is_done || is_full || self.scratch.meter().is_exceeded() {
                 break;

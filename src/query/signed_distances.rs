@@ -164,7 +164,8 @@ impl QueryContext {
         if hit.contained.is_none() && hit.apart > error {
             let doubt = match hit.distance > 0.0 {
                 true => (hit.distance - lower).max(error),
-                false => error,
+                // Within the margin the search keeps no bound.
+                false => error + tolerance::SMOOTH_ERROR * target.pairing().precision.size,
             };
             let apart = self.apart(scene, state, target, &hit)?;
             let pair = SignedDistance {
@@ -193,7 +194,11 @@ impl QueryContext {
                 row: undefined.row,
             }));
         }
-        let depth = self.depth_of(target, options)?;
+        let options = DepthOptions {
+            seeks_rivals: true,
+            ..*options
+        };
+        let depth = self.depth_of(target, &options)?;
         let out = way_out(scene, state, target, &depth)?;
         let pair = SignedDistance {
             distance: -depth.upper - margin,

@@ -17,6 +17,7 @@ fn depth_to(a: (&Body, &Pose), b: (&Body, &Pose), tolerance: f64, max_steps: u64
     let options = DepthOptions {
         tolerance,
         max_steps,
+        ..DepthOptions::default()
     };
     let found = QueryContext::new().pair_depth(a, b, &options).unwrap();
     check(a, b, &found);
@@ -24,7 +25,7 @@ fn depth_to(a: (&Body, &Pose), b: (&Body, &Pose), tolerance: f64, max_steps: u64
 }
 
 fn depth(a: (&Body, &Pose), b: (&Body, &Pose)) -> PairDepth {
-    depth_to(a, b, 0.0, 2000)
+    depth_to(a, b, 1e-13, 2000)
 }
 
 /// The translation parts the bodies, and has the length that is claimed.
@@ -217,6 +218,51 @@ fn balls_and_capsules_have_closed_forms() {
     assert!(
         found.upper - exact < 1e-9 && found.is_tight,
         "{exact} {found:?}"
+    );
+}
+
+#[test]
+fn bodies_of_the_plane_stay_in_it() {
+    let square = |x: f64, y: f64| {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        corners.map(|(u, v)| Vec3::new(x + u, y + v, 0.0))
+    };
+    let built = |parts: &[(f64, f64)]| {
+        let mut builder = BodyBuilder::new(2).unwrap();
+        for &(x, y) in parts {
+            builder.add_polygon(&square(x, y), 0).unwrap();
+        }
+        builder
+            .build(&HierarchyOptions::default(), &mut |_| Ok(()))
+            .unwrap()
+    };
+    // Two squares side by side: the way out of one along x leads into the other.
+    let (a, b) = (built(&[(0.0, 0.0)]), built(&[(-0.75, 0.0), (0.75, 0.0)]));
+    let found = depth((&a, &at(-0.5, 0.5, 0.0)), (&b, &at(0.0, 0.0, 0.0)));
+    assert!(
+        (found.lower - 1.5).abs() < 1e-11 && (found.upper - 1.5).abs() < 1e-11,
+        "{found:?}"
+    );
+    assert!(
+        (found.translation - Vec3::new(0.0, 1.5, 0.0)).norm() < 1e-11,
+        "{found:?}"
+    );
+    // A disc in the corner of two squares: out to where it touches the corner, or across a side.
+    let mut builder = BodyBuilder::new(2).unwrap();
+    builder.add_sphere(&Vec3::zeros(), 0.5, 0).unwrap();
+    let disc = builder
+        .build(&HierarchyOptions::default(), &mut |_| Ok(()))
+        .unwrap();
+    let found = depth_to(
+        (&disc, &at(1.3, 1.3, 0.0)),
+        (&a, &at(0.0, 0.0, 0.0)),
+        1e-9,
+        2000,
+    );
+    let exact = 0.5 - 0.3 * 2f64.sqrt();
+    assert!(
+        (found.lower - exact).abs() < 1e-9 && (found.upper - exact).abs() < 1e-9,
+        "{found:?}"
     );
 }
 
