@@ -198,12 +198,12 @@ static void depths(const fixture *f) {
     options.cookie ^= 1;
     CHECK_REFUSED(out, cstk_pair_depth(f->query, f->body, identity_pose, f->body, identity_pose,
                                        &options, &out),
-                  CSTK_ERROR_INVALID_ARGUMENT, "options");
+                  CSTK_ERROR_NOT_INITIALISED, "options");
     CHECK_OK(cstk_depth_options_default(&options, sizeof options));
     options.size = 3;
     CHECK_REFUSED(out, cstk_pair_depth(f->query, f->body, identity_pose, f->body, identity_pose,
                                        &options, &out),
-                  CSTK_ERROR_INVALID_ARGUMENT, "options");
+                  CSTK_ERROR_NOT_INITIALISED, "options");
     const double triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     cstk_body_builder *builder = NULL;
     cstk_body *surface = NULL;
