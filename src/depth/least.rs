@@ -107,18 +107,22 @@ fn corner(spaces: &[HalfSpace], offset: &impl Fn(usize) -> f64, basis: Basis) ->
     if multipliers.iter().any(|m| *m < -FLAT * largest) {
         return None;
     }
+    let largest_offset = offsets.iter().fold(0.0, |a: f64, o| a.max(o.abs()));
     let (mut sum, mut along) = (Vec3::zeros(), 0.0);
     for ((normal, offset), multiplier) in normals.iter().zip(&offsets).zip(&multipliers) {
         let multiplier = multiplier.max(0.0);
         sum += normal * multiplier;
         along += offset * multiplier;
     }
-    let length = sum.norm();
+    // Both sums carry the rounding of their terms.
+    let weight: f64 = multipliers.iter().map(|m| m.max(0.0)).sum();
+    let length = sum.norm() + 8.0 * EPSILON * weight;
+    let bound = (along - 8.0 * EPSILON * weight * largest_offset) / length;
     (along > 0.0 && length > 0.0).then_some(())?;
     Some(Corner {
         basis,
         multipliers,
-        bound: along / length,
+        bound,
         point: sum,
     })
 }

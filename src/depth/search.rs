@@ -7,7 +7,7 @@
 //! depth; for polytopes the search ends with the depth itself.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::collections::{BinaryHeap, HashMap};
 
 use foldhash::fast::RandomState;
 
@@ -140,7 +140,8 @@ pub struct DepthSearch<'a, 's> {
     /// Balls in A and in B.
     balls: [Vec<InnerBall>; 2],
     nodes: BinaryHeap<Node>,
-    seen: HashSet<Vec<(u32, u32)>, RandomState>,
+    /// The half-spaces of the nodes made, with the least bound of each.
+    seen: HashMap<Vec<(u32, u32)>, f64, RandomState>,
     upper: f64,
     way: Vec3,
     /// The least bound of the nodes that are done with.
@@ -222,7 +223,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
             numbers: HashMap::default(),
             balls: Default::default(),
             nodes: BinaryHeap::new(),
-            seen: HashSet::default(),
+            seen: HashMap::default(),
             upper: f64::INFINITY,
             way: Vec3::zeros(),
             floor: f64::INFINITY,
@@ -237,7 +238,12 @@ impl<'a, 's> DepthSearch<'a, 's> {
         if self.upper - least_depth > self.tolerance {
             self.search(least_depth);
         }
+        // Of round differences only single ones bound the depth: the search among their cones finds ways out, no more.
         let lower = match self.nodes.peek() {
+            _ if self.has_round() => {
+                let ball = self.deepest_ball(&Vec3::zeros());
+                ball.map_or(0.0, |ball| ball.depth - self.error)
+            }
             Some(node) => node.bound.min(self.floor),
             None => self.floor,
         };
@@ -682,7 +688,10 @@ impl<'a, 's> DepthSearch<'a, 's> {
                 .collect();
             key.sort_unstable();
             key.dedup();
-            if self.seen.insert(key) {
+            // A node of the same half-spaces covers this one only if its bound claims no more.
+            let known = self.seen.entry(key).or_insert(f64::INFINITY);
+            if bound < *known {
+                *known = bound;
                 self.nodes.push(Node {
                     bound,
                     point: found.point,
