@@ -535,6 +535,11 @@ static void queries() {
     REQUIRE(query.pair_witnesses(body, here, body, there, 2.0).contact_count == 4);
     REQUIRE(query.pair_penetration(body, here, body, there).count == 0);
     REQUIRE(query.pair_penetration(body, here, body, here, 1).count == 1);
+    REQUIRE(!query.pair_depth(body, here, body, there).meet);
+    const cstk_depth_result deep = query.pair_depth(body, here, body, here, cstk::depth_options(1e-3, 100));
+    REQUIRE(deep.meet && deep.tight && deep.lower <= deep.upper && deep.steps <= 100);
+    REQUIRE(query.signed_distances(all, q, 2.6).count > 0);
+    REQUIRE(status_of([&] { query.signed_distances(all, q, -1.0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     REQUIRE(status_of([&] { query.pair_within(body, here, body, there, -1.0); }) ==
             CSTK_ERROR_INVALID_ARGUMENT);
     object_pairs(query, body);

@@ -19,6 +19,7 @@ typedef union answer {
     cstk_distance_result distance;
     cstk_witness_list list;
     cstk_penetration_list penetrations;
+    cstk_depth_result depth;
 } answer;
 
 static cstk_status distance(const question *a, answer *out) {
@@ -41,6 +42,15 @@ static cstk_status penetration(const question *a, answer *out) {
                                  a->max_count, out ? &out->penetrations : NULL);
 }
 
+/* The number is the tolerance: any that is not negative will do. */
+static cstk_status depth(const question *a, answer *out) {
+    cstk_depth_options options;
+    CHECK_OK(cstk_depth_options_default(&options, sizeof options));
+    options.tolerance = a->number;
+    return cstk_pair_depth(a->query, a->body_a, a->pose_a, a->body_b, a->pose_b, &options,
+                           out ? &out->depth : NULL);
+}
+
 typedef struct form {
     const char *name;
     cstk_status (*ask)(const question *, answer *);
@@ -53,6 +63,7 @@ static const form forms[] = {
     {"within", within, "threshold"},
     {"witnesses", witnesses, "epsilon"},
     {"penetration", penetration, NULL},
+    {"depth", depth, "options->tolerance"},
 };
 
 static void refuse(const form *of, const question *a, cstk_status status, const char *culprit) {
@@ -177,6 +188,35 @@ static void scales(const fixture *f) {
     }
 }
 
+/* Options of another size or without their cookie are refused, and surfaces that meet. */
+static void depths(const fixture *f) {
+    cstk_depth_options options;
+    cstk_depth_result out;
+    CHECK_FAILS(cstk_depth_options_default(NULL, sizeof options), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_OK(cstk_depth_options_default(&options, sizeof options));
+    CHECK(options.tolerance == 0 && options.max_steps == 0);
+    options.cookie ^= 1;
+    CHECK_REFUSED(out, cstk_pair_depth(f->query, f->body, identity_pose, f->body, identity_pose,
+                                       &options, &out),
+                  CSTK_ERROR_NOT_INITIALISED, "options");
+    CHECK_OK(cstk_depth_options_default(&options, sizeof options));
+    options.size = 3;
+    CHECK_REFUSED(out, cstk_pair_depth(f->query, f->body, identity_pose, f->body, identity_pose,
+                                       &options, &out),
+                  CSTK_ERROR_NOT_INITIALISED, "options");
+    const double triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    cstk_body_builder *builder = NULL;
+    cstk_body *surface = NULL;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+    CHECK_OK(cstk_body_builder_add_polygon(builder, triangle, 3, 0));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &surface));
+    CHECK_OK(cstk_body_builder_release(builder));
+    CHECK_REFUSED(out, cstk_pair_depth(f->query, surface, identity_pose, surface, identity_pose, NULL,
+                                       &out),
+                  CSTK_ERROR_UNSUPPORTED, "primitive 0 of body_a");
+    CHECK_OK(cstk_body_release(surface));
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -188,6 +228,7 @@ int main(void) {
         fixture_unchanged(&f);
     }
     scales(&f);
+    depths(&f);
     fixture_release(&f);
     return check_result();
 }

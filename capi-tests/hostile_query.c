@@ -56,6 +56,7 @@ typedef union answer {
     cstk_distance_result distance;
     cstk_witness_list list;
     cstk_pseudo_normal_result pseudo_normal;
+    cstk_signed_distance_list signed_distances;
 } answer;
 
 typedef cstk_status (*ask_fn)(const question *, answer *);
@@ -109,6 +110,11 @@ static cstk_status pseudo_normal(const question *a, answer *out) {
                               out ? &out->pseudo_normal : NULL);
 }
 
+static cstk_status signed_distances(const question *a, answer *out) {
+    return cstk_signed_distances(a->query, a->cobject, a->at, a->count, a->number, a->max_count, NULL,
+                                 out ? &out->signed_distances : NULL);
+}
+
 typedef struct form {
     const char *name;
     ask_fn ask;
@@ -129,6 +135,7 @@ static const form forms[] = {
     {"witnesses_at", witnesses_at, true, "epsilon"},
     {"gradients", gradients, false, "epsilon"},
     {"pseudo_normal", pseudo_normal, false, "max_shell"},
+    {"signed_distances", signed_distances, false, "max_distance"},
 };
 
 static question good_question(const fixture *f, const form *of) {

@@ -22,6 +22,7 @@
  *   @ref at_configuration   Queries at a configuration
  *   @ref pair               Pair queries
  *   @ref object_pairs       Objects against objects
+ *   @ref depth              Depths and signed distances
  *   @ref motion             Motions
  *   @ref certificate        Certificates
  *   @ref region             Regions
@@ -4361,6 +4362,210 @@ cstk_status cstk_environment_witnesses(cstk_query *query,
                                        size_t max_count,
                                        const cstk_object_pair_options *options,
                                        cstk_witness_list *out);
+
+/** @} */
+
+/**
+ * @defgroup depth Depths and signed distances
+ *
+ * The depth of two bodies that meet is the least length of a translation after which they do not meet. For two convex primitives
+ * cstk_pair_penetration has it in closed form; for unions and solids it is bounded from both sides by a search, as closely as the
+ * work allows. Planners that optimise take the signed distance: the distance of what is apart, minus the depth of what meets,
+ * with its derivative on both sides.
+ *
+ * @code
+     cstk_depth_result deep;
+     cstk_signed_distance_list near;
+     check(cstk_pair_depth(query, body, pose_a, body, pose_b, NULL, &deep));
+     check(cstk_signed_distances(query, cobject, q, nq, 0.1, 64, NULL, &near));
+ * @endcode
+ * @{
+ */
+
+/**
+ * What the row of a signed distance is.
+ */
+enum cstk_gradient_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * The derivative of the signed distance.
+   */
+  CSTK_GRADIENT_DERIVATIVE = 0,
+  /**
+   * Several features are equally near, or several translations equally short: the derivative of one of them. The signed
+   * distance has no derivative here.
+   */
+  CSTK_GRADIENT_ONE_OF_SEVERAL = 1,
+  /**
+   * The bodies meet, and their depth is not known to the tolerance, or its translation does not follow from what touches after
+   * it: the derivative of the length of the translation found, its direction held.
+   */
+  CSTK_GRADIENT_APPROXIMATE = 2,
+  /**
+   * The bodies meet, and neither has an inside everywhere: no depth is defined. The row and the normal are 0.
+   */
+  CSTK_GRADIENT_UNDEFINED = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cstk_gradient_kind cstk_gradient_kind;
+#else
+typedef int32_t cstk_gradient_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Options of the search for depths. Write it with cstk_depth_options_default first.
+ */
+typedef struct cstk_depth_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The search ends when its bounds are this close, a length; 0, the default, for 1e-6 of the size of the pair. Polytopes
+   * mostly end closer than any tolerance.
+   */
+  double tolerance;
+  /**
+   * The search ends after this many steps, with the bounds that it has; 0, the default, for 1000. A step takes some
+   * microseconds between few primitives, up to some milliseconds between solids of many faces.
+   */
+  uint64_t max_steps;
+  uint64_t reserved[2];
+} cstk_depth_options;
+
+/**
+ * Bounds of a depth, with a translation that parts the bodies. All 0 for bodies that are apart.
+ */
+typedef struct cstk_depth_result {
+  /**
+   * Whether the bodies meet.
+   */
+  bool meet;
+  /**
+   * The bounds are within the tolerance, or as close as rounding allows.
+   */
+  bool tight;
+  uint8_t reserved_bytes[6];
+  /**
+   * No shorter translation parts the bodies.
+   */
+  double lower;
+  /**
+   * The length of `translation`. Never below the true depth: infinite, with a translation of 0, only if no translation was proved
+   * to part them.
+   */
+  double upper;
+  /**
+   * After body a has moved by it, in the world, the bodies are proved apart: by a little more than rounding.
+   */
+  double translation[3];
+  /**
+   * The steps of the search.
+   */
+  uint64_t steps;
+  uint64_t reserved[4];
+} cstk_depth_result;
+
+/**
+ * The signed distance of two bodies, less the C-object's margin.
+ */
+typedef struct cstk_signed_distance {
+  /**
+   * Which bodies; of bodies that are apart, the nearest primitives. It has no contacts.
+   */
+  cstk_witness witness;
+  /**
+   * The distance; of bodies that meet, minus the length of the shortest translation found that parts them. Minus the margin
+   * where no depth is defined.
+   */
+  double distance;
+  /**
+   * Never above the true signed distance; -INFINITY where no depth is defined.
+   */
+  double lower;
+  /**
+   * Never below the true signed distance.
+   */
+  double upper;
+  /**
+   * The unit vector, in the world, along which the r-side gets away from the s-side.
+   */
+  double normal[3];
+  /**
+   * The witness points, in the world; of bodies that meet, two that touch after the translation, where they are before it.
+   */
+  double r_point[3];
+  double s_point[3];
+  cstk_gradient_kind gradient_kind;
+  uint32_t reserved_word;
+  uint64_t reserved[4];
+} cstk_signed_distance;
+
+/**
+ * The signed distances of body pairs, least first. The arrays belong to the query context and stay valid until its next call or
+ * its release.
+ */
+typedef struct cstk_signed_distance_list {
+  const cstk_signed_distance *pairs;
+  size_t count;
+  /**
+   * One row of `nv` doubles per pair: the derivative of its distance with respect to each velocity. See `gradient_kind`.
+   */
+  const double *gradients;
+  size_t nv;
+  /**
+   * There are more pairs than max_count; these have the least distances.
+   */
+  bool truncated;
+  uint8_t reserved_bytes[7];
+  uint64_t environment_version;
+  uint64_t reserved[4];
+} cstk_signed_distance_list;
+
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_depth_options).
+ */
+cstk_status cstk_depth_options_default(cstk_depth_options *out, size_t size);
+
+/**
+ * Writes bounds of the depth of body a at pose_a in body b at pose_b, and a translation of body a, in the world, that is proved to
+ * part them. Unions and solids (cstk_body_builder_set_solid) count as a whole: the depth is exact to rounding for unions of
+ * polytopes, if the steps suffice. With round primitives or
+ * solids the lower bound is that of the deepest single pair of primitives or of balls inside the bodies; it may stay below the truth
+ * whatever the tolerance, and `tight` tells. CSTK_ERROR_UNSUPPORTED if the bodies meet and each has a primitive
+ * without an inside, such as a polygon that bounds no solid; the message names them. A surface
+ * in a solid has a depth. `options` may be NULL for the defaults. Poses are 12 doubles, row-major
+ * [R | t], the body's frame in the world.
+ */
+cstk_status cstk_pair_depth(cstk_query *query,
+                            const cstk_body *body_a,
+                            const double *pose_a,
+                            const cstk_body *body_b,
+                            const double *pose_b,
+                            const cstk_depth_options *options,
+                            cstk_depth_result *out);
+
+/**
+ * Writes the signed distances, less the margin, of all pairs of bodies of the C-object that are at most `max_distance` apart (not
+ * negative; may be INFINITY) at configuration q: of links, attached objects and s-objects, each pair with the derivative of its
+ * signed distance with respect to the velocities. The C-object is an induced set or a union of such, else
+ * CSTK_ERROR_UNSUPPORTED. Apart, distances are as cstk_distance has them; of bodies that meet, they are minus the depth, bounded as
+ * cstk_pair_depth does with these options, of which NULL stands for the defaults. `gradient_kind` tells where there is no
+ * derivative, and where no depth. If there are more than `max_count` pairs, those with the least distances are listed and `truncated`
+ * is set. The arrays stay valid until the next call with this query context.
+ */
+cstk_status cstk_signed_distances(cstk_query *query,
+                                  const cstk_cobject *cobject,
+                                  const double *q,
+                                  size_t nq,
+                                  double max_distance,
+                                  size_t max_count,
+                                  const cstk_depth_options *options,
+                                  cstk_signed_distance_list *out);
 
 /** @} */
 

@@ -268,6 +268,15 @@ inline cstk_object_pair_options object_pair_options(bool with_distances = false)
     return options;
 }
 
+/// The default options of cstk_pair_depth and cstk_signed_distances.
+inline cstk_depth_options depth_options(double tolerance = 0, std::uint64_t max_steps = 0) {
+    cstk_depth_options options;
+    check(cstk_depth_options_default(&options, sizeof options));
+    options.tolerance = tolerance;
+    options.max_steps = max_steps;
+    return options;
+}
+
 /// The default options of cstk_region_classify.
 inline cstk_region_options region_options() {
     cstk_region_options options;
@@ -2251,6 +2260,25 @@ public:
         cstk_penetration_list out;
         check(cstk_pair_penetration(get(), a.get(), pose_a.data(), b.get(), pose_b.data(),
                                     max_count, &out));
+        return out;
+    }
+
+    /// Bounds of the depth of a in b, and a translation of a that parts them.
+    cstk_depth_result pair_depth(const Body &a, const Pose &pose_a, const Body &b, const Pose &pose_b,
+                                 const cstk_depth_options &options = depth_options()) const {
+        cstk_depth_result out;
+        check(cstk_pair_depth(get(), a.get(), pose_a.data(), b.get(), pose_b.data(), &options, &out));
+        return out;
+    }
+
+    /// The signed distances of all pairs of bodies at most `max_distance` apart, with their derivatives.
+    cstk_signed_distance_list
+    signed_distances(const CObject &cobject, Span<double> q, double max_distance,
+                     std::size_t max_count = 4096,
+                     const cstk_depth_options &options = depth_options()) const {
+        cstk_signed_distance_list out;
+        check(cstk_signed_distances(get(), cobject.get(), q.data(), q.size(), max_distance, max_count,
+                                    &options, &out));
         return out;
     }
 

@@ -80,6 +80,10 @@ pub mod body;
 #[doc(hidden)]
 pub mod pair;
 
+// The depth of two bodies that meet: bounds of the least translation that parts them.
+#[doc(hidden)]
+pub mod depth;
+
 // Links and joints, forward kinematics, Jacobians, motion bounds.
 pub mod robot;
 

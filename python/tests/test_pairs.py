@@ -102,6 +102,22 @@ def test_witnesses_and_penetration(query):
     np.testing.assert_allclose(deep[0].direction, [-1, 0, 0])
 
 
+def test_depths_of_unions_are_bounded(query):
+    builder = cstk.BodyBuilder()
+    for x in (-0.75, 0.75):
+        builder.add_box([1, 1, 1], cstk.translation(x, 0, 0))
+    union = builder.build()
+    cube = cstk.Body.box([1, 1, 1])
+    # Along x the way out of the first box leads into the second.
+    deep = query.pair_depth(cube, cstk.translation(-0.5, 0.5, 0), union, cstk.identity())
+    assert deep.meet and deep.tight and deep.lower <= 1.5 <= deep.upper + 1e-12
+    np.testing.assert_allclose(deep.translation, [0, 1.5, 0], atol=1e-12)
+    away = query.pair_depth(cube, cstk.translation(9, 0, 0), union, cstk.identity())
+    assert not away.meet and away.lower == away.upper == 0
+    with pytest.raises(cstk.InvalidArgumentError, match="tolerance"):
+        query.pair_depth(cube, cstk.identity(), union, cstk.identity(), tolerance=-1)
+
+
 def test_contacts_are_left_out_where_asked(query):
     cube = cstk.Body.box([1, 1, 1])
     query.set_contacts(cstk.ContactsListed.NONE)

@@ -45,6 +45,27 @@ def test_gradients_are_slopes_of_the_distance(arm, query, rng):
     assert checked > 50
 
 
+def test_signed_distances_have_slopes_on_both_sides(query, rng):
+    arm, checked, kinks = PlanarArm(2.2), {True: 0, False: 0}, 0
+    for q in rng.uniform(-math.pi, math.pi, (200, 2)):
+        found = query.signed_distances(arm.cobject, q, 9)
+        assert found.gradients.shape == (len(found), 2)
+        pair, row, h = found[0], found.gradients[0], 1e-6
+        truth = arm.clearance(q)
+        if truth > 0:
+            assert pair.distance == pytest.approx(truth, abs=1e-12)
+        if abs(pair.distance) < 1e-3 or pair.gradient_kind != cstk.GradientKind.DERIVATIVE:
+            continue
+        near = [query.signed_distances(arm.cobject, q + e, 9)[0].distance for e in (*(np.eye(2) * h), *(np.eye(2) * -h))]
+        slopes = np.subtract(near[:2], near[2:]) / (2 * h)
+        # Another pair may be nearest beside q.
+        if np.abs(slopes - row).max() < 1e-5:
+            checked[pair.distance > 0] += 1
+        else:
+            kinks += 1
+    assert min(checked.values()) > 3 and kinks <= 2
+
+
 def test_pseudo_normal_is_all_at_once(arm, query):
     q = [1.2, 0.3]
     found = query.pseudo_normal(arm.cobject, q, 9, normalize=True)

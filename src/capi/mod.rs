@@ -43,6 +43,8 @@ pub mod pair;
 
 pub mod object_pairs;
 
+pub mod depth;
+
 pub mod motion;
 
 pub mod certificate;

@@ -24,6 +24,7 @@ use crate::capi::at_configuration::answers::{
 };
 use crate::capi::at_configuration::explain::cstk_verdict;
 use crate::capi::at_configuration::find_link_pairs::cstk_link_pair;
+use crate::capi::depth::cstk_signed_distance;
 use crate::capi::environment::environment::cstk_environment;
 use crate::capi::motion::path::cstk_path;
 use crate::capi::object_pairs::cstk_object_pair;
@@ -49,7 +50,8 @@ pub(super) struct State {
     pub context: QueryContext,
     witnesses: Vec<cstk_witness>,
     contacts: Vec<cstk_contact>,
-    gradients: Vec<f64>,
+    pub gradients: Vec<f64>,
+    pub signed_distances: Vec<cstk_signed_distance>,
     penetrations: Vec<cstk_penetration>,
     pub verdicts: Vec<cstk_verdict>,
     pub pairs: Vec<cstk_link_pair>,

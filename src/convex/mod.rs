@@ -39,5 +39,5 @@ pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};
 pub use polygon_distance::{NearestFeatures, PolygonDistance, polygon_closest, polygon_distance};
 pub use polytope_distance::DistanceScratch;
-pub use polytope_penetration::Penetration;
+pub use polytope_penetration::{HalfSpace, Penetration, parting_half_spaces};
 pub use swept_gap::{Extension, Sweep, SweepTwist, swept_gap};

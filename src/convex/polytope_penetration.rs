@@ -34,23 +34,9 @@ pub fn polytope_penetration(
     meter: &mut WorkMeter,
 ) -> Penetration {
     let mut shortest = ShortestWay::new(r, s);
-    if precision.planar {
-        for placed in [r, s] {
-            for &edge in &placed.shape.edges {
-                let (from, to) = placed.edge_ends(edge);
-                let along = to - from;
-                shortest.offer_next(&Vec3::new(-along.y, along.x, 0.0));
-            }
-        }
-    } else {
-        for placed in [r, s] {
-            for face in 0..placed.shape.faces.len() {
-                shortest.offer_next(&placed.normal(face));
-            }
-        }
-        let slack = tolerance::SUPPORT_SLACK * precision.size;
-        offer_edges(r, s, slack, meter, &mut shortest);
-    }
+    visit_normals(r, s, precision, meter, |number, normal| {
+        shortest.offer(number, normal);
+    });
     shortest.measure_waiting();
     // Sets without faces and without candidate normals: a direction perpendicular to their longest edge.
     if shortest.depth == f64::INFINITY {
@@ -76,7 +62,7 @@ pub fn polytope_penetration(
         } else {
             along.cross(&across)
         };
-        shortest.offer_next(&upright);
+        shortest.offer(u64::MAX, &upright);
         shortest.measure_waiting();
     }
     let depth = shortest.depth.max(0.0);
@@ -88,19 +74,80 @@ pub fn polytope_penetration(
     }
 }
 
-/// Offers the cross products of the edge pairs that support along them.
-fn offer_edges(
+/// A half-space { t : normal . t >= offset } of translations t of r that keep r clear of s. `normal` is a unit vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    pub normal: Vec3,
+    pub offset: f64,
+}
+
+/// The translations of r that part the hulls of two primitives' vertices: the union of these half-spaces. Their complements
+/// are the half-spaces of the Minkowski difference s - r, some of them redundant. The result is incomplete if the meter's
+/// limit is exceeded.
+pub fn parting_half_spaces(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    precision: &Precision,
+    meter: &mut WorkMeter,
+) -> Vec<HalfSpace> {
+    let mut found = Vec::new();
+    visit_normals(r, s, precision, meter, |_, line| {
+        let Some(normal) = line.try_normalize(0.0) else {
+            return;
+        };
+        let [(low_r, high_r), (low_s, high_s)] = [r, s].map(|placed| placed.extent_along(&normal));
+        let ways = [(high_s - low_r, normal), (high_r - low_s, -normal)];
+        found.extend(ways.map(|(offset, normal)| HalfSpace { normal, offset }));
+    });
+    found
+}
+
+/// Visits the normals of the facets of the Minkowski difference, of any length and of either sign, each with its number.
+fn visit_normals(
+    r: &PlacedPrimitive,
+    s: &PlacedPrimitive,
+    precision: &Precision,
+    meter: &mut WorkMeter,
+    mut visit: impl FnMut(u64, &Vec3),
+) {
+    let mut number = 0;
+    let mut visit_next = |normal: &Vec3| {
+        visit(number, normal);
+        number += 1;
+    };
+    if precision.planar {
+        for placed in [r, s] {
+            for &edge in &placed.shape.edges {
+                let (from, to) = placed.edge_ends(edge);
+                let along = to - from;
+                visit_next(&Vec3::new(-along.y, along.x, 0.0));
+            }
+        }
+        return;
+    }
+    for placed in [r, s] {
+        for face in 0..placed.shape.faces.len() {
+            visit_next(&placed.normal(face));
+        }
+    }
+    let slack = tolerance::SUPPORT_SLACK * precision.size;
+    visit_edges(r, s, slack, meter, |pair, normal| {
+        visit(number + pair, normal)
+    });
+}
+
+/// Visits the cross products of the edge pairs that support along them, each with the number of its pair.
+fn visit_edges(
     r: &PlacedPrimitive,
     s: &PlacedPrimitive,
     slack: f64,
     meter: &mut WorkMeter,
-    shortest: &mut ShortestWay,
+    mut visit: impl FnMut(u64, &Vec3),
 ) {
     let (arcs_r, arcs_s) = (
         GaussArcs::new(r, true, slack),
         GaussArcs::new(s, false, slack),
     );
-    let first = shortest.next;
     arcs_r.visit_crossing(&arcs_s, meter, |edge_r, edge_s| {
         let cross = arcs_r.along(edge_r).cross(arcs_s.along(edge_s));
         let Some(normal) = cross.try_normalize(0.0) else {
@@ -111,10 +158,9 @@ fn offer_edges(
         let supports = (low_r >= -slack && high_s <= slack) || (high_r <= slack && low_s >= -slack);
         if supports {
             let pair = u64::from(edge_r) * arcs_s.len() as u64 + u64::from(edge_s);
-            shortest.offer(first + pair, &normal);
+            visit(pair, &normal);
         }
     });
-    shortest.next += (arcs_r.len() * arcs_s.len()) as u64;
 }
 
 /// Points of both sets that coincide after r has moved by `depth` along `direction`. The sets then touch in the supporting
@@ -161,8 +207,6 @@ struct ShortestWay<'a> {
     /// The number of the direction's line, and whether it is the opposite of its normal. Ties of the depth go to the lowest
     /// rank.
     rank: (u64, bool),
-    /// The number of the next line.
-    next: u64,
     /// Lines that may be the shortest, not yet measured with all vertices.
     waiting: Vec<Line>,
 }
@@ -187,18 +231,11 @@ impl<'a> ShortestWay<'a> {
             depth: f64::INFINITY,
             direction: Vec3::x(),
             rank: (u64::MAX, true),
-            next: 0,
             waiting: Vec::new(),
         }
     }
 
-    /// Tries the directions of a vector of any length and of its opposite, as the next line.
-    fn offer_next(&mut self, line: &Vec3) {
-        self.offer(self.next, line);
-        self.next += 1;
-    }
-
-    /// The same for a line of the given number.
+    /// Tries the directions of a vector of any length and of its opposite, as the line of the given number.
     fn offer(&mut self, number: u64, line: &Vec3) {
         let Some(normal) = line.try_normalize(0.0) else {
             return;

@@ -97,6 +97,27 @@ impl<'a> Pairing<'a> {
         }
     }
 
+    /// The same with A moved by `way`, in A's centred frame before it moved. Contacts are then in A's frame after it moved.
+    pub fn shifted(&self, way: &Vec3) -> Self {
+        let relative = Pose {
+            translation: self.relative.translation - way,
+            ..self.relative
+        };
+        let size = self
+            .precision
+            .size
+            .max(relative.translation.norm() + self.b.radius());
+        Self {
+            relative,
+            frame: Pose::identity(),
+            precision: Precision {
+                size,
+                ..self.precision
+            },
+            ..*self
+        }
+    }
+
     /// The slack of a wrapper's bound, so that pruning is safe: the rounding of the bound, and the error of the distances on
     /// both sides of the comparison.
     pub fn slack(&self) -> f64 {
@@ -276,8 +297,8 @@ impl<'a> Pairing<'a> {
         found
     }
 
-    /// The closest points of the primitives at two places, in A's centred frame.
-    pub(super) fn closest_at(
+    /// The closest points of the primitives at two places, in A's centred frame; their distance is 0 at most up to the error.
+    pub fn closest_at(
         &self,
         places: [u32; 2],
         scratch: &mut PrimitiveScratch,
@@ -358,7 +379,7 @@ impl<'a> Pairing<'a> {
 
     /// The primitives at two places in A's centred frame.
     #[inline(always)]
-    pub(super) fn placed<'b>(
+    pub fn placed<'b>(
         &'b self,
         places: [u32; 2],
         buffer: &'b mut PlacedBuffer,

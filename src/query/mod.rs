@@ -17,17 +17,20 @@ mod leaves;
 mod link_boxes;
 mod nearest_gradient;
 mod object_pairs;
+mod pair_depth;
 mod pair_penetration;
 mod pairs;
 mod pseudo_normal;
 mod pure_answer;
 mod recall;
 mod scene;
+mod signed_distances;
 mod target;
 mod within;
 mod witnesses;
 mod world;
 
+pub use crate::depth::DepthOptions;
 pub use answer::{
     ContactRecord, ContactsListed, Distance, DistanceKind, PenetrationList, PrimitivePenetration,
     PurePlace, SSide, Witness, WitnessList,
@@ -40,11 +43,13 @@ pub(crate) use context::check_threshold;
 pub use explain::{Explanation, Verdict};
 pub use find_link_pairs::{LinkPair, LinkPairOptions, PairVerdict};
 pub use object_pairs::{ObjectFilter, ObjectPair, ObjectPairList, ObjectSets};
+pub use pair_depth::PairDepth;
 pub(crate) use pairs::check_dimensions;
 pub use pseudo_normal::{PseudoNormal, Shell};
 pub(crate) use pure_answer::PureAt;
 pub use scene::Configuration;
 pub(crate) use scene::{Group, Scene, SceneMemory};
+pub use signed_distances::{GradientKind, SignedDistance, SignedDistanceList};
 pub(crate) use target::{Placement, Target};
 pub(crate) use witnesses::{WitnessRequest, pure_witnesses};
 pub use world::World;

@@ -3,6 +3,7 @@
 mod box_pairs;
 mod contacts;
 mod deep_overlaps;
+mod depths;
 mod kernel;
 mod laws;
 mod minkowski_facets;

@@ -22,6 +22,7 @@ mod pure_sets;
 mod pure_sets_among_others;
 mod refusals;
 mod set_cases;
+mod signed_distances;
 mod stress;
 mod unions;
 mod work_limits;

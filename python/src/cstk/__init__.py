@@ -10,7 +10,7 @@ unit, angles in radians, poses are 4 x 4 arrays from child to parent frame. A ca
 argument.
 """
 
-from ._lists import Explanation, LinkPairs, PenetrationList, PseudoNormal, WitnessList
+from ._lists import Explanation, LinkPairs, PenetrationList, PseudoNormal, SignedDistanceList, WitnessList
 from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._progress import Progress

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ._arrays import doubles, index, poses, scalar, vector
 from ._handle import Handle, pointer_of
-from ._lists import Explanation, LinkPairs, PseudoNormal, WitnessList
+from ._lists import Explanation, LinkPairs, PseudoNormal, SignedDistanceList, WitnessList
 from ._native import ffi, lib
 from ._options import options
 from ._progress import Progress, reporting
@@ -68,6 +68,25 @@ class AtConfiguration(Handle):
         limits = scalar("epsilon", epsilon), index("max_count", max_count, 64)
         check(lib.cstk_gradients(self._pointer, *set_at_q(cobject, q), *limits, out))
         return WitnessList(out[0])
+
+    def signed_distances(
+        self,
+        cobject: CObject,
+        q: ArrayLike,
+        max_distance: float,
+        max_count: int = MAX_COUNT,
+        tolerance: float = 0.0,
+        max_steps: int = 0,
+    ) -> SignedDistanceList:
+        """The signed distances of all pairs of bodies at most `max_distance` apart, each with its derivative: minus the depth where
+        they meet. With 0 the tolerance of depths and the steps are the library's.
+        """
+        out = ffi.new("cstk_signed_distance_list *")
+        limits = scalar("max_distance", max_distance), index("max_count", max_count, 64)
+        depths = {"tolerance": scalar("tolerance", tolerance), "max_steps": index("max_steps", max_steps, 64)}
+        given = options("depth_options", **depths)
+        check(lib.cstk_signed_distances(self._pointer, *set_at_q(cobject, q), *limits, given, out))
+        return SignedDistanceList(out[0])
 
     def pseudo_normal(
         self, cobject: CObject, q: ArrayLike, max_shell: float, max_count: int = MAX_COUNT, normalize: bool = False

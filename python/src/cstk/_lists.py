@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ._native import ffi
 from ._record import Records
 from .enums import Class
-from .records import Contact, DistanceResult, LinkPair, Penetration, Verdict, Witness
+from .records import Contact, DistanceResult, LinkPair, Penetration, SignedDistance, Verdict, Witness
 
 Array = NDArray[np.float64]
 
@@ -142,3 +142,31 @@ class PenetrationList:
 
     def __iter__(self) -> Iterator[Penetration]:
         return iter(self.penetrations)
+
+
+class SignedDistanceList:
+    """Signed distances of body pairs, least first. It is a sequence of them."""
+
+    __slots__ = ("pairs", "gradients", "truncated", "environment_version")
+
+    pairs: Records[SignedDistance]
+    gradients: Array
+    """(pairs, nv): the derivative of each distance; see `gradient_kind` of the pair."""
+
+    def __init__(self, given: Any) -> None:
+        self.pairs = Records.copied(SignedDistance, given.pairs, given.count)
+        self.gradients = np.empty((given.count, given.nv))
+        if self.gradients.size:
+            ffi.memmove(ffi.from_buffer(self.gradients), given.gradients, self.gradients.nbytes)
+        self.truncated = bool(given.truncated)
+        """There are more pairs than max_count; these have the least distances."""
+        self.environment_version = int(given.environment_version)
+
+    def __len__(self) -> int:
+        return len(self.pairs)
+
+    def __getitem__(self, number: int) -> SignedDistance:
+        return self.pairs[number]
+
+    def __iter__(self) -> Iterator[SignedDistance]:
+        return iter(self.pairs)

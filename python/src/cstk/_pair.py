@@ -10,9 +10,10 @@ from ._at_configuration import MAX_COUNT
 from ._handle import Handle, pointer_of
 from ._lists import PenetrationList, WitnessList
 from ._native import ffi, lib
+from ._options import options
 from .body import Body
 from .errors import check
-from .records import DistanceResult
+from .records import DepthResult, DistanceResult
 
 
 def pair_at(body_a: Body, pose_a: ArrayLike, body_b: Body, pose_b: ArrayLike) -> Tuple[Any, Any, Any, Any]:
@@ -70,3 +71,21 @@ class PairQueries(Handle):
         pair = pair_at(body_a, pose_a, body_b, pose_b)
         check(lib.cstk_pair_penetration(self._pointer, *pair, index("max_count", max_count, 64), out))
         return PenetrationList(out[0])
+
+    def pair_depth(
+        self,
+        body_a: Body,
+        pose_a: ArrayLike,
+        body_b: Body,
+        pose_b: ArrayLike,
+        tolerance: float = 0.0,
+        max_steps: int = 0,
+    ) -> DepthResult:
+        """Bounds of the depth of two bodies, also unions and solids, and a translation of body a that parts them. With 0 the tolerance
+        and the steps are the library's.
+        """
+        out = ffi.new("cstk_depth_result *")
+        pair = pair_at(body_a, pose_a, body_b, pose_b)
+        limits = {"tolerance": scalar("tolerance", tolerance), "max_steps": index("max_steps", max_steps, 64)}
+        check(lib.cstk_pair_depth(self._pointer, *pair, options("depth_options", **limits), out))
+        return DepthResult(out)

@@ -1,0 +1,821 @@
+//! Best-first search for the shortest translation that parts two bodies.
+//!
+//! A node is an intersection of half-spaces; its bound is the length of the shortest translation in it. The node with the least
+//! bound is taken. If the bodies are apart at its shortest translation, that is a way out. Otherwise a convex set of
+//! translations at which they meet holds it: whatever parts the bodies in this node is beyond one of the set's faces, each of
+//! which makes a child. The nodes that wait cover all ways out, so that the least of their bounds is a lower bound of the
+//! depth; for polytopes the search ends with the depth itself.
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+
+use foldhash::fast::RandomState;
+
+use super::difference::{Difference, RoundDifference, RoundShape};
+use super::inner_balls::{InnerBall, common_balls, widened};
+use super::least::least;
+use super::meeting::{Meeting, is_parted, meeting_at};
+use super::touching::{Touching, WayOut, straightened, touching_at};
+use crate::body::Body;
+use crate::convex::{HalfSpace, parting_half_spaces};
+use crate::error::{Error, ErrorKind, Result};
+use crate::pair::{Pairing, RayScratch, Scratch};
+use crate::pose::Vec3;
+use crate::tolerance::EPSILON;
+
+/// How far and how long to search.
+#[derive(Clone, Copy, Debug)]
+pub struct DepthOptions {
+    /// The search ends when the bounds are this close; 0 stands for [`DepthOptions::RELATIVE`] of the pair's size.
+    pub tolerance: f64,
+    /// Nodes to take, at most.
+    pub max_steps: u64,
+    /// Goes on between polytopes until other ways out of the same length are found or excluded: they tell whether the depth has a
+    /// derivative.
+    pub seeks_rivals: bool,
+}
+
+impl DepthOptions {
+    /// The tolerance if none is given, times the pair's size.
+    pub const RELATIVE: f64 = 1e-6;
+}
+
+impl Default for DepthOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 0.0,
+            max_steps: 1000,
+            seeks_rivals: false,
+        }
+    }
+}
+
+/// Bounds of a depth, with a way out.
+#[derive(Clone, Debug)]
+pub struct Depth {
+    /// No shorter translation parts the bodies.
+    pub lower: f64,
+    /// The length of `way`.
+    pub upper: f64,
+    /// A translation of A after which the bodies are proved apart, in A's centred frame.
+    pub way: Vec3,
+    /// What touches after it.
+    pub out: WayOut,
+    /// The contact that `out` names first, or the nearest one; `None` without contacts.
+    pub first: Option<Touching>,
+    /// Another way out, of the same length but elsewhere, is known or not excluded.
+    pub has_rival: bool,
+    /// The bounds are within the tolerance.
+    pub is_tight: bool,
+    /// Nodes taken.
+    pub steps: u64,
+}
+
+/// An intersection of half-spaces.
+struct Node {
+    bound: f64,
+    point: Vec3,
+    faces: Vec<Face>,
+}
+
+/// A half-space of a node: beyond a face of a difference.
+#[derive(Clone, Copy)]
+struct Face {
+    space: HalfSpace,
+    difference: u32,
+    /// The number of the half-space, or of the cone.
+    part: u32,
+}
+
+impl Ord for Node {
+    /// The least bound is the greatest node.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound)
+    }
+}
+
+impl PartialOrd for Node {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Node {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Node {}
+
+/// The name of a difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Source {
+    Primitives([u32; 2]),
+    Balls([u32; 2]),
+}
+
+/// A difference that holds a translation, with an estimate of how deep.
+struct Cover {
+    source: Source,
+    depth: f64,
+}
+
+/// The state of a search.
+pub struct DepthSearch<'a, 's> {
+    /// A's centred frame is the frame of all translations.
+    pairing: Pairing<'a>,
+    scratch: &'s mut Scratch,
+    rays: RayScratch,
+    tolerance: f64,
+    max_steps: u64,
+    seeks_rivals: bool,
+    /// Bodies farther apart than this are proved apart, with room for rounding.
+    clearance: f64,
+    /// How far half-spaces are moved outwards, so that rounding excludes nothing.
+    error: f64,
+    rounding: f64,
+    differences: Vec<Difference>,
+    numbers: HashMap<Source, u32, RandomState>,
+    /// Balls in A and in B.
+    balls: [Vec<InnerBall>; 2],
+    nodes: BinaryHeap<Node>,
+    /// The half-spaces of the nodes made, with the least bound of each.
+    seen: HashMap<Vec<(u32, u32)>, f64, RandomState>,
+    upper: f64,
+    way: Vec3,
+    /// The least bound of the nodes that are done with.
+    floor: f64,
+    has_rival: bool,
+    steps: u64,
+}
+
+/// Nodes waiting, at most: beyond that the search ends with the bounds that it has.
+const MAX_NODES: usize = 1 << 17;
+
+/// Balls kept of each body, at most.
+const MAX_BALLS: usize = 256;
+
+/// Halvings of a way out.
+const MAX_HALVINGS: usize = 24;
+
+/// Corrections of the way out by what touches after it.
+const MAX_CORRECTIONS: usize = 12;
+
+/// Normals closer than this differ by rounding: what is beyond one half-space and not beyond the other is nearer than the error.
+const SAME_NORMAL: f64 = 8.0 * EPSILON;
+
+/// Ways out farther apart than this, times their length, are different ones.
+const OTHER_WAY: f64 = 1e-2;
+
+/// Refuses two bodies of which neither has an inside everywhere: the depth of surfaces in each other is not defined. The
+/// message names a primitive of each.
+pub fn require_inside(a: &Body, b: &Body) -> Result<()> {
+    let (Some(flat_a), Some(flat_b)) = (without_inside(a), without_inside(b)) else {
+        return Ok(());
+    };
+    Err(Error::new(
+        ErrorKind::Unsupported,
+        format!(
+            "neither body has an inside everywhere: primitive {flat_a} of body_a and primitive {flat_b} of body_b are no solids \
+             and bound none, so that no depth is defined"
+        ),
+    ))
+}
+
+/// The first primitive without an inside that bounds no solid.
+pub fn without_inside(body: &Body) -> Option<usize> {
+    let is_planar = body.dimension() == 2;
+    let mut shapes = body.primitives().iter().enumerate();
+    let found = shapes.find(|(i, primitive)| {
+        let shape = primitive.shape;
+        let is_thick =
+            shape.curve.is_some() || shape.is_solid() || (is_planar && !shape.faces.is_empty());
+        let is_boundary = || body.solid().is_some_and(|solid| solid.sign(*i as u32) != 0);
+        !is_thick && !is_boundary()
+    });
+    found.map(|(i, _)| i)
+}
+
+impl<'a, 's> DepthSearch<'a, 's> {
+    /// A search for the depth of the bodies of a pairing, which meet.
+    pub fn new(pairing: &Pairing<'a>, options: &DepthOptions, scratch: &'s mut Scratch) -> Self {
+        let (a, b) = (pairing.a.radius(), pairing.b.radius());
+        let farthest = a + b + pairing.relative.translation.norm();
+        let mut pairing = pairing.shifted(&Vec3::zeros());
+        pairing.precision = widened(&pairing.precision, 2.0 * farthest);
+        let precision = pairing.precision;
+        let tolerance = match options.tolerance {
+            0.0 => DepthOptions::RELATIVE * precision.size,
+            given => given,
+        };
+        Self {
+            pairing,
+            scratch,
+            rays: RayScratch::default(),
+            tolerance,
+            max_steps: options.max_steps,
+            seeks_rivals: options.seeks_rivals,
+            clearance: 4.0 * precision.error,
+            error: 2.0 * precision.error,
+            rounding: 8.0 * EPSILON * precision.size,
+            differences: Vec::new(),
+            numbers: HashMap::default(),
+            balls: Default::default(),
+            nodes: BinaryHeap::new(),
+            seen: HashMap::default(),
+            upper: f64::INFINITY,
+            way: Vec3::zeros(),
+            floor: f64::INFINITY,
+            has_rival: false,
+            steps: 0,
+        }
+    }
+
+    /// Bounds of the depth. Meaningless if the meter's limit is exceeded.
+    pub fn run(mut self) -> Depth {
+        let least_depth = self.begin();
+        if self.upper - least_depth > self.tolerance {
+            self.search(least_depth);
+        }
+        // Of round differences only single ones bound the depth: the search among their cones finds ways out, no more.
+        let lower = match self.nodes.peek() {
+            _ if self.has_round() => {
+                let ball = self.deepest_ball(&Vec3::zeros());
+                ball.map_or(0.0, |ball| ball.depth - self.error)
+            }
+            Some(node) => node.bound.min(self.floor),
+            None => self.floor,
+        };
+        let is_open = |node: &Node, search: &Self| {
+            node.bound <= search.upper + search.clearance && search.is_elsewhere(&node.point)
+        };
+        let is_rivalled = self.nodes.iter().any(|node| is_open(node, &self));
+        let lower = lower.max(least_depth).min(self.upper);
+        let (out, first) = self.explained();
+        Depth {
+            lower,
+            is_tight: self.upper - lower <= self.tolerance.max(4.0 * self.clearance),
+            upper: self.upper,
+            way: self.way,
+            out,
+            first,
+            has_rival: self.has_rival || is_rivalled,
+            steps: self.steps,
+        }
+    }
+
+    /// Takes the depths of single primitive pairs, whose largest is a lower bound, and finds a first way out.
+    fn begin(&mut self) -> f64 {
+        let meeting = meeting_at(&self.pairing, &Vec3::zeros(), self.scratch);
+        let mut least_depth: f64 = 0.0;
+        let mut deepest = None;
+        for &places in meeting.places.iter().chain(&meeting.flat) {
+            let [a, b] = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
+            let primitives =
+                [a.entry(places[0] as usize), b.entry(places[1] as usize)].map(|e| e.primitive);
+            let Ok(found) = self
+                .pairing
+                .world_penetration(primitives, self.scratch.meter_mut())
+            else {
+                continue;
+            };
+            let depth = found.depth - self.error;
+            if depth > least_depth {
+                least_depth = depth;
+                deepest = Some(places);
+            }
+            self.offer(found.direction * (found.depth + self.clearance));
+        }
+        self.first_ways();
+        if self.upper - least_depth <= self.tolerance {
+            self.floor = least_depth;
+            self.has_rival = deepest.is_none_or(|places| self.has_equal_depths(places));
+        }
+        least_depth
+    }
+
+    /// Whether the primitives at two places have shortest ways out in several directions.
+    fn has_equal_depths(&mut self, places: [u32; 2]) -> bool {
+        let cores = self
+            .pairing
+            .closest_at(places, self.scratch.for_primitives());
+        if cores.is_some_and(|found| found.cores.distance > self.pairing.precision.error) {
+            return false;
+        }
+        let spaces = self.parting(places);
+        let least = spaces.iter().min_by(|a, b| a.offset.total_cmp(&b.offset));
+        let Some(least) = least else {
+            return true;
+        };
+        spaces.iter().any(|space| {
+            space.offset <= least.offset + self.clearance
+                && (space.normal - least.normal).norm() > OTHER_WAY
+        })
+    }
+
+    /// Tries the axes, the line of the centres, and the ways out of what is nearest, unless a way out is known that is no longer.
+    fn first_ways(&mut self) {
+        if self.upper < f64::INFINITY {
+            return;
+        }
+        let dimension = if self.pairing.precision.planar { 2 } else { 3 };
+        let axes = (0..2 * dimension).map(|i| {
+            let mut axis = Vec3::zeros();
+            axis[i / 2] = if i % 2 == 0 { 1.0 } else { -1.0 };
+            axis
+        });
+        let between = (-self.pairing.relative.translation).try_normalize(0.0);
+        for direction in axes.chain(between) {
+            self.descend(&direction, 0.0);
+        }
+    }
+
+    /// Keeps a way out if it is the shortest so far.
+    fn offer(&mut self, way: Vec3) -> bool {
+        let length = way.norm();
+        if length < self.upper && is_parted(&self.pairing, &way, self.scratch) {
+            (self.upper, self.way) = (length, way);
+            return true;
+        }
+        false
+    }
+
+    /// Shortens a way out along a unit direction, from what parts the bodies down to `low`, where they meet.
+    fn descend(&mut self, direction: &Vec3, low: f64) {
+        let mut high = if self.upper < f64::INFINITY {
+            self.upper - 0.5 * self.tolerance
+        } else {
+            let b = self.pairing.relative.rotation.tr_mul(direction);
+            let far = self
+                .pairing
+                .relative
+                .transform_point(&self.pairing.b.farthest(&b).point);
+            let near = self.pairing.a.farthest(&-direction).point;
+            direction.dot(&(far - near)) + 2.0 * self.clearance
+        };
+        if high <= low || !self.offer(direction * high) {
+            return;
+        }
+        let mut low = low;
+        for _ in 0..MAX_HALVINGS {
+            if high - low <= 0.25 * self.tolerance || self.scratch.meter().is_exceeded() {
+                return;
+            }
+            let middle = 0.5 * (low + high);
+            match self.offer(direction * middle) {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+    }
+
+    fn search(&mut self, least_depth: f64) {
+        self.nodes.push(Node {
+            bound: 0.0,
+            point: Vec3::zeros(),
+            faces: Vec::new(),
+        });
+        while let Some(node) = self.nodes.peek() {
+            let is_close = self.upper - node.bound.max(least_depth) <= self.tolerance;
+            let is_enough = is_close && (!self.seeks_rivals || self.has_round());
+            let is_done = is_enough || node.bound > self.upper + self.clearance;
+            let is_full = self.steps >= self.max_steps || self.nodes.len() > MAX_NODES;
+            if is_done || is_full || self.scratch.meter().is_exceeded() {
+                break;
+            }
+            let node = self.nodes.pop().expect("it was there");
+            self.steps += 1;
+            self.take(&node);
+        }
+        self.correct();
+    }
+
+    fn has_round(&self) -> bool {
+        let is_round = |difference: &Difference| matches!(difference, Difference::Round(_));
+        self.differences.iter().any(is_round)
+    }
+
+    /// Takes a node: offers a way out, or makes its children.
+    fn take(&mut self, node: &Node) {
+        let spaces: Vec<HalfSpace> = node.faces.iter().map(|face| face.space).collect();
+        let clear = least(&spaces, self.error + self.clearance, self.rounding);
+        let point = if clear.is_inside {
+            clear.point
+        } else {
+            node.point
+        };
+        let meeting = meeting_at(&self.pairing, &point, self.scratch);
+        if self.scratch.meter().is_exceeded() {
+            self.floor = self.floor.min(node.bound);
+            return;
+        }
+        if !meeting.meets {
+            self.floor = self.floor.min(node.bound);
+            self.take_way(point);
+            return;
+        }
+        let cover = self.cover(node, &point, &meeting);
+        let parts = cover.and_then(|cover| self.parts(node, &cover));
+        match parts {
+            Some((difference, old, parts)) => self.branch(node, difference, old, &parts),
+            None => self.floor = self.floor.min(node.bound),
+        }
+        let is_turn = self.steps < 16 || self.steps.is_multiple_of(8);
+        if let Some(direction) = point.try_normalize(0.0).filter(|_| is_turn) {
+            self.descend(&direction, point.norm());
+        }
+    }
+
+    /// Notes a way out at the end of a node.
+    fn take_way(&mut self, way: Vec3) {
+        let length = way.norm();
+        let (old, upper) = (self.way, self.upper);
+        if length < self.upper {
+            (self.upper, self.way) = (length, way);
+        }
+        let is_equal = (length - upper).abs() <= self.clearance;
+        self.has_rival = match is_equal {
+            true => self.has_rival || self.is_elsewhere(&old) || self.is_elsewhere(&way),
+            false => self.has_rival && length > upper,
+        };
+    }
+
+    /// Whether a translation is not near the way out.
+    fn is_elsewhere(&self, point: &Vec3) -> bool {
+        (point - self.way).norm() > OTHER_WAY * self.upper
+    }
+
+    /// The deepest difference known or found around a point, of those that the node is not beyond already.
+    fn cover(&mut self, node: &Node, point: &Vec3, meeting: &Meeting) -> Option<Cover> {
+        let mut best = self.deepest_of(node, point, &meeting.places);
+        if self.pairing.has_solid() && !self.pairing.precision.planar {
+            let is_deeper = |a: &Option<Cover>, b: &Option<Cover>| {
+                let depth = |cover: &Option<Cover>| cover.as_ref().map_or(0.0, |cover| cover.depth);
+                depth(a) > depth(b)
+            };
+            let mut ball = self.deepest_ball(point);
+            let wanted = 0.25 * (self.upper - node.bound);
+            let known = [&best, &ball].into_iter().flatten();
+            if known.map(|cover| cover.depth).fold(0.0, f64::max) < wanted
+                && self.balls[0].len() < MAX_BALLS
+            {
+                self.grow_balls(point, meeting);
+                ball = self.deepest_ball(point);
+            }
+            if is_deeper(&ball, &best) {
+                best = ball;
+            }
+        }
+        best.or_else(|| self.deepest_of(node, point, &meeting.flat))
+    }
+
+    /// The deepest difference of the primitives at some places.
+    fn deepest_of(&mut self, node: &Node, point: &Vec3, places: &[[u32; 2]]) -> Option<Cover> {
+        let mut best: Option<Cover> = None;
+        for &places in places {
+            let source = Source::Primitives(places);
+            let number = self.number(source);
+            let depth = match &self.differences[number as usize] {
+                Difference::Polytope(spaces) => {
+                    // Beyond a face of it already: only rounding says otherwise.
+                    if node.faces.iter().any(|face| face.difference == number) {
+                        continue;
+                    }
+                    let depths = spaces
+                        .iter()
+                        .map(|space| space.offset - space.normal.dot(point));
+                    depths.fold(f64::INFINITY, f64::min)
+                }
+                Difference::Round(_) => self.round_depth(places, point),
+            };
+            if best.as_ref().is_none_or(|best| depth > best.depth) {
+                best = Some(Cover { source, depth });
+            }
+        }
+        best
+    }
+
+    /// An estimate of how deep a translation is in the difference of two round primitives.
+    fn round_depth(&mut self, places: [u32; 2], point: &Vec3) -> f64 {
+        let shifted = self.pairing.shifted(point);
+        let radii = self.radii(places);
+        let found = shifted.closest_at(places, self.scratch.for_primitives());
+        found.map_or(0.0, |found| match found.cores.distance {
+            0.0 => found.cores.depth + radii,
+            apart => radii - apart,
+        })
+    }
+
+    fn radii(&self, places: [u32; 2]) -> f64 {
+        let packed = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
+        let radius = |i: usize, body: &Body| {
+            let primitive = packed[i].entry(places[i] as usize).primitive;
+            body.primitives().get(primitive as usize).shape.radius()
+        };
+        radius(0, self.pairing.a) + radius(1, self.pairing.b)
+    }
+
+    /// The two balls that overlap most after a translation.
+    fn deepest_ball(&self, point: &Vec3) -> Option<Cover> {
+        let relative = &self.pairing.relative;
+        let mut best: Option<Cover> = None;
+        for (j, in_b) in self.balls[1].iter().enumerate() {
+            let middle = relative.transform_point(&in_b.center) - point;
+            for (i, in_a) in self.balls[0].iter().enumerate() {
+                let depth = in_a.radius + in_b.radius - (in_a.center - middle).norm();
+                if depth > best.as_ref().map_or(0.0, |best| best.depth) {
+                    let source = Source::Balls([i as u32, j as u32]);
+                    best = Some(Cover { source, depth });
+                }
+            }
+        }
+        best
+    }
+
+    /// Grows balls around common points after a translation.
+    fn grow_balls(&mut self, point: &Vec3, meeting: &Meeting) {
+        /// Pairs of primitives that meet from where balls are grown.
+        const STARTS: usize = 2;
+        let shifted = self.pairing.shifted(point);
+        let mut starts = Vec::new();
+        let pairs = meeting.places.iter().chain(&meeting.flat);
+        for &places in pairs.take(STARTS) {
+            let found = shifted.closest_at(places, self.scratch.for_primitives());
+            starts.extend(found.map(|found| found.closest.points[0]));
+        }
+        if starts.is_empty() {
+            starts.push(shifted.relative.translation);
+            starts.push(Vec3::zeros());
+        }
+        for start in starts {
+            if let Some([in_a, in_b]) = common_balls(&shifted, &start, self.scratch, &mut self.rays)
+            {
+                self.balls[0].push(in_a);
+                self.balls[1].push(in_b);
+            }
+        }
+    }
+
+    /// The half-spaces that part the primitives at two places, each once.
+    fn parting(&mut self, places: [u32; 2]) -> Vec<HalfSpace> {
+        let mut buffer = Default::default();
+        let [a, b] = self.pairing.placed(places, &mut buffer);
+        let found = parting_half_spaces(&a, &b, &self.pairing.precision, self.scratch.meter_mut());
+        let mut kept: Vec<HalfSpace> = Vec::with_capacity(found.len());
+        for space in found {
+            // Parallel faces of both have the same normal up to its rounding; the wider half-space covers both.
+            let is_same = |other: &&mut HalfSpace| {
+                (other.normal - space.normal).norm_squared() <= SAME_NORMAL * SAME_NORMAL
+            };
+            match kept.iter_mut().find(is_same) {
+                Some(other) => other.offset = other.offset.min(space.offset),
+                None => kept.push(space),
+            }
+        }
+        kept
+    }
+
+    /// The number of a difference, which is made when first asked for.
+    fn number(&mut self, source: Source) -> u32 {
+        if let Some(&number) = self.numbers.get(&source) {
+            return number;
+        }
+        let is_planar = self.pairing.precision.planar;
+        let difference = match source {
+            Source::Primitives(places) => {
+                let is_round = {
+                    let mut buffer = Default::default();
+                    let placed = self.pairing.placed(places, &mut buffer);
+                    placed.iter().any(|placed| placed.shape.curve.is_some())
+                };
+                if is_round {
+                    let middle = self.middle(places);
+                    let shape = RoundShape::Primitives(places);
+                    Difference::Round(RoundDifference::new(middle, shape, is_planar, |ray| {
+                        boundary(&self.pairing, &middle, shape, ray, self.scratch)
+                    }))
+                } else {
+                    Difference::Polytope(self.parting(places))
+                }
+            }
+            Source::Balls([i, j]) => {
+                let (in_a, in_b) = (self.balls[0][i as usize], self.balls[1][j as usize]);
+                let middle = self.pairing.relative.transform_point(&in_b.center) - in_a.center;
+                let shape = RoundShape::Ball(in_a.radius + in_b.radius);
+                Difference::Round(RoundDifference::new(middle, shape, false, |ray| {
+                    boundary(&self.pairing, &middle, shape, ray, self.scratch)
+                }))
+            }
+        };
+        let number = self.differences.len() as u32;
+        self.differences.push(difference);
+        self.numbers.insert(source, number);
+        number
+    }
+
+    /// A translation well inside the difference of the primitives at two places.
+    fn middle(&self, places: [u32; 2]) -> Vec3 {
+        let packed = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
+        let [in_a, in_b] = [(0, self.pairing.a), (1, self.pairing.b)].map(|(i, body)| {
+            let primitive = packed[i].entry(places[i] as usize).primitive;
+            let primitive = body.primitives().get(primitive as usize);
+            let ends = (0..6).map(|i| {
+                let mut way = Vec3::zeros();
+                way[i % 3] = if i < 3 { 1.0 } else { -1.0 };
+                primitive.farthest(&way)
+            });
+            ends.sum::<Vec3>() / 6.0
+        });
+        self.pairing.relative.transform_point(&in_b) - in_a
+    }
+
+    /// The difference that covers a node, the cone of it that the node lies in, and the parts that make children.
+    fn parts(&mut self, node: &Node, cover: &Cover) -> Option<(u32, Option<u32>, Vec<u32>)> {
+        let number = self.number(cover.source);
+        let own = node.faces.iter().find(|face| face.difference == number);
+        let own = own.map(|face| face.part);
+        match (&mut self.differences[number as usize], own) {
+            (Difference::Polytope(_), Some(_)) => None,
+            (Difference::Polytope(spaces), None) => {
+                Some((number, None, (0..spaces.len() as u32).collect()))
+            }
+            (Difference::Round(round), None) => Some((number, None, round.roots().collect())),
+            (Difference::Round(round), Some(cone)) => {
+                let (middle, shape) = (round.middle, round.shape);
+                let (pairing, scratch) = (&self.pairing, &mut *self.scratch);
+                let parts =
+                    round.parts(cone, |ray| boundary(pairing, &middle, shape, ray, scratch));
+                Some((number, Some(cone), parts.collect()))
+            }
+        }
+    }
+
+    /// Makes the children of a node: beyond each part of a difference.
+    fn branch(&mut self, node: &Node, difference: u32, old: Option<u32>, parts: &[u32]) {
+        for &part in parts {
+            let spaces = match &self.differences[difference as usize] {
+                Difference::Polytope(spaces) => {
+                    let HalfSpace { normal, offset } = spaces[part as usize];
+                    vec![HalfSpace {
+                        normal,
+                        offset: offset - self.error,
+                    }]
+                }
+                Difference::Round(round) => round.half_spaces(part, self.error),
+            };
+            // Too long a way by this half-space alone.
+            if spaces.len() == 1 && spaces[0].offset > self.upper + self.clearance {
+                continue;
+            }
+            let is_kept = |face: &&Face| old.is_none() || face.difference != difference;
+            let mut faces: Vec<Face> = node.faces.iter().filter(is_kept).copied().collect();
+            faces.extend(spaces.into_iter().map(|space| Face {
+                space,
+                difference,
+                part,
+            }));
+            let spaces: Vec<HalfSpace> = faces.iter().map(|face| face.space).collect();
+            let found = least(&spaces, 0.0, self.rounding);
+            let bound = found.bound.max(node.bound);
+            if bound > self.upper + self.clearance {
+                continue;
+            }
+            self.keep_active(&mut faces, &found.point);
+            let mut key: Vec<(u32, u32)> = faces
+                .iter()
+                .map(|face| (face.difference, face.part))
+                .collect();
+            key.sort_unstable();
+            key.dedup();
+            // A node of the same half-spaces covers this one only if its bound claims no more.
+            let known = self.seen.entry(key).or_insert(f64::INFINITY);
+            if bound < *known {
+                *known = bound;
+                self.nodes.push(Node {
+                    bound,
+                    point: found.point,
+                    faces,
+                });
+            }
+        }
+    }
+
+    /// Leaves out the half-spaces that do not hold the point of a node back: the others have the same shortest translation. Nodes
+    /// that were reached on several ways are then equal. What was left out may be taken again further on.
+    fn keep_active(&self, faces: &mut Vec<Face>, point: &Vec3) {
+        let slack = 4.0 * (self.clearance + self.error);
+        let is_active = |face: &Face| face.space.normal.dot(point) - face.space.offset <= slack;
+        let active: Vec<(u32, u32)> = faces
+            .iter()
+            .filter(|face| is_active(face))
+            .map(|face| (face.difference, face.part))
+            .collect();
+        // A cone stays whole.
+        faces.retain(|face| active.contains(&(face.difference, face.part)));
+    }
+
+    /// Shortens the way out by what touches after it, as long as that helps.
+    fn correct(&mut self) {
+        let mut reach = 1e-3 * self.upper + 2.0 * self.tolerance;
+        for _ in 0..MAX_CORRECTIONS {
+            if self.scratch.meter().is_exceeded() || self.upper == f64::INFINITY {
+                return;
+            }
+            let (touching, _) = touching_at(&self.pairing, &self.way, reach, self.scratch);
+            let next = straightened(&touching, &self.way, 1.5 * self.clearance, self.rounding);
+            let moved = (next - self.way).norm();
+            let before = self.upper;
+            if !(self.offer(next) || self.offer(0.5 * (next + self.way)))
+                || before - self.upper <= self.rounding
+            {
+                return;
+            }
+            reach = reach
+                .min(moved + 4.0 * self.clearance)
+                .max(4.0 * self.clearance);
+        }
+    }
+
+    /// What touches after the way out.
+    fn explained(&mut self) -> (WayOut, Option<Touching>) {
+        if self.upper == f64::INFINITY || self.scratch.meter().is_exceeded() {
+            return Default::default();
+        }
+        let near = 8.0 * (self.clearance + self.error);
+        let (touching, is_all) = touching_at(&self.pairing, &self.way, near, self.scratch);
+        let mut out = WayOut::of(&touching, &self.way, near, self.rounding);
+        out.is_regular &= is_all;
+        let by_gap = |a: &&Touching, b: &&Touching| a.gap.total_cmp(&b.gap);
+        let first = out.terms.first().and_then(|(_, contacts)| contacts.first());
+        let first = first.or_else(|| touching.iter().min_by(by_gap)).copied();
+        (out, first)
+    }
+}
+
+/// The point of a round difference next to its boundary on a ray from its middle.
+fn boundary(
+    pairing: &Pairing,
+    middle: &Vec3,
+    shape: RoundShape,
+    ray: &Vec3,
+    scratch: &mut Scratch,
+) -> Vec3 {
+    let Some(ray) = ray.try_normalize(0.0) else {
+        return *middle;
+    };
+    let places = match shape {
+        RoundShape::Ball(radius) => return middle + ray * radius,
+        RoundShape::Primitives(places) => places,
+    };
+    /// Steps from outside: each goes to the plane that parts the two, which is next to the boundary after a few.
+    const MAX_STEPS: usize = 48;
+    let error = pairing.precision.error;
+    let mut measure = |along: f64| {
+        scratch.meter_mut().count_primitives(1);
+        let shifted = pairing.shifted(&(middle + ray * along));
+        let found = shifted.closest_at(places, scratch.for_primitives());
+        found
+            .map(|found| found.closest)
+            .filter(|closest| closest.distance > error)
+    };
+    let mut outside = 2.0 * (pairing.a.radius() + pairing.b.radius());
+    let mut inside = 0.0;
+    for _ in 0..MAX_STEPS {
+        let Some(closest) = measure(outside) else {
+            inside = outside;
+            break;
+        };
+        let [on_a, on_b] = closest.points;
+        let along = (on_a - on_b).dot(&ray) / closest.distance;
+        let step = closest.distance / along;
+        // Rounding may make the plane useless; then halving finds the boundary.
+        if along.is_nan() || along <= 1e-6 {
+            break;
+        }
+        outside -= step;
+        if step <= 2.0 * error {
+            break;
+        }
+    }
+    if inside == 0.0 {
+        let mut back = 2.0 * error;
+        while back < outside {
+            if measure(outside - back).is_none() {
+                inside = outside - back;
+                break;
+            }
+            back *= 4.0;
+        }
+        // Halve what is left.
+        let mut outside = outside;
+        while outside - inside > 4.0 * error && outside > inside * (1.0 + 4.0 * EPSILON) {
+            let between = 0.5 * (outside + inside);
+            match measure(between) {
+                Some(_) => outside = between,
+                None => inside = between,
+            }
+        }
+    }
+    middle + ray * inside.max(0.0)
+}

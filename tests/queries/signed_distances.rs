@@ -1,0 +1,143 @@
+//! Signed distances and their derivatives: against central differences on both sides of contact, and where none is defined.
+
+use std::sync::Arc;
+
+use cstk::body::{Body, BodyBuilder};
+use cstk::cobject::CObject;
+use cstk::hierarchy::HierarchyOptions;
+use cstk::pose::{Pose, Vec3};
+use cstk::query::{DepthOptions, GradientKind, QueryContext, SignedDistanceList};
+
+use helpers::all_cases;
+use helpers::random::Random;
+use helpers::robots::{against, environment, free_body, space};
+use helpers::shapes::{cuboid, hull, hulls, mesh};
+
+fn signed(cobject: &CObject, q: &[f64]) -> SignedDistanceList {
+    let mut query = QueryContext::new();
+    let options = DepthOptions::default();
+    query
+        .signed_distances(cobject, q, 1.0, 9, &options)
+        .unwrap()
+}
+
+fn built(add: impl FnOnce(&mut BodyBuilder)) -> Arc<Body> {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    add(&mut builder);
+    let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    Arc::new(body.unwrap())
+}
+
+fn rounded(random: &mut Random) -> Arc<Body> {
+    built(|builder| {
+        builder
+            .add_capsule(&random.point(0.5), &random.point(0.5), 0.3, 0)
+            .unwrap();
+    })
+}
+
+/// Compares the rows with central differences; returns how many were compared apart and in contact.
+fn compare(cobject: &CObject, q: &[f64], tolerance: f64) -> [usize; 2] {
+    const H: f64 = 1e-6;
+    let list = signed(cobject, q);
+    let [pair] = &list.pairs[..] else {
+        return [0; 2];
+    };
+    assert!(pair.lower <= pair.distance && pair.distance <= pair.upper + 1e-12);
+    if pair.gradient != GradientKind::Derivative || pair.distance.abs() < 1e-3 {
+        return [0; 2];
+    }
+    for k in 0..q.len() {
+        let near = [-H, H].map(|h| {
+            let mut q = q.to_vec();
+            q[k] += h;
+            let list = signed(cobject, &q);
+            list.pairs
+                .first()
+                .map(|pair| (pair.distance, pair.gradient))
+        });
+        // Beside a kink the differences are of both its sides.
+        let [
+            Some((low, GradientKind::Derivative)),
+            Some((high, GradientKind::Derivative)),
+        ] = near
+        else {
+            return [0; 2];
+        };
+        let slope = (high - low) / (2.0 * H);
+        let off = (slope - list.gradients[k]).abs();
+        assert!(
+            off <= tolerance,
+            "coordinate {k} of {q:?}: {slope}, but {}: {pair:?}",
+            list.gradients[k]
+        );
+    }
+    if pair.distance > 0.0 { [1, 0] } else { [0, 1] }
+}
+
+#[test]
+fn derivatives_are_right_on_both_sides_of_contact() {
+    let mut random = Random::new(5);
+    let cases = if all_cases() { 3000 } else { 60 };
+    let mut counts = [[0; 2]; 3];
+    for case in 0..cases {
+        let kind = case % 3;
+        let body = match kind {
+            0 => hull(&random.points(8, 0.5)).body,
+            1 => hulls(&[random.points(6, 0.5), random.points(7, 0.5)]).body,
+            _ => rounded(&mut random),
+        };
+        let wall = match kind {
+            0 => hull(&random.points(9, 0.6)).body,
+            _ => hulls(&[random.points(6, 0.6), random.points(7, 0.6)]).body,
+        };
+        let objects = environment(&[(&wall, random.pose(0.1))]);
+        let cobject = against(&space(vec![free_body(&body)]), &objects.0);
+        let q: Vec<f64> = (0..6).map(|_| random.within(-0.5, 0.5)).collect();
+        let found = compare(&cobject, &q, 1e-4);
+        counts[kind]
+            .iter_mut()
+            .zip(found)
+            .for_each(|(sum, n)| *sum += n);
+    }
+    println!("compared apart and in contact: convex, unions, rounded {counts:?} of {cases}");
+    for [apart, meeting] in counts {
+        assert!(apart > 0 && meeting > 0, "{counts:?}");
+    }
+}
+
+#[test]
+fn what_has_no_derivative_says_so() {
+    let cube = cuboid([2.0, 2.0, 2.0]).body;
+    let objects = environment(&[(&cube, Pose::identity())]);
+    let cobject = against(&space(vec![free_body(&cube)]), &objects.0);
+    // Six ways out of the same length.
+    let list = signed(&cobject, &[0.0; 6]);
+    assert_eq!(list.pairs[0].gradient, GradientKind::OneOfSeveral);
+    assert!((list.pairs[0].distance + 2.0).abs() < 1e-12);
+    // Faces on faces: turned, they meet at one corner or another.
+    let list = signed(&cobject, &[1.5, 0.2, 0.1, 0.0, 0.0, 0.0]);
+    assert_eq!(list.pairs[0].gradient, GradientKind::OneOfSeveral);
+    assert!((list.pairs[0].distance + 0.5).abs() < 1e-12);
+    assert!((list.gradients[0] - 1.0).abs() < 1e-9);
+    // Beyond the range.
+    assert!(
+        signed(&cobject, &[3.5, 0.0, 0.0, 0.0, 0.0, 0.0])
+            .pairs
+            .is_empty()
+    );
+}
+
+#[test]
+fn surfaces_in_each_other_have_no_depth() {
+    let corners = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+    let triangle = mesh(&corners, &[[0, 1, 2]]).body;
+    let turned =
+        Pose::from_row_major(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.2, 0.0, 1.0, 0.0, -0.2]);
+    let objects = environment(&[(&triangle, turned.unwrap())]);
+    let cobject = against(&space(vec![free_body(&triangle)]), &objects.0);
+    let list = signed(&cobject, &[0.0; 6]);
+    assert_eq!(list.pairs[0].gradient, GradientKind::Undefined);
+    assert_eq!(list.pairs[0].lower, f64::NEG_INFINITY);
+    assert!(list.gradients.iter().all(|x| *x == 0.0));
+}
