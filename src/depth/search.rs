@@ -73,7 +73,11 @@ pub struct Depth {
 
 /// An intersection of half-spaces.
 struct Node {
+    /// No way out in it is shorter: the bound of its half-spaces, or that of the node it was parted from.
     bound: f64,
+    /// The bound of its half-spaces alone.
+    least: f64,
+    /// The shortest translation in it.
     point: Vec3,
     faces: Vec<Face>,
 }
@@ -140,7 +144,9 @@ pub struct DepthSearch<'a, 's> {
     /// Balls in A and in B.
     balls: [Vec<InnerBall>; 2],
     nodes: BinaryHeap<Node>,
-    /// The half-spaces of the nodes made, with the least bound of each.
+    /// The half-spaces of the nodes made, with the least bound of each. A node that is left out relies on the node of the same
+    /// half-spaces, and that one on its children: none of these may come back to the same half-spaces. Children have longer
+    /// shortest translations, or, where these stay the same, more half-spaces and narrower cones.
     seen: HashMap<Vec<(u32, u32)>, f64, RandomState>,
     upper: f64,
     way: Vec3,
@@ -238,12 +244,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
         if self.upper - least_depth > self.tolerance {
             self.search(least_depth);
         }
-        // Of round differences only single ones bound the depth: the search among their cones finds ways out, no more.
         let lower = match self.nodes.peek() {
-            _ if self.has_round() => {
-                let ball = self.deepest_ball(&Vec3::zeros());
-                ball.map_or(0.0, |ball| ball.depth - self.error)
-            }
             Some(node) => node.bound.min(self.floor),
             None => self.floor,
         };
@@ -373,6 +374,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
     fn search(&mut self, least_depth: f64) {
         self.nodes.push(Node {
             bound: 0.0,
+            least: 0.0,
             point: Vec3::zeros(),
             faces: Vec::new(),
         });
@@ -681,7 +683,10 @@ impl<'a, 's> DepthSearch<'a, 's> {
             if bound > self.upper + self.clearance {
                 continue;
             }
-            self.keep_active(&mut faces, &found.point);
+            // Only then is what a node leaves to its children nearer to the end than it was: see `seen`.
+            if found.is_inside && found.bound > node.least + self.error {
+                self.keep_active(&mut faces, &found.point);
+            }
             let mut key: Vec<(u32, u32)> = faces
                 .iter()
                 .map(|face| (face.difference, face.part))
@@ -694,6 +699,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
                 *known = bound;
                 self.nodes.push(Node {
                     bound,
+                    least: found.bound,
                     point: found.point,
                     faces,
                 });
