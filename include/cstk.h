@@ -4534,12 +4534,10 @@ cstk_status cstk_depth_options_default(cstk_depth_options *out, size_t size);
 /**
  * Writes bounds of the depth of body a at pose_a in body b at pose_b, and a translation of body a, in the world, that is proved to
  * part them. Unions and solids (cstk_body_builder_set_solid) count as a whole: the depth is exact to rounding for unions of
- * polytopes, if the steps suffice. With round primitives or
- * solids the lower bound is that of the deepest single pair of primitives or of balls inside the bodies; it may stay below the truth
- * whatever the tolerance, and `tight` tells. CSTK_ERROR_UNSUPPORTED if the bodies meet and each has a primitive
- * without an inside, such as a polygon that bounds no solid; the message names them. A surface
- * in a solid has a depth. `options` may be NULL for the defaults. Poses are 12 doubles, row-major
- * [R | t], the body's frame in the world.
+ * polytopes, and bounded to the tolerance for others, if the steps suffice; `tight` tells. CSTK_ERROR_UNSUPPORTED if the bodies
+ * meet and each has a primitive without an inside, such as a polygon that bounds no solid; the message names them. A surface in
+ * a solid has a depth. `options` may be NULL for the defaults. Poses are 12 doubles, row-major [R | t], the body's frame in the
+ * world.
  */
 cstk_status cstk_pair_depth(cstk_query *query,
                             const cstk_body *body_a,

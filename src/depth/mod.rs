@@ -4,12 +4,18 @@
 //! union of the differences of their primitives, and at balls of translations where solids overlap. The depth is the distance
 //! of the origin from the complement of that union. `search.rs` bounds it from both sides.
 
+mod answer;
+mod boundary;
 mod difference;
 mod inner_balls;
+mod inside;
 mod least;
 mod meeting;
+mod node;
 mod search;
 mod touching;
 
-pub use search::{Depth, DepthOptions, DepthSearch, require_inside};
+pub use answer::{Depth, DepthOptions};
+pub use inside::require_inside;
+pub use search::DepthSearch;
 pub use touching::{Touching, WayOut, touching_at};

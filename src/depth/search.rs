@@ -6,111 +6,23 @@
 //! which makes a child. The nodes that wait cover all ways out, so that the least of their bounds is a lower bound of the
 //! depth; for polytopes the search ends with the depth itself.
 
-use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 
 use foldhash::fast::RandomState;
 
+use super::answer::{Depth, DepthOptions};
+use super::boundary::boundary;
 use super::difference::{Difference, RoundDifference, RoundShape};
 use super::inner_balls::{InnerBall, common_balls, widened};
 use super::least::least;
 use super::meeting::{Meeting, is_parted, meeting_at};
+use super::node::{Face, Node};
 use super::touching::{Touching, WayOut, straightened, touching_at};
 use crate::body::Body;
 use crate::convex::{HalfSpace, parting_half_spaces};
-use crate::error::{Error, ErrorKind, Result};
 use crate::pair::{Pairing, RayScratch, Scratch};
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
-
-/// How far and how long to search.
-#[derive(Clone, Copy, Debug)]
-pub struct DepthOptions {
-    /// The search ends when the bounds are this close; 0 stands for [`DepthOptions::RELATIVE`] of the pair's size.
-    pub tolerance: f64,
-    /// Nodes to take, at most.
-    pub max_steps: u64,
-    /// Goes on between polytopes until other ways out of the same length are found or excluded: they tell whether the depth has a
-    /// derivative.
-    pub seeks_rivals: bool,
-}
-
-impl DepthOptions {
-    /// The tolerance if none is given, times the pair's size.
-    pub const RELATIVE: f64 = 1e-6;
-}
-
-impl Default for DepthOptions {
-    fn default() -> Self {
-        Self {
-            tolerance: 0.0,
-            max_steps: 1000,
-            seeks_rivals: false,
-        }
-    }
-}
-
-/// Bounds of a depth, with a way out.
-#[derive(Clone, Debug)]
-pub struct Depth {
-    /// No shorter translation parts the bodies.
-    pub lower: f64,
-    /// The length of `way`.
-    pub upper: f64,
-    /// A translation of A after which the bodies are proved apart, in A's centred frame.
-    pub way: Vec3,
-    /// What touches after it.
-    pub out: WayOut,
-    /// The contact that `out` names first, or the nearest one; `None` without contacts.
-    pub first: Option<Touching>,
-    /// Another way out, of the same length but elsewhere, is known or not excluded.
-    pub has_rival: bool,
-    /// The bounds are within the tolerance.
-    pub is_tight: bool,
-    /// Nodes taken.
-    pub steps: u64,
-}
-
-/// An intersection of half-spaces.
-struct Node {
-    /// No way out in it is shorter: the bound of its half-spaces, or that of the node it was parted from.
-    bound: f64,
-    /// The bound of its half-spaces alone.
-    least: f64,
-    /// The shortest translation in it.
-    point: Vec3,
-    faces: Vec<Face>,
-}
-
-/// A half-space of a node: beyond a face of a difference.
-#[derive(Clone, Copy)]
-struct Face {
-    space: HalfSpace,
-    difference: u32,
-    /// The number of the half-space, or of the cone.
-    part: u32,
-}
-
-impl Ord for Node {
-    /// The least bound is the greatest node.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound)
-    }
-}
-
-impl PartialOrd for Node {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Node {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Node {}
 
 /// The name of a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -173,35 +85,6 @@ const SAME_NORMAL: f64 = 8.0 * EPSILON;
 
 /// Ways out farther apart than this, times their length, are different ones.
 const OTHER_WAY: f64 = 1e-2;
-
-/// Refuses two bodies of which neither has an inside everywhere: the depth of surfaces in each other is not defined. The
-/// message names a primitive of each.
-pub fn require_inside(a: &Body, b: &Body) -> Result<()> {
-    let (Some(flat_a), Some(flat_b)) = (without_inside(a), without_inside(b)) else {
-        return Ok(());
-    };
-    Err(Error::new(
-        ErrorKind::Unsupported,
-        format!(
-            "neither body has an inside everywhere: primitive {flat_a} of body_a and primitive {flat_b} of body_b are no solids \
-             and bound none, so that no depth is defined"
-        ),
-    ))
-}
-
-/// The first primitive without an inside that bounds no solid.
-pub fn without_inside(body: &Body) -> Option<usize> {
-    let is_planar = body.dimension() == 2;
-    let mut shapes = body.primitives().iter().enumerate();
-    let found = shapes.find(|(i, primitive)| {
-        let shape = primitive.shape;
-        let is_thick =
-            shape.curve.is_some() || shape.is_solid() || (is_planar && !shape.faces.is_empty());
-        let is_boundary = || body.solid().is_some_and(|solid| solid.sign(*i as u32) != 0);
-        !is_thick && !is_boundary()
-    });
-    found.map(|(i, _)| i)
-}
 
 impl<'a, 's> DepthSearch<'a, 's> {
     /// A search for the depth of the bodies of a pairing, which meet.
@@ -757,71 +640,4 @@ impl<'a, 's> DepthSearch<'a, 's> {
         let first = first.or_else(|| touching.iter().min_by(by_gap)).copied();
         (out, first)
     }
-}
-
-/// The point of a round difference next to its boundary on a ray from its middle.
-fn boundary(
-    pairing: &Pairing,
-    middle: &Vec3,
-    shape: RoundShape,
-    ray: &Vec3,
-    scratch: &mut Scratch,
-) -> Vec3 {
-    let Some(ray) = ray.try_normalize(0.0) else {
-        return *middle;
-    };
-    let places = match shape {
-        RoundShape::Ball(radius) => return middle + ray * radius,
-        RoundShape::Primitives(places) => places,
-    };
-    /// Steps from outside: each goes to the plane that parts the two, which is next to the boundary after a few.
-    const MAX_STEPS: usize = 48;
-    let error = pairing.precision.error;
-    let mut measure = |along: f64| {
-        scratch.meter_mut().count_primitives(1);
-        let shifted = pairing.shifted(&(middle + ray * along));
-        let found = shifted.closest_at(places, scratch.for_primitives());
-        found
-            .map(|found| found.closest)
-            .filter(|closest| closest.distance > error)
-    };
-    let mut outside = 2.0 * (pairing.a.radius() + pairing.b.radius());
-    let mut inside = 0.0;
-    for _ in 0..MAX_STEPS {
-        let Some(closest) = measure(outside) else {
-            inside = outside;
-            break;
-        };
-        let [on_a, on_b] = closest.points;
-        let along = (on_a - on_b).dot(&ray) / closest.distance;
-        let step = closest.distance / along;
-        // Rounding may make the plane useless; then halving finds the boundary.
-        if along.is_nan() || along <= 1e-6 {
-            break;
-        }
-        outside -= step;
-        if step <= 2.0 * error {
-            break;
-        }
-    }
-    if inside == 0.0 {
-        let mut back = 2.0 * error;
-        while back < outside {
-            if measure(outside - back).is_none() {
-                inside = outside - back;
-                break;
-            }
-            back *= 4.0;
-        }
-        // Halve what is left.
-        let mut outside = outside;
-        while outside - inside > 4.0 * error && outside > inside * (1.0 + 4.0 * EPSILON) {
-            let between = 0.5 * (outside + inside);
-            match measure(between) {
-                Some(_) => outside = between,
-                None => inside = between,
-            }
-        }
-    }
-    middle + ray * inside.max(0.0)
 }

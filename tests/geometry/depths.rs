@@ -275,6 +275,7 @@ fn cylinders_have_bounds_too() {
             "{found:?}"
         );
         assert!(found.upper - exact < 1e-8, "{exact} {found:?}");
+        assert!(found.is_tight && found.lower > exact - 1e-3, "{found:?}");
     }
 }
 
