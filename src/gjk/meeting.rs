@@ -65,10 +65,19 @@ impl<A: Support, B: Support> Work for MeetingSearch<'_, A, B> {
     }
 }
 
-/// Corners of the difference A - B from which to search for its point nearest to the origin: a tetrahedron around the origin
-/// where the sets overlap by much, else some that a direction parts from the origin. At least one.
+/// Where to begin the search for the point of the difference A - B nearest to the origin.
+pub(super) struct Beginning {
+    /// At least one corner: a tetrahedron around the origin where the sets overlap by much.
+    pub simplex: Simplex,
+    /// The gap along `direction`, if that parts the sets, else 0.
+    pub lower: f64,
+    /// The unit direction from B to A.
+    pub direction: Vec3,
+}
+
+/// Walks towards the origin until a tetrahedron holds it or a direction parts it from the sets.
 #[inline(always)]
-pub(super) fn first_simplex<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -> Simplex {
+pub(super) fn beginning<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -> Beginning {
     let largest = start.amax();
     let unit = if largest > 0.0 && largest < f64::INFINITY {
         power_of_two(largest)
@@ -82,6 +91,7 @@ pub(super) fn first_simplex<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -
     };
     let (sides, end) = walk(a, b, start * inverse_unit, in_units);
     let mut simplex = Simplex::empty();
+    let (mut lower, mut direction) = (0.0, Vec3::zeros());
     let mut push = |corner: Corner| {
         let difference = corner.difference * unit;
         if !simplex.contains(&difference) {
@@ -100,12 +110,21 @@ pub(super) fn first_simplex<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -
                 Sides::Segment(a, b) => [b, a].into_iter().for_each(&mut push),
                 Sides::Triangle(a, b, c) => [c, b, a].into_iter().for_each(&mut push),
             }
-            if let End::Apart { newest, .. } = end {
+            if let End::Apart { newest, v } = end {
                 push(newest);
+                let length = v.norm();
+                let gap = v.dot(&newest.difference) / length * unit;
+                if gap > 0.0 {
+                    (lower, direction) = (gap, v / length);
+                }
             }
         }
     }
-    simplex
+    Beginning {
+        simplex,
+        lower,
+        direction,
+    }
 }
 
 /// How a walk ended.

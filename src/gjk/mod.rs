@@ -8,7 +8,7 @@ mod meeting;
 mod refined;
 mod simplex;
 
-use self::meeting::first_simplex;
+use self::meeting::beginning;
 pub use self::meeting::meeting;
 pub use self::refined::{Nearby, RefinedBounds, refined};
 use self::simplex::{Corner, OriginPosition, Simplex};
@@ -131,22 +131,31 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             limits,
         } = self;
         let mut found = Gjk::unknown();
-        let mut simplex = first_simplex(a, b, start);
-        let mut scale = simplex.scale();
-        let mut v = match simplex.reduce() {
-            OriginPosition::Inside { margin, at } => {
-                found.take_inside(margin, &at, scale);
+        let (mut simplex, mut scale, mut v) = (Simplex::empty(), 0.0, Vec3::x());
+        // Without a guess the sets may be points and thin hulls, whose simplices are needles: these begin with one corner.
+        if start != Vec3::zeros() {
+            let begun = beginning(a, b, start);
+            (found.lower, found.direction) = (begun.lower, begun.direction);
+            if begun.lower > limits.cutoff {
                 return found;
             }
-            OriginPosition::Outside(point) => point,
-        };
-        found.upper = v.norm();
-        if found.upper <= limits.enough && found.take_near(&simplex, &v, limits.enough) {
-            return found;
-        }
-        if found.upper <= 4.0 * tolerance::EPSILON * scale.sqrt() {
-            found.nearest = simplex.nearest(&v);
-            return found;
+            simplex = begun.simplex;
+            scale = simplex.scale();
+            v = match simplex.reduce() {
+                OriginPosition::Inside { margin, at } => {
+                    found.take_inside(margin, &at, scale);
+                    return found;
+                }
+                OriginPosition::Outside(point) => point,
+            };
+            found.upper = v.norm();
+            if found.upper <= limits.enough && found.take_near(&simplex, &v, limits.enough) {
+                return found;
+            }
+            if found.upper <= 4.0 * tolerance::EPSILON * scale.sqrt() {
+                found.nearest = simplex.nearest(&v);
+                return found;
+            }
         }
         for _ in 0..MAX_STEPS {
             let inverse_length = 1.0 / v.norm();

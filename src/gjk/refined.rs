@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use super::meeting::first_simplex;
+use super::meeting::{Beginning, beginning};
 use super::simplex::{Corner, CornerNames, OriginPosition, Simplex};
 use super::{DistanceLimits, Support};
 use crate::lanes::{Instructions, Work, with_widest};
@@ -75,14 +75,23 @@ pub fn refined<A: Support, B: Support>(
         cutoff: limits.cutoff.max(tolerance::SUPPORT_ERROR * size),
         ..limits
     };
-    let mut found = with_widest(Refinement {
-        a,
-        b,
-        start,
-        accepted: tolerance::CERTIFIED_GAP * size,
-        limits,
-        finish,
-    });
+    let search = |walks_first: bool| {
+        with_widest(Refinement {
+            a,
+            b,
+            start,
+            walks_first,
+            accepted: tolerance::CERTIFIED_GAP * size,
+            limits,
+            finish: &finish,
+        })
+    };
+    let mut found = search(true);
+    let is_proved = found.lower > tolerance::SUPPORT_ERROR * size || found.depth > 0.0;
+    if !is_proved && found.upper > limits.enough {
+        // Nearly touching: the corners of the walk may be too close together. One corner alone begins better.
+        found = search(false);
+    }
     if found.lower <= tolerance::SUPPORT_ERROR * size {
         (found.lower, found.direction) = (0.0, Vec3::zeros());
     }
@@ -117,6 +126,8 @@ struct Refinement<'a, A, B, F> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
+    /// Whether a walk towards the origin finds the first corners.
+    walks_first: bool,
     /// The bounds have met when they are this close.
     accepted: f64,
     limits: DistanceLimits,
@@ -133,8 +144,8 @@ where
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> RefinedBounds {
-        let mut iteration = Iteration::new();
-        if iteration.begin(&self).is_break() {
+        let mut iteration = Iteration::new(self.start);
+        if self.walks_first && iteration.begin(&self).is_break() {
             return iteration.found;
         }
         while iteration.found.iterations < MAX_STEPS {
@@ -177,7 +188,7 @@ enum Extended {
 
 impl Iteration {
     #[inline(always)]
-    fn new() -> Self {
+    fn new(start: Vec3) -> Self {
         Self {
             found: RefinedBounds {
                 lower: 0.0,
@@ -189,7 +200,11 @@ impl Iteration {
                 iterations: 0,
             },
             simplex: Simplex::empty(),
-            v: Vec3::zeros(),
+            v: if start == Vec3::zeros() {
+                Vec3::x()
+            } else {
+                start
+            },
             scale: 0.0,
             least_gap: f64::INFINITY,
             idle: 0,
@@ -207,10 +222,19 @@ impl Iteration {
         A: Support,
         B: Support,
     {
-        self.simplex = first_simplex(sets.a, sets.b, sets.start);
+        let Beginning {
+            simplex,
+            lower,
+            direction,
+        } = beginning(sets.a, sets.b, sets.start);
+        self.simplex = simplex;
+        (self.found.lower, self.found.direction) = (lower, direction);
+        if lower > sets.limits.cutoff {
+            return ControlFlow::Break(());
+        }
         self.scale = self.simplex.scale().sqrt();
         let rounding = 4.0 * tolerance::EPSILON * self.scale;
-        match self.reduce(rounding) {
+        match self.nearest(rounding) {
             Extended::Nearest(nearest, foot) => self.take_nearest(&nearest, foot, rounding),
             _ => ControlFlow::Break(()),
         }
@@ -293,17 +317,17 @@ impl Iteration {
             return Extended::Stuck;
         }
         simplex.push(corner);
-        if self.is_apart || self.found.lower > rounding {
-            let (nearest, foot) = simplex.nearest_apart();
-            return Extended::Nearest(nearest, foot);
-        }
-        self.reduce(rounding)
+        self.nearest(rounding)
     }
 
     /// Reduces the simplex to the face nearest to the origin, unless it contains the origin.
     #[inline(always)]
-    fn reduce(&mut self, rounding: f64) -> Extended {
+    fn nearest(&mut self, rounding: f64) -> Extended {
         let simplex = &mut self.simplex;
+        if self.is_apart || self.found.lower > rounding {
+            let (nearest, foot) = simplex.nearest_apart();
+            return Extended::Nearest(nearest, foot);
+        }
         match simplex.reduce() {
             OriginPosition::Inside { at, margin } if at.difference.norm() <= rounding => {
                 (self.found.upper, self.found.depth) = (0.0, margin);
