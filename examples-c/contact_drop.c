@@ -1,4 +1,4 @@
-/* Boxes that fall on a stack and throw it over, until all lie still: a simulation of contacts by impulses, which asks
+/* Boxes that fall on a stack, until all lie still: a simulation of contacts by impulses, which asks
  * once a step for all that is near.
  *
  *   cc -std=c99 contact_drop.c rigid_boxes.c box_picture.c svg.c $(pkg-config --cflags --libs cstk) -lm -o contact_drop
@@ -20,9 +20,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { STACK = 5, FALLING = 7, BOXES = STACK + FALLING, STEPS = 3500, SHOTS = 4, MAX_TOUCHES = 4096 };
+enum { STACK = 5, FALLING = 7, BOXES = STACK + FALLING, MIN_STEPS = 3500, MAX_STEPS = 10000, SHOTS = 4, MAX_TOUCHES = 4096 };
 static const double step = 0.001, margin = 0.015, gap = 0.0005, friction = 0.6;
-static const int shot_steps[SHOTS] = {0, 460, 790, STEPS - 1};
+static const double at_rest = 0.02; /* metres a second */
+static const int shot_steps[SHOTS - 1] = {0, 460, 790}; /* the last is at the end */
 
 typedef struct simulation {
     cstk_query *query, *deep; /* the second for penetrations, while a list of the first is read */
@@ -204,7 +205,7 @@ static double fastest(const simulation *s) {
     return most;
 }
 
-static void draw_shot(FILE *svg, const simulation *s, int shot) {
+static void draw_shot(FILE *svg, const simulation *s, int shot, int steps) {
     drawn_box drawn[BOXES + 1] = {{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -0.02}, {1, 1, 0.02}, 40}};
     char title[64];
     const double x = 150 + 300 * shot, y = 470;
@@ -217,13 +218,15 @@ static void draw_shot(FILE *svg, const simulation *s, int shot) {
         drawn[i].hue = i < STACK ? 210 : 20 + 12 * (i - STACK);
     }
     draw_boxes(svg, drawn, BOXES, x, y, 105);
-    snprintf(title, sizeof title, "%.2f s, %zu contacts", shot_steps[shot] * step, s->touch_count);
+    snprintf(title, sizeof title, "%.2f s, %zu contacts", steps * step, s->touch_count);
     svg_text(svg, x, y + 75, 16, "middle", title);
 }
 
 int main(int argc, char **argv) {
     simulation *s = make_simulation();
-    double *energies = malloc(STEPS * sizeof *energies), gained = 0;
+    double *energies = malloc(MAX_STEPS * sizeof *energies), gained = 0;
+    int steps = 0;
+    char title[64];
     FILE *svg = argc > 1 ? fopen(argv[1], "w") : NULL;
     if (energies == NULL || (argc > 1 && svg == NULL)) {
         fprintf(stderr, "cannot write\n");
@@ -233,28 +236,30 @@ int main(int argc, char **argv) {
         svg_begin(svg, 1200, 760);
     }
     printf("%d boxes fall; steps of a millisecond\n  time, s  energy, J  contacts  overlaps  deepest, mm\n", BOXES);
-    for (int i = 0, shot = 0; i < STEPS; ++i) {
+    for (int shot = 0; steps < MIN_STEPS || (steps < MAX_STEPS && fastest(s) >= at_rest); ++steps) {
         const double before = total_energy(s);
         advance(s);
-        energies[i] = total_energy(s);
-        gained = fmax(gained, energies[i] - before);
-        if (i % 500 == 0 || i == STEPS - 1) {
-            printf("%9.2f %10.3f %9zu %9zu %12.4f\n", i * step, energies[i], s->touch_count, s->overlaps, 1e3 * s->deepest);
+        energies[steps] = total_energy(s);
+        gained = fmax(gained, energies[steps] - before);
+        if (steps % 500 == 0) {
+            printf("%9.2f %10.3f %9zu %9zu %12.4f\n", steps * step, energies[steps], s->touch_count, s->overlaps, 1e3 * s->deepest);
         }
-        if (svg != NULL && shot < SHOTS && i == shot_steps[shot]) {
-            draw_shot(svg, s, shot++);
+        if (svg != NULL && shot < SHOTS - 1 && steps == shot_steps[shot]) {
+            draw_shot(svg, s, shot++, steps);
         }
     }
     if (svg != NULL) {
-        draw_curve(svg, energies, STEPS, 40, 580, 1120, 130, "kinetic and potential energy over 3.5 s");
+        draw_shot(svg, s, SHOTS - 1, steps);
+        snprintf(title, sizeof title, "kinetic and potential energy over %.1f s", steps * step);
+        draw_curve(svg, energies, (size_t)steps, 40, 580, 1120, 130, title);
         svg_end(svg);
         fclose(svg);
     }
     const double stack_height = s->boxes[STACK - 1].position[2];
-    printf("energy gained in a step, at most: %.4f J; deepest penetration %.4f mm; fastest at the end: %.4f m/s\n", gained,
-           1e3 * s->deepest, fastest(s));
+    printf("energy gained in a step, at most: %.4f J; deepest penetration %.4f mm; fastest after %.1f s: %.4f m/s\n", gained,
+           1e3 * s->deepest, steps * step, fastest(s));
     printf("the topmost box of the stack is now %.3f above the ground\n", stack_height);
-    const int well = gained < 0.01 * energies[0] && s->overlaps == 0 && fastest(s) < 0.02 && s->deepest < 4e-3;
+    const int well = gained < 0.01 * energies[0] && s->overlaps == 0 && fastest(s) < at_rest && s->deepest < 4e-3;
     check(cstk_environment_release(s->ground));
     check(cstk_environment_release(s->world));
     check(cstk_query_release(s->query));
