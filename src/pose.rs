@@ -126,23 +126,12 @@ impl Pose {
 
     /// The pose after a turn by `angle` radians about a unit axis of its own frame.
     pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
-        let is_along =
-            |k: usize| axis[k].abs() == 1.0 && axis[(k + 1) % 3] == 0.0 && axis[(k + 2) % 3] == 0.0;
-        let Some(k) = [2, 1, 0].into_iter().find(|&k| is_along(k)) else {
-            return Pose {
-                rotation: turned_axes(&self.rotation, &rotation_about(axis, angle)),
-                ..*self
-            };
+        let rotation = match [axis.x, axis.y, axis.z].map(f64::abs) {
+            [0.0, 0.0, 1.0] => turned_about_axis::<2>(&self.rotation, angle * axis.z),
+            [0.0, 1.0, 0.0] => turned_about_axis::<1>(&self.rotation, angle * axis.y),
+            [1.0, 0.0, 0.0] => turned_about_axis::<0>(&self.rotation, angle * axis.x),
+            _ => turned_axes(&self.rotation, &rotation_about(axis, angle)),
         };
-        // About a coordinate axis, the case of most joints, only two columns change.
-        let (sine, cosine) = (angle * axis[k]).sin_cos();
-        let [i, j] = [(k + 1) % 3, (k + 2) % 3];
-        let mut rotation = self.rotation;
-        for row in 0..3 {
-            let [x, y] = [self.rotation[(row, i)], self.rotation[(row, j)]];
-            rotation[(row, i)] = cosine * x + sine * y;
-            rotation[(row, j)] = cosine * y - sine * x;
-        }
         Pose { rotation, ..*self }
     }
 
@@ -333,6 +322,20 @@ pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
         turned(matrix, &v)
     };
     Mat3::from_columns(&[column(0), column(1), column(2)])
+}
+
+/// A rotation after a turn about one of its own axes, the case of most joints: only two columns change.
+#[inline]
+fn turned_about_axis<const AXIS: usize>(rotation: &Mat3, angle: f64) -> Mat3 {
+    let (sine, cosine) = angle.sin_cos();
+    let [i, j] = [(AXIS + 1) % 3, (AXIS + 2) % 3];
+    let mut turned = *rotation;
+    for row in 0..3 {
+        let [x, y] = [rotation[(row, i)], rotation[(row, j)]];
+        turned[(row, i)] = cosine * x + sine * y;
+        turned[(row, j)] = cosine * y - sine * x;
+    }
+    turned
 }
 
 /// Double-double sums, after Dekker (1971) and Knuth's TwoSum.

@@ -8,7 +8,7 @@ use crate::boxes::{BoxesByEight, PackedBox};
 use crate::convex::Extension;
 use crate::lanes::each3;
 use crate::pair::{ROUNDING, Twist32, sum_factor};
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned};
 use crate::tolerance;
 
 /// The pairs of one body that moves with objects that rest in the world.
@@ -36,11 +36,17 @@ pub(super) struct CrowdOver<L: TwistLists> {
 }
 
 impl Crowd {
-    /// Of pairs whose numbers begin at `first_pair`; all have the same body A, and Bs that rest.
-    pub fn new(first_pair: u32, pairs: &[MovingPair], origin: Vec3) -> Self {
+    /// Of pairs whose numbers begin at `first_pair`; all have the same body A, and Bs that rest. `boxes` is used again.
+    pub fn new(
+        first_pair: u32,
+        pairs: &[MovingPair],
+        origin: Vec3,
+        mut boxes: BoxesByEight,
+    ) -> Self {
+        boxes.clear();
         let mut crowd = Self {
             first_pair,
-            boxes: BoxesByEight::default(),
+            boxes,
             origin,
             size: 0.0,
             deviation: 0.0,
@@ -54,6 +60,11 @@ impl Crowd {
             crowd.boxes.push(&root_box(b, pose, &origin));
         }
         crowd
+    }
+
+    /// The memory of the boxes, for another crowd.
+    pub fn into_boxes(self) -> BoxesByEight {
+        self.boxes
     }
 
     /// The boxes around the objects.
@@ -103,7 +114,7 @@ fn root_box(body: &Body, pose: &Pose, origin: &Vec3) -> PackedBox {
     let center = pose.transform_point(&center) - origin;
     PackedBox {
         axes: each3(|k| {
-            let axis = pose.rotation * vector(&at_home.axes[k]);
+            let axis = turned(&pose.rotation, &vector(&at_home.axes[k]));
             each3(|i| axis[i] as f32)
         }),
         center: each3(|k| center[k] as f32),

@@ -13,15 +13,13 @@ use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
+use crate::boxes::BoxesByEight;
 use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
 use crate::environment::Bounds;
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Pose;
 use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
-
-/// Room for so many pairs is taken at once.
-const PAIRS_AT_ONCE: usize = 64;
 
 /// What is to be proved of a set, whose complements are moved down to the leaves of its tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +73,7 @@ impl<'a> Gathering<'a> {
             keeps,
             is_plain: tree.is_plain_union(),
             leaves: Vec::with_capacity(tree.leaves.len()),
-            pairs: Vec::with_capacity(PAIRS_AT_ONCE),
+            pairs: Vec::new(),
             needs_start: false,
             speeds: Vec::new(),
             start: None,
@@ -175,7 +173,6 @@ impl<'a> Gathering<'a> {
             }
         }
         order.sort_unstable();
-        self.pairs.reserve(order.len());
         for (.., place) in order {
             self.add_pair(&found[place], threshold, &term[0], scene)?;
         }
@@ -292,14 +289,15 @@ impl Ord for OrderedBound {
 }
 
 impl Gathering<'_> {
-    /// The pairs of a body among objects that rest, which stand together.
-    pub fn crowds(&self, scene: &Scene) -> Vec<Crowd> {
+    /// The pairs of a body among objects that rest, which stand together. The crowds take what memory `spare` has.
+    pub fn crowds(&self, scene: &Scene, spare: &mut Vec<BoxesByEight>) -> Vec<Crowd> {
         let mut crowds = Vec::new();
         let mut first = 0;
         for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
             if run.len() > 1 {
                 let origin = scene.poses()[run[0].link()].translation;
-                crowds.push(Crowd::new(first, run, origin));
+                let boxes = spare.pop().unwrap_or_default();
+                crowds.push(Crowd::new(first, run, origin, boxes));
             }
             first += run.len() as u32;
         }
@@ -321,14 +319,17 @@ impl Gathering<'_> {
 
     /// Bounds the change of a pair's distance in the whole time.
     fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
-        let line = &self.way.line;
         let (r_link, s_link) = target.links();
         let (_, r_object, _) = target.parties();
         if s_link.is_some() || r_object != 0 {
-            return line.rate(scene, target);
+            return self.way.line.rate(scene, target);
         }
         self.speeds.resize(scene.poses().len(), None);
-        *self.speeds[r_link].get_or_insert_with(|| line.rate(scene, target))
+        *self.speeds[r_link].get_or_insert_with(|| {
+            let body = carried(scene, r_link, target.sides[0]);
+            let known = self.rates.speed_in_world(&body);
+            known.unwrap_or_else(|| self.way.line.rate(scene, target))
+        })
     }
 }
 

@@ -11,6 +11,7 @@ use super::moving_pure::{Moment, MovingPure};
 use super::over_pairs::OverPairs;
 use super::over_piece::OneTwist;
 use super::piece::Piece;
+use super::proof_memory::SearchMemory;
 use super::set_tree::{Known, SetTree};
 use super::span::Span;
 use super::way::Way;
@@ -87,7 +88,7 @@ pub(super) struct Middle<'a> {
 }
 
 /// An interval of time, with what is undecided in it.
-struct Undecided {
+pub(super) struct Undecided {
     times: [f64; 2],
     part: Part,
     /// Primitives nearly meet at its end.
@@ -105,6 +106,7 @@ pub(super) fn prove(
     limits: &mut ProofLimits,
     context: &mut QueryContext,
     confirm: &mut Confirm,
+    memory: &mut SearchMemory,
 ) -> Result<Proof> {
     with_widest(Prover {
         set,
@@ -112,6 +114,7 @@ pub(super) fn prove(
         limits,
         context,
         confirm,
+        memory,
     })
 }
 
@@ -121,6 +124,7 @@ struct Prover<'a, 'k, 'c, 'd> {
     limits: &'a mut ProofLimits,
     context: &'a mut QueryContext,
     confirm: &'c mut Confirm<'d>,
+    memory: &'a mut SearchMemory,
 }
 
 /// What is known of an interval.
@@ -131,12 +135,12 @@ struct Outcome {
     met: Option<MeetingLeaves>,
 }
 
-/// Memory of the proof.
-struct Lists<'a> {
-    front: Front,
+/// Lists of the proof.
+struct Lists<'a, 'm> {
+    front: &'m mut Front,
     over: OverPairs<'a, OneTwist>,
-    known: Vec<Known>,
-    nodes: Vec<Known>,
+    known: &'m mut Vec<Known>,
+    nodes: &'m mut Vec<Known>,
 }
 
 impl Work for Prover<'_, '_, '_, '_> {
@@ -145,18 +149,49 @@ impl Work for Prover<'_, '_, '_, '_> {
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) -> Result<Proof> {
         let set = self.set;
-        let is_plain = set.tree.is_plain_union();
-        let lists = &mut Lists {
-            front: Front::default(),
-            over: OverPairs::new(set.pairs.len()),
-            known: vec![Known::Nothing; set.leaves.len()],
-            nodes: Vec::new(),
+        let SearchMemory {
+            mut front,
+            over,
+            mut known,
+            mut nodes,
+            mut todo,
+        } = std::mem::take(self.memory);
+        known.clear();
+        known.resize(set.leaves.len(), Known::Nothing);
+        let mut lists = Lists {
+            front: &mut front,
+            over: OverPairs::new(set.pairs.len(), over),
+            known: &mut known,
+            nodes: &mut nodes,
         };
-        let mut todo = vec![Undecided {
+        let proof = self.search(lanes, &mut lists, &mut todo);
+        *self.memory = SearchMemory {
+            over: lists.over.into_memory(),
+            front,
+            known,
+            nodes,
+            todo,
+        };
+        proof
+    }
+}
+
+impl<'a> Prover<'a, '_, '_, '_> {
+    #[inline(always)]
+    fn search<I: Instructions>(
+        &mut self,
+        lanes: I,
+        lists: &mut Lists<'a, '_>,
+        todo: &mut Vec<Undecided>,
+    ) -> Result<Proof> {
+        let set = self.set;
+        let is_plain = set.tree.is_plain_union();
+        todo.clear();
+        todo.push(Undecided {
             times: [0.0, 1.0],
             part: lists.front.start(&set.pairs, &set.crowds, !is_plain),
             ends_near_contact: false,
-        }];
+        });
         let mut contact: Option<f64> = None;
         let mut is_start_asked = false;
         // Narrowed twice, primitives within rounding of each other would be followed in the smallest steps.
@@ -199,7 +234,7 @@ impl Work for Prover<'_, '_, '_, '_> {
                 if end - start <= SHORTEST_INTERVAL {
                     return Ok(Proof::Undecided([start, end]));
                 }
-                interval.halve(left, &mut todo);
+                interval.halve(left, todo);
                 continue;
             }
             if self.limits.any_contact || end - start <= self.limits.tolerance {
@@ -215,7 +250,7 @@ impl Work for Prover<'_, '_, '_, '_> {
                 narrowed = Some((met, apart));
             }
             contact = Some(meeting);
-            interval.before(apart, meeting, left, &mut todo);
+            interval.before(apart, meeting, left, todo);
         }
         Ok(match contact {
             Some(contact) => Proof::Contact([contact, contact]),
@@ -285,19 +320,16 @@ impl Undecided {
     }
 }
 
-impl Prover<'_, '_, '_, '_> {
+impl<'a> Prover<'a, '_, '_, '_> {
     /// Looks at what an interval has left of the front.
     #[inline(always)]
-    fn look_at<'l, I: Instructions>(
+    fn look_at<I: Instructions>(
         &mut self,
         lanes: I,
         interval: &Undecided,
         is_plain: bool,
-        lists: &mut Lists<'l>,
-    ) -> Result<Outcome>
-    where
-        Self: 'l,
-    {
+        lists: &mut Lists<'a, '_>,
+    ) -> Result<Outcome> {
         let time = interval.compared_at();
         let (set, part) = (self.set, &interval.part);
         lists.known.fill(Known::Nothing);
@@ -312,14 +344,14 @@ impl Prover<'_, '_, '_, '_> {
                 time,
                 span: interval.span(),
             },
-            front: &mut lists.front,
+            front: &mut *lists.front,
             scratch: &mut self.context.scratch,
-            known: &mut lists.known,
+            known: &mut *lists.known,
             leaf: LeafLook::default(),
             pair: PairLook::new(interval.max_work()),
             met: None,
         };
-        let whole = set.look_at_all(lanes, &mut look, part, at, &mut lists.nodes)?;
+        let whole = set.look_at_all(lanes, &mut look, part, at, lists.nodes)?;
         let left = look.left(part);
         // Of other sets the contact of one leaf says little.
         let met = look.met.filter(|_| is_plain);

@@ -3,8 +3,15 @@
 use super::carried::Carried;
 use super::way::{Way, WayKind};
 use crate::error::Result;
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned};
 use crate::robot::{LinkMotions, LinkStates, MotionState};
+
+/// Memory of [`Kinematics`].
+#[derive(Default)]
+pub(super) struct KinematicsMemory {
+    states: LinkStates,
+    bodies: Vec<(u32, BodyState)>,
+}
 
 /// Where the links and the bodies that they carry are at one time, and how they move.
 pub(super) struct Kinematics<'a> {
@@ -46,15 +53,30 @@ pub(super) struct Relative {
 }
 
 impl<'a> Kinematics<'a> {
-    pub fn new(motions: &'a LinkMotions, way: Option<&'a Way<'a>>, needs_poses: bool) -> Self {
+    /// `memory` is used again.
+    pub fn new(
+        motions: &'a LinkMotions,
+        way: Option<&'a Way<'a>>,
+        needs_poses: bool,
+        memory: KinematicsMemory,
+    ) -> Self {
+        let KinematicsMemory { states, mut bodies } = memory;
+        bodies.clear();
         Self {
             motions,
-            states: LinkStates::default(),
-            bodies: Vec::new(),
+            states,
+            bodies,
             moment: 0,
             way,
             needs_poses,
             poses: None,
+        }
+    }
+
+    pub fn into_memory(self) -> KinematicsMemory {
+        KinematicsMemory {
+            states: self.states,
+            bodies: self.bodies,
         }
     }
 
@@ -115,7 +137,7 @@ impl<'a> Kinematics<'a> {
 
 impl BodyState {
     fn new(frame: MotionState, center: &Vec3) -> Self {
-        let arm = frame.pose.rotation * center;
+        let arm = turned(&frame.pose.rotation, center);
         Self {
             center: frame.pose.translation + arm,
             velocity: frame.velocity(&arm),

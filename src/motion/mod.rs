@@ -26,6 +26,7 @@ mod pair_rates;
 mod path;
 mod path_clearance;
 mod piece;
+mod proof_memory;
 mod region;
 mod region_growth;
 mod region_proof;

@@ -1,17 +1,20 @@
 //! Whole motions: a proof that a segment of C-space is free, or its first contact (§2.3.1 asks for it; Figure 1 shows what sampling
 //! misses). Nothing is sampled: every answer "free" rests on bounds over intervals that cover the segment.
 
+use super::crowd::Crowd;
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::{Confirm, MovingSet, Proof, ProofLimits, prove};
 use super::kinematics::Kinematics;
 use super::linear_motion::LinearMotion;
 use super::moving_pair::MovingPair;
+use super::proof_memory::ProofMemory;
 use super::set_tree::SetTree;
 use super::start_contacts::StartContacts;
 use super::way::Way;
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, Result};
 use crate::query::{Configuration, Distance, QueryContext, World, check_threshold};
+use crate::reused::emptied;
 use crate::space::Space;
 
 /// Where any contact will do, so many parts of a motion at most are looked at before a proof begins: most motions that planners ask
@@ -227,28 +230,41 @@ impl QueryContext {
     ) -> Result<Proof> {
         let motions = &way.link_motions();
         let tree = &SetTree::new(way.line.cobject);
-        let q_middle = &way.at(0.5)?;
-        let scene = &way.scene(q_middle)?;
-        let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out);
-        gathering.start = start;
-        for leaf in &tree.leaves {
-            gathering.add(leaf, scene, self)?;
-        }
-        if gathering.needs_start && confirm(self, 0.0)? {
-            return Ok(Proof::Contact([0.0, 0.0]));
-        }
-        let crowds = gathering.crowds(scene);
-        let Gathering { leaves, pairs, .. } = gathering;
-        let set = &MovingSet {
-            way: Some(way),
-            tree,
-            leaves,
-            pairs,
-            crowds,
-        };
-        let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
-        let kinematics = &mut Kinematics::new(motions, Some(way), needs_poses);
-        prove(set, kinematics, limits, self, confirm)
+        let q_middle = way.at(0.5)?;
+        let at = Configuration::Coordinates(&q_middle);
+        let LinearMotion { world, cobject, .. } = way.line;
+        self.with_scene(cobject, world, at, |context, scene| {
+            let mut memory: Box<ProofMemory> = context.proof_memory.take();
+            let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out);
+            gathering.pairs = emptied(std::mem::take(&mut memory.pairs));
+            gathering.start = start;
+            for leaf in &tree.leaves {
+                gathering.add(leaf, scene, context)?;
+            }
+            if gathering.needs_start && confirm(context, 0.0)? {
+                return Ok(Proof::Contact([0.0, 0.0]));
+            }
+            let crowds = gathering.crowds(scene, &mut memory.boxes);
+            let Gathering { leaves, pairs, .. } = gathering;
+            let set = MovingSet {
+                way: Some(way),
+                tree,
+                leaves,
+                pairs,
+                crowds,
+            };
+            let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
+            let states = std::mem::take(&mut memory.kinematics);
+            let mut kinematics = Kinematics::new(motions, Some(way), needs_poses, states);
+            let search = &mut memory.search;
+            let proof = prove(&set, &mut kinematics, limits, context, confirm, search);
+            memory.kinematics = kinematics.into_memory();
+            memory.pairs = emptied(set.pairs);
+            let boxes = set.crowds.into_iter().map(Crowd::into_boxes);
+            memory.boxes.extend(boxes);
+            context.proof_memory.keep(memory);
+            proof
+        })
     }
 
     /// Whether there is contact at a time of the motion.

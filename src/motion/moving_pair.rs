@@ -10,7 +10,7 @@ use crate::convex::{Extension, SweepTwist};
 use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned_back};
 use crate::robot::MotionRates;
 use crate::tolerance::EPSILON;
 
@@ -200,8 +200,8 @@ impl<'a> MovingPair<'a> {
         let [tree_a, tree_b] = [a.packed(), b.packed()];
         let to_b = &pairing.relative;
         let sweep_twists = L::map(&moved.displacements, |by| SweepTwist {
-            linear: pose_a.rotation.tr_mul(&by.linear),
-            angular: pose_a.rotation.tr_mul(&by.angular),
+            linear: turned_back(&pose_a.rotation, &by.linear),
+            angular: turned_back(&pose_a.rotation, &by.angular),
         });
         let twist = |linear: Vec3, angular: Vec3| Twist32 {
             angular: each3(|k| angular[k] as f32),
@@ -212,8 +212,8 @@ impl<'a> MovingPair<'a> {
         let in_b = L::map(&sweep_twists, |by| {
             let at_origin = by.linear + by.angular.cross(&to_b.translation);
             twist(
-                to_b.rotation.tr_mul(&at_origin),
-                to_b.rotation.tr_mul(&by.angular),
+                turned_back(&to_b.rotation, &at_origin),
+                turned_back(&to_b.rotation, &by.angular),
             )
         });
         // Displacements are lengths like others: what they are rounded to, gaps lose too.

@@ -4,9 +4,7 @@ use super::crowd::CrowdOver;
 use super::moving_pair::MovingPair;
 use super::over_piece::{PairOver, TwistLists};
 use super::piece::Piece;
-
-/// Room for so many pairs is taken at once: seldom are more near in a piece.
-const MADE_AT_ONCE: usize = 64;
+use crate::reused::emptied;
 
 /// Pairs over one piece, made when they are first asked for.
 pub(super) struct OverPairs<'a, L: TwistLists> {
@@ -18,13 +16,39 @@ pub(super) struct OverPairs<'a, L: TwistLists> {
     pub crowd: Option<(u32, CrowdOver<L>)>,
 }
 
+/// The memory of [`OverPairs`].
+pub(super) struct OverPairsMemory<L: TwistLists + 'static> {
+    made: Vec<PairOver<'static, L>>,
+    places: Vec<(u32, u32)>,
+}
+
+impl<L: TwistLists> Default for OverPairsMemory<L> {
+    fn default() -> Self {
+        Self {
+            made: Vec::new(),
+            places: Vec::new(),
+        }
+    }
+}
+
 impl<'a, L: TwistLists> OverPairs<'a, L> {
-    pub fn new(count: usize) -> Self {
+    /// Of so many pairs, in memory that is used again.
+    pub fn new(count: usize, memory: OverPairsMemory<L>) -> Self {
+        let OverPairsMemory { made, mut places } = memory;
+        places.clear();
+        places.resize(count, (0, 0));
         Self {
             crowd: None,
-            made: Vec::with_capacity(count.min(MADE_AT_ONCE)),
-            places: vec![(0, 0); count],
+            made: emptied(made),
+            places,
             piece: 0,
+        }
+    }
+
+    pub fn into_memory(self) -> OverPairsMemory<L> {
+        OverPairsMemory {
+            made: emptied(self.made),
+            places: self.places,
         }
     }
 

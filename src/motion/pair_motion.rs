@@ -6,6 +6,7 @@ use super::kinematics::Kinematics;
 use super::motion::{MotionOptions, MotionOutcome};
 use super::moving_pair::MovingPair;
 use super::pair_rates::PairRates;
+use super::proof_memory::ProofMemory;
 use super::set_tree::SetTree;
 use crate::body::Body;
 use crate::error::Result;
@@ -99,10 +100,15 @@ impl QueryContext {
                 any_contact: options.any_contact,
                 intervals: usize::MAX,
             };
-            let kinematics = &mut Kinematics::new(&motions, None, false);
-            prove(set, kinematics, limits, self, &mut |context, t| {
-                meets(context, t)
-            })?
+            let mut memory: Box<ProofMemory> = self.proof_memory.take();
+            let states = std::mem::take(&mut memory.kinematics);
+            let mut kinematics = Kinematics::new(&motions, None, false, states);
+            let confirm = &mut |context: &mut Self, t: f64| meets(context, t);
+            let search = &mut memory.search;
+            let proof = prove(set, &mut kinematics, limits, self, confirm, search);
+            memory.kinematics = kinematics.into_memory();
+            self.proof_memory.keep(memory);
+            proof?
         };
         let (outcome, times) = match end {
             Proof::Free => (MotionOutcome::Free, [1.0, 1.0]),

@@ -1,7 +1,6 @@
 //! How fast the bodies of pairs move as the other one sees them.
 
 use super::carried::Carried;
-use crate::pose::Pose;
 use crate::robot::{ChainRates, LinkMotions, MotionRates, RatesFrom};
 
 /// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
@@ -10,8 +9,8 @@ pub(super) struct PairRates<'a> {
     in_world: RatesFrom<'a>,
     /// As the link sees it that carried B last.
     on_link: RatesFrom<'a>,
-    /// Of the body asked for last as the world sees it, by its number.
-    of_body: Option<(usize, MotionRates)>,
+    /// As the world sees them, by the bodies' numbers.
+    of_bodies: Vec<Option<MotionRates>>,
 }
 
 impl<'a> PairRates<'a> {
@@ -19,7 +18,7 @@ impl<'a> PairRates<'a> {
         Self {
             in_world: RatesFrom::new(motions, None),
             on_link: RatesFrom::new(motions, None),
-            of_body: None,
+            of_bodies: Vec::new(),
         }
     }
 
@@ -35,7 +34,7 @@ impl<'a> PairRates<'a> {
                 if self.on_link.from() != Some(from) {
                     self.on_link.look_from(Some(from));
                 }
-                let mut rates = at_center(*self.on_link.of(a.link)?, a);
+                let mut rates = at_center(self.on_link.of(a.link)?, a);
                 for link in [from, a.link] {
                     let in_world = self.in_world.of_known_joints(link).rates;
                     rates.size += in_world.size;
@@ -57,20 +56,21 @@ impl<'a> PairRates<'a> {
 
     /// The derivatives of a body's centre in the world.
     fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
-        if let Some((number, rates)) = self.of_body
-            && number == body.number
-        {
-            return Some(rates);
+        if self.of_bodies.len() <= body.number {
+            self.of_bodies.resize(body.number + 1, None);
         }
-        let rates = at_center(*self.in_world.of(body.link)?, body);
-        self.of_body = Some((body.number, rates));
-        Some(rates)
+        let known = &mut self.of_bodies[body.number];
+        if known.is_none() {
+            *known = Some(at_center(self.in_world.of(body.link)?, body));
+        }
+        *known
     }
 }
 
 /// Goes on from a link's frame to the centre of a body that it carries.
-fn at_center(mut chain: ChainRates, body: &Carried<usize>) -> MotionRates {
-    chain.push_fixed(&body.pose);
-    chain.push_fixed(&Pose::from_translation(*body.body.center()));
-    chain.rates
+fn at_center(chain: &ChainRates, body: &Carried<usize>) -> MotionRates {
+    let mut rates = chain.at(&body.pose.transform_point(body.body.center()));
+    // The centre's place is the sum of two vectors, which are together at most this much longer than it.
+    rates.size += 2.0 * body.pose.translation.norm();
+    rates
 }

@@ -142,7 +142,7 @@ impl QueryContext {
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }
-        let crowds = gathering.crowds(scene);
+        let crowds = gathering.crowds(scene, &mut Vec::new());
         let Gathering { leaves, pairs, .. } = gathering;
         let set = &MovingSet {
             way: Some(way),

@@ -174,7 +174,7 @@ impl Work for Prover<'_, '_, '_> {
         let space = cobject.space();
         let whole_half = region.center(space).half;
         let front = &mut Front::default();
-        let over = &mut OverPairs::new(set.pairs.len());
+        let over = &mut OverPairs::new(set.pairs.len(), Default::default());
         let memory = &mut Vec::new();
         let mut known = vec![Known::Nothing; set.leaves.len()];
         let mut todo = vec![Rest {

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::gjk::DistanceLimits;
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
-use crate::pose::{Pose, Vec3, relative_centered, turned};
+use crate::pose::{Pose, Vec3, relative_centered, turned, turned_back};
 use crate::primitive::Form;
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
@@ -148,9 +148,12 @@ impl<'a> Pairing<'a> {
 
     /// The gap of A beyond B along a unit direction of the world: a safe lower bound of the distance where it is above 0.
     pub fn gap_along(&self, direction: &Vec3) -> f64 {
-        let in_a = self.frame.rotation.tr_mul(direction);
+        let in_a = turned_back(&self.frame.rotation, direction);
         let nearest_a = self.a.farthest(&-in_a).point;
-        let farthest_b = self.b.farthest(&self.relative.rotation.tr_mul(&in_a)).point;
+        let farthest_b = self
+            .b
+            .farthest(&turned_back(&self.relative.rotation, &in_a))
+            .point;
         let gap = in_a.dot(&nearest_a) - in_a.dot(&self.relative.transform_point(&farthest_b));
         gap - self.precision.error
     }

@@ -5,7 +5,7 @@ use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratc
 use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pose::Vec3;
+use crate::pose::{Vec3, turned, turned_back};
 use crate::primitive::SmoothKind;
 use crate::tolerance::EPSILON;
 
@@ -108,7 +108,7 @@ impl Pairing<'_> {
     ) -> SweptLeaves {
         let needed = limits.threshold + limits.slack;
         if *direction != [0.0; 3] {
-            let direction = self.relative.rotation * Vec3::from(direction.map(f64::from));
+            let direction = turned(&self.relative.rotation, &direction.map(f64::from).into());
             if self.stays_apart(places, &direction, sweep, needed, scratch) {
                 return SweptLeaves::Free;
             }
@@ -162,7 +162,7 @@ impl Pairing<'_> {
         if is_hair && self.stays_apart(places, &direction, sweep, needed, scratch) {
             return SweptLeaves::Free;
         }
-        let in_b = self.relative.rotation.tr_mul(&direction);
+        let in_b = turned_back(&self.relative.rotation, &direction);
         SweptLeaves::Undecided([in_b.x as f32, in_b.y as f32, in_b.z as f32])
     }
 

@@ -10,6 +10,7 @@ use crate::cobject::CObject;
 use crate::environment::{Environment, NearPairScratch};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Scratch;
+use crate::reused::Kept;
 use crate::work_meter::Statistics;
 use foldhash::fast::RandomState;
 use std::collections::HashMap;
@@ -21,6 +22,8 @@ pub struct QueryContext {
     pub(crate) scratch: Scratch,
     pub(crate) candidates: CandidateScratch,
     pub(super) scene_memory: SceneMemory,
+    /// Memory of proofs of motions.
+    pub(crate) proof_memory: Kept,
     pub(super) answers: Answers,
     /// Which contacts witness lists hold.
     pub(super) contacts: ContactsListed,
@@ -68,7 +71,7 @@ impl QueryContext {
     }
 
     /// Runs a query on its scene, which is built in memory that the context keeps.
-    pub(super) fn with_scene<T>(
+    pub(crate) fn with_scene<T>(
         &mut self,
         cobject: &CObject,
         world: &World,

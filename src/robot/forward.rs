@@ -10,6 +10,7 @@ impl Robot {
     /// joint.
     pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
         let first = poses.len();
+        poses.reserve(self.links().len());
         for (index, link) in self.links().iter().enumerate() {
             let at = match link.parent {
                 None => link.at,

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
 use super::{JointKind, Link, Robot};
-use crate::pose::{Mat3, Pose, Vec3};
+use crate::pose::{Mat3, Pose, Vec3, turned, turned_axes};
 
 /// One step of a chain.
 #[derive(Clone, Copy, Debug)]
@@ -145,9 +145,9 @@ impl MotionState {
     }
 
     fn push_fixed(&mut self, pose: &Pose) {
-        let arm = self.pose.rotation * pose.translation;
+        let arm = turned(&self.pose.rotation, &pose.translation);
         self.carry(&arm);
-        self.pose.rotation *= pose.rotation;
+        self.pose.rotation = turned_axes(&self.pose.rotation, &pose.rotation);
     }
 
     /// Puts the origin `arm` away, where it moves with the frame.
@@ -158,7 +158,7 @@ impl MotionState {
     }
 
     fn turn(&mut self, axis: &Vec3, angle: &CourseState) {
-        let direction = self.pose.rotation * axis;
+        let direction = turned(&self.pose.rotation, axis);
         let turn = direction * angle.rate;
         self.angular_acceleration += self.angular.cross(&turn) + direction * angle.acceleration;
         self.angular += turn;
@@ -166,7 +166,7 @@ impl MotionState {
     }
 
     fn shift(&mut self, axis: &Vec3, length: &CourseState) {
-        let direction = self.pose.rotation * axis;
+        let direction = turned(&self.pose.rotation, axis);
         self.carry(&(direction * length.value));
         let velocity = direction * length.rate;
         self.linear += velocity;

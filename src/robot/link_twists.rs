@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::course::Course;
 use super::link_motions::{Element, LinkMotions};
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned};
 
 /// What one coordinate does to a link, from the middle of a box to its side: the world's points x that move with the link move by
 /// `linear + angular x (x - point)`.
@@ -71,7 +71,7 @@ impl<'a> LinkTwists<'a> {
             match element {
                 Element::Fixed(fixed) => pose = pose.compose(fixed),
                 Element::Turn { axis, angle } => {
-                    let direction = pose.rotation * axis;
+                    let direction = turned(&pose.rotation, axis);
                     let Course::Range {
                         center,
                         rate,
@@ -91,7 +91,7 @@ impl<'a> LinkTwists<'a> {
                     pose = pose.turned_about(axis, center);
                 }
                 Element::Shift { axis, length } => {
-                    let direction = pose.rotation * axis;
+                    let direction = turned(&pose.rotation, axis);
                     let Course::Range {
                         center,
                         rate,

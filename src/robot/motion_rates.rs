@@ -1,7 +1,7 @@
 //! Bounds of how fast links move on a motion.
 
 use super::course::CourseBounds;
-use crate::pose::{Pose, Vec3};
+use crate::pose::{Pose, Vec3, turned_back};
 
 /// Bounds for a whole motion: the k-th derivative of a point's position is at most `origin[k - 1] + turn[k - 1] r`, for points no
 /// farther than r from the moving frame's origin.
@@ -36,8 +36,15 @@ impl ChainRates {
     pub fn push_fixed(&mut self, pose: &Pose) {
         self.carry(&pose.translation, 1.0, [0.0; 3]);
         if let Some((axis, _)) = &mut self.last {
-            *axis = pose.rotation.tr_mul(axis);
+            *axis = turned_back(&pose.rotation, axis);
         }
+    }
+
+    /// The bounds at a point that is fixed to the last frame, instead of its origin.
+    pub fn at(&self, point: &Vec3) -> MotionRates {
+        let mut chain = *self;
+        chain.carry(point, 1.0, [0.0; 3]);
+        chain.rates
     }
 
     /// Goes on behind a turn about a unit axis.

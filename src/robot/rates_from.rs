@@ -76,6 +76,14 @@ impl<'a> RatesFrom<'a> {
     }
 
     fn seen(&mut self, link: usize) -> &Seen {
+        if self.links[link].is_none() {
+            self.look_at(link);
+        }
+        self.links[link].get_or_insert_default()
+    }
+
+    /// Goes to a link from the nearest carrier that is known.
+    fn look_at(&mut self, link: usize) {
         let mut path: SmallVec<[usize; 16]> = SmallVec::new();
         let mut next = Some(link);
         let mut seen = loop {
@@ -95,6 +103,5 @@ impl<'a> RatesFrom<'a> {
             }
             self.links[index] = Some(seen);
         }
-        self.links[link].get_or_insert(seen)
     }
 }
