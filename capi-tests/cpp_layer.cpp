@@ -652,6 +652,10 @@ static void spaces() {
     REQUIRE(space.distance(space.interpolate(q0, q1, 1), q1) < 1e-14);
     std::vector<double> weights(16, 2.0);
     REQUIRE(std::fabs(space.distance(q0, q1, weights) - 2 * space.distance(q0, q1)) < 1e-14);
+    std::vector<double> both = q0;
+    both.insert(both.end(), q1.begin(), q1.end());
+    const std::vector<double> one_by_one = {space.distance(q1, q0), space.distance(q1, q1)};
+    REQUIRE(space.distances(q1, both) == one_by_one && space.distances(q1, {}).empty());
 
     std::uint32_t first = 0;
     q[0] = 7;
@@ -667,6 +671,8 @@ static void spaces() {
     REQUIRE(is_invalid([&] { space.interpolate(shorter, q, 0.5); }));
     REQUIRE(is_invalid([&] { space.distance(q, shorter); }));
     REQUIRE(is_invalid([&] { space.distance(q, q, shorter); }));
+    REQUIRE(is_invalid([&] { space.distances(q, shorter); }));
+    REQUIRE(is_invalid([&] { space.distances(q, q, shorter); }));
     REQUIRE(status_of([&] { space.step(q, q); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { space.clamp(shorter); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { space.wrap(shorter); }) == CSTK_ERROR_WRONG_SIZE);

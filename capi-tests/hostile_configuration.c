@@ -86,6 +86,14 @@ static cstk_status distance_to(const question *a, answer *out) {
     return cstk_space_distance(a->space, a->other, a->q, a->nq, NULL, out ? out->numbers : NULL);
 }
 
+static cstk_status distances_from(const question *a, answer *out) {
+    return cstk_space_distances(a->space, a->q, a->other, 1, a->nq, NULL, out ? out->numbers : NULL);
+}
+
+static cstk_status distances_to(const question *a, answer *out) {
+    return cstk_space_distances(a->space, a->other, a->q, 1, a->nq, NULL, out ? out->numbers : NULL);
+}
+
 static cstk_status clamp(const question *a, answer *out) {
     return cstk_space_clamp(a->space, a->q, a->nq, out ? out->numbers : NULL);
 }
@@ -117,6 +125,8 @@ static const form forms[] = {
     {"interpolate", interpolate_to, "q1 is NULL", "q1: configuration entr", "out"},
     {"distance", distance_from, "q0 is NULL", "q0: configuration entr", "out"},
     {"distance", distance_to, "q1 is NULL", "q1: configuration entr", "out"},
+    {"distances", distances_from, "q is NULL", "configuration entr", "distances"},
+    {"distances", distances_to, "others is NULL", "others[0]: configuration entr", "distances"},
     {"clamp", clamp, "q is NULL", "configuration entr", "out"},
     {"wrap", wrap, "q is NULL", "configuration entr", "out"},
 };
@@ -251,6 +261,25 @@ static void distance_weights(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void distances_of_many(const fixture *f) {
+    double out[2];
+    const double nan = strtod("nan", NULL);
+    double others[2 * FIXTURE_NQ] = {0};
+    others[FIXTURE_NQ] = nan;
+    CHECK_REFUSED(out, cstk_space_distances(f->space, f->q, others, 2, FIXTURE_NQ, NULL, out),
+                  CSTK_ERROR_NOT_FINITE, "others[1]: configuration entry 0");
+    const size_t counts[] = {SIZE_MAX, SIZE_MAX / 8, SIZE_MAX / FIXTURE_NQ + 2};
+    for (int i = 0; i < 3; ++i) {
+        CHECK_REFUSED(out, cstk_space_distances(f->space, f->q, others, counts[i], FIXTURE_NQ, NULL, out),
+                      CSTK_ERROR_WRONG_SIZE, "others cannot have");
+    }
+    const double weights[FIXTURE_NQ] = {1, -1, 1};
+    CHECK_REFUSED(out, cstk_space_distances(f->space, f->q, f->q, 1, FIXTURE_NQ, weights, out),
+                  CSTK_ERROR_INVALID_ARGUMENT, "weight 1 is negative");
+    CHECK_OK(cstk_space_distances(f->space, f->q, NULL, 0, FIXTURE_NQ, NULL, NULL));
+    fixture_unchanged(f);
+}
+
 static void jacobian_points(const fixture *f) {
     double out[6 * FIXTURE_NQ];
     const cstk_space *s = f->space;
@@ -311,6 +340,7 @@ int main(void) {
     step_velocities(&f);
     interpolate_parameters(&f);
     distance_weights(&f);
+    distances_of_many(&f);
     jacobian_points(&f);
     neutral(&f);
     sample(&f);

@@ -2510,6 +2510,19 @@ cstk_status cstk_space_distance(const cstk_space *space,
                                 double *out);
 
 /**
+ * cstk_space_distance from `q` to each of `count` configurations: `others` has count * nq doubles, one configuration after the
+ * other, and `distances` receives `count` doubles. So a planner finds the nearest nodes of its tree in few calls. The message names
+ * the first of `others` that is no configuration, and nothing is written then.
+ */
+cstk_status cstk_space_distances(const cstk_space *space,
+                                 const double *q,
+                                 const double *others,
+                                 size_t count,
+                                 size_t nq,
+                                 const double *weights,
+                                 double *distances);
+
+/**
  * Writes a configuration drawn uniformly from the coordinates' ranges, and uniformly from the rotations for quaternions.
  * `state` is the state of the random number generator: any number to begin with; each call advances it. Equal states give
  * equal configurations, on every machine. CSTK_ERROR_UNSUPPORTED, naming the coordinate, where a range is unbounded.

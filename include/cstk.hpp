@@ -1267,6 +1267,21 @@ public:
         return out;
     }
 
+    /// From `q` to each of the configurations in `others`, one after the other.
+    std::vector<double> distances(Span<double> q, Span<double> others,
+                                  Span<double> weights = {}) const {
+        if (weights.size() != 0 && weights.size() != nv()) {
+            throw std::invalid_argument("cstk: there is one weight for each velocity");
+        }
+        if (others.size() % std::max<std::size_t>(q.size(), 1) != 0) {
+            throw std::invalid_argument("cstk: others are whole configurations");
+        }
+        std::vector<double> out(q.size() == 0 ? 0 : others.size() / q.size());
+        check(cstk_space_distances(get(), q.data(), others.data(), out.size(), q.size(),
+                                   weights.data(), out.data()));
+        return out;
+    }
+
     /// Advances the state of the stream of random numbers.
     std::vector<double> sample(std::uint64_t &state) const {
         std::vector<double> out(nq());

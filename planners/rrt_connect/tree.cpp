@@ -5,25 +5,62 @@
 
 namespace rrt_connect {
 
-Tree::Tree(const cstk::Space &space, const Configuration &root) : space_(space), nodes_{{root, none}} {}
+namespace {
+
+/// Nodes in a leaf: one call asks for the distances of all.
+const std::size_t leaf_size = 32;
+
+} // namespace
+
+Tree::Tree(const cstk::Space &space, const Configuration &root) : space_(space), parts_{{{}, {}, leaf_size}} {
+    add(root, none);
+}
 
 std::size_t Tree::add(const Configuration &q, std::size_t parent) {
-    const std::size_t added = nodes_.size();
-    for (std::size_t at = 0;;) {
-        Node &node = nodes_[at];
-        const double distance = space_.distance(node.q, q);
-        if (node.inside == none) {
-            node.radius = distance;
-        }
-        std::size_t &next = distance <= node.radius ? node.inside : node.outside;
-        if (next == none) {
-            next = added;
-            break;
-        }
-        at = next;
+    std::size_t at = 0;
+    while (!parts_[at].is_leaf()) {
+        const Part &part = parts_[at];
+        at = space_.distance(part.vantage, q) <= part.radius ? part.inside : part.outside;
     }
+    const std::size_t added = nodes_.size();
     nodes_.push_back({q, parent});
+    Part &leaf = parts_[at];
+    leaf.nodes.push_back(added);
+    leaf.points.insert(leaf.points.end(), q.begin(), q.end());
+    if (leaf.nodes.size() >= leaf.limit) {
+        split(at);
+    }
     return added;
+}
+
+/// By the median of the distances from one of the nodes.
+void Tree::split(std::size_t leaf) {
+    Part parted = parts_[leaf];
+    parted.vantage = nodes_[parted.nodes.front()].q;
+    const std::vector<double> distances = space_.distances(parted.vantage, parted.points);
+    std::vector<double> in_order = distances;
+    const auto middle = in_order.begin() + static_cast<std::ptrdiff_t>(in_order.size() / 2);
+    std::nth_element(in_order.begin(), middle, in_order.end());
+    parted.radius = *middle;
+    Part inside = {{}, {}, leaf_size}, outside = inside;
+    for (std::size_t i = 0; i < parted.nodes.size(); ++i) {
+        Part &side = distances[i] <= parted.radius ? inside : outside;
+        const Configuration &q = nodes_[parted.nodes[i]].q;
+        side.nodes.push_back(parted.nodes[i]);
+        side.points.insert(side.points.end(), q.begin(), q.end());
+    }
+    if (outside.nodes.empty()) {
+        // More than half of them are equally far: the leaf waits for other nodes.
+        parts_[leaf].limit *= 2;
+        return;
+    }
+    parted.nodes = {};
+    parted.points = {};
+    parted.inside = parts_.size();
+    parted.outside = parted.inside + 1;
+    parts_[leaf] = std::move(parted);
+    parts_.push_back(std::move(inside));
+    parts_.push_back(std::move(outside));
 }
 
 std::size_t Tree::nearest(const Configuration &q) const {
@@ -33,19 +70,21 @@ std::size_t Tree::nearest(const Configuration &q) const {
 }
 
 void Tree::search(std::size_t at, const Configuration &q, Nearest &best) const {
-    if (at == none) {
+    const Part &part = parts_[at];
+    if (part.is_leaf()) {
+        const std::vector<double> distances = space_.distances(q, part.points);
+        const auto least = std::min_element(distances.begin(), distances.end());
+        if (least != distances.end() && *least < best.distance) {
+            best = {part.nodes[static_cast<std::size_t>(least - distances.begin())], *least};
+        }
         return;
     }
-    const Node &node = nodes_[at];
-    const double distance = space_.distance(node.q, q);
-    if (distance < best.distance) {
-        best = {at, distance};
-    }
     // The nearer side first; by the triangle inequality nothing on a side is nearer than the way to it.
-    const bool starts_inside = distance <= node.radius;
-    search(starts_inside ? node.inside : node.outside, q, best);
-    if (std::abs(distance - node.radius) <= best.distance) {
-        search(starts_inside ? node.outside : node.inside, q, best);
+    const double distance = space_.distance(q, part.vantage);
+    const bool starts_inside = distance <= part.radius;
+    search(starts_inside ? part.inside : part.outside, q, best);
+    if (std::abs(distance - part.radius) <= best.distance) {
+        search(starts_inside ? part.outside : part.inside, q, best);
     }
 }
 

@@ -10,9 +10,9 @@ namespace rrt_connect {
 
 using Configuration = std::vector<double>;
 
-/// Nodes are numbered as they come; 0 is the root. Beside the motions that join them the nodes hold a vantage point tree (Yianilos,
-/// 1993), which asks no more of a space than its metric: Space::distance, which is one but for free joints (see
-/// cstk_space_distance).
+/// Nodes are numbered as they come; 0 is the root. Beside the motions that join them there is a vantage point tree (Yianilos, 1993)
+/// with some nodes in each leaf, which asks no more of a space than its metric: Space::distances, which is one but for free joints
+/// (see cstk_space_distance).
 class Tree {
   public:
     Tree(const cstk::Space &space, const Configuration &root);
@@ -41,7 +41,19 @@ class Tree {
         Configuration q;
         std::size_t parent;
         bool is_blocked = false;
-        /// Of the vantage point tree: what is at most `radius` away from q is inside, all else outside.
+    };
+
+    /// Of the vantage point tree: a leaf with nodes, or what is at most `radius` away from the vantage point and all else.
+    struct Part {
+        bool is_leaf() const { return inside == none; }
+
+        std::vector<std::size_t> nodes;
+        /// Their configurations, one after the other.
+        std::vector<double> points;
+        /// Where so many nodes are in it, a leaf is parted.
+        std::size_t limit;
+
+        Configuration vantage = {};
         double radius = 0;
         std::size_t inside = none, outside = none;
     };
@@ -51,10 +63,12 @@ class Tree {
         double distance;
     };
 
-    void search(std::size_t node, const Configuration &q, Nearest &best) const;
+    void split(std::size_t leaf);
+    void search(std::size_t part, const Configuration &q, Nearest &best) const;
 
     cstk::Space space_;
     std::vector<Node> nodes_;
+    std::vector<Part> parts_;
 };
 
 } // namespace rrt_connect

@@ -35,6 +35,7 @@ CASES = [
     ("query.region_classify(cobject, [0, 0], [1])", cstk.WrongSizeError, "low.*high"),
     ("query.region_grow(cobject, space, [0, 0], weights=[1])", cstk.WrongSizeError, "weights"),
     ("space.distance([0, 0], [1, 1], [1])", cstk.WrongSizeError, "weights"),
+    ("space.distances([0, 0], [[1, 1, 1]])", cstk.WrongSizeError, "others"),
     ("space.step([0, 0], [1])", cstk.WrongSizeError, "v"),
     ("cstk.Space(arm.robot, None, [0, 1])", cstk.WrongSizeError, "world_box"),
     ("cstk.Body.polyhedron([1, 2, 3])", cstk.WrongSizeError, "xyz"),

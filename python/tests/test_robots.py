@@ -112,6 +112,7 @@ def test_spaces_know_their_topology(arm):
     np.testing.assert_allclose(space.difference([3, 0], [-3, 0]), [2 * math.pi - 6, 0])
     assert space.distance([3, 0], [-3, 0]) == pytest.approx(2 * math.pi - 6)
     assert space.distance([0, 0], [3, 1], [0, 2]) == pytest.approx(2)
+    assert space.distances([3, 0], [[-3, 0], [3, 1]]) == pytest.approx([2 * math.pi - 6, 1])
     np.testing.assert_allclose(space.interpolate([0, 0], [1, 2], 0.25), [0.25, 0.5])
     np.testing.assert_allclose(space.step([1, 1], [0.5, -1]), [1.5, 0])
     np.testing.assert_allclose(space.wrap([-1, 7]), [2 * math.pi - 1, 7 - 2 * math.pi])

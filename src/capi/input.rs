@@ -9,6 +9,20 @@ use crate::capi::status::status::cstk_status;
 use crate::error::Error;
 use crate::pose::{Pose, Vec3};
 
+/// The number of entries of `count` items of `width` each.
+pub fn product(count: usize, width: usize, argument: &str) -> Result<usize, Failure> {
+    let entries = count.checked_mul(width);
+    entries.ok_or_else(|| too_many(count, width, argument))
+}
+
+#[cold]
+pub fn too_many(count: usize, width: usize, argument: &str) -> Failure {
+    Failure::new(
+        cstk_status::CSTK_ERROR_WRONG_SIZE,
+        format!("{argument} cannot have {count} times {width} entries"),
+    )
+}
+
 /// The error for a pointer that must not be NULL.
 #[cold]
 pub fn null(argument: &str) -> Failure {
@@ -96,6 +110,18 @@ pub unsafe fn array<'a, const N: usize>(
     // SAFETY: as the caller states.
     let values = unsafe { slice(values, N, argument)? };
     values.try_into().map_err(|_| null(argument))
+}
+
+/// The numbers of `count` items of `width` each.
+pub unsafe fn numbers<'a>(
+    values: *const f64,
+    count: usize,
+    width: usize,
+    argument: &str,
+) -> Result<&'a [f64], Failure> {
+    let entries = product(count, width, argument)?;
+    // SAFETY: as the caller states.
+    unsafe { slice(values, entries, argument) }
 }
 
 /// A C string as text; must be UTF-8.

@@ -178,6 +178,13 @@ impl Space {
 
     /// The length of the difference, each velocity multiplied by its weight; without weights each counts as 1.
     pub fn distance(&self, q0: &[f64], q1: &[f64], weights: Option<&[f64]>) -> f64 {
+        if weights.is_none() && self.blocks().len() == self.nq() {
+            // Lines and circles alone: other blocks have several coordinates.
+            let squares = self.squares_of_lines(q0, q1);
+            if (SMALL_SQUARES..LARGE_SQUARES).contains(&squares) {
+                return squares.sqrt();
+            }
+        }
         let mut v: Velocity = SmallVec::from_elem(0.0, self.nv());
         self.write_difference(q0, q1, &mut v);
         if let Some(weights) = weights {
@@ -196,6 +203,39 @@ impl Space {
         }
         largest * v.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
     }
+
+    /// The sum of the squares of the difference, in a space of lines and circles.
+    #[inline]
+    fn squares_of_lines(&self, q0: &[f64], q1: &[f64]) -> f64 {
+        let ways = q0.iter().zip(q1).map(|(from, to)| to - from);
+        let squares = ways.zip(self.coordinates()).map(|(way, coordinate)| {
+            let way = match coordinate {
+                Coordinate::Circle => shorter_way(way),
+                _ => way,
+            };
+            way * way
+        });
+        squares.sum()
+    }
+
+    /// The distances of `count` configurations from one, given one after the other; or the number of the first that is no
+    /// configuration, and why.
+    pub fn distances(
+        &self,
+        q: &[f64],
+        others: &[f64],
+        count: usize,
+        weights: Option<&[f64]>,
+    ) -> std::result::Result<Vec<f64>, (usize, Error)> {
+        let nq = self.nq();
+        let distance = |i: usize| {
+            let other = &others[i * nq..(i + 1) * nq];
+            self.check_configuration(other)
+                .map_err(|error| (i, error))?;
+            Ok(self.distance(q, other, weights))
+        };
+        (0..count).map(distance).collect()
+    }
 }
 
 /// A velocity, in memory of its own for most robots.
@@ -210,6 +250,15 @@ pub fn shorter_way(angle: f64) -> f64 {
     if (-PI..PI).contains(&angle) {
         return angle;
     }
-    let wrapped = (angle + PI).rem_euclid(TAU) - PI;
+    let shifted = angle + PI;
+    // As rem_euclid reduces it, to the last bit; within a turn without its division.
+    let reduced = if (-TAU..0.0).contains(&shifted) {
+        shifted + TAU
+    } else if (TAU..2.0 * TAU).contains(&shifted) {
+        shifted - TAU
+    } else {
+        shifted.rem_euclid(TAU)
+    };
+    let wrapped = reduced - PI;
     if wrapped >= PI { -PI } else { wrapped }
 }

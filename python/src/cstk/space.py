@@ -197,6 +197,15 @@ class Space(Handle):
         check(lib.cstk_space_distance(self._pointer, doubles(a), doubles(b), nq, given, out))
         return float(out[0])
 
+    def distances(self, q: ArrayLike, others: ArrayLike, weights: Optional[ArrayLike] = None) -> Array:
+        """The distances of several configurations, the rows of others, from q; see distance."""
+        a = vector("q", q)
+        table = rows("others", others, a.size)
+        given = ffi.NULL if weights is None else doubles(vector("weights", weights, self.nv))
+        out, to = empty(len(table))
+        check(lib.cstk_space_distances(self._pointer, doubles(a), doubles(table), len(table), a.size, given, to))
+        return out
+
     def sample(self, random: Random) -> Array:
         """A configuration drawn uniformly; advances the stream."""
         if not isinstance(random, Random):

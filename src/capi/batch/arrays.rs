@@ -8,9 +8,9 @@ use smallvec::SmallVec;
 use crate::batch::{BatchSummary, Slots};
 use crate::capi::batch::batch::cstk_batch_result;
 use crate::capi::boundary::{Failure, keep_message};
-use crate::capi::input::{Output, slice};
+use crate::capi::input::{Output, numbers, product, too_many};
 use crate::capi::status::status::cstk_status;
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 
 /// An array with `width` entries for each item. An array that the caller left out is empty.
 pub struct Entries<'a, T> {
@@ -223,18 +223,6 @@ impl Place {
     }
 }
 
-/// The numbers of `count` items of `width` each.
-pub unsafe fn numbers<'a>(
-    values: *const f64,
-    count: usize,
-    width: usize,
-    argument: &str,
-) -> Result<&'a [f64], Failure> {
-    let entries = product(count, width, argument)?;
-    // SAFETY: as the caller states.
-    unsafe { slice(values, entries, argument) }
-}
-
 /// `count` poses of 12 numbers each.
 pub unsafe fn poses<'a>(
     values: *const f64,
@@ -244,18 +232,4 @@ pub unsafe fn poses<'a>(
     // SAFETY: as the caller states.
     let numbers = unsafe { numbers(values, count, 12, argument)? };
     Ok(numbers.as_chunks().0)
-}
-
-fn product(count: usize, width: usize, argument: &str) -> Result<usize, Failure> {
-    let entries = count.checked_mul(width);
-    entries.ok_or_else(|| too_many(count, width, argument))
-}
-
-#[cold]
-fn too_many(count: usize, width: usize, argument: &str) -> Failure {
-    Error::new(
-        ErrorKind::WrongSize,
-        format!("{argument} cannot have {count} times {width} entries"),
-    )
-    .into()
 }

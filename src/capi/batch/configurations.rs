@@ -2,13 +2,14 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, Place, Statuses, numbers};
+use super::arrays::{Entries, Outcome, Place, Statuses};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
 use crate::batch::{Batch, BatchJob, BatchSummary, Configurations, ItemAnswer};
 use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result};
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
+use crate::capi::input::numbers;
 use crate::capi::status::callbacks::cstk_progress_fn;
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;

@@ -3,7 +3,7 @@
 use crate::capi::at_configuration::answers::CSTK_NONE;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::handle;
-use crate::capi::input::{Output, OutputSlice, array, slice};
+use crate::capi::input::{Output, OutputSlice, array, numbers, slice};
 use crate::capi::space::space::{absent, cstk_space};
 use crate::capi::status::status::cstk_status;
 use crate::error::{Error, require_coordinates};
@@ -231,20 +231,56 @@ pub unsafe extern "C" fn cstk_space_distance(
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let [q0, q1] = unsafe { two_configurations(space, q0, q1, nq)? };
-        let weights = if weights.is_null() {
-            None
-        } else {
-            // SAFETY: not NULL; the header states the length.
-            let given = unsafe { slice(weights, space.nv(), "weights")? };
-            require_coordinates(given, "weight")?;
-            if let Some(i) = given.iter().position(|weight| *weight < 0.0) {
-                return Err(Error::invalid(format!("weight {i} is negative: {}", given[i])).into());
-            }
-            Some(given)
-        };
+        // SAFETY: the header states the length.
+        let weights = unsafe { checked_weights(space, weights)? };
         out.write(space.distance(q0, q1, weights));
         Ok(())
     })
+}
+
+/// cstk_space_distance from `q` to each of `count` configurations: `others` has count * nq doubles, one configuration after the
+/// other, and `distances` receives `count` doubles. So a planner finds the nearest nodes of its tree in few calls. The message names
+/// the first of `others` that is no configuration, and nothing is written then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_distances(
+    space: *const cstk_space,
+    q: *const f64,
+    others: *const f64,
+    count: usize,
+    nq: usize,
+    weights: *const f64,
+    distances: *mut f64,
+) -> cstk_status {
+    guard(|| {
+        let space = handle::borrowed::<Space>(space, "space")?;
+        let distances = OutputSlice::checked(distances, count, "distances")?;
+        // SAFETY: checked for NULL; the caller states the lengths.
+        let (q, others, weights) = unsafe {
+            let q = configuration(space, q, nq, "q")?;
+            let others = numbers(others, count, nq, "others")?;
+            (q, others, checked_weights(space, weights)?)
+        };
+        let found = space.distances(q, others, count, weights);
+        distances.write(&found.map_err(|(i, error)| error.within(format!("others[{i}]")))?);
+        Ok(())
+    })
+}
+
+/// The weights of velocities; `None` for NULL.
+unsafe fn checked_weights<'a>(
+    space: &Space,
+    weights: *const f64,
+) -> Result<Option<&'a [f64]>, Failure> {
+    if weights.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: not NULL; as the caller states.
+    let given = unsafe { slice(weights, space.nv(), "weights")? };
+    require_coordinates(given, "weight")?;
+    if let Some(i) = given.iter().position(|weight| *weight < 0.0) {
+        return Err(Error::invalid(format!("weight {i} is negative: {}", given[i])).into());
+    }
+    Ok(Some(given))
 }
 
 /// Writes a configuration drawn uniformly from the coordinates' ranges, and uniformly from the rotations for quaternions.
