@@ -179,7 +179,7 @@ pub unsafe extern "C" fn cstk_distance_batch(
             call.ask(
                 count,
                 &inputs,
-                (rows, distances),
+                (distances, rows),
                 (statuses, out),
                 |batch, job| {
                     batch.distance_with_gradient(
@@ -188,7 +188,7 @@ pub unsafe extern "C" fn cstk_distance_batch(
                         max_distance,
                         job,
                         |slots, item, answer| {
-                            put(slots, item, answer, |(rows, distances), (distance, row)| {
+                            put(slots, item, answer, |(distances, rows), (distance, row)| {
                                 rows.write(item, row.iter().copied().chain(std::iter::repeat(0.0)));
                                 write_distance(distances, item, &distance)
                             })
