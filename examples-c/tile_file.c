@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ALIGNMENT = 64, MAX_HEADER = 512 };
+enum { ALIGNMENT = 64 };
 
 /* Ends the program with MPI's message. */
 static void require_mpi(int code, const char *what) {
@@ -16,16 +16,15 @@ static void require_mpi(int code, const char *what) {
     }
 }
 
-/* The bytes before the first value; returns how many they are. */
-static size_t header_of(const map_work *work, char header[MAX_HEADER]) {
+size_t header_of(const tile_work *work, char header[MAX_HEADER]) {
     enum { BEFORE = 10 };
     char *text = header + BEFORE;
     int length =
         snprintf(text, MAX_HEADER - BEFORE, "{'descr': '%s', 'fortran_order': False, 'shape': (",
-                 value_size(work) == 1 ? "|u1" : "<f8");
+                 work->value_size == 1 ? "|u1" : "<f8");
     for (size_t i = 0; i < work->axis_count; ++i) {
-        length += snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "%zu, ",
-                           work->axes[i].cells);
+        length +=
+            snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "%zu, ", work->sides[i]);
     }
     length += snprintf(text + length, MAX_HEADER - BEFORE - (size_t)length, "), }");
     while ((BEFORE + length + 1) % ALIGNMENT != 0) {
@@ -38,15 +37,15 @@ static size_t header_of(const map_work *work, char header[MAX_HEADER]) {
     return BEFORE + (size_t)length;
 }
 
-static MPI_Offset size_of_values(const map_work *work) {
-    MPI_Offset size = (MPI_Offset)value_size(work);
+static MPI_Offset size_of_values(const tile_work *work) {
+    MPI_Offset size = (MPI_Offset)work->value_size;
     for (size_t i = 0; i < work->axis_count; ++i) {
-        size *= (MPI_Offset)work->axes[i].cells;
+        size *= (MPI_Offset)work->sides[i];
     }
     return size;
 }
 
-void create_tile_file(const char *name, const map_work *work) {
+void create_tile_file(const char *name, const tile_work *work) {
     char header[MAX_HEADER];
     size_t length = header_of(work, header);
     MPI_File file;
@@ -59,7 +58,7 @@ void create_tile_file(const char *name, const map_work *work) {
     require_mpi(MPI_File_close(&file), name);
 }
 
-tile_file open_tile_file(const char *name, const map_work *work) {
+tile_file open_tile_file(const char *name, const tile_work *work) {
     char expected[MAX_HEADER], found[MAX_HEADER] = {0};
     tile_file f = {.header_size = (MPI_Offset)header_of(work, expected), .work = work};
     MPI_Offset size = 0;
@@ -69,33 +68,31 @@ tile_file open_tile_file(const char *name, const map_work *work) {
                 name);
     if (size != f.header_size + size_of_values(work) ||
         memcmp(found, expected, (size_t)f.header_size) != 0) {
-        fail("%s is not the file of this map; remove it, and its journal, to begin anew", name);
+        fail("%s is not the file of this array; remove it, and its journal, to begin anew", name);
     }
     return f;
 }
 
 void write_tile(tile_file *f, const tile *t, const void *bytes) {
-    const map_work *work = f->work;
+    const tile_work *work = f->work;
+    MPI_Datatype value = work->value_size == 1 ? MPI_BYTE : MPI_DOUBLE;
     int sizes[MAX_AXES], counts[MAX_AXES], firsts[MAX_AXES];
-    size_t last = work->axis_count - 1, size = tile_size(work, t);
-    for (size_t i = 0; i <= last; ++i) {
-        /* In bytes along the last axis. */
-        size_t unit = i == last ? value_size(work) : 1;
-        if (work->axes[i].cells > INT_MAX / unit || size > INT_MAX) {
-            fail("MPI counts in ints: axis %zu has too many cells, or a tile has", i);
+    size_t size = tile_size(work, t);
+    for (size_t i = 0; i < work->axis_count; ++i) {
+        if (work->sides[i] > INT_MAX || size > INT_MAX) {
+            fail("MPI counts in ints: axis %zu has too many values, or a tile has", i);
         }
-        sizes[i] = (int)(work->axes[i].cells * unit);
-        counts[i] = (int)(t->count[i] * unit);
-        firsts[i] = (int)(t->first[i] * unit);
+        sizes[i] = (int)work->sides[i];
+        counts[i] = (int)t->count[i];
+        firsts[i] = (int)t->first[i];
     }
     MPI_Datatype place;
     require_mpi(MPI_Type_create_subarray((int)work->axis_count, sizes, counts, firsts, MPI_ORDER_C,
-                                         MPI_BYTE, &place),
+                                         value, &place),
                 "a tile's place");
     require_mpi(MPI_Type_commit(&place), "a tile's place");
-    require_mpi(
-        MPI_File_set_view(f->file, f->header_size, MPI_BYTE, place, "native", MPI_INFO_NULL),
-        "a tile's place");
+    require_mpi(MPI_File_set_view(f->file, f->header_size, value, place, "native", MPI_INFO_NULL),
+                "a tile's place");
     MPI_Status status;
     int written = 0;
     require_mpi(MPI_File_write_at(f->file, 0, bytes, (int)size, MPI_BYTE, &status), "a tile");
@@ -106,6 +103,6 @@ void write_tile(tile_file *f, const tile *t, const void *bytes) {
     require_mpi(MPI_Type_free(&place), "a tile's place");
 }
 
-void synchronise_tiles(tile_file *f) { require_mpi(MPI_File_sync(f->file), "the map's file"); }
+void synchronise_tiles(tile_file *f) { require_mpi(MPI_File_sync(f->file), "the file of tiles"); }
 
-void close_tile_file(tile_file *f) { require_mpi(MPI_File_close(&f->file), "the map's file"); }
+void close_tile_file(tile_file *f) { require_mpi(MPI_File_close(&f->file), "the file of tiles"); }

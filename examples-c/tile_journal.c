@@ -42,7 +42,7 @@ static journal open_journal(const char *name, int flags) {
     return j;
 }
 
-journal begin_journal(const char *name, const map_work *work) {
+journal begin_journal(const char *name, const tile_work *work) {
     journal j = open_journal(name, O_CREAT | O_EXCL | O_WRONLY);
     append(&j, work->description, strlen(work->description));
     append(&j, "\n", 1);
@@ -51,7 +51,7 @@ journal begin_journal(const char *name, const map_work *work) {
 }
 
 /* The tile of a line, or the number of tiles if it is no line of a journal. */
-static size_t tile_of(const char *line, const map_work *work) {
+static size_t tile_of(const char *line, const tile_work *work) {
     char expected[LINE_ROOM];
     size_t number =
         strncmp(line, "tile ", 5) == 0 ? strtoull(line + 5, NULL, 10) : work->tile_count;
@@ -62,7 +62,7 @@ static size_t tile_of(const char *line, const map_work *work) {
     return memcmp(line, expected, LINE_LENGTH) == 0 ? number : work->tile_count;
 }
 
-size_t resume_journal(const char *name, const map_work *work, bool *done, journal *out) {
+size_t resume_journal(const char *name, const tile_work *work, bool *done, journal *out) {
     FILE *file = fopen(name, "rb");
     if (file == NULL) {
         fail("%s: %s", name, strerror(errno));
@@ -71,7 +71,7 @@ size_t resume_journal(const char *name, const map_work *work, bool *done, journa
     size_t length = strlen(work->description);
     bool is_begun = fgets(head, sizeof head, file) != NULL && strchr(head, '\n') != NULL;
     if (is_begun && (strncmp(head, work->description, length) != 0 || head[length] != '\n')) {
-        fail("%s belongs to another map, \"%.*s\"; remove it to begin anew", name,
+        fail("%s belongs to another array, \"%.*s\"; remove it to begin anew", name,
              (int)strcspn(head, "\n"), head);
     }
     size_t count = 0, sound = length + 1;

@@ -22,7 +22,7 @@ typedef struct report {
 /* What a rank works with. Its tiles up to `written` are written; they are reported when they are
  * synchronised too. */
 typedef struct worker {
-    const map_work *work;
+    const tile_work *work;
     tile_file file;
     void *bytes;
     report report;
@@ -31,7 +31,7 @@ typedef struct worker {
 } worker;
 
 /* Room for the values of any tile. */
-static void *tile_buffer(const map_work *work) {
+static void *tile_buffer(const tile_work *work) {
     size_t largest = 0;
     for (size_t i = 0; i < work->tile_count; ++i) {
         size_t size = tile_size(work, &work->tiles[i]);
@@ -45,7 +45,7 @@ static void *tile_buffer(const map_work *work) {
 }
 
 /* The first tile that nobody has, from `*next` on; NO_TILE if none is left. */
-static uint64_t take(const map_work *work, const bool *done, size_t *next) {
+static uint64_t take(const tile_work *work, const bool *done, size_t *next) {
     while (*next < work->tile_count && done[*next]) {
         ++*next;
     }
@@ -62,7 +62,7 @@ static void keep(const report *r, int rank, journal *j, tile_log *log) {
     }
 }
 
-static worker begin_worker(const map_work *work, const char *file) {
+static worker begin_worker(const tile_work *work, const char *file) {
     worker w = {.work = work, .file = open_tile_file(file, work), .bytes = tile_buffer(work)};
     w.synchronised = MPI_Wtime();
     return w;
@@ -105,7 +105,7 @@ static void begin_report(worker *w) {
     }
 }
 
-static void compute_all(const map_work *work, const bool *done, const char *file, journal *j,
+static void compute_all(const tile_work *work, const bool *done, const char *file, journal *j,
                         tile_log *log) {
     worker w = begin_worker(work, file);
     size_t next = 0;
@@ -119,7 +119,7 @@ static void compute_all(const map_work *work, const bool *done, const char *file
     end_worker(&w);
 }
 
-void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j,
+void hand_out_tiles(const tile_work *work, const bool *done, const char *file, journal *j,
                     tile_log *log) {
     int ranks = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -147,7 +147,7 @@ static void send_report(const worker *w) {
     MPI_Send(&w->report, (int)size, MPI_BYTE, 0, REPORT, MPI_COMM_WORLD);
 }
 
-void work_off_tiles(const map_work *work, const char *file) {
+void work_off_tiles(const tile_work *work, const char *file) {
     worker w = begin_worker(work, file);
     for (;;) {
         uint64_t number;

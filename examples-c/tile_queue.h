@@ -3,7 +3,7 @@
 #ifndef TILE_QUEUE_H
 #define TILE_QUEUE_H
 
-#include "map_work.h"
+#include "tile_work.h"
 #include "tile_file.h"
 #include "tile_journal.h"
 
@@ -15,10 +15,10 @@ typedef struct tile_log {
 
 /* Rank 0: hands out the tiles that are not `done` until none is left, and lists in the journal what
  * ranks have written. Alone, it computes them itself. */
-void hand_out_tiles(const map_work *work, const bool *done, const char *file, journal *j,
+void hand_out_tiles(const tile_work *work, const bool *done, const char *file, journal *j,
                     tile_log *log);
 
 /* Other ranks: compute tiles, and write them, as long as they are given some. */
-void work_off_tiles(const map_work *work, const char *file);
+void work_off_tiles(const tile_work *work, const char *file);
 
 #endif

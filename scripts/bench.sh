@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Runs a benchmark and prints its tables: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds |
-# motion | planners [--csv FILE] | batches | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds of points
-# alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion, planners and batches [--quick] [--seed N]
-# [--only TEXT], the last for the scenes whose names hold a text (of objects and batches, for the rows whose scene and name do; of shapes, for
-# the rows whose group, bodies, poses and query do: "shapes box and box random collide"); planners [--samples N], for judging paths; accuracy
-# [PAIRS [SEED]].
+# motion | planners [--csv FILE] | batches | python | slides | accuracy. hierarchies also takes [--quick] [--clouds], the last for clouds
+# of points alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion, planners and batches [--quick]
+# [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects and batches, for the rows whose scene and name do;
+# of shapes, for the rows whose group, bodies, poses and query do: "shapes box and box random collide"); planners [--samples N], for
+# judging paths; python [--items N] [--passes N] [--seed N]; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-  hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners | batches | slides | accuracy) ;;
-  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | batches [--quick] [--seed N] [--only TEXT] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
+  hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners | batches | python | slides | accuracy) ;;
+  *) echo "usage: bench.sh hierarchies | kernel | instructions | objects | robots | shapes | builds | motion | planners [--csv FILE] [--quick] [--clouds] [--seed N] [--only TEXT] | batches [--quick] [--seed N] [--only TEXT] | python [--items N] [--passes N] [--seed N] | slides [--quick] [--seed N] | accuracy [PAIRS [SEED]]" >&2; exit 2 ;;
 esac
 name=$1
 shift
@@ -85,6 +85,16 @@ if [ "$name" = batches ]; then
     ${coal:+-DCOAL_FOLDER="$PWD/$coal"} >/dev/null
   cmake --build build/batches -j2 --target batches >/dev/null
   exec build/batches/batches ${puma:+--puma "$puma"} ${panda:+--panda "$panda"} "${arguments[@]}"
+fi
+if [ "$name" = python ]; then
+  scripts/setup.sh python
+  work=$PWD/build/python_bench
+  export CARGO_TARGET_DIR=$work/target PIP_DISABLE_PIP_VERSION_CHECK=1
+  rm -rf "$work/venv"
+  python3 -m venv "$work/venv"
+  "$work/venv/bin/pip" install --quiet ./python
+  cc -O2 -shared -fPIC -Wall -Wextra -Iinclude benches/python/c_call.c -o "$work/c_call.so"
+  exec "$work/venv/bin/python" benches/python/batch_time.py "$work/c_call.so" models "${arguments[@]}"
 fi
 if [ "$name" = robots ]; then
   robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: Pinocchio and its robots could not be fetched" >&2; exit 77; }

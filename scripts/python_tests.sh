@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the wheel of python/, installs it into a clean virtual environment, and runs its tests and examples there. The peers that
-# answers are compared with (python-fcl, coal) come from PyPI; where one cannot be had, its tests are skipped and counted.
+# Builds the wheel of python/, installs it into a clean virtual environment, and runs its tests and examples there, and its tests
+# once more on PyPy. The peers that answers are compared with (python-fcl, coal) come from PyPI; where one cannot be had, its tests are
+# skipped and counted.
 #
 # --fast compiles the library with few optimizations and on all cores (a release is optimized as one unit, on one core); answers do
 # not depend on it.
@@ -33,3 +34,9 @@ for example in python/examples/*.py; do
   echo "== $example"
   MPLBACKEND=Agg "$venv/python" "$example" "$work/pictures"
 done
+
+echo "== the same wheel on $(pypy3 --version 2>&1 | grep PyPy)"
+rm -rf "$work/pypy"
+pypy3 -m venv "$work/pypy"
+"$work/pypy/bin/pip" install --quiet --only-binary :all: pytest "$work"/wheels/cstk-*.whl
+"$work/pypy/bin/python" -m pytest -q -rs -p no:cacheprovider python/tests

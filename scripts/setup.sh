@@ -9,7 +9,7 @@ case "${1:-}" in
   bench) packages=("${common[@]}" python3-pip libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev valgrind) ;;
   test) packages=("${common[@]}" python3-pip clang valgrind binutils doxygen libfcl-dev libeigen3-dev libompl-dev libyaml-cpp-dev
     libopenmpi-dev openmpi-bin procps) ;;
-  python) packages=(python3-pip python3-venv) ;;
+  python) packages=(python3-pip python3-venv pypy3 pypy3-venv) ;;
   aarch64) packages=(gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user) ;;
   aarch64-rust) packages=(rustc-web cargo-web libstd-rust-web-dev:arm64) ;;
   *) echo "usage: setup.sh demo|test|bench|python|aarch64|aarch64-rust" >&2; exit 2 ;;

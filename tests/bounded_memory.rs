@@ -1,14 +1,21 @@
-//! What queries hold at a time: it grows with what they are asked to list, not with what they come upon.
+//! What calls hold at a time: queries as much as they are asked to list, not what they come upon; maps, when they are saved, no more than
+//! they hold already.
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use cstk::body::{Body, BodyBuilder};
+use cstk::cobject::PureOptions;
+use cstk::error::Result;
 use cstk::hierarchy::HierarchyOptions;
+use cstk::map::{Map, MapAxis, MapKind, MapOptions};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext, WitnessList};
+use cstk::show::show_map;
 
+use helpers::pure::{CENTER, ball};
 use helpers::robots::{against, environment, free_body, space};
 
 /// The system's allocator, and how much is allocated now and was at most.
@@ -71,7 +78,12 @@ const MEGABYTE: usize = 1 << 20;
 
 /// One test: the counts are those of the whole program.
 #[test]
-fn memory_is_bounded_by_what_is_listed() {
+fn memory_is_bounded() {
+    by_what_is_listed();
+    by_pieces_of_maps();
+}
+
+fn by_what_is_listed() {
     let here = Pose::identity();
     let mut query = QueryContext::new();
 
@@ -119,6 +131,48 @@ fn memory_is_bounded_by_what_is_listed() {
         found.unwrap().list.truncated && most < MEGABYTE,
         "{most} bytes"
     );
+}
+
+/// Maps go to their files in pieces of 64 KB.
+fn by_pieces_of_maps() {
+    const PIECES: usize = 1 << 18;
+    let folder = tempfile::tempdir().unwrap();
+    let ball = ball(
+        0.8,
+        PureOptions {
+            scale: Some(1.0),
+            ..PureOptions::default()
+        },
+    );
+    let axis = |coordinate, cells| MapAxis::new(coordinate, [-1.5, 1.5], cells);
+    let build = |axes: &[MapAxis], kind| {
+        let options = MapOptions {
+            kind,
+            ..MapOptions::default()
+        };
+        Map::build(&ball, &CENTER, axes, &options, &mut |_| Ok(())).unwrap()
+    };
+    let require = |map: &Map, name: &str, save: fn(&Map, &Path) -> Result<()>, least: u64| {
+        let file = folder.path().join(name);
+        let (saved, most) = held(|| save(map, &file));
+        saved.unwrap();
+        let size = std::fs::metadata(&file).unwrap().len();
+        assert!(size >= least, "{name} has {size} bytes");
+        assert!(most < PIECES, "{most} bytes to write {size} of {name}");
+        println!("{name}: {most} bytes held to write {size}");
+    };
+    let plane = [axis(0, 3000), axis(1, 2000)];
+    let classes = build(&plane, MapKind::Classes);
+    require(&classes, "classes.npy", Map::save, 6_000_000);
+    require(&classes, "classes.png", show_map, 6_000_000);
+    let plane = [axis(0, 600), axis(1, 1000)];
+    let distances = build(&plane, MapKind::Distances);
+    require(&distances, "distances.npy", Map::save, 4_800_000);
+    require(&distances, "distances.png", show_map, 600_000);
+    // 54,000 faces of 144 bytes, which took 31 MB where they were kept.
+    let space = [axis(0, 200), axis(1, 200), axis(2, 200)];
+    let boundary = build(&space, MapKind::Classes);
+    require(&boundary, "boundary.glb", show_map, 5_000_000);
 }
 
 fn pairs(list: &WitnessList) -> Vec<[u32; 2]> {

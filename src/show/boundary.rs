@@ -4,19 +4,17 @@
 //! halfway between unlike neighbours; a quadrangle between any two unlike neighbours, through the four cubes around them. Crates for
 //! this take a field of floats around a level, which classes are not, and bring more code of others than stands here.
 
+use std::io;
 use std::path::Path;
 
 use serde_json::json;
 
-use super::glb::{Document, Triangles, require_glb};
+use super::glb::{Document, require_glb};
+use super::triangles::TriangleStream;
 use crate::cobject::Class;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::map::{Map, MapAxis, MapValues};
-use crate::pose::{Pose, Vec3};
-use crate::whole_file::write_whole;
-
-/// The most quadrangles of a surface, 144 bytes each: a .glb file has at most 4 GB.
-const MAX_FACES: usize = 1 << 24;
+use crate::pose::Vec3;
 
 /// Writes a picture of a map: .png for two axes, the boundary of the set as .glb for three.
 pub fn show_map(map: &Map, file: &Path) -> Result<()> {
@@ -31,14 +29,8 @@ pub fn show_map(map: &Map, file: &Path) -> Result<()> {
     };
     let mut document = Document::default();
     let material = document.add_material("boundary", [0.95, 0.5, 0.45, 1.0], true);
-    if let Some(mesh) = document.add_mesh(&boundary.triangles()?, material) {
-        document.add_node("boundary", mesh, &Pose::identity(), json!({}));
-    }
-    let coordinates = axes.map(|axis| axis.coordinate);
-    write_whole(
-        file,
-        &document.into_bytes(json!({ "coordinates": coordinates })),
-    )
+    let extras = json!({ "coordinates": axes.map(|axis| axis.coordinate) });
+    document.save_with(file, extras, ("boundary", &boundary, material))
 }
 
 /// Two neighbouring cells along an axis, of which one is in the set; cells beyond the map are not.
@@ -75,7 +67,7 @@ impl Boundary<'_> {
         }
     }
 
-    fn each_face(&self, mut visit: impl FnMut(Face)) {
+    fn try_each_face(&self, mut visit: impl FnMut(Face) -> io::Result<()>) -> io::Result<()> {
         let [a, b, c] = self.sides();
         for i in 0..=a {
             for j in 0..=b {
@@ -90,34 +82,31 @@ impl Boundary<'_> {
                                 axis,
                                 below,
                                 is_below,
-                            });
+                            })?;
                         }
                     }
                 }
             }
         }
+        Ok(())
     }
 
     /// The corner in the cube of the eight cells from `first` on, in cells.
     fn corner(&self, first: [usize; 3]) -> Vec3 {
+        let is_in: [bool; 8] = std::array::from_fn(|cell| {
+            self.is_in([0, 1, 2].map(|axis| first[axis] + (cell >> axis & 1)))
+        });
         let (mut sum, mut count) = (Vec3::zeros(), 0.0);
         for axis in 0..3 {
-            let sideways = [(axis + 1) % 3, (axis + 2) % 3];
-            for offset in 0..4 {
-                let mut below = first;
-                below[sideways[0]] += offset & 1;
-                below[sideways[1]] += offset >> 1;
-                let mut above = below;
-                above[axis] += 1;
-                if self.is_in(below) != self.is_in(above) {
-                    let mut halfway = Vec3::from(below.map(|place| place as f64));
-                    halfway[axis] += 0.5;
-                    sum += halfway;
+            for below in (0..8).filter(|cell| cell >> axis & 1 == 0) {
+                if is_in[below] != is_in[below | 1 << axis] {
+                    sum += Vec3::from([0, 1, 2].map(|axis| (below >> axis & 1) as f64));
+                    sum[axis] += 0.5;
                     count += 1.0;
                 }
             }
         }
-        sum / count
+        Vec3::from(first.map(|place| place as f64)) + sum / count
     }
 
     /// The coordinates of a place that is given in cells: number n has its middle at n.
@@ -128,23 +117,12 @@ impl Boundary<'_> {
         };
         Vec3::new(along(0), along(1), along(2))
     }
+}
 
-    fn triangles(&self) -> Result<Triangles> {
-        let mut count = 0;
-        self.each_face(|_| count += 1);
-        if count > MAX_FACES {
-            return Err(Error::new(
-                ErrorKind::Unsupported,
-                format!("the boundary has {count} faces, a picture at most {MAX_FACES}"),
-            ));
-        }
-        let mut triangles = Triangles::default();
-        for vectors in [&mut triangles.positions, &mut triangles.normals] {
-            vectors
-                .try_reserve_exact(6 * count)
-                .map_err(Error::memory)?;
-        }
-        self.each_face(|face| {
+/// Made anew each time: a map of many cells has more of them than bytes.
+impl TriangleStream for Boundary<'_> {
+    fn try_each(&self, visit: &mut dyn FnMut([Vec3; 3], Vec3) -> io::Result<()>) -> io::Result<()> {
+        self.try_each_face(|face| {
             let [a, b] = [(face.axis + 1) % 3, (face.axis + 2) % 3];
             // The four cubes around, counter-clockwise about the axis.
             let mut corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[back_a, back_b]| {
@@ -157,13 +135,12 @@ impl Boundary<'_> {
                 corners.reverse();
             }
             let [p, q, r, s] = corners;
-            for corners in [[p, q, r], [p, r, s]] {
-                let [p, q, r] = corners;
+            for [p, q, r] in [[p, q, r], [p, r, s]] {
                 let normal = (q - p).cross(&(r - p)).try_normalize(0.0);
                 let any = || Vec3::ith(face.axis, 1.0);
-                triangles.push(corners, normal.unwrap_or_else(any));
+                visit([p, q, r], normal.unwrap_or_else(any))?;
             }
-        });
-        Ok(triangles)
+            Ok(())
+        })
     }
 }

@@ -1,11 +1,14 @@
 //! Writes coloured triangle meshes at poses as a glTF 2.0 binary (.glb): a JSON chunk and a buffer chunk.
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::triangles::{STREAMED_CORNER, StreamExtent, TriangleStream, Triangles, write_stream};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::{Pose, Vec3};
+use crate::whole_file::write_piecewise;
 
 /// Fails unless the name ends in .glb.
 pub fn require_glb(path: &Path) -> Result<()> {
@@ -18,26 +21,12 @@ pub fn require_glb(path: &Path) -> Result<()> {
     ))
 }
 
-/// Triangles with a normal at each corner.
-#[derive(Default)]
-pub struct Triangles {
-    pub positions: Vec<Vec3>,
-    pub normals: Vec<Vec3>,
-}
-
-impl Triangles {
-    /// A flat triangle, counter-clockwise around `normal`.
-    pub fn push(&mut self, corners: [Vec3; 3], normal: Vec3) {
-        self.positions.extend(corners);
-        self.normals.extend([normal; 3]);
-    }
-}
-
 /// A colour: red, green, blue and opacity from 0 to 1.
 pub type Colour = [f64; 4];
 
-/// glTF's number for buffers of vertices.
+/// glTF's numbers for buffers of vertices, and for single precision.
 const VERTICES: u32 = 34962;
+const SINGLE: u32 = 5126;
 
 /// Builds a glTF document.
 #[derive(Default)]
@@ -74,11 +63,15 @@ impl Document {
         }
         let positions = self.add_vectors(&triangles.positions);
         let normals = self.add_vectors(&triangles.normals);
+        Some(self.add_corners(positions, normals, material))
+    }
+
+    fn add_corners(&mut self, positions: usize, normals: usize, material: usize) -> usize {
         self.meshes.push(json!({ "primitives": [{
             "attributes": { "POSITION": positions, "NORMAL": normals },
             "material": material,
         }]}));
-        Some(self.meshes.len() - 1)
+        self.meshes.len() - 1
     }
 
     /// Adds a named node that shows a mesh at a pose; `extras` are data for the reader.
@@ -95,7 +88,7 @@ impl Document {
 
     /// Adds the times of a motion, in seconds, rising.
     pub fn add_times(&mut self, times: &[f64]) -> usize {
-        self.add_values(&times.iter().map(|&time| [time]).collect::<Vec<_>>(), None)
+        self.add_values(times.iter().map(|&time| [time]), None)
     }
 
     /// Adds a named node that has a pose at each of the times; viewers interpolate between them.
@@ -109,7 +102,7 @@ impl Document {
         let node = self.nodes.len();
         self.nodes
             .push(json!({ "name": name, "mesh": mesh, "extras": extras }));
-        let places: Vec<[f64; 3]> = poses.iter().map(|pose| pose.translation.into()).collect();
+        let places = poses.iter().map(|pose| pose.translation.into());
         let mut turns: Vec<[f64; 4]> = Vec::with_capacity(poses.len());
         for pose in poses {
             let turn = pose.to_quaternion();
@@ -120,8 +113,8 @@ impl Document {
             turns.push(turn.map(|x| if along < 0.0 { -x } else { x }));
         }
         for (path, values) in [
-            ("translation", self.add_values(&places, None)),
-            ("rotation", self.add_values(&turns, None)),
+            ("translation", self.add_values::<3>(places, None)),
+            ("rotation", self.add_values(turns.into_iter(), None)),
         ] {
             self.samplers
                 .push(json!({ "input": times, "output": values }));
@@ -133,16 +126,21 @@ impl Document {
     }
 
     fn add_vectors(&mut self, vectors: &[Vec3]) -> usize {
-        let values: Vec<[f64; 3]> = vectors.iter().map(|&vector| vector.into()).collect();
-        self.add_values(&values, Some(VERTICES))
+        let values = vectors.iter().map(|&vector| vector.into());
+        self.add_values::<3>(values, Some(VERTICES))
     }
 
     /// Adds N numbers for each of several places or times, in single precision.
-    fn add_values<const N: usize>(&mut self, values: &[[f64; N]], target: Option<u32>) -> usize {
+    fn add_values<const N: usize>(
+        &mut self,
+        values: impl ExactSizeIterator<Item = [f64; N]>,
+        target: Option<u32>,
+    ) -> usize {
         const TYPES: [&str; 5] = ["", "SCALAR", "VEC2", "VEC3", "VEC4"];
-        let start = self.buffer.len();
+        let (start, count) = (self.buffer.len(), values.len());
         let mut low = [f32::INFINITY; N];
         let mut high = [f32::NEG_INFINITY; N];
+        self.buffer.reserve(4 * N * count);
         for value in values {
             for i in 0..N {
                 let x = value[i] as f32;
@@ -162,8 +160,8 @@ impl Document {
         self.views.push(view);
         self.accessors.push(json!({
             "bufferView": self.views.len() - 1,
-            "componentType": 5126,
-            "count": values.len(),
+            "componentType": SINGLE,
+            "count": count,
             "type": TYPES[N],
             "min": low.as_slice(),
             "max": high.as_slice(),
@@ -171,8 +169,81 @@ impl Document {
         self.accessors.len() - 1
     }
 
-    /// The file's bytes; `extras` describe the scene.
-    pub fn into_bytes(self, extras: Value) -> Vec<u8> {
+    /// Writes the file, whole or not at all; `extras` describe the scene.
+    pub fn save(self, file: &Path, extras: Value) -> Result<()> {
+        self.write(file, extras, 0, |_| Ok(()))
+    }
+
+    /// The same with one more named mesh, whose triangles are written behind all else without being kept.
+    pub fn save_with(
+        mut self,
+        file: &Path,
+        extras: Value,
+        (name, triangles, material): (&str, &dyn TriangleStream, usize),
+    ) -> Result<()> {
+        let extent = StreamExtent::of(triangles);
+        if extent.corners == 0 {
+            return self.save(file, extras);
+        }
+        let streamed = extent.corners * STREAMED_CORNER;
+        self.views.push(json!({
+            "buffer": 0,
+            "byteOffset": self.buffer.len(),
+            "byteLength": streamed,
+            "byteStride": STREAMED_CORNER,
+            "target": VERTICES,
+        }));
+        let positions = self.accessors.len();
+        for place in [0, STREAMED_CORNER / 2] {
+            self.accessors.push(json!({
+                "bufferView": self.views.len() - 1,
+                "byteOffset": place,
+                "componentType": SINGLE,
+                "count": extent.corners,
+                "type": "VEC3",
+            }));
+        }
+        self.accessors[positions]["min"] = json!(extent.low);
+        self.accessors[positions]["max"] = json!(extent.high);
+        let mesh = self.add_corners(positions, positions + 1, material);
+        self.add_node(name, mesh, &Pose::identity(), json!({}));
+        self.write(file, extras, streamed, |file| write_stream(triangles, file))
+    }
+
+    /// Writes what is in the buffer, and so many bytes behind it.
+    fn write(
+        self,
+        file: &Path,
+        extras: Value,
+        streamed: usize,
+        write_streamed: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<()> {
+        // All are floats, so the length is a multiple of four.
+        let binary = self.buffer.len() + streamed;
+        let text = self.text(extras, binary);
+        let length = 28 + text.len() + binary;
+        if u32::try_from(length).is_err() {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!("the picture would have {length} bytes, a .glb file has less than 2^32"),
+            ));
+        }
+        write_piecewise(file, |file| {
+            file.write_all(b"glTF")?;
+            for number in [2, length as u32, text.len() as u32] {
+                file.write_all(&number.to_le_bytes())?;
+            }
+            file.write_all(b"JSON")?;
+            file.write_all(&text)?;
+            file.write_all(&(binary as u32).to_le_bytes())?;
+            file.write_all(b"BIN\0")?;
+            file.write_all(&self.buffer)?;
+            write_streamed(file)
+        })
+    }
+
+    /// What describes the numbers, of which there are `binary` bytes; filled up to a multiple of four.
+    fn text(&self, extras: Value, binary: usize) -> Vec<u8> {
         let roots: Vec<usize> = (0..self.nodes.len()).collect();
         let mut content = json!({
             "asset": { "version": "2.0", "generator": concat!("cstk ", env!("CARGO_PKG_VERSION")) },
@@ -183,7 +254,7 @@ impl Document {
             "materials": self.materials,
             "accessors": self.accessors,
             "bufferViews": self.views,
-            "buffers": [{ "byteLength": self.buffer.len() }],
+            "buffers": [{ "byteLength": binary }],
         });
         if !self.channels.is_empty() {
             content["animations"] =
@@ -191,17 +262,6 @@ impl Document {
         }
         let mut text = content.to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');
-        let mut bytes = Vec::with_capacity(28 + text.len() + self.buffer.len());
-        bytes.extend(b"glTF");
-        bytes.extend(2u32.to_le_bytes());
-        bytes.extend(((28 + text.len() + self.buffer.len()) as u32).to_le_bytes());
-        bytes.extend((text.len() as u32).to_le_bytes());
-        bytes.extend(b"JSON");
-        bytes.extend(text);
-        // All are floats, so the buffer's length is a multiple of four.
-        bytes.extend((self.buffer.len() as u32).to_le_bytes());
-        bytes.extend(b"BIN\0");
-        bytes.extend(self.buffer);
-        bytes
+        text
     }
 }

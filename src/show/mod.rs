@@ -8,6 +8,7 @@ mod nodes;
 mod path;
 mod scene;
 mod shapes;
+mod triangles;
 
 pub use boundary::show_map;
 pub use nodes::{node_surfaces, show_nodes};

@@ -5,14 +5,14 @@ use std::path::Path;
 use serde_json::json;
 
 use super::curved::curved_surface;
-use super::glb::{Colour, Document, Triangles, require_glb};
+use super::glb::{Colour, Document, require_glb};
 use super::shapes::{add_primitive, add_surface};
+use super::triangles::Triangles;
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
 use crate::hierarchy::Node;
 use crate::hierarchy::wrapper::Surface;
 use crate::pose::{Pose, Vec3};
-use crate::whole_file::write_whole;
 
 /// Colours of neighbouring nodes.
 const COLOURS: [Colour; 8] = [
@@ -90,5 +90,5 @@ pub fn show_nodes(body: &Body, nodes: &[u32], path: &Path) -> Result<()> {
             document.add_node(&name, mesh, &Pose::identity(), json!({ "node": node }));
         }
     }
-    write_whole(path, &document.into_bytes(json!({ "nodes": nodes.len() })))
+    document.save(path, json!({ "nodes": nodes.len() }))
 }

@@ -11,7 +11,6 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::Pose;
 use crate::query::World;
 use crate::space::Space;
-use crate::whole_file::write_whole;
 
 /// Between two moments the robot goes at most this part of the path: viewers turn and shift each link by itself, along no joint.
 const LONGEST_PART: f64 = 1.0 / 240.0;
@@ -51,7 +50,7 @@ pub fn show_path(cobject: &CObject, points: &[f64], seconds: f64, file: &FilePat
         document.add_moving_node(&body.name, body.mesh, (times, &poses), body.extras);
     }
     let extras = json!({ "points": points.len() / space.nq().max(1), "seconds": seconds });
-    write_whole(file, &document.into_bytes(extras))
+    document.save(file, extras)
 }
 
 /// The times and the configurations at them: all points, and some between points that are far apart.

@@ -5,14 +5,14 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::bodies::shown_bodies;
-use super::glb::{Document, Triangles, require_glb};
+use super::glb::{Document, require_glb};
 use super::shapes::{add_arrow, add_ball, add_rod};
+use super::triangles::Triangles;
 use crate::cobject::CObject;
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::query::{PseudoNormal, QueryContext, SSide, Shell, World};
 use crate::robot::RobotState;
-use crate::whole_file::write_whole;
 
 /// The most witnesses drawn.
 const MAX_WITNESSES: usize = 64;
@@ -44,7 +44,7 @@ pub fn show(cobject: &CObject, q: &[f64], path: &Path) -> Result<()> {
         "class": format!("{class:?}"),
         "distance": finite(found.distance.distance),
     });
-    write_whole(path, &drawing.document.into_bytes(extras))
+    drawing.document.save(path, extras)
 }
 
 /// JSON has no infinities.

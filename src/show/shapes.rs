@@ -1,7 +1,7 @@
 //! Triangulates bodies, arrows and balls.
 
 use super::curved::curved_surface;
-use super::glb::Triangles;
+use super::triangles::Triangles;
 use crate::body::Body;
 use crate::hierarchy::wrapper::Surface;
 use crate::pose::Vec3;

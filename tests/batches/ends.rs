@@ -1,16 +1,16 @@
 //! How batches end: at hits, with failures, cancelled; and what they see of a world that changes.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use cstk::batch::{Batch, BatchOptions, Configurations, ItemAnswer};
-use cstk::cobject::{CObject, Class, Predicate, PureOptions, PureShape};
+use cstk::cobject::Class;
 use cstk::environment::Change;
-use cstk::error::{Error, ErrorKind, Result};
+use cstk::error::{Error, ErrorKind};
 use cstk::query::{Configuration, QueryContext};
 
 use super::scene::{Arm, NQ, at, on_threads, quiet};
+use helpers::pure::classified;
 
 /// An answer that was put; `None` where nothing was.
 type Found = Option<std::result::Result<Class, ErrorKind>>;
@@ -89,45 +89,16 @@ fn an_item_that_fails_fails_alone() {
     }
 }
 
-/// Panics where the first coordinate says so.
-struct Trap;
-
-impl Predicate for Trap {
-    fn classify(&self, q: &[f64]) -> Result<Class> {
-        assert!(q[0] < 9.0, "a trap");
-        Ok(if q[0] > 0.0 {
-            Class::Inside
-        } else {
-            Class::Outside
-        })
-    }
-
-    fn distance(&self, _: &[f64]) -> Result<Option<f64>> {
-        Ok(None)
-    }
-
-    fn measures(&self) -> bool {
-        false
-    }
-
-    fn is_exact(&self) -> bool {
-        false
-    }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
-}
-
 #[test]
 fn a_panic_is_the_failure_of_its_item() {
     let arm = Arm::new(19);
-    let shape = PureShape::Predicate(Arc::new(Trap));
-    let trap = CObject::pure(arm.space.clone(), shape, PureOptions::default()).unwrap();
+    let trap = classified(&arm.space, |q| {
+        assert!(q[0] < 9.0, "a trap");
+        Ok(match q[0] {
+            right if right > 0.0 => Class::Inside,
+            _ => Class::Outside,
+        })
+    });
     let mut q = arm.configurations(300, 20);
     q[NQ * 41] = 10.0;
     q[NQ * 42] = 10.0;
@@ -310,42 +281,14 @@ fn few_items_have_few_threads() {
     }
 }
 
-/// Takes its time over each configuration.
-struct Slow;
-
-impl Predicate for Slow {
-    fn classify(&self, _: &[f64]) -> Result<Class> {
-        std::thread::sleep(Duration::from_millis(25));
-        Ok(Class::Outside)
-    }
-
-    fn distance(&self, _: &[f64]) -> Result<Option<f64>> {
-        Ok(None)
-    }
-
-    fn measures(&self) -> bool {
-        false
-    }
-
-    fn is_exact(&self) -> bool {
-        false
-    }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
-}
-
 /// Within a run of items progress is told after each that takes long, and cancels before the next.
 #[test]
 fn long_items_are_reported_one_by_one() {
     let arm = Arm::new(31);
-    let shape = PureShape::Predicate(Arc::new(Slow));
-    let slow = CObject::pure(arm.space.clone(), shape, PureOptions::default()).unwrap();
+    let slow = classified(&arm.space, |_| {
+        std::thread::sleep(Duration::from_millis(25));
+        Ok(Class::Outside)
+    });
     // Runs of three items.
     let q = arm.configurations(48, 32);
     let mut found = [None; 48];

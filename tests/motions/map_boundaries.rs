@@ -4,25 +4,16 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use cstk::cobject::{CObject, PureOptions, PureShape};
+use cstk::cobject::{CObject, PureOptions};
 use cstk::error::ErrorKind;
 use cstk::map::{Map, MapAxis, MapKind, MapOptions, MapValues};
 use cstk::pose::Vec3;
-use cstk::robot::JointKind;
 use cstk::show::show_map;
 
-use helpers::robots::{link, robot, space};
+use helpers::pure::{CENTER, ball as ball_with};
 
-/// The configurations of three sliding links within a distance of (0.1, -0.2, 0.3).
 fn ball(radius: f64) -> CObject {
-    let links = [Vec3::x(), Vec3::y(), Vec3::z()];
-    let links = (0..3usize).map(|i| link(i.checked_sub(1), JointKind::Prismatic, links[i]));
-    let space = space(vec![robot(3, links.collect())]);
-    let shape = PureShape::Ball {
-        center: vec![0.1, -0.2, 0.3],
-        radius,
-    };
-    CObject::pure(space, shape, PureOptions::default()).unwrap()
+    ball_with(radius, PureOptions::default())
 }
 
 fn axes(cells: [usize; 3]) -> [MapAxis; 3] {
@@ -38,6 +29,24 @@ fn build(cobject: &CObject, axes: &[MapAxis], kind: MapKind) -> Map {
     Map::build(cobject, &[0.0; 3], axes, &options, &mut |_| Ok(())).unwrap()
 }
 
+/// The least and the largest numbers that the picture states are those of its corners: viewers rely on them.
+fn require_extent(text: &[u8], corners: &[[f32; 3]]) {
+    let content: serde_json::Value = serde_json::from_slice(text).unwrap();
+    let positions = &content["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    let accessor = &content["accessors"][positions.as_u64().unwrap() as usize];
+    assert_eq!(accessor["count"], corners.len());
+    for i in 0..3 {
+        let along = corners.iter().map(|corner| corner[i]);
+        let ends = [
+            along.clone().fold(f32::INFINITY, f32::min),
+            along.fold(f32::NEG_INFINITY, f32::max),
+        ];
+        for (stated, found) in ["min", "max"].iter().zip(ends) {
+            assert_eq!(accessor[*stated][i].as_f64().unwrap() as f32, found);
+        }
+    }
+}
+
 /// The triangles of a picture with one mesh, as its numbers, and the lengths of its normals.
 fn triangles(map: &Map, folder: &Path) -> Vec<[[f32; 3]; 3]> {
     let file = folder.join("map.glb");
@@ -48,15 +57,17 @@ fn triangles(map: &Map, folder: &Path) -> Vec<[[f32; 3]; 3]> {
         .chunks_exact(4)
         .map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()))
         .collect();
-    // All positions, then as many normals.
-    let (positions, normals) = numbers.split_at(numbers.len() / 2);
-    for normal in normals.chunks_exact(3) {
-        let length: f32 = normal.iter().map(|x| x * x).sum();
-        assert!((length - 1.0).abs() < 1e-5);
-    }
-    let corner = |p: &[f32]| [p[0], p[1], p[2]];
-    let triangle = |p: &[f32]| [corner(&p[..3]), corner(&p[3..6]), corner(&p[6..])];
-    positions.chunks_exact(9).map(triangle).collect()
+    // Of each corner the place and the normal.
+    let corners: Vec<[f32; 3]> = numbers
+        .chunks_exact(6)
+        .map(|corner| {
+            let length: f32 = corner[3..].iter().map(|x| x * x).sum();
+            assert!((length - 1.0).abs() < 1e-5);
+            [corner[0], corner[1], corner[2]]
+        })
+        .collect();
+    require_extent(&bytes[20..20 + text], &corners);
+    corners.as_chunks().0.to_vec()
 }
 
 /// Each edge is run along as often one way as the other: there is no hole, and the surface has one outside.
@@ -92,7 +103,7 @@ fn the_boundary_of_a_ball_is_a_sphere() {
         require_closed(&triangles);
         let cell = (2.0 / 60.0f64).hypot(2.5 / 70.0).hypot(3.0 / 80.0);
         for corner in triangles.iter().flatten() {
-            let radius = Vec3::new(0.1, -0.2, 0.3) - Vec3::from(corner.map(f64::from));
+            let radius = Vec3::from(CENTER) - Vec3::from(corner.map(f64::from));
             assert!((radius.norm() - 0.7).abs() < cell, "{}", radius.norm());
         }
         let truth = 4.0 / 3.0 * PI * 0.7f64.powi(3);
@@ -145,12 +156,7 @@ fn distances_show_where_they_are_zero() {
         scale: Some(1.0),
         ..PureOptions::default()
     };
-    let unscaled = ball(0.7);
-    let shape = PureShape::Ball {
-        center: vec![0.1, -0.2, 0.3],
-        radius: 0.7,
-    };
-    let scaled = CObject::pure(unscaled.space().clone(), shape, options).unwrap();
+    let scaled = ball_with(0.7, options);
     let [classes, distances] = [MapKind::Classes, MapKind::Distances].map(|kind| {
         let map = build(&scaled, &axes([30, 20, 25]), kind);
         triangles(&map, folder.path())

@@ -4,13 +4,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use cstk::cobject::{CObject, Class, Predicate, PureOptions, PureShape};
+use cstk::cobject::{CObject, Class, PureOptions, PureShape};
 use cstk::error::{Error, ErrorKind, Result};
 use cstk::map::{Map, MapAxis, MapKind, MapOptions, MapValues};
 
 use crate::compound::slider;
+use helpers::pure::classified;
 
-/// Inside from 0 on; fails beyond a number of questions, and takes its time.
+/// How often a set is asked, when it begins to fail, and how long it takes.
 struct Asked {
     count: AtomicUsize,
     most: usize,
@@ -29,9 +30,8 @@ impl Asked {
     fn questions(&self) -> usize {
         self.count.load(Ordering::Relaxed)
     }
-}
 
-impl Predicate for Asked {
+    /// Inside from 0 on.
     fn classify(&self, q: &[f64]) -> Result<Class> {
         std::thread::sleep(self.sleep);
         if self.count.fetch_add(1, Ordering::Relaxed) >= self.most {
@@ -42,37 +42,15 @@ impl Predicate for Asked {
             _ => Class::Outside,
         })
     }
-
-    fn distance(&self, _: &[f64]) -> Result<Option<f64>> {
-        Ok(None)
-    }
-
-    fn measures(&self) -> bool {
-        false
-    }
-
-    fn is_exact(&self) -> bool {
-        false
-    }
-
-    fn knows_depth(&self) -> bool {
-        false
-    }
-
-    fn gradient(&self, _: &[f64], _: &mut [f64]) -> Result<bool> {
-        Ok(false)
-    }
 }
 
 /// In a union with a set that can be proved.
 fn union_with(asked: &Arc<Asked>) -> CObject {
     let space = slider();
-    let pure = |shape| {
-        let set = CObject::pure(space.clone(), shape, PureOptions::default());
-        Arc::new(set.unwrap())
-    };
-    let limits = pure(PureShape::BeyondLimits);
-    CObject::union(&[pure(PureShape::Predicate(asked.clone())), limits]).unwrap()
+    let asked = asked.clone();
+    let answered = classified(&space, move |q| asked.classify(q));
+    let limits = CObject::pure(space, PureShape::BeyondLimits, PureOptions::default());
+    CObject::union(&[answered, Arc::new(limits.unwrap())]).unwrap()
 }
 
 fn axis(cells: usize) -> [MapAxis; 1] {

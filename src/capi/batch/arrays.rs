@@ -16,6 +16,7 @@ use crate::error::Error;
 pub struct Entries<'a, T> {
     items: &'a mut [MaybeUninit<T>],
     width: usize,
+    argument: &'static str,
 }
 
 impl<'a, T: Copy> Entries<'a, T> {
@@ -24,11 +25,11 @@ impl<'a, T: Copy> Entries<'a, T> {
         items: *mut T,
         count: usize,
         width: usize,
-        argument: &str,
+        argument: &'static str,
     ) -> Result<Self, Failure> {
         let entries = product(count, width, argument)?;
         if entries == 0 {
-            return Ok(Self::absent());
+            return Ok(Self::absent(argument));
         }
         Output::checked(items, argument)?;
         if entries > isize::MAX as usize / size_of::<T>() {
@@ -36,7 +37,11 @@ impl<'a, T: Copy> Entries<'a, T> {
         }
         // SAFETY: not null, aligned, and the caller states that so many items are writable and that nobody else uses them.
         let items = unsafe { std::slice::from_raw_parts_mut(items.cast(), entries) };
-        Ok(Self { items, width })
+        Ok(Self {
+            items,
+            width,
+            argument,
+        })
     }
 
     /// NULL is allowed: then nothing is written.
@@ -44,24 +49,21 @@ impl<'a, T: Copy> Entries<'a, T> {
         items: *mut T,
         count: usize,
         width: usize,
-        argument: &str,
+        argument: &'static str,
     ) -> Result<Self, Failure> {
         if items.is_null() {
-            return Ok(Self::absent());
+            return Ok(Self::absent(argument));
         }
         // SAFETY: as the caller states.
         unsafe { Self::checked(items, count, width, argument) }
     }
 
-    fn absent() -> Self {
+    fn absent(argument: &'static str) -> Self {
         Self {
             items: &mut [],
             width: 0,
+            argument,
         }
-    }
-
-    pub fn place(&self, name: &'static str) -> Place {
-        Place::of(self.items, name)
     }
 
     pub fn is_absent(&self) -> bool {
@@ -80,9 +82,27 @@ impl<'a, T: Copy> Entries<'a, T> {
 impl<T: Copy + Send> Slots for Entries<'_, T> {
     fn split(self, count: usize) -> (Self, Self) {
         let (first, rest) = self.items.split_at_mut(self.width * count);
-        let width = self.width;
-        let part = |items| Self { items, width };
+        let part = |items| Self { items, ..self };
         (part(first), part(rest))
+    }
+}
+
+/// The arrays that a batch writes, beside the statuses.
+pub trait Outputs: Slots {
+    /// Adds where each of them lies.
+    fn add_places(&self, places: &mut Places);
+}
+
+impl<T: Copy + Send> Outputs for Entries<'_, T> {
+    fn add_places(&self, places: &mut Places) {
+        places.push(Place::of(self.items, self.argument));
+    }
+}
+
+impl<A: Outputs, B: Outputs> Outputs for (A, B) {
+    fn add_places(&self, places: &mut Places) {
+        self.0.add_places(places);
+        self.1.add_places(places);
     }
 }
 
@@ -139,23 +159,22 @@ impl Outcome {
     }
 
     /// Refuses outputs that overlap inputs, or each other: threads write some while others read.
-    pub fn require_apart(
-        &self,
-        inputs: &[Place],
-        outputs: impl IntoIterator<Item = Place>,
-    ) -> Result<(), Failure> {
+    pub fn require_apart(&self, inputs: &[Place], outputs: &impl Outputs) -> Result<(), Failure> {
         let array = |start: usize, size: usize, name| Place {
             name,
             bytes: start..start.saturating_add(size),
         };
         let statuses = self.count.saturating_mul(size_of::<cstk_status>());
-        let own = [
-            array(self.statuses.addr(), statuses, "statuses"),
-            array(self.out.address(), size_of::<cstk_batch_result>(), "out"),
-        ];
-        let outputs: SmallVec<[Place; 8]> = outputs.into_iter().chain(own).collect();
-        for (i, output) in outputs.iter().enumerate() {
-            let mut others = inputs.iter().chain(&outputs[..i]);
+        let mut places = Places::new();
+        outputs.add_places(&mut places);
+        places.push(array(self.statuses.addr(), statuses, "statuses"));
+        places.push(array(
+            self.out.address(),
+            size_of::<cstk_batch_result>(),
+            "out",
+        ));
+        for (i, output) in places.iter().enumerate() {
+            let mut others = inputs.iter().chain(&places[..i]);
             if let Some(other) = others.find(|other| output.meets(other)) {
                 let message = format!("{} overlaps {}", output.name, other.name);
                 return Err(Error::invalid(message).into());
@@ -201,6 +220,9 @@ impl Outcome {
         }
     }
 }
+
+/// Where the arrays of a call lie.
+pub type Places = SmallVec<[Place; 8]>;
 
 /// Where an array of the caller's lies; one that was left out is empty.
 pub struct Place {

@@ -3,6 +3,7 @@
 use std::ffi::c_void;
 use std::sync::{Arc, Mutex};
 
+use super::call::Call;
 use crate::batch::{Batch, BatchOptions};
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::exclusive::exclusively;
@@ -103,7 +104,7 @@ pub(super) unsafe fn with_batch(
     options: *const cstk_batch_options,
     progress: cstk_progress_fn,
     user: *mut c_void,
-    action: impl FnOnce(&mut Batch, &BatchOptions, &mut Report) -> Result<(), Failure>,
+    action: impl FnOnce(Call) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     // Shared ownership: a callback may release the handle during the call.
     let batches = handle::share::<Batches>(batch, "batch")?;
@@ -111,7 +112,11 @@ pub(super) unsafe fn with_batch(
     let options = unsafe { options_or_default(options, "options")? }.into();
     let renew = |batch: &mut Batch| *batch = Batch::new();
     exclusively(&batches.0, "the batch", renew, |batch| {
-        action(batch, &options, &mut reporter(progress, user))
+        action(Call {
+            batch,
+            options: &options,
+            progress: &mut reporter(progress, user),
+        })
     })
 }
 
@@ -159,15 +164,21 @@ pub unsafe extern "C" fn cstk_batch_get_statistics(
         let none = std::ptr::null();
         // SAFETY: there are no options and no progress function.
         unsafe {
-            with_batch(batch, none, None, std::ptr::null_mut(), |batch, _, _| {
-                let out = Output::checked(out, "out")?;
-                let done = batch.statistics();
-                if reset {
-                    batch.reset_statistics();
-                }
-                out.write(done.into());
-                Ok(())
-            })
+            with_batch(
+                batch,
+                none,
+                None,
+                std::ptr::null_mut(),
+                |Call { batch, .. }| {
+                    let out = Output::checked(out, "out")?;
+                    let done = batch.statistics();
+                    if reset {
+                        batch.reset_statistics();
+                    }
+                    out.write(done.into());
+                    Ok(())
+                },
+            )
         }
     })
 }

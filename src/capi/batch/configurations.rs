@@ -2,9 +2,10 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, Place, Statuses};
+use super::arrays::{Entries, Place};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
-use crate::batch::{Batch, BatchJob, BatchSummary, Configurations, ItemAnswer};
+use super::call::put;
+use crate::batch::Configurations;
 use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result};
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
@@ -39,22 +40,6 @@ fn require_width(given: usize, expected: usize, name: &str, what: &str) -> Resul
     Err(Error::new(ErrorKind::WrongSize, message).into())
 }
 
-/// Writes an answer and its status, or the status of what failed.
-pub(super) fn put<A, T: Copy>(
-    (answers, statuses): &mut (Entries<T>, Statuses),
-    item: usize,
-    answer: ItemAnswer<A>,
-    convert: impl FnOnce(A) -> T,
-) {
-    match answer {
-        Ok(answer) => {
-            answers.write(item, [convert(answer)]);
-            statuses.write(item, cstk_status::CSTK_OK);
-        }
-        Err(error) => statuses.refuse(item, error),
-    }
-}
-
 /// cstk_classify for `count` configurations: `q` has count * nq doubles, one configuration after the other. `options` may be NULL for
 /// the defaults. `progress` may be NULL; it is called on this thread, with the part of the items that is done, and `user` is passed to
 /// it. `classes` and `statuses` receive `count` entries each, in order. A count of 0 is a batch without items; its arrays may be NULL.
@@ -77,27 +62,24 @@ pub unsafe extern "C" fn cstk_classify_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let cobject = handle::share::<CObject>(cobject, "cobject")?;
-                let at = configurations(cobject.space(), q, count, nq, "q")?;
-                let classes = Entries::checked(classes, count, 1, "classes")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(&[Place::of(at.q, "q")], [classes.place("classes")])?;
-                let job = BatchJob {
-                    options,
-                    slots: (classes, statuses),
-                    progress,
-                };
-                outcome.write(batch.classify(&cobject, at, job, |slots, item, class| {
-                    put(slots, item, class, cstk_class::from)
-                })?)
-            },
-        )
+        with_batch(batch, options, progress, user, |call| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let at = configurations(cobject.space(), q, count, nq, "q")?;
+            let classes = Entries::checked(classes, count, 1, "classes")?;
+            call.ask(
+                count,
+                &[Place::of(at.q, "q")],
+                classes,
+                (statuses, out),
+                |batch, job| {
+                    batch.classify(&cobject, at, job, |slots, item, class| {
+                        put(slots, item, class, |classes, class| {
+                            classes.write(item, [cstk_class::from(class)])
+                        })
+                    })
+                },
+            )
+        })
     })
 }
 
@@ -119,52 +101,39 @@ pub unsafe extern "C" fn cstk_within_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let cobject = handle::share::<CObject>(cobject, "cobject")?;
-                let at = configurations(cobject.space(), q, count, nq, "q")?;
-                let within = Entries::checked(within, count, 1, "within")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(&[Place::of(at.q, "q")], [within.place("within")])?;
-                let job = BatchJob {
-                    options,
-                    slots: (within, statuses),
-                    progress,
-                };
-                let answer = batch.within(&cobject, at, threshold, job, |slots, item, within| {
-                    put(slots, item, within, |within| within)
-                });
-                outcome.write(answer?)
-            },
-        )
+        with_batch(batch, options, progress, user, |call| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let at = configurations(cobject.space(), q, count, nq, "q")?;
+            let within = Entries::checked(within, count, 1, "within")?;
+            call.ask(
+                count,
+                &[Place::of(at.q, "q")],
+                within,
+                (statuses, out),
+                |batch, job| {
+                    batch.within(&cobject, at, threshold, job, |slots, item, answer| {
+                        put(slots, item, answer, |within, answer| {
+                            within.write(item, [answer])
+                        })
+                    })
+                },
+            )
+        })
     })
 }
 
 /// Where distances go: the number alone, and all that cstk_distance tells.
-pub(super) type DistanceSlots<'a> = (
-    Entries<'a, f64>,
-    (Entries<'a, cstk_distance_result>, Statuses<'a>),
-);
+pub(super) type DistanceOutputs<'a> = (Entries<'a, f64>, Entries<'a, cstk_distance_result>);
 
 /// Writes a distance where it is wanted.
-pub(super) fn put_distance(
-    (numbers, (results, statuses)): &mut DistanceSlots,
+pub(super) fn write_distance(
+    (numbers, results): &mut DistanceOutputs,
     item: usize,
-    answer: ItemAnswer<Distance>,
+    distance: &Distance,
 ) {
-    match answer {
-        Ok(distance) => {
-            numbers.write(item, [distance.distance]);
-            if !results.is_absent() {
-                results.write(item, [(&distance).into()]);
-            }
-            statuses.write(item, cstk_status::CSTK_OK);
-        }
-        Err(error) => statuses.refuse(item, error),
+    numbers.write(item, [distance.distance]);
+    if !results.is_absent() {
+        results.write(item, [distance.into()]);
     }
 }
 
@@ -192,68 +161,59 @@ pub unsafe extern "C" fn cstk_distance_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let cobject = handle::share::<CObject>(cobject, "cobject")?;
-                let at = configurations(cobject.space(), q, count, nq, "q")?;
-                let numbers = Entries::optional(distances, count, 1, "distances")?;
-                let results = Entries::optional(results, count, 1, "results")?;
-                if !gradients.is_null() {
-                    require_width(nv, cobject.space().nv(), "nv", "velocities")?;
-                } else if nv != 0 {
-                    let message = format!("nv must be 0 without gradients, not {nv}");
-                    return Err(Error::new(ErrorKind::WrongSize, message).into());
-                }
-                let gradients = Entries::optional(gradients, count, nv, "gradients")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(
-                    &[Place::of(at.q, "q")],
-                    [
-                        numbers.place("distances"),
-                        results.place("results"),
-                        gradients.place("gradients"),
-                    ],
-                )?;
-                let slots = (numbers, (results, statuses));
-                let summary = if gradients.is_absent() {
-                    let job = BatchJob {
-                        options,
-                        slots,
-                        progress,
-                    };
-                    batch.distance(&cobject, at, max_distance, job, put_distance)?
-                } else {
-                    let job = BatchJob {
-                        options,
-                        slots: (gradients, slots),
-                        progress,
-                    };
-                    graded(batch, &cobject, at, max_distance, job)?
-                };
-                outcome.write(summary)
-            },
-        )
+        with_batch(batch, options, progress, user, |call| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let at = configurations(cobject.space(), q, count, nq, "q")?;
+            let numbers = Entries::optional(distances, count, 1, "distances")?;
+            let results = Entries::optional(results, count, 1, "results")?;
+            let rows = gradient_rows(cobject.space(), gradients, count, nv)?;
+            let (inputs, distances) = ([Place::of(at.q, "q")], (numbers, results));
+            if rows.is_absent() {
+                return call.ask(count, &inputs, distances, (statuses, out), |batch, job| {
+                    batch.distance(&cobject, at, max_distance, job, |slots, item, answer| {
+                        put(slots, item, answer, |distances, distance| {
+                            write_distance(distances, item, &distance)
+                        })
+                    })
+                });
+            }
+            call.ask(
+                count,
+                &inputs,
+                (distances, rows),
+                (statuses, out),
+                |batch, job| {
+                    batch.distance_with_gradient(
+                        &cobject,
+                        at,
+                        max_distance,
+                        job,
+                        |slots, item, answer| {
+                            put(slots, item, answer, |(distances, rows), (distance, row)| {
+                                rows.write(item, row.iter().copied().chain(std::iter::repeat(0.0)));
+                                write_distance(distances, item, &distance)
+                            })
+                        },
+                    )
+                },
+            )
+        })
     })
 }
 
-/// Distances with gradients.
-fn graded(
-    batch: &mut Batch,
-    cobject: &CObject,
-    at: Configurations,
-    max_distance: f64,
-    job: BatchJob<(Entries<f64>, DistanceSlots)>,
-) -> Result<BatchSummary, Error> {
-    batch.distance_with_gradient(cobject, at, max_distance, job, |slots, item, answer| {
-        let (gradients, slots) = slots;
-        let distance = answer.map(|(distance, row)| {
-            gradients.write(item, row.iter().copied().chain(std::iter::repeat(0.0)));
-            distance
-        });
-        put_distance(slots, item, distance);
-    })
+/// The gradients, if they are wanted.
+unsafe fn gradient_rows<'a>(
+    space: &Space,
+    gradients: *mut f64,
+    count: usize,
+    nv: usize,
+) -> Result<Entries<'a, f64>, Failure> {
+    if !gradients.is_null() {
+        require_width(nv, space.nv(), "nv", "velocities")?;
+    } else if nv != 0 {
+        let message = format!("nv must be 0 without gradients, not {nv}");
+        return Err(Error::new(ErrorKind::WrongSize, message).into());
+    }
+    // SAFETY: as the caller states.
+    unsafe { Entries::optional(gradients, count, nv, "gradients") }
 }

@@ -34,6 +34,7 @@
 pub mod batch;
 
 mod arrays;
+mod call;
 
 pub mod configurations;
 

@@ -2,10 +2,11 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, Place};
+use super::arrays::{Entries, Place};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
+use super::call::put;
 use super::configurations::configurations;
-use crate::batch::{BatchJob, Segments};
+use crate::batch::Segments;
 use crate::capi::boundary::guard;
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
@@ -38,47 +39,33 @@ pub unsafe extern "C" fn cstk_motion_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let cobject = handle::share::<CObject>(cobject, "cobject")?;
-                let segments = Segments {
-                    starts: configurations(cobject.space(), q0, count, nq, "q0")?,
-                    ends: configurations(cobject.space(), q1, count, nq, "q1")?,
-                };
-                let asked = options_or_default(motion_options, "motion_options")?.into();
-                let reached = Entries::optional(reached, count, nq, "reached")?;
-                let results = Entries::<cstk_motion_result>::checked(results, count, 1, "results")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(
-                    &[
-                        Place::of(segments.starts.q, "q0"),
-                        Place::of(segments.ends.q, "q1"),
-                    ],
-                    [reached.place("reached"), results.place("results")],
-                )?;
-                let job = BatchJob {
-                    options,
-                    slots: (reached, (results, statuses)),
-                    progress,
-                };
-                let summary =
+        with_batch(batch, options, progress, user, |call| {
+            let cobject = handle::share::<CObject>(cobject, "cobject")?;
+            let segments = Segments {
+                starts: configurations(cobject.space(), q0, count, nq, "q0")?,
+                ends: configurations(cobject.space(), q1, count, nq, "q1")?,
+            };
+            let asked = options_or_default(motion_options, "motion_options")?.into();
+            let reached = Entries::optional(reached, count, nq, "reached")?;
+            let results = Entries::<cstk_motion_result>::checked(results, count, 1, "results")?;
+            let inputs = [
+                Place::of(segments.starts.q, "q0"),
+                Place::of(segments.ends.q, "q1"),
+            ];
+            call.ask(
+                count,
+                &inputs,
+                (reached, results),
+                (statuses, out),
+                |batch, job| {
                     batch.motion(&cobject, segments, &asked, job, |slots, item, answer| {
-                        let (reached, (results, statuses)) = slots;
-                        match answer {
-                            Ok(motion) => {
-                                reached.write(item, motion.configuration.iter().copied());
-                                results.write(item, [(&motion).into()]);
-                                statuses.write(item, cstk_status::CSTK_OK);
-                            }
-                            Err(error) => statuses.refuse(item, error),
-                        }
-                    })?;
-                outcome.write(summary)
-            },
-        )
+                        put(slots, item, answer, |(reached, results), motion| {
+                            reached.write(item, motion.configuration.iter().copied());
+                            results.write(item, [(&motion).into()]);
+                        })
+                    })
+                },
+            )
+        })
     })
 }

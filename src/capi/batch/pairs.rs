@@ -2,17 +2,39 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{Entries, Outcome, Place, poses};
+use super::arrays::{Entries, Place, poses};
 use super::batch::{cstk_batch, cstk_batch_options, cstk_batch_result, with_batch};
-use super::configurations::{put, put_distance};
-use crate::batch::{BatchJob, PosePairs};
+use super::call::put;
+use super::configurations::write_distance;
+use crate::batch::PosePairs;
 use crate::body::Body;
 use crate::capi::at_configuration::answers::cstk_distance_result;
 use crate::capi::body::body::cstk_body;
-use crate::capi::boundary::guard;
+use crate::capi::boundary::{Failure, guard};
 use crate::capi::handle;
 use crate::capi::status::callbacks::cstk_progress_fn;
 use crate::capi::status::status::cstk_status;
+
+/// Two bodies at the poses of a call, whose numbers are not yet checked.
+unsafe fn pose_pairs<'a>(
+    bodies: [&'a Body; 2],
+    [poses_a, poses_b]: [*const f64; 2],
+    count: usize,
+) -> Result<PosePairs<'a>, Failure> {
+    // SAFETY: as the caller states.
+    let poses = unsafe {
+        [
+            poses(poses_a, count, "poses_a")?,
+            poses(poses_b, count, "poses_b")?,
+        ]
+    };
+    Ok(PosePairs { bodies, poses })
+}
+
+fn places(pairs: &PosePairs) -> [Place; 2] {
+    let [a, b] = pairs.poses;
+    [Place::of(a, "poses_a"), Place::of(b, "poses_b")]
+}
 
 /// cstk_pair_within for `count` pairs of poses: `poses_a` and `poses_b` have 12 * count doubles each. With threshold 0, whether the bodies
 /// meet. `within` and `statuses` receive `count` entries each. A pose that is none fails its own item alone. All else as for
@@ -35,42 +57,25 @@ pub unsafe extern "C" fn cstk_pair_within_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let a = handle::share::<Body>(body_a, "body_a")?;
-                let b = handle::share::<Body>(body_b, "body_b")?;
-                let pairs = PosePairs {
-                    bodies: [&a, &b],
-                    poses: [
-                        poses(poses_a, count, "poses_a")?,
-                        poses(poses_b, count, "poses_b")?,
-                    ],
-                };
-                let within = Entries::checked(within, count, 1, "within")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(
-                    &[
-                        Place::of(pairs.poses[0], "poses_a"),
-                        Place::of(pairs.poses[1], "poses_b"),
-                    ],
-                    [within.place("within")],
-                )?;
-                let job = BatchJob {
-                    options,
-                    slots: (within, statuses),
-                    progress,
-                };
-                outcome.write(
-                    batch.pair_within(pairs, threshold, job, |slots, item, within| {
-                        put(slots, item, within, |within| within)
-                    })?,
-                )
-            },
-        )
+        with_batch(batch, options, progress, user, |call| {
+            let a = handle::share::<Body>(body_a, "body_a")?;
+            let b = handle::share::<Body>(body_b, "body_b")?;
+            let pairs = pose_pairs([&a, &b], [poses_a, poses_b], count)?;
+            let within = Entries::checked(within, count, 1, "within")?;
+            call.ask(
+                count,
+                &places(&pairs),
+                within,
+                (statuses, out),
+                |batch, job| {
+                    batch.pair_within(pairs, threshold, job, |slots, item, answer| {
+                        put(slots, item, answer, |within, answer| {
+                            within.write(item, [answer])
+                        })
+                    })
+                },
+            )
+        })
     })
 }
 
@@ -96,38 +101,25 @@ pub unsafe extern "C" fn cstk_pair_distance_batch(
 ) -> cstk_status {
     // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
     guard(|| unsafe {
-        with_batch(
-            batch,
-            options,
-            progress,
-            user,
-            |batch, options, progress| {
-                let a = handle::share::<Body>(body_a, "body_a")?;
-                let b = handle::share::<Body>(body_b, "body_b")?;
-                let pairs = PosePairs {
-                    bodies: [&a, &b],
-                    poses: [
-                        poses(poses_a, count, "poses_a")?,
-                        poses(poses_b, count, "poses_b")?,
-                    ],
-                };
-                let numbers = Entries::optional(distances, count, 1, "distances")?;
-                let results = Entries::optional(results, count, 1, "results")?;
-                let (outcome, statuses) = Outcome::checked(statuses, count, out)?;
-                outcome.require_apart(
-                    &[
-                        Place::of(pairs.poses[0], "poses_a"),
-                        Place::of(pairs.poses[1], "poses_b"),
-                    ],
-                    [numbers.place("distances"), results.place("results")],
-                )?;
-                let job = BatchJob {
-                    options,
-                    slots: (numbers, (results, statuses)),
-                    progress,
-                };
-                outcome.write(batch.pair_distance(pairs, max_distance, job, put_distance)?)
-            },
-        )
+        with_batch(batch, options, progress, user, |call| {
+            let a = handle::share::<Body>(body_a, "body_a")?;
+            let b = handle::share::<Body>(body_b, "body_b")?;
+            let pairs = pose_pairs([&a, &b], [poses_a, poses_b], count)?;
+            let numbers = Entries::optional(distances, count, 1, "distances")?;
+            let results = Entries::optional(results, count, 1, "results")?;
+            call.ask(
+                count,
+                &places(&pairs),
+                (numbers, results),
+                (statuses, out),
+                |batch, job| {
+                    batch.pair_distance(pairs, max_distance, job, |slots, item, answer| {
+                        put(slots, item, answer, |distances, distance| {
+                            write_distance(distances, item, &distance)
+                        })
+                    })
+                },
+            )
+        })
     })
 }

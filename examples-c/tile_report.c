@@ -1,4 +1,4 @@
-#include "map_report.h"
+#include "tile_report.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -59,11 +59,11 @@ static void print_costs(double *seconds, size_t count, double sum) {
     printf("  the dearest tenth of the tiles took %.0f %% of %.3g s\n", 100 * dearest / sum, sum);
 }
 
-void print_report(const map_work *work, const tile_log *log) {
+void print_report(const tile_work *work, const tile_log *log) {
     int ranks = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     size_t count = 0;
-    tile_cost all = {0, 0, 0, 0};
+    tile_cost all = {0, 0, {0, 0}};
     double *seconds = malloc(work->tile_count * sizeof *seconds);
     double *of_rank = calloc((size_t)ranks, sizeof *of_rank);
     if (seconds == NULL || of_rank == NULL) {
@@ -76,13 +76,14 @@ void print_report(const map_work *work, const tile_log *log) {
             of_rank[log->ranks[i]] += cost->seconds;
             all.seconds += cost->seconds;
             all.writing += cost->writing;
-            all.proofs += cost->proofs;
-            all.questions += cost->questions;
+            all.counts[0] += cost->counts[0];
+            all.counts[1] += cost->counts[1];
         }
     }
     printf("%zu of %zu tiles computed by %d rank%s, the others were on disk; %" PRIu64
-           " proofs, %" PRIu64 " configurations\n",
-           count, work->tile_count, ranks, ranks == 1 ? "" : "s", all.proofs, all.questions);
+           " %s, %" PRIu64 " %s\n",
+           count, work->tile_count, ranks, ranks == 1 ? "" : "s", all.counts[0],
+           work->count_names[0], all.counts[1], work->count_names[1]);
     if (count > 0) {
         print_forecast(seconds, count, all.seconds);
         printf("  writing took %.3g ms a tile\n", 1e3 * all.writing / (double)count);
@@ -97,17 +98,17 @@ void print_report(const map_work *work, const tile_log *log) {
     free(of_rank);
 }
 
-void write_costs(const char *name, const map_work *work, const tile_log *log) {
+void write_costs(const char *name, const tile_work *work, const tile_log *log) {
     FILE *file = fopen(name, "w");
     if (file == NULL) {
         fail("%s: %s", name, strerror(errno));
     }
-    fprintf(file, "tile,rank,seconds,writing,proofs,questions\n");
+    fprintf(file, "tile,rank,seconds,writing,%s,%s\n", work->count_names[0], work->count_names[1]);
     for (size_t i = 0; i < work->tile_count; ++i) {
         if (log->ranks[i] >= 0) {
             const tile_cost *cost = &log->costs[i];
             fprintf(file, "%zu,%d,%.9f,%.9f,%" PRIu64 ",%" PRIu64 "\n", i, log->ranks[i],
-                    cost->seconds, cost->writing, cost->proofs, cost->questions);
+                    cost->seconds, cost->writing, cost->counts[0], cost->counts[1]);
         }
     }
     if (fclose(file) != 0) {
