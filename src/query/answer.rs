@@ -58,6 +58,8 @@ pub struct Distance {
     pub points: [Vec3; 2],
     /// The contact at the witness points, if there is one.
     pub contact: Option<ContactRecord>,
+    /// The nearest bodies may differ from what they stand for, so that these need not meet where the bodies do.
+    pub is_approximate: bool,
     /// The version of the environment that the query saw; 0 without an environment.
     pub version: u64,
 }

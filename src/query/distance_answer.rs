@@ -30,6 +30,7 @@ impl Distance {
             witness: None,
             points: Default::default(),
             contact: None,
+            is_approximate: false,
             version,
         }
     }
@@ -83,7 +84,7 @@ impl Distance {
                     }
                 };
                 let contact = pairing.first_world_contact(hit.key.primitives, measured, scratch);
-                let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
+                let record = contact.map(|c| ContactRecord::new(c, target.margin()));
                 (pairing.world_points(&measured.closest), record)
             }
         };
@@ -109,6 +110,8 @@ impl Distance {
             points,
             contact,
         } = found;
+        let stated = target.stated_deviation();
+        let above = error + 2.0 * stated;
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.distance == 0.0,
@@ -120,18 +123,20 @@ impl Distance {
             lower,
             // Sets that meet by their measured distance may be apart by twice the error: they count as meeting up to the
             // error, and the measured distance may itself be too small by it. Where it was not measured exactly, `apart` is
-            // an upper bound of it.
+            // an upper bound of it. What the bodies stand for may be farther apart by the stated deviations, which the
+            // distance is less already.
             upper: if hit.distance == 0.0 {
-                match hit.apart - target.options.margin + error {
+                match hit.apart - target.margin() + above {
                     beyond if beyond <= 0.0 => 0.0,
                     beyond => beyond.max(2.0 * error),
                 }
             } else {
-                hit.distance + error
+                hit.distance + above
             },
             witness: Some(witness),
             points,
             contact,
+            is_approximate: stated > 0.0,
             version: 0,
         }
     }
@@ -161,6 +166,7 @@ impl Distance {
             witness: Some(witness),
             points: contact.map_or_else(Default::default, |contact| contact.points),
             contact,
+            is_approximate: false,
             version: 0,
         }
     }
@@ -230,7 +236,10 @@ impl Distance {
         let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
         if is_zero(&self) && is_zero(&other) {
             // Two sets that contain the configuration only up to rounding need not meet there.
-            let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
+            let is_inside = |d: &Self| {
+                let overlaps = d.witness.is_some_and(|w| w.overlapping);
+                (overlaps && !d.is_approximate) || d.upper == 0.0
+            };
             let is_certain = is_inside(&self) && is_inside(&other);
             let widest = if other.upper > self.upper {
                 other

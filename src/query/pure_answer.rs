@@ -26,7 +26,8 @@ pub(crate) struct PureWitness {
 
 impl PureAt<'_> {
     pub fn class(&self) -> Result<Class> {
-        let class = self.set.classify(&self.scene.space_state())?;
+        let state = self.scene.space_state();
+        let class = self.set.classify(&state, self.complement)?;
         Ok(class.reversed_if(self.complement))
     }
 
@@ -143,17 +144,18 @@ impl PureAt<'_> {
             features: [Feature::interior(); 2],
         };
         if let Some(place) = self.set.place(&self.scene.space_state()) {
-            contact.place(&place, self.sign());
+            contact.place(&place, self.sign(), 0.5 * measure.excess);
         }
         Ok(Some(contact))
     }
 }
 
 impl ContactRecord {
-    /// Sets points and normal at the place where a link is near the world box or a floor.
-    fn place(&mut self, place: &WorldPlace, sign: f64) {
+    /// Sets points and normal at the place where a link is near the world box or a floor. The points are those of the body, whose
+    /// stated deviation the clearance is less.
+    fn place(&mut self, place: &WorldPlace, sign: f64, stated_deviation: f64) {
         let normal = place.normal * sign;
-        self.points = [place.point, place.point - normal * self.clearance];
+        self.points = [place.point, place.point - normal * (self.clearance + sign * stated_deviation)];
         self.normal = normal;
     }
 }

@@ -154,7 +154,8 @@ impl QueryContext {
                 None => return Ok(None),
             }
         };
-        let margin = target.options.margin;
+        let margin = target.margin();
+        let excess = 2.0 * target.stated_deviation();
         let witness = Witness {
             distance: hit.distance,
             ..Witness::of(target, &hit, leaf)
@@ -171,7 +172,7 @@ impl QueryContext {
             let pair = SignedDistance {
                 distance: hit.apart - margin,
                 lower: hit.apart - margin - doubt,
-                upper: hit.apart - margin + error,
+                upper: hit.apart - margin + excess + error,
                 ..apart.pair_of(witness)
             };
             return Ok(Some(Measured {
@@ -186,7 +187,7 @@ impl QueryContext {
             let pair = SignedDistance {
                 distance: -margin,
                 lower: f64::NEG_INFINITY,
-                upper: -margin,
+                upper: excess - margin,
                 ..undefined.pair_of(witness)
             };
             return Ok(Some(Measured {
@@ -205,6 +206,11 @@ impl QueryContext {
             lower: -depth.upper - margin,
             upper: -depth.lower - margin,
             ..out.pair_of(witness)
+        };
+        let pair = if excess > 0.0 {
+            of_approximate(pair, target)
+        } else {
+            pair
         };
         Ok(Some(Measured { pair, row: out.row }))
     }
@@ -247,6 +253,23 @@ impl QueryContext {
                 false => GradientKind::OneOfSeveral,
             },
         })
+    }
+}
+
+/// The signed distance where bodies meet that may differ from what they stand for. That these meet is not proved. What they stand for
+/// lies in the bodies grown by the deviations: for convex ones that adds as much to the depth, for others it may close the way out.
+fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
+    let are_convex = target
+        .sides
+        .iter()
+        .all(|(body, _)| body.primitives().len() == 1);
+    SignedDistance {
+        lower: match are_convex {
+            true => pair.lower,
+            false => f64::NEG_INFINITY,
+        },
+        upper: 2.0 * target.stated_deviation() - target.margin(),
+        ..pair
     }
 }
 
