@@ -50,11 +50,8 @@ impl Measure {
         let here = BoundedDistance {
             distance: 0.0,
             lower: 0.0,
-            upper: if certain {
-                0.0
-            } else {
-                2.0 * error + excess
-            },
+            upper: if certain { 0.0 } else { 2.0 * error + excess },
+            excess: if certain { 0.0 } else { excess },
             is_exact: true,
         };
         let (away, is_bound) = if !from_complement {
@@ -72,6 +69,7 @@ impl Measure {
                 distance: lower,
                 lower,
                 upper: f64::INFINITY,
+                excess: 0.0,
                 is_exact: false,
             };
         }
@@ -82,6 +80,7 @@ impl Measure {
             distance: away,
             lower: away - error,
             upper: away + excess + error,
+            excess,
             is_exact: true,
         }
     }
@@ -96,6 +95,8 @@ pub struct BoundedDistance {
     pub lower: f64,
     /// The true distance is not larger.
     pub upper: f64,
+    /// What of the upper bound is there because of the measure's excess.
+    pub excess: f64,
     /// Whether the distance is known; else `distance` is the lower bound.
     pub is_exact: bool,
 }

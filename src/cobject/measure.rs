@@ -7,9 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::spans::{Span, largest, measure_of, slopes_of, span};
-use super::world_place::{
-    beyond_world, largest_coordinate_of, over_floor, stated_deviation_of,
-};
+use super::world_place::{beyond_world, largest_coordinate_of, over_floor, stated_deviation_of};
 use super::{Class, Measure, PureSet, PureShape, SpaceState, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
 use crate::robot::{Coordinate, RobotState};

@@ -140,7 +140,9 @@ impl QueryContext {
                     LeafQuery::Induced(group) => {
                         self.class_of_group(group, classes.scene, is_proved)?
                     }
-                    LeafQuery::Pure(set) => set.classify(&classes.scene.space_state(), is_proved)?,
+                    LeafQuery::Pure(set) => {
+                        set.classify(&classes.scene.space_state(), is_proved)?
+                    }
                 },
             };
             classes.leaves.insert(own, class);

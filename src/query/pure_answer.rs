@@ -41,6 +41,7 @@ impl PureAt<'_> {
             distance: 0.0,
             lower: 0.0,
             upper: if is_inside { 0.0 } else { f64::INFINITY },
+            excess: 0.0,
             is_exact: is_inside,
         })
     }
@@ -155,7 +156,10 @@ impl ContactRecord {
     /// stated deviation the clearance is less.
     fn place(&mut self, place: &WorldPlace, sign: f64, stated_deviation: f64) {
         let normal = place.normal * sign;
-        self.points = [place.point, place.point - normal * (self.clearance + sign * stated_deviation)];
+        self.points = [
+            place.point,
+            place.point - normal * (self.clearance + sign * stated_deviation),
+        ];
         self.normal = normal;
     }
 }
