@@ -102,6 +102,11 @@ static void bodies() {
     REQUIRE(status_of([&] { builder.build(); }) == CSTK_ERROR_NOT_CLOSED);
     builder.set_solid(false);
 
+    builder.set_deviation(0.25);
+    REQUIRE(builder.build().statistics().deviation == 0.25);
+    REQUIRE(status_of([&] { builder.set_deviation(-1); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    builder.set_deviation(0);
+
     int heard = 0;
     builder.build(cstk::hierarchy_options(), [&](double) { return ++heard > 0; });
     REQUIRE(heard > 1);

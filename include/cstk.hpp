@@ -703,6 +703,12 @@ public:
         return *this;
     }
 
+    /// The body stands for something no farther from it than this, such as a curved surface: answers hold for that.
+    BodyBuilder &set_deviation(double deviation) {
+        check(cstk_body_builder_set_deviation(get(), deviation));
+        return *this;
+    }
+
     BodyBuilder &add_sphere(const Vector &center, double radius, std::uint64_t tag = 0) {
         check(cstk_body_builder_add_sphere(get(), center.data(), radius, tag));
         return *this;

@@ -390,6 +390,12 @@ class BodyBuilder(Handle):
         check(lib.cstk_body_builder_set_solid(self._pointer, bool(solid)))
         return self
 
+    def set_deviation(self, deviation: float) -> "BodyBuilder":
+        """States that the body stands for something no farther from it than `deviation`, such as a curved surface: answers hold for
+        that. Deviations are subtracted from distances as a margin is; upper bounds are greater by twice as much."""
+        check(lib.cstk_body_builder_set_deviation(self._pointer, scalar("deviation", deviation)))
+        return self
+
     def add_sphere(self, center: ArrayLike, radius: float, tag: int = 0) -> "BodyBuilder":
         """Adds a ball; in the plane a disc."""
         middle = doubles(vector("center", center, 3))

@@ -304,6 +304,30 @@ pub unsafe extern "C" fn cstk_body_builder_set_solid(
     })
 }
 
+/// States that the body stands for something else, such as a curved surface that its polygons approximate: no point of either is farther
+/// than `deviation` from the other (their Hausdorff distance), where the inside of a solid counts. From 0, the default, to 1e50, in your
+/// unit; for all primitives of the builder, those added later too. A body made of others (cstk_body_builder_add_body) has the largest
+/// deviation of theirs and its own; cstk_body_refit and files keep it, `deviation` of cstk_body_statistics tells it.
+///
+/// Answers are then about what the bodies stand for. Deviations of both bodies add up and act as a margin does
+/// (cstk_induced_options): they are subtracted from every distance, so that lower bounds, classes, thresholds, motions, regions,
+/// slides, maps and certificates say "apart" and "free" only if what the bodies stand for is. The upper bound of a distance is
+/// greater by twice their sum: the true distance is from `lower` to `upper`. Points, normals, features and gradients are those of
+/// the bodies as they were built, distances and clearances of contacts are less the deviations.
+///
+/// That what bodies stand for meets is never proved if one states a deviation: CSTK_CLASS_INSIDE means that it may. For a
+/// complement, where that would have to be proved, such pairs count as apart: no motion and no region is free of it because of them, and
+/// no region is CSTK_REGION_INSIDE. cstk_pair_depth refuses them (CSTK_ERROR_UNSUPPORTED) if they may meet; signed distances of such pairs have a lower bound of
+/// -INFINITY unless both bodies are single primitives. cstk_pair_penetration is of the primitives as they are. CSTK_ERROR_NOT_FINITE, or
+/// CSTK_ERROR_INVALID_ARGUMENT for a deviation below 0 or too large.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_body_builder_set_deviation(
+    builder: *mut cstk_body_builder,
+    deviation: f64,
+) -> cstk_status {
+    guard(|| with_builder(builder, |builder| Ok(builder.set_deviation(deviation)?)))
+}
+
 /// Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
 /// the defaults; `progress` may be NULL; `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared
 /// solid: CSTK_ERROR_NOT_CLOSED if the boundary has open edges, or is one-sided (not orientable), with a message that names
