@@ -6,7 +6,7 @@ use super::candidates::CandidateFilter;
 use super::context::{QueryContext, check_threshold};
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
-use crate::cobject::{CObject, Leaf, Set};
+use crate::cobject::{CObject, InducedOptions, Leaf, Set};
 use crate::depth::{Depth, DepthOptions, Touching, require_inside, touching_at};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Hit;
@@ -147,36 +147,36 @@ impl QueryContext {
         max_distance: f64,
         options: &DepthOptions,
     ) -> Result<Option<Measured>> {
-        let (hit, lower) = {
-            let found = self.nearest(std::slice::from_ref(target), max_distance)?;
+        let margin = target.margin();
+        let excess = 2.0 * target.stated_deviation();
+        let (hit, doubt) = {
+            let alone = &[without_margin(target)];
+            let found = self.nearest(alone, max_distance + margin)?;
             match found.hit {
-                Some((hit, _)) => (hit, found.lower),
+                Some((hit, _)) => (hit, hit.distance - found.lower),
                 None => return Ok(None),
             }
         };
-        let margin = target.margin();
-        let excess = 2.0 * target.stated_deviation();
         let witness = Witness {
-            distance: hit.distance,
+            distance: (hit.distance - margin).max(0.0),
             ..Witness::of(target, &hit, leaf)
         };
         let state = scene.state().expect("the configuration is known");
         let error = target.pairing().precision.error;
         if hit.contained.is_none() && hit.apart > error {
-            let doubt = match hit.distance > 0.0 {
-                true => (hit.distance - lower).max(error),
-                // Within the margin the search keeps no bound.
-                false => error + tolerance::SMOOTH_ERROR * target.pairing().precision.size,
-            };
             let apart = self.apart(scene, state, target, &hit)?;
             let pair = SignedDistance {
                 distance: hit.apart - margin,
-                lower: hit.apart - margin - doubt,
+                lower: hit.apart - margin - doubt.max(error),
                 upper: hit.apart - margin + excess + error,
                 ..apart.pair_of(witness)
             };
             return Ok(Some(Measured {
-                pair,
+                pair: if pair.lower + target.options.margin > 0.0 {
+                    pair
+                } else {
+                    of_approximate(pair, target)
+                },
                 row: apart.row,
             }));
         }
@@ -207,11 +207,7 @@ impl QueryContext {
             upper: -depth.lower - margin,
             ..out.pair_of(witness)
         };
-        let pair = if excess > 0.0 {
-            of_approximate(pair, target)
-        } else {
-            pair
-        };
+        let pair = of_approximate(pair, target);
         Ok(Some(Measured { pair, row: out.row }))
     }
 
@@ -256,9 +252,26 @@ impl QueryContext {
     }
 }
 
-/// The signed distance where bodies meet that may differ from what they stand for. That these meet is not proved. What they stand for
-/// lies in the bodies grown by the deviations: for convex ones that adds as much to the depth, for others it may close the way out.
+/// The same pair, measured without a margin: within a margin the nearest primitives are not looked for.
+fn without_margin<'a>(target: &Target<'a>) -> Target<'a> {
+    let options = InducedOptions {
+        margin: -target.stated_deviation(),
+        ..target.options
+    };
+    Target {
+        options,
+        bound: target.bound + target.margin(),
+        ..*target
+    }
+}
+
+/// The signed distance of bodies that meet, or may meet, by what is known of what they stand for. That this meets is not proved. It lies in the
+/// bodies grown by the stated deviations: convex ones are deeper in each other by these at most, but others may have no way out left.
 fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
+    let stated = target.stated_deviation();
+    if stated == 0.0 {
+        return pair;
+    }
     let are_convex = target
         .sides
         .iter()
@@ -268,7 +281,7 @@ fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
             true => pair.lower,
             false => f64::NEG_INFINITY,
         },
-        upper: 2.0 * target.stated_deviation() - target.margin(),
+        upper: pair.upper.max(stated - target.options.margin),
         ..pair
     }
 }

@@ -31,6 +31,7 @@ enum Kind {
 }
 
 /// A ball or its surface around the origin, with the body that stands for it.
+#[derive(Debug)]
 struct Ball {
     kind: Kind,
     radius: f64,
@@ -188,7 +189,7 @@ fn environments_see_what_bodies_state() {
         let objects: Vec<_> = placed.iter().map(|(ball, at)| (&ball.body, *at)).collect();
         let (world, ids) = environment(&objects);
         let limit = [0.0, 0.2, 1.0][round % 3];
-        let sets = &mut ObjectSets::within(&world);
+        let sets = &mut ObjectSets::new(&world, None, None).unwrap();
         let found = query.environment_pairs(sets, limit, 1000, true).unwrap();
         let mut expected = 0;
         let mut least = f64::INFINITY;
@@ -212,7 +213,7 @@ fn environments_see_what_bodies_state() {
             }
         }
         assert_eq!(found.pairs.len(), expected);
-        let sets = &mut ObjectSets::within(&world);
+        let sets = &mut ObjectSets::new(&world, None, None).unwrap();
         let nearest = query.environment_distance(sets, f64::INFINITY).unwrap();
         assert_eq!(nearest.distance, least);
     }
@@ -223,7 +224,7 @@ struct Scene {
     moving: Ball,
     rest: Vec<(Ball, Pose)>,
     space: Arc<Space>,
-    cobject: CObject,
+    cobject: Arc<CObject>,
 }
 
 impl Scene {
@@ -242,7 +243,7 @@ impl Scene {
         let objects: Vec<_> = rest.iter().map(|(ball, at)| (&ball.body, *at)).collect();
         let (world, _) = environment(&objects);
         let space = space(vec![free_body(&moving.body)]);
-        let cobject = against(&space, &world);
+        let cobject = Arc::new(against(&space, &world));
         Self {
             moving,
             rest,
@@ -270,7 +271,7 @@ fn motions_boxes_and_certificates_hold_for_what_bodies_stand_for() {
     let (mut free, mut hit, mut boxes, mut narrow) = (0, 0, 0, 0);
     for _ in 0..60 {
         let scene = Scene::new(&mut random);
-        let complement = CObject::complement(&Arc::new(scene.cobject.clone())).unwrap();
+        let complement = CObject::complement(&scene.cobject).unwrap();
         for _ in 0..6 {
             let q0 = scene.drawn(&mut random);
             let q1: Vec<f64> = q0.iter().map(|x| x + random.within(-1.5, 1.5)).collect();
@@ -401,8 +402,8 @@ fn floors_see_what_bodies_state() {
             contact_epsilon: 0.05,
             scale: None,
         };
-        let floor = CObject::pure(space.clone(), shape, options).unwrap();
-        let complement = CObject::complement(&Arc::new(floor.clone())).unwrap();
+        let floor = Arc::new(CObject::pure(space.clone(), shape, options).unwrap());
+        let complement = CObject::complement(&floor).unwrap();
         let height = 1.0 + random.within(-3.0, 3.0) * ball.deviation;
         let at = normal * height;
         let turns = [0; 3].map(|_| random.within(-3.0, 3.0));
