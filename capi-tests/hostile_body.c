@@ -370,6 +370,44 @@ static void set_deviation(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void add_bezier_patch(const fixture *f) {
+    const double sheet[12] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0.5};
+    const double weights[4] = {1, 1, 1, 2};
+    const double spoilt[4] = {1, 1, 0, 2};
+    EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
+        CHECK_FAILS(cstk_body_builder_add_bezier_patch(bad->handle, 1, 1, sheet, weights, 4, 0.01, 0), bad->status,
+                    "builder");
+    }
+    cstk_body_builder *builder = NULL;
+    cstk_body *body = NULL;
+    cstk_body_statistics s;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, NULL, NULL, 4, 0.01, 0),
+                CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 3, 0.01, 0), CSTK_ERROR_WRONG_SIZE,
+                "patch (primitive 0)");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, UINT32_MAX, 1, sheet, NULL, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "degree_u");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 0, sheet, NULL, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "degree_v");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, spoilt, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "weight 2");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, 0, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "tolerance");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, NAN, 0), CSTK_ERROR_NOT_FINITE,
+                "tolerance");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, 1e-300, 0), CSTK_ERROR_LIMIT,
+                "tolerance");
+    CHECK_FAILS(cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "primitive");
+    CHECK_OK(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, weights, 4, 0.01, 3));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(s.primitive_count > 2 && s.deviation > 0 && s.deviation <= 0.01 && s.high[2] == 0.5);
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_release(builder));
+    fixture_unchanged(f);
+}
+
 static void set_solid(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
         CHECK_FAILS(cstk_body_builder_set_solid(bad->handle, true), bad->status, "builder");
@@ -530,6 +568,7 @@ int main(void) {
     place_mesh(&f);
     build(&f);
     set_deviation(&f);
+    add_bezier_patch(&f);
     set_solid(&f);
     solid_around(&f);
     get_statistics(&f);

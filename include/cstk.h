@@ -549,7 +549,11 @@ typedef struct cstk_body_statistics {
    * Bodies that it was put together of (cstk_body_builder_add_body).
    */
   uint64_t part_count;
-  uint64_t reserved[5];
+  /**
+   * How far what the body stands for may be from it (cstk_body_builder_set_deviation).
+   */
+  double deviation;
+  uint64_t reserved[4];
 } cstk_body_statistics;
 
 /**
@@ -708,6 +712,27 @@ cstk_status cstk_body_builder_add_body(cstk_body_builder *builder,
  */
 cstk_status cstk_body_builder_set_solid(cstk_body_builder *builder,
                                         bool solid);
+
+/**
+ * States that the body stands for something else, such as a curved surface that its polygons approximate: no point of either is farther
+ * than `deviation` from the other (their Hausdorff distance), where the inside of a solid counts. From 0, the default, to 1e50, in your
+ * unit; for all primitives of the builder, those added later too. A body made of others (cstk_body_builder_add_body) has the largest
+ * deviation of theirs and its own; cstk_body_refit and files keep it, `deviation` of cstk_body_statistics tells it.
+ *
+ * Answers are then about what the bodies stand for. Deviations of both bodies add up and act as a margin does (cstk_induced_options):
+ * they are subtracted from every distance, so that lower bounds, classes, thresholds, motions, regions, slides, maps and certificates
+ * say "apart" and "free" only if what the bodies stand for is. The upper bound of a distance is greater by twice their sum: the true
+ * distance is from `lower` to `upper`. Points, normals, features and gradients are those of the bodies as they were built, distances and
+ * clearances of contacts are less the deviations.
+ *
+ * That what bodies stand for meets is never proved if one states a deviation: CSTK_CLASS_INSIDE means that it may. For a complement,
+ * where that would have to be proved, such pairs count as apart: no motion and no region is free of it because of them, and no region is
+ * CSTK_REGION_INSIDE. cstk_pair_depth refuses them (CSTK_ERROR_UNSUPPORTED) if they may meet; signed distances of such pairs have a
+ * lower bound of -INFINITY unless both bodies are single primitives. cstk_pair_penetration is of the primitives as they are.
+ * CSTK_ERROR_NOT_FINITE, or CSTK_ERROR_INVALID_ARGUMENT for a deviation below 0 or too large.
+ */
+cstk_status cstk_body_builder_set_deviation(cstk_body_builder *builder,
+                                            double deviation);
 
 /**
  * Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
@@ -3186,7 +3211,8 @@ cstk_status cstk_cobject_intersection(const cstk_cobject *const *parts,
                                       cstk_cobject **out);
 
 /**
- * Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. See
+ * Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. Bodies that state a
+ * deviation (cstk_body_builder_set_deviation) count as apart in it. See
  * cstk_cobject_union.
  */
 cstk_status cstk_cobject_complement(const cstk_cobject *part,

@@ -30,6 +30,8 @@ pub struct BodyBuilder {
     scraps: Vec<DegenerateFace>,
     is_solid: bool,
     stated_deviation: f64,
+    /// How far the triangles of patches are from them.
+    patch_deviation: f64,
     faces_split: u64,
     faces_dropped: u64,
 }
@@ -46,6 +48,7 @@ impl BodyBuilder {
             scraps: Vec::new(),
             is_solid: false,
             stated_deviation: 0.0,
+            patch_deviation: 0.0,
             faces_split: 0,
             faces_dropped: 0,
         })
@@ -83,6 +86,11 @@ impl BodyBuilder {
         // No -0.
         self.stated_deviation = deviation.abs();
         Ok(())
+    }
+
+    /// Notes that triangles are so far from the patch that they stand for.
+    pub(super) fn raise_deviation(&mut self, deviation: f64) {
+        self.patch_deviation = self.patch_deviation.max(deviation);
     }
 
     /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles. Faces
@@ -280,7 +288,11 @@ impl BodyBuilder {
         )
         .with_solid(solid)
         .with_parts(self.added.parts())
-        .with_stated_deviation(self.stated_deviation.max(self.added.stated_deviation())))
+        .with_stated_deviation(
+            self.stated_deviation
+                .max(self.patch_deviation)
+                .max(self.added.stated_deviation()),
+        ))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {

@@ -45,8 +45,8 @@ enum Bounds {
 pub(super) const MAX_TURN: f64 = 1.0;
 
 impl<'a> MovingPair<'a> {
-    /// `threshold` comes with the margin of the pair's set. `speed` gives the largest speed of A's points as B sees it where the derivatives are unknown; the pair is `None` where that
-    /// is infinite.
+    /// `threshold` comes with the margin of the pair's set. `speed` gives the largest speed of A's points as B sees it where the
+    /// derivatives are unknown; the pair is `None` where that is infinite.
     pub fn new(
         a: Carried<'a, usize>,
         b: Carried<'a, Option<usize>>,

@@ -265,8 +265,8 @@ fn without_margin<'a>(target: &Target<'a>) -> Target<'a> {
     }
 }
 
-/// The signed distance of bodies that meet, or may meet, by what is known of what they stand for. That this meets is not proved. It lies in the
-/// bodies grown by the stated deviations: convex ones are deeper in each other by these at most, but others may have no way out left.
+/// The signed distance of bodies that meet, or may meet, by what is known of what they stand for. That this meets is not proved. It lies
+/// in the bodies grown by the stated deviations: convex ones are deeper in each other by these at most, others may have no way out left.
 fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
     let stated = target.stated_deviation();
     if stated == 0.0 {
