@@ -735,6 +735,28 @@ cstk_status cstk_body_builder_set_deviation(cstk_body_builder *builder,
                                             double deviation);
 
 /**
+ * Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
+ * `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
+ * the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
+ *
+ * `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
+ * u. `weights` holds one for each, all above 0, of a rational patch, or is NULL. A NURBS surface is one such patch for each knot span,
+ * once its knots have full multiplicity. All triangles have this tag. In 3-D the patch is a surface; cstk_body_builder_set_solid does not
+ * count it among the faces of a boundary. Edges of a patch may be points.
+ *
+ * Degrees are from 1 to 32; a weight is at least 1e-6 of the largest: CSTK_ERROR_INVALID_ARGUMENT otherwise. CSTK_ERROR_WRONG_SIZE for
+ * another number of points. CSTK_ERROR_LIMIT where the tolerance asks for more than 2^18 cells; halving it takes about twice as many.
+ */
+cstk_status cstk_body_builder_add_bezier_patch(cstk_body_builder *builder,
+                                               uint32_t degree_u,
+                                               uint32_t degree_v,
+                                               const double *xyz,
+                                               const double *weights,
+                                               size_t point_count,
+                                               double tolerance,
+                                               uint64_t tag);
+
+/**
  * Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
  * the defaults; `progress` may be NULL; `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared
  * solid: CSTK_ERROR_NOT_CLOSED if the boundary has open edges, or is one-sided (not orientable), with a message that names

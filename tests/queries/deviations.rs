@@ -505,3 +505,36 @@ fn what_is_stated_stays_in_files_parts_and_refitted_bodies() {
         assert!(BodyBuilder::new(3).unwrap().set_deviation(refused).is_err());
     }
 }
+
+/// The largest deviation there can be: nothing is proved apart, and nothing fails.
+#[test]
+fn what_may_be_anywhere_is_near_everything() {
+    let mut random = Random::new(2107);
+    let mut query = QueryContext::new();
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_mesh(&sphere(0.5, 4)).unwrap();
+    builder.set_deviation(1e50).unwrap();
+    let anywhere = built(&builder);
+    let other = Ball::exact(0.1).body;
+    let mut objects: Vec<_> = (0..40).map(|_| (&other, random.pose(50.0))).collect();
+    objects.push((&anywhere, random.pose(50.0)));
+    let (world, _) = environment(&objects);
+    let sets = &mut ObjectSets::new(&world, None, None).unwrap();
+    let found = query.environment_pairs(sets, 0.0, 1000, false).unwrap();
+    assert!(found.pairs.len() >= 40);
+    for body in [&anywhere, &other] {
+        let space = space(vec![free_body(body)]);
+        let cobject = against(&space, &world);
+        let (q0, q1) = ([100.0; 6], [101.0; 6]);
+        let class = query.classify(&cobject, Configuration::Coordinates(&q0));
+        assert_eq!(class.unwrap(), Class::Inside);
+        let motion = query.motion(&cobject, &q0, &q1, &MotionOptions::default());
+        let motion = motion.unwrap();
+        assert_eq!((motion.outcome, motion.times[0]), (MotionOutcome::Hit, 0.0));
+        let region = query.classify_region(&cobject, &q0, &q1, &RegionOptions { max_boxes: 50 });
+        assert_eq!(region.unwrap().outcome, RegionOutcome::Undecided);
+        let distance = query.distance(&cobject, Configuration::Coordinates(&q0), f64::INFINITY);
+        let distance = distance.unwrap();
+        assert!(distance.distance == 0.0 && distance.lower == 0.0 && distance.upper > 100.0);
+    }
+}
