@@ -322,10 +322,7 @@ fn motions_boxes_and_certificates_hold_for_what_bodies_stand_for() {
             assert!(at(&clearance.configuration) <= clearance.upper);
             narrow += usize::from(clearance.outcome == ClearanceOutcome::Known);
             let region: [Vec<f64>; 2] = [-0.1, 0.1].map(|by| q0.iter().map(|x| x + by).collect());
-            let options = RegionOptions {
-                max_boxes: 200,
-                ..RegionOptions::default()
-            };
+            let options = RegionOptions { max_boxes: 200 };
             let [low, high] = &region;
             let answer = query.classify_region(&scene.cobject, low, high, &options);
             match answer.unwrap().outcome {
