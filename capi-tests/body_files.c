@@ -352,7 +352,7 @@ static void sign(content *file) {
 
 /* The version counts before all else, whether the rest is right or not. */
 static void newer(content *whole) {
-    const uint32_t versions[] = {5, 7, 0x00010000, UINT32_MAX};
+    const uint32_t versions[] = {6, 8, 0x00010000, UINT32_MAX};
     for (int i = 0; i < 4; ++i) {
         char text[32];
         snprintf(text, sizeof text, "version %u", (unsigned)versions[i]);
@@ -362,7 +362,7 @@ static void newer(content *whole) {
         put(whole->bytes + SUM_AT, 0);
         refuse_bytes(whole->bytes, HEADER_SIZE + 1, CSTK_ERROR_UNSUPPORTED, text);
     }
-    put(whole->bytes + VERSION_AT, 6);
+    put(whole->bytes + VERSION_AT, 7);
     sign(whole);
     CHECK(checksum((const unsigned char *)"123456789", 9) == 0xCBF43926u);
     write_file("signed.cstk", whole->bytes, whole->size);

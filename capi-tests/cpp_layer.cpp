@@ -102,6 +102,18 @@ static void bodies() {
     REQUIRE(status_of([&] { builder.build(); }) == CSTK_ERROR_NOT_CLOSED);
     builder.set_solid(false);
 
+    const std::vector<double> sheet = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0.5};
+    const std::vector<double> factors = {1, 1, 1, 2};
+    const cstk_body_statistics bent =
+        cstk::BodyBuilder().add_bezier_patch(1, 1, sheet, 0.01, factors, 3).build().statistics();
+    REQUIRE(bent.primitive_count > 2 && bent.deviation > 0 && bent.deviation <= 0.01);
+    REQUIRE(status_of([&] { cstk::BodyBuilder().add_bezier_patch(2, 1, sheet, 0.01); }) ==
+            CSTK_ERROR_WRONG_SIZE);
+    builder.set_deviation(0.25);
+    REQUIRE(builder.build().statistics().deviation == 0.25);
+    REQUIRE(status_of([&] { builder.set_deviation(-1); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    builder.set_deviation(0);
+
     int heard = 0;
     builder.build(cstk::hierarchy_options(), [&](double) { return ++heard > 0; });
     REQUIRE(heard > 1);

@@ -325,6 +325,89 @@ static void build(const fixture *f) {
     fixture_unchanged(f);
 }
 
+/* What is stated of a square shows in its statistics and in a distance, and what is refused changes nothing. */
+static void set_deviation(const fixture *f) {
+    EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
+        CHECK_FAILS(cstk_body_builder_set_deviation(bad->handle, 0.1), bad->status, "builder");
+    }
+    const double square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    const double pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1};
+    cstk_body_builder *builder = NULL;
+    cstk_body *body = NULL;
+    cstk_query *query = NULL;
+    cstk_body_statistics s;
+    cstk_distance_result d;
+    cstk_depth_result depth;
+    bool within;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+    CHECK_OK(cstk_body_builder_add_polygon(builder, square, 4, 0));
+    CHECK_OK(cstk_body_builder_set_deviation(builder, 0.1));
+    CHECK_FAILS(cstk_body_builder_set_deviation(builder, -1e-300), CSTK_ERROR_INVALID_ARGUMENT, "deviation");
+    CHECK_FAILS(cstk_body_builder_set_deviation(builder, 1e51), CSTK_ERROR_INVALID_ARGUMENT, "deviation");
+    CHECK_FAILS(cstk_body_builder_set_deviation(builder, NAN), CSTK_ERROR_NOT_FINITE, "deviation");
+    CHECK_FAILS(cstk_body_builder_set_deviation(builder, INFINITY), CSTK_ERROR_NOT_FINITE, "deviation");
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(s.deviation == 0.1);
+    CHECK_OK(cstk_query_create(&query));
+    CHECK_OK(cstk_pair_distance(query, body, NULL, body, pose, INFINITY, &d));
+    CHECK(fabs(d.distance - 0.8) < 1e-12 && d.lower <= 0.8 && d.upper >= 1.2 && d.upper < 1.2 + 1e-9);
+    CHECK(d.has_contact && fabs(d.contact.distance - 0.8) < 1e-12 && d.r_point[2] == 0 && d.s_point[2] == 1);
+    CHECK_OK(cstk_pair_within(query, body, NULL, body, pose, 0.81, &within));
+    CHECK(within);
+    CHECK_OK(cstk_pair_within(query, body, NULL, body, pose, 0.79, &within));
+    CHECK(!within);
+    CHECK_FAILS(cstk_pair_depth(query, body, NULL, body, NULL, NULL, &depth), CSTK_ERROR_UNSUPPORTED, "body_a");
+    /* The largest there can be: nothing is proved apart. */
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_set_deviation(builder, 1e50));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_pair_distance(query, body, NULL, body, pose, INFINITY, &d));
+    CHECK(d.distance == 0 && d.lower == 0 && d.upper >= 2e50 && isfinite(d.upper));
+    CHECK_OK(cstk_query_release(query));
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_release(builder));
+    fixture_unchanged(f);
+}
+
+static void add_bezier_patch(const fixture *f) {
+    const double sheet[12] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0.5};
+    const double weights[4] = {1, 1, 1, 2};
+    const double spoilt[4] = {1, 1, 0, 2};
+    EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
+        CHECK_FAILS(cstk_body_builder_add_bezier_patch(bad->handle, 1, 1, sheet, weights, 4, 0.01, 0), bad->status,
+                    "builder");
+    }
+    cstk_body_builder *builder = NULL;
+    cstk_body *body = NULL;
+    cstk_body_statistics s;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, NULL, NULL, 4, 0.01, 0),
+                CSTK_ERROR_NULL_ARGUMENT, "xyz");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 3, 0.01, 0), CSTK_ERROR_WRONG_SIZE,
+                "patch (primitive 0)");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, UINT32_MAX, 1, sheet, NULL, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "degree_u");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 0, sheet, NULL, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "degree_v");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, spoilt, 4, 0.01, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "weight 2");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, 0, 0),
+                CSTK_ERROR_INVALID_ARGUMENT, "tolerance");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, NAN, 0), CSTK_ERROR_NOT_FINITE,
+                "tolerance");
+    CHECK_FAILS(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, NULL, 4, 1e-300, 0), CSTK_ERROR_LIMIT,
+                "tolerance");
+    CHECK_FAILS(cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "primitive");
+    CHECK_OK(cstk_body_builder_add_bezier_patch(builder, 1, 1, sheet, weights, 4, 0.01, 3));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(s.primitive_count > 2 && s.deviation > 0 && s.deviation <= 0.01 && s.high[2] == 0.5);
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_release(builder));
+    fixture_unchanged(f);
+}
+
 static void set_solid(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
         CHECK_FAILS(cstk_body_builder_set_solid(bad->handle, true), bad->status, "builder");
@@ -484,6 +567,8 @@ int main(void) {
     add_mesh_file(&f);
     place_mesh(&f);
     build(&f);
+    set_deviation(&f);
+    add_bezier_patch(&f);
     set_solid(&f);
     solid_around(&f);
     get_statistics(&f);

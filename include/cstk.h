@@ -549,7 +549,11 @@ typedef struct cstk_body_statistics {
    * Bodies that it was put together of (cstk_body_builder_add_body).
    */
   uint64_t part_count;
-  uint64_t reserved[5];
+  /**
+   * How far what the body stands for may be from it (cstk_body_builder_set_deviation).
+   */
+  double deviation;
+  uint64_t reserved[4];
 } cstk_body_statistics;
 
 /**
@@ -708,6 +712,49 @@ cstk_status cstk_body_builder_add_body(cstk_body_builder *builder,
  */
 cstk_status cstk_body_builder_set_solid(cstk_body_builder *builder,
                                         bool solid);
+
+/**
+ * States that the body stands for something else, such as a curved surface that its polygons approximate: no point of either is farther
+ * than `deviation` from the other (their Hausdorff distance), where the inside of a solid counts. From 0, the default, to 1e50, in your
+ * unit; for all primitives of the builder, those added later too. A body made of others (cstk_body_builder_add_body) has the largest
+ * deviation of theirs and its own; cstk_body_refit and files keep it, `deviation` of cstk_body_statistics tells it.
+ *
+ * Answers are then about what the bodies stand for. Deviations of both bodies add up and act as a margin does (cstk_induced_options):
+ * they are subtracted from every distance, so that lower bounds, classes, thresholds, motions, regions, slides, maps and certificates
+ * say "apart" and "free" only if what the bodies stand for is. The upper bound of a distance is greater by twice their sum: the true
+ * distance is from `lower` to `upper`. Points, normals, features and gradients are those of the bodies as they were built, distances and
+ * clearances of contacts are less the deviations.
+ *
+ * That what bodies stand for meets is never proved if one states a deviation: CSTK_CLASS_INSIDE means that it may. For a complement,
+ * where that would have to be proved, such pairs count as apart: no motion and no region is free of it because of them, and no region is
+ * CSTK_REGION_INSIDE. cstk_pair_depth refuses them (CSTK_ERROR_UNSUPPORTED) if they may meet; signed distances of such pairs have a
+ * lower bound of -INFINITY unless both bodies are single primitives. cstk_pair_penetration is of the primitives as they are.
+ * CSTK_ERROR_NOT_FINITE, or CSTK_ERROR_INVALID_ARGUMENT for a deviation below 0 or too large.
+ */
+cstk_status cstk_body_builder_set_deviation(cstk_body_builder *builder,
+                                            double deviation);
+
+/**
+ * Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
+ * `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
+ * the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
+ *
+ * `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
+ * u. `weights` holds one for each, all above 0, of a rational patch, or is NULL. A NURBS surface is one such patch for each knot span,
+ * once its knots have full multiplicity. All triangles have this tag. In 3-D the patch is a surface; cstk_body_builder_set_solid does not
+ * count it among the faces of a boundary. Edges of a patch may be points.
+ *
+ * Degrees are from 1 to 32; a weight is at least 1e-6 of the largest: CSTK_ERROR_INVALID_ARGUMENT otherwise. CSTK_ERROR_WRONG_SIZE for
+ * another number of points. CSTK_ERROR_LIMIT where the tolerance asks for more than 2^18 cells; halving it takes about twice as many.
+ */
+cstk_status cstk_body_builder_add_bezier_patch(cstk_body_builder *builder,
+                                               uint32_t degree_u,
+                                               uint32_t degree_v,
+                                               const double *xyz,
+                                               const double *weights,
+                                               size_t point_count,
+                                               double tolerance,
+                                               uint64_t tag);
 
 /**
  * Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
@@ -3199,7 +3246,8 @@ cstk_status cstk_cobject_intersection(const cstk_cobject *const *parts,
                                       cstk_cobject **out);
 
 /**
- * Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. See
+ * Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. Bodies that state a
+ * deviation (cstk_body_builder_set_deviation) count as apart in it. See
  * cstk_cobject_union.
  */
 cstk_status cstk_cobject_complement(const cstk_cobject *part,

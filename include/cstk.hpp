@@ -703,6 +703,25 @@ public:
         return *this;
     }
 
+    /// A Bezier patch as triangles within a tolerance of it: control points row by row, with weights if it is rational. The body states
+    /// how far they are from it.
+    BodyBuilder &add_bezier_patch(std::uint32_t degree_u, std::uint32_t degree_v, Span<double> xyz,
+                                  double tolerance, Span<double> weights = {}, std::uint64_t tag = 0) {
+        if (weights.size() != 0 && 3 * weights.size() != xyz.size()) {
+            throw std::invalid_argument("cstk: each control point has a weight, or none has");
+        }
+        const double *factors = weights.size() != 0 ? weights.data() : nullptr;
+        check(cstk_body_builder_add_bezier_patch(get(), degree_u, degree_v, xyz.data(), factors,
+                                                 points(xyz), tolerance, tag));
+        return *this;
+    }
+
+    /// The body stands for something no farther from it than this, such as a curved surface: answers hold for that.
+    BodyBuilder &set_deviation(double deviation) {
+        check(cstk_body_builder_set_deviation(get(), deviation));
+        return *this;
+    }
+
     BodyBuilder &add_sphere(const Vector &center, double radius, std::uint64_t tag = 0) {
         check(cstk_body_builder_add_sphere(get(), center.data(), radius, tag));
         return *this;

@@ -27,6 +27,33 @@ def test_spheres_at_random(query, rng):
         assert found.lower <= truth + 1e-15 and truth <= found.upper + 1e-15
 
 
+def test_a_square_that_stands_for_something_near_it(query):
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    square = cstk.BodyBuilder().add_polygon(corners).set_deviation(0.1).build()
+    assert square.statistics().deviation == 0.1
+    found = query.pair_distance(square, cstk.identity(), square, cstk.translation(0, 0, 1))
+    assert found.lower <= found.distance == pytest.approx(0.8) and found.upper == pytest.approx(1.2)
+    with pytest.raises(cstk.InvalidArgumentError, match="deviation"):
+        cstk.BodyBuilder().set_deviation(-1)
+
+
+def test_a_rational_patch_is_a_quarter_of_a_cylinder(query):
+    half = np.sqrt(0.5)
+    arc = np.array([[1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    net = np.stack([arc, arc + [0, 0, 2]], axis=1)
+    weights = np.outer([1, half, 1], [1, 1])
+    body = cstk.BodyBuilder().add_bezier_patch(net, 0.01, weights, tag=4).build()
+    stated = body.statistics().deviation
+    assert 0 < stated <= 0.01
+    place = cstk.translation(*(3 * np.array([half, half, 0]) + [0, 0, 1]))
+    found = query.pair_distance(body, cstk.identity(), cstk.Body.sphere(0.5), place)
+    assert found.lower <= 1.5 <= found.upper <= found.lower + 2 * stated + 1e-9 and found.witness.r_tag == 4
+    with pytest.raises(ValueError, match="weights"):
+        cstk.BodyBuilder().add_bezier_patch(net, 0.01, weights.T)
+    with pytest.raises(ValueError, match="points"):
+        cstk.BodyBuilder().add_bezier_patch(net[0], 0.01)
+
+
 BODIES = {
     "capsule": (lambda: cstk.Body.capsule([0, 0, -1], [0, 0, 1], 0.25), 1.25),
     "cylinder": (lambda: cstk.Body.cylinder(0.5, 0.75), 0.75),

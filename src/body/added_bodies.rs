@@ -83,6 +83,12 @@ impl AddedBodies {
         self.0.iter().map(|added| added.part).collect()
     }
 
+    /// The largest deviation that any of them states.
+    pub fn stated_deviation(&self) -> f64 {
+        let stated = self.0.iter().map(|added| added.body.stated_deviation());
+        stated.fold(0.0, f64::max)
+    }
+
     pub fn statistics(&self) -> impl Iterator<Item = &BodyStatistics> {
         self.0.iter().map(|added| added.body.statistics())
     }

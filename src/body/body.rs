@@ -25,6 +25,7 @@ pub struct Body {
     pub(super) center: Vec3,
     pub(super) radius: f64,
     pub(super) deviation: f64,
+    pub(super) stated_deviation: f64,
     has_functions: bool,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
@@ -78,6 +79,7 @@ impl Body {
             center,
             radius: primitives.radius(),
             deviation: primitives.deviation(),
+            stated_deviation: 0.0,
             has_functions: primitives.have_functions(),
             packed,
             primitives,
@@ -97,6 +99,12 @@ impl Body {
             self.pieces = Pieces::new(&self.primitives, solid.scraps()).into();
         }
         self.solid = solid;
+        self
+    }
+
+    /// States how far the surface that the body stands for may be from it.
+    pub(super) fn with_stated_deviation(mut self, stated_deviation: f64) -> Self {
+        self.stated_deviation = stated_deviation;
         self
     }
 
@@ -144,6 +152,12 @@ impl Body {
     /// The largest deviation of a primitive from its faces (see [`Convex`](crate::primitive::Convex)).
     pub fn deviation(&self) -> f64 {
         self.deviation
+    }
+
+    /// How far the set that the body stands for may be from its primitives, as its builder was told: the Hausdorff distance of
+    /// the two is at most this. It is subtracted from distances as a margin is (see `Target::margin` in the queries).
+    pub fn stated_deviation(&self) -> f64 {
+        self.stated_deviation
     }
 
     /// Whether queries call support functions of the caller.
@@ -209,9 +223,9 @@ impl Body {
         root.is_leaf().then(|| self.packed.place(root))
     }
 
-    /// Whether it is a single leaf and no boundary of a solid.
+    /// Whether it is a single leaf that stands for nothing but itself, and no boundary of a solid.
     pub fn is_single(&self) -> bool {
-        self.only_place().is_some() && self.solid.is_none()
+        self.only_place().is_some() && self.solid.is_none() && self.stated_deviation == 0.0
     }
 
     /// The solid that its polygons bound, if a spatial body was declared solid and has any.

@@ -9,12 +9,13 @@ use super::mesh::Mesh;
 use super::solid::{DegenerateFace, Solid};
 use crate::body::cloud_file::read_cloud_file;
 use crate::body::mesh_file::read_mesh_file;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::hierarchy::{HierarchyOptions, build_hierarchy, compose_hierarchy};
 use crate::pose::{Pose, Vec3, check_dimension};
 use crate::primitive::{
     Convex, FaceSplit, Primitives, convex_polygon, convex_polyhedron, split_face,
 };
+use crate::tolerance;
 
 /// Collects the primitives of a body. A call that fails adds nothing.
 #[derive(Debug)]
@@ -28,6 +29,9 @@ pub struct BodyBuilder {
     /// The faces of meshes, or parts of them, that had no area.
     scraps: Vec<DegenerateFace>,
     is_solid: bool,
+    stated_deviation: f64,
+    /// How far the triangles of patches are from them.
+    patch_deviation: f64,
     faces_split: u64,
     faces_dropped: u64,
 }
@@ -43,6 +47,8 @@ impl BodyBuilder {
             is_face: Vec::new(),
             scraps: Vec::new(),
             is_solid: false,
+            stated_deviation: 0.0,
+            patch_deviation: 0.0,
             faces_split: 0,
             faces_dropped: 0,
         })
@@ -65,6 +71,26 @@ impl BodyBuilder {
     /// header.
     pub fn set_solid(&mut self, is_solid: bool) {
         self.is_solid = is_solid;
+    }
+
+    /// States that the body stands for a set within this Hausdorff distance of it, such as a curved surface; the rules are those
+    /// of `cstk_body_builder_set_deviation` in the header.
+    pub fn set_deviation(&mut self, deviation: f64) -> Result<()> {
+        require_finite(&[deviation], "deviation")?;
+        if !(0.0..=tolerance::LARGEST_COORDINATE).contains(&deviation) {
+            return Err(Error::invalid(format!(
+                "deviation is {deviation}; it must be from 0 to {:e}",
+                tolerance::LARGEST_COORDINATE
+            )));
+        }
+        // No -0.
+        self.stated_deviation = deviation.abs();
+        Ok(())
+    }
+
+    /// Notes that triangles are so far from the patch that they stand for.
+    pub(super) fn raise_deviation(&mut self, deviation: f64) {
+        self.patch_deviation = self.patch_deviation.max(deviation);
     }
 
     /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles. Faces
@@ -261,7 +287,12 @@ impl BodyBuilder {
             statistics,
         )
         .with_solid(solid)
-        .with_parts(self.added.parts()))
+        .with_parts(self.added.parts())
+        .with_stated_deviation(
+            self.stated_deviation
+                .max(self.patch_deviation)
+                .max(self.added.stated_deviation()),
+        ))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {

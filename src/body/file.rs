@@ -12,7 +12,7 @@ use crate::pose::check_dimension;
 use crate::sealed_file::{FileFormat, Writer};
 use crate::whole_file::{read_whole, write_whole};
 
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 const FORMAT: FileFormat = FileFormat {
     magic: *b"cstkbody",
@@ -57,17 +57,21 @@ impl Body {
         payload.u32(self.statistics.is_solid.into());
         payload.solid(self.solid.as_ref());
         payload.parts(&self.parts);
+        payload.f64(self.stated_deviation);
         Ok(FORMAT.seal(payload.0))
     }
 
-    /// The SHA-256 digest of what the body is, whatever its hierarchy: its primitives with their tags, and the solid that they
-    /// bound. Fails for a body with a support function of the caller.
+    /// The SHA-256 digest of what the body is, whatever its hierarchy: its primitives with their tags, the solid that they
+    /// bound, and the stated deviation. Fails for a body with a support function of the caller.
     pub fn digest(&self) -> Result<[u8; 32]> {
         let mut content = Writer::default();
         content.u32(self.dimension);
         content.vector(&self.center);
         content.primitives(&self.primitives)?;
         content.solid(self.solid.as_ref());
+        if self.stated_deviation > 0.0 {
+            content.f64(self.stated_deviation);
+        }
         Ok(Sha256::digest(content.0).into())
     }
 
@@ -96,12 +100,14 @@ impl Body {
         statistics.is_solid = reader.flag()?;
         let solid = reader.solid(&primitives)?;
         let parts = reader.parts(primitives.len(), dimension == 2)?;
+        let stated_deviation = reader.length()?;
         reader.end()?;
         statistics.primitives = primitives.len() as u64;
         Ok(
             Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
                 .with_solid(solid)
-                .with_parts(parts),
+                .with_parts(parts)
+                .with_stated_deviation(stated_deviation),
         )
     }
 }
@@ -167,6 +173,7 @@ mod tests {
             assert_eq!(loaded.center, saved.center);
             assert_eq!(loaded.radius, saved.radius);
             assert_eq!(loaded.deviation, saved.deviation);
+            assert_eq!(loaded.stated_deviation, saved.stated_deviation);
             assert_eq!(loaded.statistics.depth, saved.statistics.depth);
             assert_ne!(loaded.serial(), saved.serial());
         }
@@ -190,10 +197,10 @@ mod tests {
         altered.push(0);
         assert!(Body::from_bytes(&altered).is_err());
         altered = bytes;
-        altered[8] = 7;
+        altered[8] = 8;
         let error = Body::from_bytes(&altered).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Unsupported);
-        assert!(error.message.contains("version 7"), "{}", error.message);
+        assert!(error.message.contains("version 8"), "{}", error.message);
     }
 
     /// Forged content that passes the checksum must not cause reads out of bounds.

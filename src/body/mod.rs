@@ -1,6 +1,7 @@
 //! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
 
 mod added_bodies;
+mod bezier_patch;
 #[allow(clippy::module_inception)]
 mod body;
 mod body_cache;
@@ -25,6 +26,7 @@ mod solid;
 mod surface_edges;
 mod vertex_numbers;
 
+pub use bezier_patch::BezierPatch;
 pub use body::{Body, BodyStatistics};
 pub use body_cache::{BodyCache, BodyKey};
 pub use builder::BodyBuilder;

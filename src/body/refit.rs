@@ -84,7 +84,8 @@ impl Body {
             built.packed,
             statistics,
         )
-        .with_parts(self.parts.clone());
+        .with_parts(self.parts.clone())
+        .with_stated_deviation(self.stated_deviation);
         // The pieces of a solid are computed when they are first asked for, which is too late for a real-time query but
         // takes as long as all the rest.
         refitted.solid = solid;

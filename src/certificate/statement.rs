@@ -48,7 +48,7 @@ pub(super) struct Alternative<'a> {
 /// Something that is to be shown farther away than a limit.
 pub(super) struct Item<'a> {
     pub number: u32,
-    /// The threshold, with the margin of the set.
+    /// The threshold, with the margin of the set and the deviations that the bodies state.
     pub limit: f64,
     pub what: What<'a>,
 }
@@ -169,13 +169,13 @@ impl<'a> Builder<'a> {
             let what = "it is the complement of an induced set";
             return Err(unsupported(leaf, what));
         }
-        let limit = self.threshold + term.options.margin;
         let mut items = Vec::new();
         let scene = self.scene;
         scene.visit_every_pair(term, |target| {
             let sides = self
                 .sides(&target)
                 .map_err(|_| unsupported(leaf, "a body has a support function of the caller's"))?;
+            let limit = self.threshold + target.margin();
             items.push(self.item(limit, What::Bodies(sides))?);
             Ok(())
         })?;
@@ -257,6 +257,7 @@ impl<'a> Builder<'a> {
                         offset: *offset,
                         is_open: false,
                     };
+                    let limit = limit + body.stated_deviation();
                     items.push(self.item(limit, what)?);
                 }
             }

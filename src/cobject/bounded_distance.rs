@@ -9,6 +9,9 @@ pub struct Measure {
     pub signed: f64,
     /// The largest error of `signed`.
     pub error: f64,
+    /// The true signed distance may be larger than `signed` by this, besides the error: where bodies may differ from what they
+    /// stand for.
+    pub excess: f64,
     /// `signed` is only a lower bound: the true distance may be larger.
     pub is_bound: bool,
     /// Inside, `signed` is minus the distance from the complement; else the depth is unknown.
@@ -33,16 +36,22 @@ impl Measure {
 
     /// The distance from the set, or from its complement, with bounds.
     pub fn bounded_distance(&self, from_complement: bool) -> BoundedDistance {
-        let Self { signed, error, .. } = *self;
+        let Self {
+            signed,
+            error,
+            excess,
+            ..
+        } = *self;
         let certain = if from_complement {
             signed > error
         } else {
-            signed < -error
+            signed + excess < -error
         };
         let here = BoundedDistance {
             distance: 0.0,
             lower: 0.0,
-            upper: if certain { 0.0 } else { 2.0 * error },
+            upper: if certain { 0.0 } else { 2.0 * error + excess },
+            excess: if certain { 0.0 } else { excess },
             is_exact: true,
         };
         let (away, is_bound) = if !from_complement {
@@ -60,6 +69,7 @@ impl Measure {
                 distance: lower,
                 lower,
                 upper: f64::INFINITY,
+                excess: 0.0,
                 is_exact: false,
             };
         }
@@ -69,7 +79,8 @@ impl Measure {
         BoundedDistance {
             distance: away,
             lower: away - error,
-            upper: away + error,
+            upper: away + excess + error,
+            excess,
             is_exact: true,
         }
     }
@@ -84,6 +95,8 @@ pub struct BoundedDistance {
     pub lower: f64,
     /// The true distance is not larger.
     pub upper: f64,
+    /// What of the upper bound is there because of the measure's excess.
+    pub excess: f64,
     /// Whether the distance is known; else `distance` is the lower bound.
     pub is_exact: bool,
 }

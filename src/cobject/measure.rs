@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::spans::{Span, largest, measure_of, slopes_of, span};
-use super::world_place::{beyond_world, largest_coordinate_of, over_floor};
+use super::world_place::{beyond_world, largest_coordinate_of, over_floor, stated_deviation_of};
 use super::{Class, Measure, PureSet, PureShape, SpaceState, WorldPlace};
 use crate::error::{Error, ErrorKind, Result};
 use crate::robot::{Coordinate, RobotState};
@@ -15,8 +15,9 @@ use crate::space::Space;
 use crate::tolerance::{DISTANCE_ERROR, EPSILON, LARGEST_COORDINATE};
 
 impl PureSet {
-    /// The class of a configuration.
-    pub fn classify(&self, at: &SpaceState) -> Result<Class> {
+    /// The class of a configuration. If that it is inside is to be proved, as for the complement, a floor is not met by what the
+    /// links' bodies stand for where it need not be.
+    pub fn classify(&self, at: &SpaceState, is_proved: bool) -> Result<Class> {
         if let PureShape::Predicate(predicate) = &self.shape {
             let class = predicate.classify(self.coordinates(at)?);
             return class.map_err(|e| self.named(e));
@@ -24,6 +25,9 @@ impl PureSet {
         let Some(measure) = self.unscaled(at)? else {
             return Ok(Class::Outside);
         };
+        if is_proved && measure.excess > 0.0 && measure.signed + measure.excess > -measure.error {
+            return Ok(Class::Outside);
+        }
         Ok(measure.class(self.shape.is_open(), self.options.contact_epsilon))
     }
 
@@ -61,6 +65,7 @@ impl PureSet {
         Ok(found.map(|found| Measure {
             signed: scaled(found.signed),
             error: found.error * scale,
+            excess: found.excess * scale,
             ..found
         }))
     }
@@ -78,6 +83,7 @@ impl PureSet {
                 Measure {
                     signed,
                     error: 0.0,
+                    excess: 0.0,
                     is_bound: !predicate.is_exact(),
                     knows_depth: predicate.knows_depth(),
                 }
@@ -87,11 +93,12 @@ impl PureSet {
                 normal,
                 offset,
             } => {
-                let (signed, _) = over_floor(at, links, normal, *offset);
+                let (signed, place) = over_floor(at, links, normal, *offset);
                 let largest = links.iter().map(|&link| largest_coordinate_of(at, link));
                 Measure {
                     signed,
                     error: DISTANCE_ERROR * largest.fold(offset.abs(), f64::max),
+                    excess: place.map_or(0.0, |place| 2.0 * stated_deviation_of(at, place.link)),
                     is_bound: false,
                     knows_depth: false,
                 }
@@ -102,6 +109,7 @@ impl PureSet {
                 Measure {
                     signed,
                     error: DISTANCE_ERROR * size.fold(0.0, f64::max),
+                    excess: 0.0,
                     is_bound: false,
                     // The depth of a link is not the depth of the configuration.
                     knows_depth: false,
@@ -112,6 +120,7 @@ impl PureSet {
                 Measure {
                     signed,
                     error,
+                    excess: 0.0,
                     is_bound: false,
                     knows_depth: true,
                 }

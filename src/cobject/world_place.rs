@@ -59,7 +59,7 @@ pub(super) fn beyond_world(at: &SpaceState, links: &[usize]) -> (f64, Option<Wor
     (least, place)
 }
 
-/// The height of the links' lowest point over a floor, and that point.
+/// The height of the links' lowest point over a floor, less the deviation that its body states, and that point.
 pub(super) fn over_floor(
     at: &SpaceState,
     links: &[usize],
@@ -75,7 +75,7 @@ pub(super) fn over_floor(
         let pose = &at.poses[link];
         let lowest = body.farthest(&-pose.rotation.tr_mul(normal));
         let point = pose.transform_point(&(lowest.point + body.center()));
-        let over = normal.dot(&point) - offset;
+        let over = normal.dot(&point) - offset - body.stated_deviation();
         if over < least {
             least = over;
             place = Some(WorldPlace {
@@ -96,4 +96,10 @@ pub(super) fn largest_coordinate_of(at: &SpaceState, link: usize) -> f64 {
         body.radius_from_origin() + body.deviation() / DISTANCE_ERROR
     });
     at.poses[link].translation.norm() + body
+}
+
+/// How far what a link's body stands for may be from it.
+pub(super) fn stated_deviation_of(at: &SpaceState, link: usize) -> f64 {
+    let body = at.space.link(link).and_then(|link| link.body.as_deref());
+    body.map_or(0.0, |body| body.stated_deviation())
 }

@@ -18,6 +18,21 @@ pub fn require_inside(a: &Body, b: &Body) -> Result<()> {
     ))
 }
 
+/// Refuses bodies that may differ from what they stand for: a way out of theirs need not be one of what they stand for.
+pub fn require_exact(a: &Body, b: &Body) -> Result<()> {
+    let sides = [("body_a", a), ("body_b", b)];
+    let Some((name, body)) = sides.iter().find(|(_, body)| body.stated_deviation() > 0.0) else {
+        return Ok(());
+    };
+    Err(Error::new(
+        ErrorKind::Unsupported,
+        format!(
+            "{name} stands for a set within {:e} of it, of which no depth is known",
+            body.stated_deviation()
+        ),
+    ))
+}
+
 /// The first primitive without an inside that bounds no solid.
 pub fn without_inside(body: &Body) -> Option<usize> {
     let is_planar = body.dimension() == 2;

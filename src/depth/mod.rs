@@ -16,6 +16,6 @@ mod search;
 mod touching;
 
 pub use answer::{Depth, DepthOptions};
-pub use inside::require_inside;
+pub use inside::{require_exact, require_inside};
 pub use search::DepthSearch;
 pub use touching::{Touching, WayOut, touching_at};

@@ -18,7 +18,8 @@ pub struct Bounds {
     pub(super) half: Vec3,
     /// An upper bound of the distance of the box's corners from its centre.
     pub(super) box_radius: f64,
-    /// The largest deviation of the body's primitives from their features (see `Body::deviation`).
+    /// How far the body may be from what it stands for: the largest deviation of its primitives from their features, and the one
+    /// that was stated (see `Body::deviation`).
     pub(super) deviation: f64,
     /// An upper bound of the coordinates in the computation, to which the rounding is proportional.
     pub(super) largest_coordinate: f64,
@@ -42,7 +43,7 @@ impl Bounds {
             axes: [column(0), column(1)],
             half: whole.half,
             box_radius: whole.radius,
-            deviation: body.deviation(),
+            deviation: body.deviation() + body.stated_deviation(),
             largest_coordinate: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
         }
     }

@@ -115,8 +115,9 @@ struct Sample {
 }
 
 impl Sample {
+    /// Of the bodies grown by their stated deviations, as proofs know them.
     fn upper(&self) -> f64 {
-        self.distance.upper
+        self.distance.upper_of_grown()
     }
 }
 
@@ -198,7 +199,7 @@ impl QueryContext {
         Ok(MotionClearance {
             outcome,
             lower: lower.min(nearest.upper()),
-            upper: nearest.upper(),
+            upper: nearest.distance.upper,
             time: nearest.time,
             configuration: way.at(nearest.time)?,
             distance: nearest.distance,

@@ -48,6 +48,8 @@ pub(super) struct Gathering<'a> {
     threshold: f64,
     keeps: Keeps,
     is_plain: bool,
+    /// Whether the leaf that is added stands for the complement.
+    complement: bool,
     pub leaves: Vec<MovingLeaf>,
     pub pairs: Vec<MovingPair<'a>>,
     /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
@@ -72,6 +74,7 @@ impl<'a> Gathering<'a> {
             threshold,
             keeps,
             is_plain: tree.is_plain_union(),
+            complement: false,
             leaves: Vec::with_capacity(tree.leaves.len()),
             pairs: Vec::new(),
             needs_start: false,
@@ -88,6 +91,7 @@ impl<'a> Gathering<'a> {
         context: &mut QueryContext,
     ) -> Result<()> {
         let complement = leaf.complement;
+        self.complement = complement;
         let moving = match leaf.content {
             LeafContent::Pure(set) => self.pure(set, complement)?,
             // The distance from the complement of an induced set is 0 or unknown.
@@ -226,6 +230,10 @@ impl<'a> Gathering<'a> {
         term: &Induced,
         scene: &Scene,
     ) -> Result<()> {
+        // Where bodies may differ from what they stand for, that two meet is never proved.
+        if self.complement && target.stated_deviation() > 0.0 {
+            return Ok(());
+        }
         let (r_link, s_link) = target.links();
         let [on_r, on_s] = target.sides;
         let a = carried(scene, r_link, on_r);

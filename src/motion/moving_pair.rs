@@ -23,7 +23,8 @@ pub(super) struct MovingPair<'a> {
     a: Carried<'a, usize>,
     b: Carried<'a, Option<usize>>,
     bounds: Bounds,
-    /// The two count as meeting up to this distance: the threshold with the margin of the pair's set.
+    /// The two count as meeting up to this distance: the threshold with the margin of the pair's set and the deviations that
+    /// the bodies state.
     pub threshold: f64,
     /// The leaf of the set tree that the pair belongs to.
     pub leaf: u32,
@@ -44,8 +45,8 @@ enum Bounds {
 pub(super) const MAX_TURN: f64 = 1.0;
 
 impl<'a> MovingPair<'a> {
-    /// `speed` gives the largest speed of A's points as B sees it where the derivatives are unknown; the pair is `None` where that
-    /// is infinite.
+    /// `threshold` comes with the margin of the pair's set. `speed` gives the largest speed of A's points as B sees it where the
+    /// derivatives are unknown; the pair is `None` where that is infinite.
     pub fn new(
         a: Carried<'a, usize>,
         b: Carried<'a, Option<usize>>,
@@ -58,11 +59,12 @@ impl<'a> MovingPair<'a> {
             Some(rates) => Bounds::Derivatives(rates),
             None => Bounds::Speed(Some(speed()).filter(|speed| speed.is_finite())?),
         };
+        let stated_deviation = a.body.stated_deviation() + b.body.stated_deviation();
         Some(Self {
             a,
             b,
             bounds,
-            threshold,
+            threshold: threshold + stated_deviation,
             leaf,
             followed_from: 0.0,
         })

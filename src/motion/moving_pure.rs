@@ -180,7 +180,7 @@ impl MovingPart {
         }
         let stays = match self.set.measure(&moment.scene.space_state())? {
             Some(measure) if !measure.is_bound => {
-                let highest = measure.signed + measure.error + change;
+                let highest = measure.signed + measure.excess + measure.error + change;
                 // Predicates decide about contact themselves.
                 let is_predicate = matches!(self.set.shape, PureShape::Predicate(_));
                 let epsilon = if is_predicate {

@@ -27,9 +27,12 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Of the bodies grown by their stated deviations, as proofs know them.
     fn upper(&self) -> f64 {
         let nearest = self.nearest.as_ref();
-        nearest.map_or(f64::INFINITY, |nearest| nearest.clearance.upper)
+        nearest.map_or(f64::INFINITY, |nearest| {
+            nearest.clearance.distance.upper_of_grown()
+        })
     }
 
     /// What the next segment is asked for: one that is proved to be farther than this changes nothing.
@@ -48,7 +51,7 @@ impl Search<'_> {
 
     fn take(&mut self, segment: usize, found: MotionClearance) {
         self.lower = self.lower.min(found.lower);
-        if self.nearest.is_none() || found.upper < self.upper() {
+        if self.nearest.is_none() || found.distance.upper_of_grown() < self.upper() {
             self.nearest = Some(PathClearance {
                 segment,
                 clearance: found,
@@ -126,7 +129,7 @@ impl QueryContext {
             let distance = match self.distance_in(path.world, path.cobject, at, limit) {
                 // The order changes no answer.
                 Err(error) if error.kind == ErrorKind::Limit && i > 0 => break,
-                distance => distance?.upper,
+                distance => distance?.upper_of_grown(),
             };
             limit = limit.min(distance);
             distances.push(distance);

@@ -323,7 +323,7 @@ impl Obstacle for PairAtStart<'_> {
         let contacts = pairing.world_contacts(hit.key.primitives, &closest, scratch);
         let normal = contacts.first()?.normal;
         Some(Separation {
-            gap: pairing.gap_along(&normal) - target.options.margin,
+            gap: pairing.gap_along(&normal) - target.margin(),
             rate: motion.directed_rate(start, link, target.sides[0], &normal)?,
         })
     }

@@ -118,6 +118,11 @@ impl<'a> Pairing<'a> {
         }
     }
 
+    /// How far both bodies together may be from what they stand for. No part of the error: distances are those of the bodies.
+    pub fn stated_deviation(&self) -> f64 {
+        self.a.stated_deviation() + self.b.stated_deviation()
+    }
+
     /// The slack of a wrapper's bound, so that pruning is safe: the rounding of the bound, and the error of the distances on
     /// both sides of the comparison.
     pub fn slack(&self) -> f64 {

@@ -58,6 +58,9 @@ pub struct Distance {
     pub points: [Vec3; 2],
     /// The contact at the witness points, if there is one.
     pub contact: Option<ContactRecord>,
+    /// What of the upper bound is there only because bodies may differ from what they stand for: so much less bounds the distance
+    /// of the bodies grown by their stated deviations, which the lower bound is of.
+    pub excess: f64,
     /// The version of the environment that the query saw; 0 without an environment.
     pub version: u64,
 }

@@ -17,6 +17,8 @@ pub struct CandidateFilter {
     pub in_contact: bool,
     /// Pairs that may be the nearest, if within this distance.
     pub nearest: Option<f64>,
+    /// Only pairs of bodies that stand for nothing but themselves.
+    pub is_proved: bool,
     /// The pairs of a single term may come in any order, without ranks.
     pub any_order: bool,
 }
@@ -27,6 +29,7 @@ impl CandidateFilter {
             within: threshold,
             in_contact: false,
             nearest: None,
+            is_proved: false,
             any_order: false,
         }
     }
@@ -111,7 +114,10 @@ impl<'s, 'm> Candidates<'s, 'm> {
     ) -> f64 {
         let limit = self.limit(options);
         if bound <= limit {
-            self.targets.push(Target { bound, ..target() });
+            let target = target();
+            if !(self.filter.is_proved && target.stated_deviation() > 0.0) {
+                self.targets.push(Target { bound, ..target });
+            }
         }
         limit + options.margin
     }

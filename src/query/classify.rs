@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::candidates::CandidateFilter;
 use super::combination::{Memo, cheap_first, emptied, is_pure};
 use super::context::QueryContext;
-use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
 use super::world::World;
@@ -31,38 +30,40 @@ impl QueryContext {
 
     pub(super) fn class_of(&mut self, cobject: &CObject, scene: &Scene) -> Result<Class> {
         let mut memo = emptied(std::mem::take(&mut self.answers.classes));
-        let class = self.class_among(cobject, scene, &mut memo);
+        let class = self.class_among(cobject, scene, false, &mut memo);
         self.answers.classes = memo;
         class
     }
 
+    /// The class in the sense of [`QueryContext::class_of_group`].
     fn class_among(
         &mut self,
         cobject: &CObject,
         scene: &Scene,
+        is_proved: bool,
         memo: &mut Memo<Class>,
     ) -> Result<Class> {
         if let Set::Union { induced, others } = cobject.set()
             && others.is_empty()
         {
-            return self.class_of_group(induced, scene);
+            return self.class_of_group(induced, scene, is_proved);
         }
-        let key = (cobject.serial(), false);
+        let key = (cobject.serial(), is_proved);
         if let Some(class) = memo.get(&key) {
             return Ok(*class);
         }
         let class = match cobject.set() {
-            Set::Pure(set) => {
-                let pure = PureAt {
-                    set,
-                    complement: false,
-                    scene,
-                };
-                return pure.class();
+            Set::Pure(set) => return set.classify(&scene.space_state(), is_proved),
+            Set::Complement(part) => {
+                let class = self.class_among(part, scene, !is_proved, memo)?;
+                class.reversed()
             }
-            Set::Complement(part) => self.class_among(part, scene, memo)?.reversed(),
-            Set::Intersection(parts) => self.class_of_intersection(parts, scene, memo)?,
-            Set::Union { induced, others } => self.class_of_union(induced, others, scene, memo)?,
+            Set::Intersection(parts) => {
+                self.class_of_intersection(parts, scene, is_proved, memo)?
+            }
+            Set::Union { induced, others } => {
+                self.class_of_union((induced, others), scene, is_proved, memo)?
+            }
         };
         memo.insert(key, class);
         Ok(class)
@@ -72,11 +73,12 @@ impl QueryContext {
         &mut self,
         parts: &[Arc<CObject>],
         scene: &Scene,
+        is_proved: bool,
         memo: &mut Memo<Class>,
     ) -> Result<Class> {
         let mut least = Class::Inside;
         for part in cheap_first(parts) {
-            least = least.min(self.class_among(part, scene, memo)?);
+            least = least.min(self.class_among(part, scene, is_proved, memo)?);
             if least == Class::Outside {
                 break;
             }
@@ -87,36 +89,43 @@ impl QueryContext {
     /// Asks in order of cost: pure parts, then the induced sets, then all other parts.
     fn class_of_union(
         &mut self,
-        induced: &Group,
-        others: &[Arc<CObject>],
+        (induced, others): (&Group, &[Arc<CObject>]),
         scene: &Scene,
+        is_proved: bool,
         memo: &mut Memo<Class>,
     ) -> Result<Class> {
         let parts = cheap_first(others);
         let mut most = Class::Outside;
         for part in parts.clone().filter(is_pure) {
-            most = most.max(self.class_among(part, scene, memo)?);
+            most = most.max(self.class_among(part, scene, is_proved, memo)?);
         }
         if most < Class::Inside && !induced.is_empty() {
-            most = most.max(self.class_of_group(induced, scene)?);
+            most = most.max(self.class_of_group(induced, scene, is_proved)?);
         }
         for part in parts.filter(|part| !is_pure(part)) {
             if most == Class::Inside {
                 break;
             }
-            most = most.max(self.class_among(part, scene, memo)?);
+            most = most.max(self.class_among(part, scene, is_proved, memo)?);
         }
         Ok(most)
     }
 
-    /// Operation 4 for a union of induced sets.
-    pub(super) fn class_of_group(&mut self, group: &Group, scene: &Scene) -> Result<Class> {
+    /// Operation 4 for a union of induced sets. Where bodies may differ from what they stand for, that they meet is never proved:
+    /// if it is to be, as for the complement, such pairs count as apart.
+    pub(super) fn class_of_group(
+        &mut self,
+        group: &Group,
+        scene: &Scene,
+        is_proved: bool,
+    ) -> Result<Class> {
         let group = scene.checked(group)?;
-        if self.recent_is_within(scene, group, 0.0)? {
+        if !is_proved && self.recent_is_within(scene, group, 0.0)? {
             return Ok(Class::Inside);
         }
         let filter = CandidateFilter {
             in_contact: true,
+            is_proved,
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, group, filter)?;

@@ -170,9 +170,9 @@ impl QueryContext {
         limit: f64,
     ) -> Result<f64> {
         let mut least = limit;
-        self.visit_recent(scene, group, |pairing, places, options, scratch| {
+        self.visit_recent(scene, group, |pairing, places, margin, scratch| {
             let mut visitor = NearestPrimitives::up_to(least);
-            visitor.margin = options.margin;
+            visitor.margin = margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
             least = visitor.limit();
         })?;
@@ -189,7 +189,7 @@ impl QueryContext {
         let mut visitor = NearestPrimitives::up_to(limit);
         // Warm start: the last nearest primitive pair of each two bodies bounds the distance before any tree is traversed.
         for target in targets.iter().filter(|_| targets.len() > 1) {
-            visitor.margin = target.options.margin;
+            visitor.margin = target.margin();
             visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 break;
@@ -200,7 +200,7 @@ impl QueryContext {
             }
         }
         for target in targets {
-            visitor.margin = target.options.margin;
+            visitor.margin = target.margin();
             visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 continue;

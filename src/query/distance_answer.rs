@@ -30,6 +30,7 @@ impl Distance {
             witness: None,
             points: Default::default(),
             contact: None,
+            excess: 0.0,
             version,
         }
     }
@@ -83,7 +84,7 @@ impl Distance {
                     }
                 };
                 let contact = pairing.first_world_contact(hit.key.primitives, measured, scratch);
-                let record = contact.map(|c| ContactRecord::new(c, target.options.margin));
+                let record = contact.map(|c| ContactRecord::new(c, target.margin()));
                 (pairing.world_points(&measured.closest), record)
             }
         };
@@ -109,6 +110,25 @@ impl Distance {
             points,
             contact,
         } = found;
+        let upper_beside = |excess: f64| {
+            // Sets that meet by their measured distance may be apart by twice the error: they count as meeting up to the
+            // error, and the measured distance may itself be too small by it. Where it was not measured exactly, `apart` is
+            // an upper bound of it.
+            if hit.distance > 0.0 {
+                return hit.distance + error + excess;
+            }
+            match hit.apart - target.margin() + error + excess {
+                beyond if beyond <= 0.0 => 0.0,
+                beyond => beyond.max(2.0 * error),
+            }
+        };
+        // The distance is less the stated deviations already.
+        let stated = target.stated_deviation();
+        let upper = upper_beside(2.0 * stated);
+        let excess = match stated > 0.0 {
+            true => upper - upper_beside(0.0),
+            false => 0.0,
+        };
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.distance == 0.0,
@@ -118,20 +138,11 @@ impl Distance {
             kind: DistanceKind::Exact,
             distance: hit.distance,
             lower,
-            // Sets that meet by their measured distance may be apart by twice the error: they count as meeting up to the
-            // error, and the measured distance may itself be too small by it. Where it was not measured exactly, `apart` is
-            // an upper bound of it.
-            upper: if hit.distance == 0.0 {
-                match hit.apart - target.options.margin + error {
-                    beyond if beyond <= 0.0 => 0.0,
-                    beyond => beyond.max(2.0 * error),
-                }
-            } else {
-                hit.distance + error
-            },
+            upper,
             witness: Some(witness),
             points,
             contact,
+            excess,
             version: 0,
         }
     }
@@ -161,6 +172,7 @@ impl Distance {
             witness: Some(witness),
             points: contact.map_or_else(Default::default, |contact| contact.points),
             contact,
+            excess: bounds.excess,
             version: 0,
         }
     }
@@ -180,6 +192,11 @@ impl Distance {
         }
     }
 
+    /// An upper bound of the distance of the bodies grown by their stated deviations.
+    pub(crate) fn upper_of_grown(&self) -> f64 {
+        self.upper - self.excess
+    }
+
     /// The distance from a union: the smallest. Ties go to `self`.
     pub(super) fn least(self, other: Self) -> Self {
         let (best, rest) = if other.order_in_union() < self.order_in_union() {
@@ -192,6 +209,10 @@ impl Distance {
         }
         let lower = best.lower.min(rest.lower);
         let upper = best.upper.min(rest.upper);
+        let excess = match upper.is_finite() {
+            true => upper - best.upper_of_grown().min(rest.upper_of_grown()),
+            false => 0.0,
+        };
         let is_undecided = rest.kind == DistanceKind::LowerBound && rest.lower < best.distance;
         if is_undecided && best.kind != DistanceKind::LowerBound {
             return Self {
@@ -199,12 +220,14 @@ impl Distance {
                 distance: lower,
                 lower,
                 upper,
+                excess,
                 ..best
             };
         }
         Self {
             lower,
             upper,
+            excess,
             ..best
         }
     }
@@ -230,7 +253,10 @@ impl Distance {
         let is_zero = |d: &Self| d.kind == DistanceKind::Exact && d.distance == 0.0;
         if is_zero(&self) && is_zero(&other) {
             // Two sets that contain the configuration only up to rounding need not meet there.
-            let is_inside = |d: &Self| d.witness.is_some_and(|w| w.overlapping) || d.upper == 0.0;
+            let is_inside = |d: &Self| {
+                let overlaps = d.witness.is_some_and(|w| w.overlapping);
+                (overlaps && d.excess == 0.0) || d.upper == 0.0
+            };
             let is_certain = is_inside(&self) && is_inside(&other);
             let widest = if other.upper > self.upper {
                 other

@@ -55,11 +55,11 @@ impl LeafQuery<'_> {
     }
 }
 
-/// The classes of all parts, by serial.
+/// The classes of all parts, by serial and whether that they are inside is to be proved (see `class_of_group`).
 struct Classes<'a> {
     scene: &'a Scene<'a>,
-    leaves: HashMap<u64, Class>,
-    compounds: HashMap<u64, Class>,
+    leaves: HashMap<(u64, bool), Class>,
+    compounds: HashMap<(u64, bool), Class>,
 }
 
 impl QueryContext {
@@ -87,7 +87,7 @@ impl QueryContext {
             leaves: HashMap::new(),
             compounds: HashMap::new(),
         };
-        let class = self.class_of_all(cobject, &mut classes)?;
+        let class = self.class_of_all(cobject, false, &mut classes)?;
         let mut explanation = Explanation {
             class,
             leaves: Vec::new(),
@@ -98,11 +98,11 @@ impl QueryContext {
         };
         for (query, complemented, decisive) in verdicts(cobject, &classes) {
             let leaf = query.leaf();
-            let class = classes.leaves[&leaf.serial];
+            let class = classes.leaves[&(leaf.serial, complemented)];
             let first_witness = explanation.list.witnesses.len();
             if decisive {
                 let room = max_count - first_witness;
-                let list = self.reasons(query, class, room, scene)?;
+                let list = self.reasons(query, class, room, complemented, scene)?;
                 explanation.list.truncated |= list.truncated;
                 for witness in &list.witnesses {
                     explanation.list.take(&list, witness);
@@ -121,25 +121,36 @@ impl QueryContext {
     }
 
     /// Classifies a part and all below it, without early out.
-    fn class_of_all(&mut self, cobject: &CObject, classes: &mut Classes) -> Result<Class> {
-        if let Some(class) = classes.compounds.get(&cobject.serial()) {
+    fn class_of_all(
+        &mut self,
+        cobject: &CObject,
+        is_proved: bool,
+        classes: &mut Classes,
+    ) -> Result<Class> {
+        let key = (cobject.serial(), is_proved);
+        if let Some(class) = classes.compounds.get(&key) {
             return Ok(*class);
         }
         let mut parts = Vec::new();
         for query in own_leaves(cobject) {
-            let serial = query.leaf().serial;
-            let class = match classes.leaves.get(&serial) {
+            let own = (query.leaf().serial, is_proved);
+            let class = match classes.leaves.get(&own) {
                 Some(class) => *class,
                 None => match query {
-                    LeafQuery::Induced(group) => self.class_of_group(group, classes.scene)?,
-                    LeafQuery::Pure(set) => set.classify(&classes.scene.space_state())?,
+                    LeafQuery::Induced(group) => {
+                        self.class_of_group(group, classes.scene, is_proved)?
+                    }
+                    LeafQuery::Pure(set) => {
+                        set.classify(&classes.scene.space_state(), is_proved)?
+                    }
                 },
             };
-            classes.leaves.insert(serial, class);
+            classes.leaves.insert(own, class);
             parts.push(class);
         }
         for part in cobject.set().parts() {
-            parts.push(self.class_of_all(part, classes)?);
+            let is_complement = matches!(cobject.set(), Set::Complement(_));
+            parts.push(self.class_of_all(part, is_proved != is_complement, classes)?);
         }
         let parts = parts.into_iter();
         let class = match cobject.set() {
@@ -147,7 +158,7 @@ impl QueryContext {
             Set::Intersection(_) => parts.min().unwrap_or(Class::Inside),
             Set::Complement(_) => parts.max().unwrap_or(Class::Outside).reversed(),
         };
-        classes.compounds.insert(cobject.serial(), class);
+        classes.compounds.insert(key, class);
         Ok(class)
     }
 
@@ -157,6 +168,7 @@ impl QueryContext {
         query: LeafQuery,
         class: Class,
         max_count: usize,
+        is_proved: bool,
         scene: &Scene,
     ) -> Result<WitnessList> {
         let epsilon = match (class, query) {
@@ -168,6 +180,7 @@ impl QueryContext {
         // Classes count doubt as within, so the request must too.
         let request = WitnessRequest {
             counts_doubt: true,
+            is_proved,
             ..WitnessRequest::within(epsilon, max_count)
         };
         match query {
@@ -200,10 +213,10 @@ fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(LeafQuery<'a>, 
         if !seen.insert((next.serial(), complemented, decides)) {
             continue;
         }
-        let class = classes.compounds[&next.serial()];
+        let class = classes.compounds[&(next.serial(), complemented)];
         for query in own_leaves(next) {
             let serial = query.leaf().serial;
-            let decisive = decides && classes.leaves[&serial] == class;
+            let decisive = decides && classes.leaves[&(serial, complemented)] == class;
             let place = *place_of.entry((serial, complemented)).or_insert_with(|| {
                 leaves.push((query, complemented, false));
                 leaves.len() - 1
@@ -212,8 +225,9 @@ fn verdicts<'a>(cobject: &'a CObject, classes: &Classes) -> Vec<(LeafQuery<'a>, 
         }
         let is_complement = matches!(next.set(), Set::Complement(_));
         let below = |part: &'a Arc<CObject>| {
-            let decides = decides && (is_complement || classes.compounds[&part.serial()] == class);
-            (&**part, complemented != is_complement, decides)
+            let below = complemented != is_complement;
+            let is_same = || classes.compounds[&(part.serial(), below)] == class;
+            (&**part, below, decides && (is_complement || is_same()))
         };
         stack.extend(next.set().parts().iter().rev().map(below));
     }

@@ -3,7 +3,7 @@
 use super::context::{QueryContext, check_threshold};
 use super::pairs::target;
 use super::target::{Placement, Target};
-use crate::depth::{Depth, DepthOptions, DepthSearch, require_inside};
+use crate::depth::{Depth, DepthOptions, DepthSearch, require_exact, require_inside};
 use crate::error::Result;
 use crate::pose::Vec3;
 
@@ -26,7 +26,7 @@ pub struct PairDepth {
 
 impl QueryContext {
     /// The depth of two bodies: bounds of the least length of a translation after which they do not meet, and a translation that
-    /// parts them. Fails for two bodies that both have primitives without an inside.
+    /// parts them. Fails for two bodies that both have primitives without an inside, and for those that state a deviation.
     pub fn pair_depth(
         &mut self,
         a: Placement,
@@ -42,6 +42,7 @@ impl QueryContext {
                 ..Default::default()
             });
         }
+        require_exact(a.0, b.0)?;
         let found = self.depth_of(&target, options)?;
         let pairing = target.pairing();
         Ok(PairDepth {

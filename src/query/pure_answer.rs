@@ -26,7 +26,8 @@ pub(crate) struct PureWitness {
 
 impl PureAt<'_> {
     pub fn class(&self) -> Result<Class> {
-        let class = self.set.classify(&self.scene.space_state())?;
+        let state = self.scene.space_state();
+        let class = self.set.classify(&state, self.complement)?;
         Ok(class.reversed_if(self.complement))
     }
 
@@ -40,6 +41,7 @@ impl PureAt<'_> {
             distance: 0.0,
             lower: 0.0,
             upper: if is_inside { 0.0 } else { f64::INFINITY },
+            excess: 0.0,
             is_exact: is_inside,
         })
     }
@@ -143,17 +145,21 @@ impl PureAt<'_> {
             features: [Feature::interior(); 2],
         };
         if let Some(place) = self.set.place(&self.scene.space_state()) {
-            contact.place(&place, self.sign());
+            contact.place(&place, self.sign(), 0.5 * measure.excess);
         }
         Ok(Some(contact))
     }
 }
 
 impl ContactRecord {
-    /// Sets points and normal at the place where a link is near the world box or a floor.
-    fn place(&mut self, place: &WorldPlace, sign: f64) {
+    /// Sets points and normal at the place where a link is near the world box or a floor. The points are those of the body, whose
+    /// stated deviation the clearance is less.
+    fn place(&mut self, place: &WorldPlace, sign: f64, stated_deviation: f64) {
         let normal = place.normal * sign;
-        self.points = [place.point, place.point - normal * self.clearance];
+        self.points = [
+            place.point,
+            place.point - normal * (self.clearance + sign * stated_deviation),
+        ];
         self.normal = normal;
     }
 }

@@ -6,7 +6,7 @@ use super::candidates::CandidateFilter;
 use super::context::{QueryContext, check_threshold};
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
-use crate::cobject::{CObject, Leaf, Set};
+use crate::cobject::{CObject, InducedOptions, Leaf, Set};
 use crate::depth::{Depth, DepthOptions, Touching, require_inside, touching_at};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Hit;
@@ -147,35 +147,36 @@ impl QueryContext {
         max_distance: f64,
         options: &DepthOptions,
     ) -> Result<Option<Measured>> {
-        let (hit, lower) = {
-            let found = self.nearest(std::slice::from_ref(target), max_distance)?;
+        let margin = target.margin();
+        let excess = 2.0 * target.stated_deviation();
+        let (hit, doubt) = {
+            let alone = &[without_margin(target)];
+            let found = self.nearest(alone, max_distance + margin)?;
             match found.hit {
-                Some((hit, _)) => (hit, found.lower),
+                Some((hit, _)) => (hit, hit.distance - found.lower),
                 None => return Ok(None),
             }
         };
-        let margin = target.options.margin;
         let witness = Witness {
-            distance: hit.distance,
+            distance: (hit.distance - margin).max(0.0),
             ..Witness::of(target, &hit, leaf)
         };
         let state = scene.state().expect("the configuration is known");
         let error = target.pairing().precision.error;
         if hit.contained.is_none() && hit.apart > error {
-            let doubt = match hit.distance > 0.0 {
-                true => (hit.distance - lower).max(error),
-                // Within the margin the search keeps no bound.
-                false => error + tolerance::SMOOTH_ERROR * target.pairing().precision.size,
-            };
             let apart = self.apart(scene, state, target, &hit)?;
             let pair = SignedDistance {
                 distance: hit.apart - margin,
-                lower: hit.apart - margin - doubt,
-                upper: hit.apart - margin + error,
+                lower: hit.apart - margin - doubt.max(error),
+                upper: hit.apart - margin + excess + error,
                 ..apart.pair_of(witness)
             };
             return Ok(Some(Measured {
-                pair,
+                pair: if pair.lower + target.options.margin > 0.0 {
+                    pair
+                } else {
+                    of_approximate(pair, target)
+                },
                 row: apart.row,
             }));
         }
@@ -186,7 +187,7 @@ impl QueryContext {
             let pair = SignedDistance {
                 distance: -margin,
                 lower: f64::NEG_INFINITY,
-                upper: -margin,
+                upper: excess - margin,
                 ..undefined.pair_of(witness)
             };
             return Ok(Some(Measured {
@@ -206,6 +207,7 @@ impl QueryContext {
             upper: -depth.lower - margin,
             ..out.pair_of(witness)
         };
+        let pair = of_approximate(pair, target);
         Ok(Some(Measured { pair, row: out.row }))
     }
 
@@ -247,6 +249,40 @@ impl QueryContext {
                 false => GradientKind::OneOfSeveral,
             },
         })
+    }
+}
+
+/// The same pair, measured without a margin: within a margin the nearest primitives are not looked for.
+fn without_margin<'a>(target: &Target<'a>) -> Target<'a> {
+    let options = InducedOptions {
+        margin: -target.stated_deviation(),
+        ..target.options
+    };
+    Target {
+        options,
+        bound: target.bound + target.margin(),
+        ..*target
+    }
+}
+
+/// The signed distance of bodies that meet, or may meet, by what is known of what they stand for. That this meets is not proved. It lies
+/// in the bodies grown by the stated deviations: convex ones are deeper in each other by these at most, others may have no way out left.
+fn of_approximate(pair: SignedDistance, target: &Target) -> SignedDistance {
+    let stated = target.stated_deviation();
+    if stated == 0.0 {
+        return pair;
+    }
+    let are_convex = target
+        .sides
+        .iter()
+        .all(|(body, _)| body.primitives().len() == 1);
+    SignedDistance {
+        lower: match are_convex {
+            true => pair.lower,
+            false => f64::NEG_INFINITY,
+        },
+        upper: pair.upper.max(stated - target.options.margin),
+        ..pair
     }
 }
 

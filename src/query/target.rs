@@ -64,6 +64,20 @@ impl<'a> Target<'a> {
         [a.part_of(on_a), b.part_of(on_b)]
     }
 
+    /// How far both bodies together may be from what they stand for.
+    #[inline(always)]
+    pub fn stated_deviation(&self) -> f64 {
+        let [(a, _), (b, _)] = self.sides;
+        a.stated_deviation() + b.stated_deviation()
+    }
+
+    /// What is subtracted from the distance: the margin of the C-object, and the stated deviations. The bodies grown by these
+    /// hold what they stand for, so that whatever is proved apart is so. Only upper bounds need more (see `Distance::of_pair`).
+    #[inline(always)]
+    pub fn margin(&self) -> f64 {
+        self.options.margin + self.stated_deviation()
+    }
+
     /// Both bodies in one frame. Made on demand: most targets turn out to be too far.
     #[inline(always)]
     pub fn pairing(&self) -> Pairing<'a> {
@@ -71,12 +85,12 @@ impl<'a> Target<'a> {
         Pairing::new(a.0, a.1, b.0, b.1)
     }
 
-    /// The same, or `None` if the bounding spheres are more than `limit` apart, less the margin.
+    /// The same, or `None` if the bounding spheres are more than `limit` apart, less what is subtracted from the distance.
     pub fn pairing_within(&self, limit: f64) -> Option<Pairing<'a>> {
         if self.bound > limit {
             return None;
         }
         let pairing = self.pairing();
-        (pairing.sphere_bound() - self.options.margin <= limit).then_some(pairing)
+        (pairing.sphere_bound() - self.margin() <= limit).then_some(pairing)
     }
 }

@@ -130,9 +130,9 @@ impl QueryContext {
         threshold: f64,
     ) -> Result<bool> {
         let mut is_within = false;
-        self.visit_recent(scene, group, |pairing, places, options, scratch| {
+        self.visit_recent(scene, group, |pairing, places, margin, scratch| {
             let mut visitor = Within::<false> {
-                margin: options.margin,
+                margin,
                 threshold,
                 found: None,
             };
@@ -164,7 +164,7 @@ impl QueryContext {
             if is_one_inside {
                 return Ok(true);
             }
-            let margin = target.options.margin;
+            let margin = target.margin();
             let found = if threshold + margin > 0.0 {
                 self.first_within::<true>(&pairing, target, threshold)?
             } else {
@@ -186,7 +186,7 @@ impl QueryContext {
         threshold: f64,
     ) -> Result<Option<[u32; 2]>> {
         let mut visitor = Within::<REFINES> {
-            margin: target.options.margin,
+            margin: target.margin(),
             threshold,
             found: None,
         };

@@ -22,6 +22,8 @@ pub(crate) struct WitnessRequest {
     pub max_count: usize,
     pub with_gradients: bool,
     pub contacts: ContactsListed,
+    /// Only pairs of bodies that stand for nothing but themselves.
+    pub is_proved: bool,
     /// Pairs count as within `epsilon` if their lower bound is, as for classes; otherwise if their distance is.
     pub counts_doubt: bool,
 }
@@ -34,6 +36,7 @@ impl WitnessRequest {
             max_count,
             with_gradients: false,
             contacts: ContactsListed::All,
+            is_proved: false,
             counts_doubt: false,
         }
     }
@@ -113,7 +116,10 @@ impl QueryContext {
         scene: &Scene,
         request: WitnessRequest,
     ) -> Result<WitnessList> {
-        let filter = CandidateFilter::within(request.epsilon);
+        let filter = CandidateFilter {
+            is_proved: request.is_proved,
+            ..CandidateFilter::within(request.epsilon)
+        };
         let candidates = self.candidates(scene, scene.checked(group)?, filter)?;
         let list = self.list(group, scene, &candidates, request)?;
         self.keep_memory(candidates);
@@ -163,7 +169,7 @@ impl QueryContext {
         mut visitor: Collect,
     ) -> Result<(Vec<Hit>, bool)> {
         for target in targets {
-            visitor.margin = target.options.margin;
+            visitor.margin = target.margin();
             visitor.body_pair = target.rank;
             if target.bound > visitor.limit() {
                 continue;
@@ -259,7 +265,7 @@ impl WitnessList {
         let first_contact = self.contacts.len();
         if hit.contained.is_none() && contacts != ContactsListed::None {
             let measured = pairing.closest(hit, scratch);
-            let record = |contact| ContactRecord::new(contact, target.options.margin);
+            let record = |contact| ContactRecord::new(contact, target.margin());
             let primitives = hit.key.primitives;
             if contacts == ContactsListed::Nearest {
                 let found = pairing.first_world_contact(primitives, &measured, scratch);

@@ -1,5 +1,6 @@
 //! Bodies, solids and their files.
 
+mod bezier_patches;
 mod closed_surfaces;
 mod cloud_files;
 mod given;

@@ -3,6 +3,7 @@
 mod boolean_sets;
 mod candidates;
 mod contact_gradients;
+mod deviations;
 mod environment_moves;
 mod environment_threads;
 mod environment_tree;

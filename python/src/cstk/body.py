@@ -390,6 +390,37 @@ class BodyBuilder(Handle):
         check(lib.cstk_body_builder_set_solid(self._pointer, bool(solid)))
         return self
 
+    def add_bezier_patch(
+        self, points: ArrayLike, tolerance: float, weights: Optional[ArrayLike] = None, tag: int = 0
+    ) -> "BodyBuilder":
+        """Adds triangles that are within a tolerance of a Bezier patch: `points` is an array of (degree_u + 1, degree_v + 1, 3) control
+        points, `weights` one of (degree_u + 1, degree_v + 1) for a rational patch. The body states how far they are from it.
+        """
+        net = np.ascontiguousarray(points, dtype=np.float64)
+        if net.ndim != 3 or net.shape[2] != 3 or 0 in net.shape:
+            raise ValueError(f"points must have the shape (degree_u + 1, degree_v + 1, 3), not {net.shape}")
+        factors = ffi.NULL
+        if weights is not None:
+            given = np.ascontiguousarray(weights, dtype=np.float64)
+            if given.shape != net.shape[:2]:
+                raise ValueError(f"weights must have the shape {net.shape[:2]}, not {given.shape}")
+            factors = doubles(given.reshape(-1))
+        count = net.shape[0] * net.shape[1]
+        number, size = index("tag", tag, 64), scalar("tolerance", tolerance)
+        degrees = net.shape[0] - 1, net.shape[1] - 1
+        check(
+            lib.cstk_body_builder_add_bezier_patch(
+                self._pointer, *degrees, doubles(net.reshape(-1)), factors, count, size, number
+            )
+        )
+        return self
+
+    def set_deviation(self, deviation: float) -> "BodyBuilder":
+        """States that the body stands for something no farther from it than `deviation`, such as a curved surface: answers hold for
+        that. Deviations are subtracted from distances as a margin is; upper bounds are greater by twice as much."""
+        check(lib.cstk_body_builder_set_deviation(self._pointer, scalar("deviation", deviation)))
+        return self
+
     def add_sphere(self, center: ArrayLike, radius: float, tag: int = 0) -> "BodyBuilder":
         """Adds a ball; in the plane a disc."""
         middle = doubles(vector("center", center, 3))

@@ -48,7 +48,9 @@ pub struct cstk_body_statistics {
     pub reserved_bytes: [u8; 7],
     /// Bodies that it was put together of (cstk_body_builder_add_body).
     pub part_count: u64,
-    pub reserved: [u64; 5],
+    /// How far what the body stands for may be from it (cstk_body_builder_set_deviation).
+    pub deviation: f64,
+    pub reserved: [u64; 4],
 }
 
 /// A body that is part of a larger one (cstk_body_builder_add_body).
@@ -174,7 +176,8 @@ pub unsafe extern "C" fn cstk_body_get_statistics(
             solid: s.is_solid,
             reserved_bytes: [0; 7],
             part_count: body.parts().len() as u64,
-            reserved: [0; 5],
+            deviation: body.stated_deviation(),
+            reserved: [0; 4],
         });
         Ok(())
     })

@@ -68,7 +68,8 @@ pub unsafe extern "C" fn cstk_cobject_intersection(
     guard(|| combine(parts, count, out, CObject::intersection))
 }
 
-/// Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. See
+/// Creates the complement of a C-object: it exchanges CSTK_CLASS_INSIDE and CSTK_CLASS_OUTSIDE; contact stays. Bodies that state a
+/// deviation (cstk_body_builder_set_deviation) count as apart in it. See
 /// cstk_cobject_union.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_cobject_complement(
