@@ -8,10 +8,9 @@ use super::kinematics::Kinematics;
 use super::look::{LeafLook, Look, PairLook};
 use super::moving_pair::{Interval, MovingPair};
 use super::moving_pure::{Moment, MovingPure};
-use super::over_pairs::OverPairs;
+use super::over_pairs::{OverPairs, OverPairsMemory};
 use super::over_piece::OneTwist;
 use super::piece::Piece;
-use super::proof_memory::SearchMemory;
 use super::set_tree::{Known, SetTree};
 use super::span::Span;
 use super::way::Way;
@@ -88,7 +87,7 @@ pub(super) struct Middle<'a> {
 }
 
 /// An interval of time, with what is undecided in it.
-pub(super) struct Undecided {
+struct Undecided {
     times: [f64; 2],
     part: Part,
     /// Primitives nearly meet at its end.
@@ -133,6 +132,16 @@ struct Outcome {
     left: Part,
     /// Primitives that meet where it was looked at.
     met: Option<MeetingLeaves>,
+}
+
+/// Memory of a proof, used again by the next.
+#[derive(Default)]
+pub(super) struct SearchMemory {
+    front: Front,
+    over: OverPairsMemory<OneTwist>,
+    known: Vec<Known>,
+    nodes: Vec<Known>,
+    todo: Vec<Undecided>,
 }
 
 /// Lists of the proof.
