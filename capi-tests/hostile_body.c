@@ -331,6 +331,7 @@ static void set_deviation(const fixture *f) {
         CHECK_FAILS(cstk_body_builder_set_deviation(bad->handle, 0.1), bad->status, "builder");
     }
     const double square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const double pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1};
     cstk_body_builder *builder = NULL;
     cstk_body *body = NULL;
@@ -350,19 +351,19 @@ static void set_deviation(const fixture *f) {
     CHECK_OK(cstk_body_get_statistics(body, &s));
     CHECK(s.deviation == 0.1);
     CHECK_OK(cstk_query_create(&query));
-    CHECK_OK(cstk_pair_distance(query, body, NULL, body, pose, INFINITY, &d));
+    CHECK_OK(cstk_pair_distance(query, body, here, body, pose, INFINITY, &d));
     CHECK(fabs(d.distance - 0.8) < 1e-12 && d.lower <= 0.8 && d.upper >= 1.2 && d.upper < 1.2 + 1e-9);
     CHECK(d.has_contact && fabs(d.contact.distance - 0.8) < 1e-12 && d.r_point[2] == 0 && d.s_point[2] == 1);
-    CHECK_OK(cstk_pair_within(query, body, NULL, body, pose, 0.81, &within));
+    CHECK_OK(cstk_pair_within(query, body, here, body, pose, 0.81, &within));
     CHECK(within);
-    CHECK_OK(cstk_pair_within(query, body, NULL, body, pose, 0.79, &within));
+    CHECK_OK(cstk_pair_within(query, body, here, body, pose, 0.79, &within));
     CHECK(!within);
-    CHECK_FAILS(cstk_pair_depth(query, body, NULL, body, NULL, NULL, &depth), CSTK_ERROR_UNSUPPORTED, "body_a");
+    CHECK_FAILS(cstk_pair_depth(query, body, here, body, here, NULL, &depth), CSTK_ERROR_UNSUPPORTED, "body_a");
     /* The largest there can be: nothing is proved apart. */
     CHECK_OK(cstk_body_release(body));
     CHECK_OK(cstk_body_builder_set_deviation(builder, 1e50));
     CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
-    CHECK_OK(cstk_pair_distance(query, body, NULL, body, pose, INFINITY, &d));
+    CHECK_OK(cstk_pair_distance(query, body, here, body, pose, INFINITY, &d));
     CHECK(d.distance == 0 && d.lower == 0 && d.upper >= 2e50 && isfinite(d.upper));
     CHECK_OK(cstk_query_release(query));
     CHECK_OK(cstk_body_release(body));
