@@ -6,7 +6,7 @@ from typing import Any, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, empty, index, pointer, pointers, same_length, scalar, vector
+from ._arrays import doubles, empty, index, pointer, pointers, rows, same_length, scalar, vector
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from .enums import RangeKind
