@@ -363,6 +363,37 @@ static void shells(const scene *s) {
     fixture_unchanged(&s->f);
 }
 
+static void known_classes(const scene *s) {
+    cstk_cobject *ball = NULL;
+    cstk_cobject *limits = NULL;
+    cstk_cobject *elsewhere = NULL;
+    cstk_cobject *out = NULL;
+    const int32_t bad_classes[] = {CSTK_CLASS_CONTACT, -1, 3, INT32_MIN, INT32_MAX};
+    CHECK_OK(cstk_cobject_ball(s->space, s->center, NQ, 0.5, NULL, &ball));
+    CHECK_OK(cstk_cobject_beyond_limits(s->space, NULL, &limits));
+    CHECK_OK(cstk_cobject_beyond_limits(s->turning, NULL, &elsewhere));
+    EACH_BAD_HANDLE(&s->f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(out, cstk_cobject_with_known(bad->handle, ball, CSTK_CLASS_OUTSIDE, &out), bad->status, "of");
+        CHECK_REFUSED(out, cstk_cobject_with_known(limits, bad->handle, CSTK_CLASS_OUTSIDE, &out), bad->status,
+                      "within");
+    }
+    for (size_t i = 0; i < sizeof bad_classes / sizeof bad_classes[0]; ++i) {
+        CHECK_REFUSED(out, cstk_cobject_with_known(limits, ball, bad_classes[i], &out), CSTK_ERROR_INVALID_ARGUMENT,
+                      "known");
+    }
+    CHECK_FAILS(cstk_cobject_with_known(limits, ball, CSTK_CLASS_OUTSIDE, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_REFUSED(out, cstk_cobject_with_known(ball, limits, CSTK_CLASS_OUTSIDE, &out), CSTK_ERROR_UNSUPPORTED,
+                  "within");
+    CHECK_REFUSED(out, cstk_cobject_with_known(elsewhere, ball, CSTK_CLASS_OUTSIDE, &out),
+                  CSTK_ERROR_INVALID_ARGUMENT, "within");
+    CHECK_OK(cstk_cobject_with_known(limits, ball, CSTK_CLASS_INSIDE, &out));
+    CHECK_OK(cstk_cobject_release(out));
+    CHECK_OK(cstk_cobject_release(elsewhere));
+    CHECK_OK(cstk_cobject_release(limits));
+    CHECK_OK(cstk_cobject_release(ball));
+    fixture_unchanged(&s->f);
+}
+
 int main(void) {
     static scene s;
     scene_create(&s);
@@ -374,6 +405,7 @@ int main(void) {
     combinations(&s);
     data(&s);
     shells(&s);
+    known_classes(&s);
     scene_release(&s);
     return check_result();
 }

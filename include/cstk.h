@@ -3285,6 +3285,33 @@ cstk_status cstk_cobject_with_shell(const cstk_cobject *cobject,
                                     cstk_cobject **out);
 
 /**
+ * Creates the C-object `of` with what the caller knows of it: at every configuration in the interior of `within` its class is
+ * `known`, a cstk_class: CSTK_CLASS_OUTSIDE or CSTK_CLASS_INSIDE. There queries need not look at geometry (§2.2.3): boxes that cstk_region_grow or
+ * cstk_region_classify has proved free are such sets. `within` is a box, a ball or a half-space (cstk_cobject_box, _ball,
+ * _halfspace), an intersection of these (a polytope), or a union of those. Its contact epsilons and scales are ignored. Sets are
+ * looked at one after the other.
+ *
+ * The library takes the caller's word: it must hold in every state of the environments that the C-object is asked in, and where `of`
+ * has a contact epsilon, CSTK_CLASS_OUTSIDE says that there is no contact either, which the proof of a box does not. A wrong word
+ * makes wrong answers. What each query does with it:
+ * - classes: in the interior of a set the known class; on its boundary, within rounding of it, outside it, and at link poses `of` is
+ *   asked. cstk_within with threshold 0 does the same, with a threshold above 0 it asks `of`;
+ * - motions, paths and shortcuts with threshold 0, boxes of C-space and maps: the parts of a motion or box inside a set are known, the
+ *   others proved. A straight motion between two configurations of one box, ball or polytope is known without any geometry, but for
+ *   free joints and rotations that move near its boundary. With a threshold above 0 `of` is asked;
+ * - distances, witnesses, gradients, explanations, signed distances, clearances and slides ask `of`, for nothing is known of
+ *   distances; so do certificates, which take nobody's word: they are those of `of`.
+ *
+ * It may be part of any other set, and counts as one level of its depth. It takes no shell (give it to `of`).
+ * CSTK_ERROR_INVALID_ARGUMENT for CSTK_CLASS_CONTACT or sets of two spaces, CSTK_ERROR_UNSUPPORTED for other sets as `within`.
+ * Threads may share it, as any C-object.
+ */
+cstk_status cstk_cobject_with_known(const cstk_cobject *of,
+                                    const cstk_cobject *within,
+                                    int32_t known,
+                                    cstk_cobject **out);
+
+/**
  * Writes the user data of a C-object (or NULL) and its number, by which witnesses and explanations name it as a leaf;
  * either output may be NULL. No two sets of a process share a number; the complement of a complement is the original set,
  * with its number.

@@ -1710,6 +1710,13 @@ public:
         return CObject(out);
     }
 
+    /// The same set with what the caller knows of it: its class, outside or inside, in the interior of boxes, balls and polytopes.
+    CObject with_known(const CObject &within, cstk_class known) const {
+        cstk_cobject *out = nullptr;
+        check(cstk_cobject_with_known(get(), within.get(), known, &out));
+        return CObject(out);
+    }
+
     void *data() const {
         void *data = nullptr;
         check(cstk_cobject_get_data(get(), &data, nullptr));

@@ -231,3 +231,27 @@ def test_the_halves_of_a_slide(query):
     assert cstk.spring_step(found, 0.0) is None
     with pytest.raises(cstk.Error):
         cstk.slide_step(query.witnesses(arm.cobject, q, 0.5), [0.5, 0.0], desired)
+
+
+def test_the_callers_word_is_taken_within_its_sets(query):
+    arm = PlanarArm(2.2)
+    grown = query.region_grow(arm.cobject, arm.space, [-1.0, 0.0])
+    free = cstk.CObject.box(arm.space, grown.low, grown.high)
+    known = arm.cobject.with_known(free, cstk.Class.OUTSIDE)
+    ends = [grown.low + part * (grown.high - grown.low) for part in (0.3, 0.7)]
+    query.statistics(reset=True)
+    assert query.classify(known, ends[0]) == cstk.Class.OUTSIDE
+    assert query.motion(known, *ends) and query.region_classify(known, *ends).outcome == cstk.RegionOutcome.FREE
+    assert query.statistics().node_pairs == 0
+    assert query.distance(known, ends[0]).distance == pytest.approx(arm.clearance(ends[0]))
+    assert query.motion(known, [0, 0], [1.6, 0]).outcome == cstk.MotionOutcome.HIT
+    # A wrong word is taken too, but by no certificate.
+    blocked = [math.pi / 2, 0.0]
+    wrong = arm.cobject.with_known(cstk.CObject.ball(arm.space, blocked, 0.2), cstk.Class.OUTSIDE)
+    assert arm.clearance(blocked) < 0 and query.classify(wrong, blocked) == cstk.Class.OUTSIDE
+    assert query.motion(wrong, blocked, [math.pi / 2, 0.1])
+    assert query.motion_certificate(wrong, blocked, [math.pi / 2, 0.1])[1] is None
+    with pytest.raises(cstk.UnsupportedError):
+        arm.cobject.with_known(arm.cobject, cstk.Class.INSIDE)
+    with pytest.raises(cstk.InvalidArgumentError):
+        arm.cobject.with_known(free, cstk.Class.CONTACT)

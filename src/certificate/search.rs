@@ -54,6 +54,8 @@ impl QueryContext {
         q1: &[f64],
         options: &MotionOptions,
     ) -> Result<(MotionAnswer, Option<Certificate>)> {
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         let v = checked_difference(cobject.space(), q0, q1)?;
         let world = &self.begin_motion(cobject, options)?;
         let start = Configuration::Coordinates(q0);

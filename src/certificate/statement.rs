@@ -126,6 +126,8 @@ impl<'a> Builder<'a> {
     fn set(&mut self, cobject: &'a CObject, complement: bool) -> Result<Claim<'a>> {
         count(&mut self.sets)?;
         let (is_union, terms, parts) = match cobject.set() {
+            // A certificate takes nobody's word.
+            Set::Known(known) => return self.set(&known.of, complement),
             Set::Complement(part) => return self.set(part, !complement),
             Set::Pure(pure) if complement => {
                 let what = format!("it is the complement of {}", pure.shape.name());

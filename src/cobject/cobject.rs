@@ -1,13 +1,13 @@
 //! C-objects: leaves, and trees of unions, intersections and complements over them.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::compound::{Compound, CompoundKind};
 use super::leaf::next_serial;
 use super::{
-    AllowedPair, BodyPairs, Induced, InducedOptions, Leaf, PureOptions, PureSet, PureShape,
-    SObjects,
+    AllowedPair, BodyPairs, Class, Induced, InducedOptions, KnownClass, Leaf, PureOptions, PureSet,
+    PureShape, SObjects,
 };
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -34,6 +34,8 @@ pub enum Set {
     Complement(Arc<CObject>),
     /// A set given in C-space itself.
     Pure(PureSet),
+    /// A C-object whose class is known in places.
+    Known(KnownClass),
 }
 
 /// The unit in which a set measures.
@@ -74,6 +76,8 @@ pub(super) struct Flat {
     needs_coordinates: Option<(u64, &'static str)>,
     /// Without duplicates, in order of serials.
     environments: Vec<Arc<Environment>>,
+    /// Its class, or that of a part, is known in places.
+    has_known: bool,
 }
 
 impl Flat {
@@ -82,6 +86,8 @@ impl Flat {
         environments.sort_by_key(|environment| environment.serial());
         environments.dedup_by_key(|environment| environment.serial());
         Self {
+            has_known: matches!(set, Set::Known(_))
+                || set.parts().iter().any(|part| part.flat().has_known),
             metric: set.metric(),
             needs_coordinates: set.needs_coordinates(),
             set,
@@ -181,6 +187,63 @@ impl CObject {
     /// The configurations of one C-object that are not in another.
     pub fn difference(of: &Arc<CObject>, without: &Arc<CObject>) -> Result<Self> {
         Self::intersection(&[of.clone(), Arc::new(Self::complement(without)?)])
+    }
+
+    /// A C-object of which the caller knows that it has a class, outside or inside, at every configuration in the interior of convex
+    /// sets (see [`ConvexSets::of`]).
+    ///
+    /// [`ConvexSets::of`]: super::ConvexSets::of
+    pub fn with_known(of: &Arc<CObject>, within: &CObject, class: Class) -> Result<Self> {
+        let set = Set::Known(KnownClass::new(of.clone(), within, class)?);
+        Self::with_set(next_serial(), of.space.clone(), set, None).with_depth_checked()
+    }
+
+    /// The same set without what is known of it, for queries that take nobody's word; `None` if nothing is. Its leaves are the same.
+    pub fn without_known(&self) -> Result<Option<Arc<CObject>>> {
+        match self.has_known() {
+            true => self.by_geometry(&mut HashMap::new()).map(Some),
+            false => Ok(None),
+        }
+    }
+
+    /// The same, of a set that has something known; `memo` holds what became of parts, by serial.
+    fn by_geometry(&self, memo: &mut HashMap<u64, Arc<CObject>>) -> Result<Arc<CObject>> {
+        if let Some(found) = memo.get(&self.serial) {
+            return Ok(found.clone());
+        }
+        let mut part = |part: &Arc<CObject>| match part.has_known() {
+            true => part.by_geometry(memo),
+            false => Ok(part.clone()),
+        };
+        let set = match self.set() {
+            Set::Known(known) => part(&known.of)?,
+            Set::Complement(inner) => Arc::new(Self::complement(&part(inner)?)?),
+            Set::Intersection(parts) => {
+                let parts: Vec<_> = parts.iter().map(part).collect::<Result<_>>()?;
+                Arc::new(Self::intersection(&parts)?)
+            }
+            Set::Union { induced, others } => {
+                let mut parts: Vec<_> = others.iter().map(part).collect::<Result<_>>()?;
+                if !induced.is_empty() {
+                    parts.insert(0, Arc::new(self.induced_alone(induced.clone())));
+                }
+                Arc::new(Self::union(&parts)?)
+            }
+            Set::Pure(_) => unreachable!("of a pure set nothing is known"),
+        };
+        memo.insert(self.serial, set.clone());
+        Ok(set)
+    }
+
+    fn induced_alone(&self, induced: Vec<Arc<Induced>>) -> Self {
+        let others = Vec::new();
+        let set = Set::Union { induced, others };
+        Self::with_set(next_serial(), self.space.clone(), set, None)
+    }
+
+    /// Whether its class, or that of a part, is known in places.
+    pub fn has_known(&self) -> bool {
+        self.flat().has_known
     }
 
     fn of_compound(space: Arc<Space>, compound: Compound) -> Result<Self> {
@@ -410,6 +473,7 @@ impl Set {
             Self::Union { others, .. } => others,
             Self::Intersection(parts) => parts,
             Self::Complement(part) => std::slice::from_ref(part),
+            Self::Known(known) => std::slice::from_ref(&known.of),
             Self::Pure(_) => &[],
         }
     }

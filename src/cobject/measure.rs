@@ -198,7 +198,7 @@ impl PureSet {
     }
 
     /// The measure before scaling, and its error.
-    fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64) {
+    pub(super) fn by_coordinate(&self, space: &Space, q: &[f64]) -> (f64, f64) {
         match &self.shape {
             PureShape::BeyondLimits => {
                 let (measure, error) = measure_of(self.spans(space, q));
@@ -243,7 +243,7 @@ impl PureSet {
     }
 
     /// The signed distance of each coordinate from its interval, for limits and boxes; empty for other sets.
-    fn spans<'a>(
+    pub(super) fn spans<'a>(
         &'a self,
         space: &'a Space,
         q: &'a [f64],

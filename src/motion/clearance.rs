@@ -52,7 +52,7 @@ impl ClearanceOptions {
     pub(super) fn check_for(&self, cobject: &CObject) -> Result<()> {
         self.check()?;
         cobject.require_one_metric()?;
-        if SetTree::new(cobject).is_plain_union() {
+        if SetTree::new(cobject, false).is_plain_union() {
             return Ok(());
         }
         Err(Error::new(
@@ -168,6 +168,8 @@ impl QueryContext {
         q1: &[f64],
         options: &ClearanceOptions,
     ) -> Result<MotionClearance> {
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         options.check_for(cobject)?;
         let v = &checked_difference(cobject.space(), q0, q1)?;
         cobject.space().check_velocity(v, "velocity")?;

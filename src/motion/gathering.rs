@@ -94,6 +94,10 @@ impl<'a> Gathering<'a> {
         self.complement = complement;
         let moving = match leaf.content {
             LeafContent::Pure(set) => self.pure(set, complement)?,
+            LeafContent::Known(sets) => MovingLeaf::Known {
+                sets: sets.clone(),
+                complement,
+            },
             // The distance from the complement of an induced set is 0 or unknown.
             LeafContent::Induced(_) if complement && self.threshold > 0.0 => MovingLeaf::Everything,
             LeafContent::Induced(group) => {

@@ -1,19 +1,22 @@
 //! The proof that a motion keeps out of a set: intervals of time are halved until bounds over the interval part all boxes and
 //! primitives, and all pure sets.
 
+use std::sync::Arc;
+
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Front, Part};
 use super::kinematics::Kinematics;
 use super::look::{LeafLook, Look, PairLook};
 use super::moving_pair::{Interval, MovingPair};
-use super::moving_pure::{Moment, MovingPure};
+use super::moving_pure::{Extent, Moment, MovingPure};
 use super::over_pairs::{OverPairs, OverPairsMemory};
 use super::over_piece::OneTwist;
 use super::piece::Piece;
-use super::set_tree::{Known, SetTree};
+use super::set_tree::{Known, SetTree, known_over};
 use super::span::Span;
 use super::way::Way;
+use crate::cobject::ConvexSets;
 use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::query::QueryContext;
@@ -60,6 +63,12 @@ pub(super) enum MovingLeaf {
         complement: bool,
     },
     Pure(MovingPure),
+    /// Where the caller knows the class of another part.
+    Known {
+        sets: Arc<ConvexSets>,
+        /// The leaf stands for the complement.
+        complement: bool,
+    },
     /// Every configuration counts as in it.
     Everything,
 }
@@ -380,6 +389,7 @@ impl MovingSet<'_> {
         memory: &mut Vec<Known>,
     ) -> Result<Known> {
         look.start(part);
+        self.look_at_known(look, middle)?;
         self.look_at_pure(look, middle)?;
         let is_plain = self.tree.is_plain_union();
         let mut whole = self.tree.known(look.known, memory);
@@ -398,12 +408,39 @@ impl MovingSet<'_> {
         Ok(whole)
     }
 
+    /// Asks where the classes of parts are known.
+    fn look_at_known<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
+        let Some(way) = middle.way else {
+            return Ok(());
+        };
+        for (number, leaf) in self.leaves.iter().enumerate() {
+            if let MovingLeaf::Known { sets, complement } = leaf
+                && look.known[number] == Known::Nothing
+            {
+                let interval = match look.piece.extent() {
+                    Extent::Time { time, span } => Some((time, span)),
+                    Extent::Box(_) => None,
+                };
+                let space = way.line.cobject.space();
+                let at = way.at(middle.time)?;
+                let over = way.with_around(interval, |around| {
+                    known_over(sets, *complement, space, around, &at)
+                })?;
+                match over {
+                    Known::Free => look.settle(number, Known::Free),
+                    known => look.known[number] = known,
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Asks the pure leaves.
     fn look_at_pure<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
         let mut is_asked = false;
         for (leaf, known) in self.leaves.iter().zip(look.known.iter_mut()) {
             match leaf {
-                MovingLeaf::Pairs { .. } => {}
+                MovingLeaf::Pairs { .. } | MovingLeaf::Known { .. } => {}
                 MovingLeaf::Everything => *known = Known::Meets,
                 MovingLeaf::Pure(_) => is_asked |= *known == Known::Nothing,
             }

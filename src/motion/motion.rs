@@ -156,7 +156,10 @@ impl QueryContext {
         way: &Way,
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        if options.any_contact {
+        let uses_known = options.threshold == 0.0 && way.line.cobject.has_known();
+        let is_sampled = options.any_contact
+            && !(uses_known && way.is_free_by_word(&SetTree::new(way.line.cobject, true))?);
+        if is_sampled {
             for time in times_sampled_first(way) {
                 if self.has_contact(way, time, options)? {
                     return self.answer(way, MotionOutcome::Hit, [0.0, time], options);
@@ -229,7 +232,10 @@ impl QueryContext {
         confirm: &mut Confirm,
     ) -> Result<Proof> {
         let motions = &way.link_motions();
-        let tree = &SetTree::new(way.line.cobject);
+        let tree = &SetTree::new(way.line.cobject, threshold == 0.0);
+        if way.is_free_by_word(tree)? {
+            return Ok(Proof::Free);
+        }
         let q_middle = way.at(0.5)?;
         let at = Configuration::Coordinates(&q_middle);
         let LinearMotion { world, cobject, .. } = way.line;

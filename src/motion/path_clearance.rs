@@ -85,6 +85,8 @@ impl QueryContext {
         options: &ClearanceOptions,
         progress: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<PathClearance> {
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         options.check_for(cobject)?;
         checked_count(cobject.space(), points)?;
         let world = &self.look(cobject);

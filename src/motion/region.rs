@@ -133,9 +133,12 @@ impl QueryContext {
             },
         };
         let tree = &match keeps {
-            Keeps::Out => SetTree::new(cobject),
+            Keeps::Out => SetTree::new(cobject, true),
             Keeps::In => SetTree::of_complement(cobject),
         };
+        if way.is_free_by_word(tree)? {
+            return Ok(BoxProof::Free);
+        }
         let motions = &way.link_motions();
         let scene = &way.scene(q)?;
         let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps);

@@ -3,11 +3,13 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use foldhash::fast::RandomState;
 
-use crate::cobject::{CObject, PureSet, Set};
+use crate::cobject::{Around, CObject, Class, ConvexSets, KnownClass, PureSet, Set};
 use crate::query::{Composition, Group, composition};
+use crate::space::Space;
 
 /// What is known of a set over an interval of the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +35,8 @@ pub(super) enum LeafContent<'a> {
     /// A union of induced sets.
     Induced(&'a Group),
     Pure(&'a PureSet),
+    /// Where the caller knows the class of another part.
+    Known(&'a Arc<ConvexSets>),
 }
 
 #[derive(Debug)]
@@ -51,18 +55,24 @@ pub(super) struct SetTree<'a> {
     nodes: Vec<Node>,
     children: Vec<u32>,
     pub leaves: Vec<SetLeaf<'a>>,
+    /// Has leaves for what is known; else they are left out.
+    uses_known: bool,
 }
 
 /// The nodes of sets by serial and whether the complement is meant.
 type Memo = HashMap<(u64, bool), u32, RandomState>;
 
 impl<'a> SetTree<'a> {
-    pub fn new(cobject: &'a CObject) -> Self {
+    /// With leaves for what the caller knows of the set, if `uses_known`.
+    pub fn new(cobject: &'a CObject, uses_known: bool) -> Self {
         match cobject.set() {
             // The common case takes no list of what was seen.
             Set::Union { induced, others } if others.is_empty() => Self::of_group(induced),
             _ => {
-                let mut tree = Self::default();
+                let mut tree = Self {
+                    uses_known,
+                    ..Self::default()
+                };
                 tree.add(cobject, false, &mut Memo::default());
                 tree
             }
@@ -71,7 +81,10 @@ impl<'a> SetTree<'a> {
 
     /// The complement of a set.
     pub fn of_complement(cobject: &'a CObject) -> Self {
-        let mut tree = Self::default();
+        let mut tree = Self {
+            uses_known: true,
+            ..Self::default()
+        };
         tree.add(cobject, true, &mut Memo::default());
         tree
     }
@@ -87,6 +100,16 @@ impl<'a> SetTree<'a> {
     pub fn is_plain_union(&self) -> bool {
         let is_union = |node: &Node| !matches!(node, Node::All(_));
         self.nodes.iter().all(is_union) && self.leaves.iter().all(|leaf| !leaf.complement)
+    }
+
+    /// Whether the caller's word alone keeps configurations out of the set.
+    pub fn is_free_by_word(&self, space: &Space, around: &Around) -> bool {
+        let over = |leaf: &SetLeaf| match leaf.content {
+            LeafContent::Known(sets) => known_over(sets, leaf.complement, space, around, around.q),
+            _ => Known::Nothing,
+        };
+        let leaves: Vec<Known> = self.leaves.iter().map(over).collect();
+        leaves.contains(&Known::Free) && self.known(&leaves, &mut Vec::new()) == Known::Free
     }
 
     /// What is known of the set, given what is known of its leaves.
@@ -119,6 +142,8 @@ impl<'a> SetTree<'a> {
         let node = match cobject.set() {
             Set::Pure(set) => self.add_leaf(LeafContent::Pure(set), complement),
             Set::Complement(part) => self.add(part, !complement, memo),
+            Set::Known(known) if !self.uses_known => self.add(&known.of, complement, memo),
+            Set::Known(known) => self.add_known(known, complement, memo),
             set => {
                 let (is_any, group, parts) = match composition(set, complement) {
                     Composition::Any(group, parts) => (true, group, parts),
@@ -145,6 +170,22 @@ impl<'a> SetTree<'a> {
         node
     }
 
+    /// What is known to be outside is taken from the set, what is known to be inside is added to it.
+    fn add_known(&mut self, known: &'a KnownClass, complement: bool, memo: &mut Memo) -> u32 {
+        let is_taken = known.class == Class::Outside;
+        let leaf = LeafContent::Known(&known.within);
+        let sets = self.add_leaf(leaf, complement != is_taken);
+        let of = self.add(&known.of, complement, memo);
+        let first = self.children.len();
+        self.children.extend([sets, of]);
+        let children = first..self.children.len();
+        self.push(if is_taken != complement {
+            Node::All(children)
+        } else {
+            Node::Any(children)
+        })
+    }
+
     fn add_leaf(&mut self, content: LeafContent<'a>, complement: bool) -> u32 {
         self.leaves.push(SetLeaf {
             content,
@@ -156,6 +197,32 @@ impl<'a> SetTree<'a> {
     fn push(&mut self, node: Node) -> u32 {
         self.nodes.push(node);
         self.nodes.len() as u32 - 1
+    }
+}
+
+/// What is known of a union of convex sets, or of its complement, over configurations around one, with the class at `middle`.
+pub(super) fn known_over(
+    sets: &ConvexSets,
+    complement: bool,
+    space: &Space,
+    around: &Around,
+    middle: &[f64],
+) -> Known {
+    let is_free = match complement {
+        true => sets.contain(space, around),
+        false => sets.are_apart(space, around),
+    };
+    let middle = &Around {
+        q: middle,
+        half: &[],
+        is_line: true,
+    };
+    if is_free {
+        Known::Free
+    } else if sets.contain(space, middle) != complement {
+        Known::Meets
+    } else {
+        Known::Nothing
     }
 }
 

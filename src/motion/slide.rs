@@ -87,6 +87,8 @@ impl QueryContext {
         options: &SlideOptions,
     ) -> Result<SlideStep> {
         options.check()?;
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         // One state of the world for the whole slide: the proof must not combine distances of several.
         let world = &self.look(cobject);
         self.slide_in(world, cobject, q, step, options)

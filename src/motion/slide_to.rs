@@ -179,6 +179,8 @@ impl QueryContext {
         progress: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<SlidPath> {
         options.check()?;
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         let space = cobject.space();
         space.check_configuration(q)?;
         let goal = GoalBox::checked(space, goal[0], goal[1])?;

@@ -125,7 +125,7 @@ impl QueryContext {
     ) -> Result<Option<StartContacts>> {
         let start = &motion.scene(motion.q)?;
         let mut found = StartContacts::default();
-        for leaf in &SetTree::new(motion.cobject).leaves {
+        for leaf in &SetTree::new(motion.cobject, false).leaves {
             let goes_on = match leaf.content {
                 LeafContent::Induced(group) => {
                     let mut terms = group.chunks(1);
@@ -134,6 +134,7 @@ impl QueryContext {
                             && self.add_near_pairs(motion, start, term, allowance, &mut found)?)
                     })?
                 }
+                LeafContent::Known(_) => true,
                 LeafContent::Pure(set) => {
                     self.add_near_parts(motion, start, set, allowance, &mut found)?
                 }

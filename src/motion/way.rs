@@ -2,11 +2,18 @@
 //! middle of a box of configurations to another of the box.
 
 use super::linear_motion::LinearMotion;
+use super::set_tree::SetTree;
+use super::span::Span;
 use super::stated_motion::StatedMotion;
+use crate::cobject::Around;
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;
 use crate::robot::{LinkMotions, bezier};
+use crate::tolerance::EPSILON;
+
+/// Added to times: more than a configuration is rounded where its motion starts, or goes, far from it.
+const TIME_SLACK: f64 = 64.0 * EPSILON;
 
 /// A motion, or the motions in a box, in one state of the world.
 #[derive(Clone, Copy)]
@@ -55,6 +62,47 @@ impl<'a> Way<'a> {
             }
             WayKind::Box { .. } => self.line.q.to_vec(),
         })
+    }
+
+    /// Whether the caller's word alone keeps the whole way out of a set.
+    pub fn is_free_by_word(&self, tree: &SetTree) -> Result<bool> {
+        if !self.line.cobject.has_known() {
+            return Ok(false);
+        }
+        let q = self.at(0.5)?;
+        let part = match self.kind {
+            WayKind::Line | WayKind::Curve { .. } | WayKind::Stated(_) => 0.5 + TIME_SLACK,
+            WayKind::Box { .. } => 1.0,
+        };
+        let half: Vec<f64> = self.line.v.iter().map(|rate| rate * part).collect();
+        let around = &Around {
+            q: &q,
+            half: &half,
+            is_line: matches!(self.kind, WayKind::Line),
+        };
+        Ok(tree.is_free_by_word(self.line.cobject.space(), around))
+    }
+
+    /// The configurations of an interval, given as a time and how far it goes from there; of a box, all of it.
+    pub fn with_around<T>(
+        &self,
+        interval: Option<(f64, Span)>,
+        ask: impl FnOnce(&Around) -> T,
+    ) -> Result<T> {
+        let (q, part) = match interval {
+            None => (self.at(0.0)?, 1.0),
+            Some((time, Span::Around(half))) => (self.at(time)?, half + TIME_SLACK),
+            Some((time, Span::Before(length))) => {
+                let half = 0.5 * length;
+                (self.at(time - half)?, half + TIME_SLACK)
+            }
+        };
+        let half: Vec<f64> = self.line.v.iter().map(|rate| rate * part).collect();
+        Ok(ask(&Around {
+            q: &q,
+            half: &half,
+            is_line: matches!(self.kind, WayKind::Line),
+        }))
     }
 
     /// The world at a configuration.

@@ -64,6 +64,10 @@ impl QueryContext {
             Set::Union { induced, others } => {
                 self.class_of_union((induced, others), scene, is_proved, memo)?
             }
+            Set::Known(known) => match known.class_at(scene.space_state().q, false) {
+                Some(class) => class,
+                None => self.class_among(&known.of, scene, is_proved, memo)?,
+            },
         };
         memo.insert(key, class);
         Ok(class)

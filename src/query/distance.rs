@@ -84,6 +84,9 @@ impl QueryContext {
                 };
                 return pure.distance(max_distance);
             }
+            Set::Known(known) => {
+                return self.distance_from(&known.of, scene, max_distance, complement, memo);
+            }
             Set::Complement(part) => {
                 return self.distance_from(part, scene, max_distance, !complement, memo);
             }

@@ -154,7 +154,9 @@ impl QueryContext {
         }
         let parts = parts.into_iter();
         let class = match cobject.set() {
-            Set::Union { .. } | Set::Pure(_) => parts.max().unwrap_or(Class::Outside),
+            Set::Union { .. } | Set::Pure(_) | Set::Known(_) => {
+                parts.max().unwrap_or(Class::Outside)
+            }
             Set::Intersection(_) => parts.min().unwrap_or(Class::Inside),
             Set::Complement(_) => parts.max().unwrap_or(Class::Outside).reversed(),
         };

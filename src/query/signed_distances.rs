@@ -88,6 +88,8 @@ impl QueryContext {
     ) -> Result<SignedDistanceList> {
         check_threshold(max_distance, "max_distance")?;
         check_threshold(options.tolerance, "options->tolerance")?;
+        let asked = cobject.without_known()?;
+        let cobject = asked.as_deref().unwrap_or(cobject);
         let group = match cobject.set() {
             Set::Union { induced, others } if others.is_empty() => induced,
             _ => {

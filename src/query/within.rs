@@ -8,7 +8,7 @@ use super::pure_answer::PureAt;
 use super::scene::{Configuration, Group, Scene};
 use super::target::Target;
 use super::world::World;
-use crate::cobject::{CObject, Set};
+use crate::cobject::{CObject, Class, Set};
 use crate::error::Result;
 use crate::pair::{Pairing, Within, traverse, visit_pair};
 
@@ -65,6 +65,16 @@ impl QueryContext {
                 };
                 let lower = pure.bounded_distance()?.lower;
                 return Ok(lower <= threshold && lower < f64::INFINITY);
+            }
+            Set::Known(known) => {
+                let class = match threshold == 0.0 {
+                    true => known.class_at(scene.space_state().q, complement),
+                    false => None,
+                };
+                return match class {
+                    Some(class) => Ok(class == Class::Inside),
+                    None => self.within_among(&known.of, scene, threshold, complement, memo),
+                };
             }
             Set::Complement(part) => {
                 return self.within_among(part, scene, threshold, !complement, memo);

@@ -8,6 +8,7 @@ mod compound;
 mod curves;
 mod discs;
 mod forged;
+mod known_classes;
 mod map_boundaries;
 mod map_ends;
 mod maps;

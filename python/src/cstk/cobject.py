@@ -226,6 +226,11 @@ class CObject(Handle):
         """The same induced or pure set with a shell of its own for slides."""
         return self._made(lib.cstk_cobject_with_shell, self._pointer, scalar("shell", shell))
 
+    def with_known(self, within: "CObject", known: Class) -> "CObject":
+        """The same set with what the caller knows of it: its class, OUTSIDE or INSIDE, in the interior of `within`, a box, a ball, a
+        half-space, an intersection of these, or a union of those. No geometry is asked there, and the caller's word is taken for it."""
+        return self._made(lib.cstk_cobject_with_known, self._pointer, pointer_of(CObject, "within", within), int(Class(known)))
+
     @property
     def data(self) -> Any:
         """What with_data attached, or None."""

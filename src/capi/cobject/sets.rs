@@ -3,6 +3,7 @@
 use std::ffi::c_void;
 use std::sync::Arc;
 
+use crate::capi::at_configuration::answers::cstk_class;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
@@ -10,7 +11,7 @@ use crate::capi::input::{Output, slice};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::{CallerData, address};
-use crate::cobject::CObject;
+use crate::cobject::{CObject, Class};
 use crate::error::Result as CoreResult;
 use crate::user_data::value_of;
 
@@ -143,6 +144,53 @@ pub unsafe extern "C" fn cstk_cobject_with_shell(
         let cobject = &*handle::share::<CObject>(cobject, "cobject")?;
         let out = Output::checked(out, "out")?;
         out.write(handle::create(Arc::new(cobject.with_shell(shell)?)));
+        Ok(())
+    })
+}
+
+/// Creates the C-object `of` with what the caller knows of it: at every configuration in the interior of `within` its class is
+/// `known`, a cstk_class: CSTK_CLASS_OUTSIDE or CSTK_CLASS_INSIDE. There queries need not look at geometry (§2.2.3): boxes that cstk_region_grow or
+/// cstk_region_classify has proved free are such sets. `within` is a box, a ball or a half-space (cstk_cobject_box, _ball,
+/// _halfspace), an intersection of these (a polytope), or a union of those. Its contact epsilons and scales are ignored. Sets are
+/// looked at one after the other.
+///
+/// The library takes the caller's word: it must hold in every state of the environments that the C-object is asked in, and where `of`
+/// has a contact epsilon, CSTK_CLASS_OUTSIDE says that there is no contact either, which the proof of a box does not. A wrong word
+/// makes wrong answers. What each query does with it:
+/// - classes: in the interior of a set the known class; on its boundary, within rounding of it, outside it, and at link poses `of` is
+///   asked. cstk_within with threshold 0 does the same, with a threshold above 0 it asks `of`;
+/// - motions, paths and shortcuts with threshold 0, boxes of C-space and maps: the parts of a motion or box inside a set are known, the
+///   others proved. A straight motion between two configurations of one box, ball or polytope is known without any geometry, but for
+///   free joints and rotations that move near its boundary. With a threshold above 0 `of` is asked;
+/// - distances, witnesses, gradients, explanations, signed distances, clearances and slides ask `of`, for nothing is known of
+///   distances; so do certificates, which take nobody's word: they are those of `of`.
+///
+/// It may be part of any other set, and counts as one level of its depth. It takes no shell (give it to `of`).
+/// CSTK_ERROR_INVALID_ARGUMENT for CSTK_CLASS_CONTACT or sets of two spaces, CSTK_ERROR_UNSUPPORTED for other sets as `within`.
+/// Threads may share it, as any C-object.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_with_known(
+    of: *const cstk_cobject,
+    within: *const cstk_cobject,
+    known: i32,
+    out: *mut *mut cstk_cobject,
+) -> cstk_status {
+    guard(|| {
+        let of = handle::share::<CObject>(of, "of")?;
+        let within = handle::share::<CObject>(within, "within")?;
+        let out = Output::checked(out, "out")?;
+        let known = match known {
+            _ if known == cstk_class::CSTK_CLASS_OUTSIDE as i32 => Class::Outside,
+            _ if known == cstk_class::CSTK_CLASS_INSIDE as i32 => Class::Inside,
+            _ => {
+                return Err(Failure::new(
+                    cstk_status::CSTK_ERROR_INVALID_ARGUMENT,
+                    format!("known is {known}, neither CSTK_CLASS_OUTSIDE nor CSTK_CLASS_INSIDE"),
+                ));
+            }
+        };
+        let cobject = CObject::with_known(&of, &within, known)?;
+        out.write(handle::create(Arc::new(cobject)));
         Ok(())
     })
 }
