@@ -63,7 +63,7 @@ pub struct CObject {
 /// The content of a C-object. Unions and intersections are flattened on first use.
 #[derive(Clone, Debug)]
 pub(super) enum Content {
-    Flat(Flat),
+    Flat(Box<Flat>),
     Compound(Arc<Compound>),
 }
 
@@ -273,7 +273,7 @@ impl CObject {
             serial,
             space,
             depth: 1 + set.parts().iter().map(|part| part.depth).max().unwrap_or(0),
-            content: Content::Flat(Flat::of(set)),
+            content: Content::Flat(Box::new(Flat::of(set))),
             data,
         }
     }
@@ -354,9 +354,10 @@ impl CObject {
 
     /// The set of a leaf; `None` for compounds.
     fn leaf_set(&self) -> Option<&Set> {
-        let Content::Flat(Flat { set, .. }) = &self.content else {
+        let Content::Flat(flat) = &self.content else {
             return None;
         };
+        let set = &flat.set;
         let is_leaf = match set {
             Set::Pure(_) => true,
             Set::Union { induced, others } => {

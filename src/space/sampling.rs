@@ -39,21 +39,28 @@ impl Space {
                 ),
             ));
         }
-        Ok(self.sample_beside(sampler, &self.neutral()))
+        let mut q = vec![0.0; self.nq()];
+        self.make_sample(sampler, &mut q);
+        Ok(q)
     }
 
     /// The same, but unbounded coordinates are copied from `beside`.
     pub fn sample_beside(&self, sampler: &mut Sampler, beside: &[f64]) -> Vec<f64> {
-        let mut q = Vec::with_capacity(self.nq());
-        for (coordinate, &x) in self.coordinates().iter().zip(beside) {
-            q.push(match *coordinate {
-                Coordinate::Circle => sampler.unit() * TAU,
+        let mut q = beside.to_vec();
+        self.make_sample(sampler, &mut q);
+        q
+    }
+
+    /// Draws all coordinates of q but those that are unbounded.
+    fn make_sample(&self, sampler: &mut Sampler, q: &mut [f64]) {
+        for (coordinate, x) in self.coordinates().iter().zip(&mut *q) {
+            match *coordinate {
+                Coordinate::Circle => *x = sampler.unit() * TAU,
                 Coordinate::Interval { lower, upper } if (upper - lower).is_finite() => {
-                    (lower + (upper - lower) * sampler.unit()).clamp(lower, upper)
+                    *x = (lower + (upper - lower) * sampler.unit()).clamp(lower, upper);
                 }
-                Coordinate::Interval { .. } => x,
-                Coordinate::Quaternion => 0.0,
-            });
+                Coordinate::Interval { .. } | Coordinate::Quaternion => {}
+            }
         }
         for at in self.quaternions() {
             let share = sampler.unit();
@@ -62,6 +69,5 @@ impl Space {
             let (t, d) = (sampler.unit() * TAU).sin_cos();
             q[at..at + 4].copy_from_slice(&[large * s, large * c, small * t, small * d]);
         }
-        q
     }
 }

@@ -228,13 +228,14 @@ impl Space {
         weights: Option<&[f64]>,
     ) -> std::result::Result<Vec<f64>, (usize, Error)> {
         let nq = self.nq();
-        let distance = |i: usize| {
+        let mut distances = Vec::with_capacity(count);
+        for i in 0..count {
             let other = &others[i * nq..(i + 1) * nq];
             self.check_configuration(other)
                 .map_err(|error| (i, error))?;
-            Ok(self.distance(q, other, weights))
-        };
-        (0..count).map(distance).collect()
+            distances.push(self.distance(q, other, weights));
+        }
+        Ok(distances)
     }
 }
 

@@ -293,7 +293,7 @@ pub unsafe extern "C" fn cstk_space_sample(
     q: *mut f64,
 ) -> cstk_status {
     guard(|| {
-        let space = &*handle::share::<Space>(space, "space")?;
+        let space = handle::borrowed::<Space>(space, "space")?;
         let advanced = Output::checked(state, "state")?;
         let out = OutputSlice::checked(q, space.nq(), "q")?;
         // SAFETY: checked for NULL and alignment above.
