@@ -1,0 +1,76 @@
+/* Part of cstk.hpp: what its headers share: handles, checks of lengths, the context of the parts of Query. */
+#ifndef CSTK_DETAIL_HPP
+#define CSTK_DETAIL_HPP
+
+#include <cstk.h>
+#include <cstk/error.hpp>
+#include <cstk/span.hpp>
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace cstk {
+
+/// One reference to an object of the library; empty when default-constructed or moved from.
+template <typename T, cstk_status (*Retain)(T *), cstk_status (*Release)(T *)> class Handle {
+public:
+    Handle() = default;
+    /// Takes over the reference that a _create or _build call gave.
+    explicit Handle(T *owned) noexcept : object_(owned) {}
+    Handle(const Handle &other) : object_(other.object_) {
+        if (object_ != nullptr) {
+            check(Retain(object_));
+        }
+    }
+    Handle(Handle &&other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    Handle &operator=(Handle other) noexcept {
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~Handle() { Release(object_); }
+
+    T *get() const noexcept { return object_; }
+    explicit operator bool() const noexcept { return object_ != nullptr; }
+
+private:
+    T *object_ = nullptr;
+};
+
+namespace detail {
+
+/// The columns of a Jacobian of 6 rows.
+inline std::size_t columns(const std::vector<double> &jacobian) {
+    if (jacobian.size() % 6 != 0) {
+        throw std::invalid_argument("cstk: a Jacobian has 6 rows");
+    }
+    return jacobian.size() / 6;
+}
+
+/// The length of both configurations.
+inline std::size_t same_size(Span<double> q0, Span<double> q1) {
+    if (q0.size() != q1.size()) {
+        throw std::invalid_argument("cstk: two configurations have the same length");
+    }
+    return q0.size();
+}
+
+/// The length of each of `count` configurations, one after the other.
+inline std::size_t parts_of(Span<double> points, std::size_t count) {
+    if (count == 0 || points.size() % count != 0) {
+        throw std::invalid_argument("cstk: there is at least one point, and all are of one size");
+    }
+    return points.size() / count;
+}
+
+/* The context of the query of which `part` is one part. */
+template <template <typename> class Part, typename Query> cstk_query *query_of(const Part<Query> &part) {
+    return static_cast<const Query &>(part).get();
+}
+
+} // namespace detail
+
+} // namespace cstk
+
+#endif

@@ -1,0 +1,159 @@
+/* Part of cstk.hpp: s-objects and their changes. */
+#ifndef CSTK_ENVIRONMENT_HPP
+#define CSTK_ENVIRONMENT_HPP
+
+#include <cstk.h>
+#include <cstk/body.hpp>
+#include <cstk/detail.hpp>
+#include <cstk/error.hpp>
+#include <cstk/pose.hpp>
+#include <cstk/space.hpp>
+#include <cstk/span.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cstk {
+
+inline cstk_scene_options scene_options() {
+    cstk_scene_options options;
+    check(cstk_scene_options_default(&options, sizeof options));
+    return options;
+}
+
+class Environment
+    : public Handle<cstk_environment, cstk_environment_retain, cstk_environment_release> {
+public:
+    Environment() : Handle(create()) {}
+
+    /// Adds an s-object; returns its id.
+    std::uint64_t add(const Body &body, const Pose &pose) {
+        return apply_one(change(CSTK_CHANGE_ADD, 0, body.get(), pose));
+    }
+
+    void move(std::uint64_t id, const Pose &pose) {
+        apply_one(change(CSTK_CHANGE_MOVE, id, nullptr, pose));
+    }
+
+    void remove(std::uint64_t id) {
+        apply_one(change(CSTK_CHANGE_DELETE, id, nullptr, identity()));
+    }
+
+    /// Fixes an s-object to a link of a space, `pose` in the link's frame; move() lets it go. The links in `touching` may meet
+    /// it: the fingers, say.
+    void attach(std::uint64_t id, const Space &space, std::uint32_t link, const Pose &pose,
+                Span<std::uint32_t> touching = {}) {
+        cstk_environment_change attached = change(CSTK_CHANGE_ATTACH, id, nullptr, pose);
+        attached.space = space.get();
+        attached.link = link;
+        attached.touch_links = touching.data();
+        attached.touch_count = static_cast<std::uint32_t>(touching.size());
+        apply_one(attached);
+    }
+
+    /// Adds the objects of a MoveIt `.scene` file; returns their ids. Their data are their names.
+    std::vector<std::uint64_t> load_scene(const std::string &file,
+                                          const cstk_scene_options &options = scene_options()) {
+        return load(cstk_environment_load_scene, file, options);
+    }
+
+    std::vector<std::uint64_t> load_scene_text(const std::string &scene,
+                                               const cstk_scene_options &options = scene_options()) {
+        return load(cstk_environment_load_scene_text, scene, options);
+    }
+
+    /// Applies all changes as one; returns the ids they are about.
+    std::vector<std::uint64_t> apply(Span<cstk_environment_change> changes) {
+        std::vector<std::uint64_t> ids(changes.size());
+        check(cstk_environment_apply(get(), changes.data(), changes.size(), ids.data(), nullptr));
+        return ids;
+    }
+
+    /// One change, for apply().
+    static cstk_environment_change change(cstk_change_kind kind, std::uint64_t id,
+                                          const cstk_body *body, const Pose &pose) {
+        cstk_environment_change change;
+        check(cstk_environment_change_default(&change, sizeof change));
+        change.kind = kind;
+        change.id = id;
+        change.body = body;
+        for (std::size_t i = 0; i < 12; ++i) {
+            change.pose[i] = pose[i];
+        }
+        return change;
+    }
+
+    Environment snapshot() const {
+        cstk_environment *out = nullptr;
+        check(cstk_environment_snapshot(get(), &out));
+        return Environment(out);
+    }
+
+    std::size_t object_count() const {
+        std::size_t count = 0;
+        check(cstk_environment_get_state(get(), &count, nullptr));
+        return count;
+    }
+
+    std::uint64_t version() const {
+        std::uint64_t version = 0;
+        check(cstk_environment_get_state(get(), nullptr, &version));
+        return version;
+    }
+
+    /// The ids of all objects, in the order in which they came.
+    std::vector<std::uint64_t> objects() const {
+        std::vector<std::uint64_t> ids(object_count());
+        std::size_t count = 0;
+        check(cstk_environment_get_objects(get(), ids.size(), ids.data(), &count));
+        /* Others may have gone meanwhile. */
+        ids.resize(count < ids.size() ? count : ids.size());
+        return ids;
+    }
+
+    cstk_object_info object(std::uint64_t id) const {
+        cstk_object_info out;
+        check(cstk_environment_get_object_info(get(), id, &out));
+        return out;
+    }
+
+    Pose object_pose(std::uint64_t id) const {
+        Pose pose;
+        check(cstk_environment_get_object_pose(get(), id, pose.data()));
+        return pose;
+    }
+
+private:
+    using Loader = cstk_status (*)(cstk_environment *, const char *, const cstk_scene_options *,
+                                   std::size_t, std::uint64_t *, std::size_t *);
+
+    std::vector<std::uint64_t> load(Loader loader, const std::string &scene,
+                                    const cstk_scene_options &options) {
+        /* As many as a scene may have. */
+        std::vector<std::uint64_t> ids(std::size_t{1} << 17);
+        std::size_t count = 0;
+        check(loader(get(), scene.c_str(), &options, ids.size(), ids.data(), &count));
+        ids.resize(count);
+        return ids;
+    }
+
+    explicit Environment(cstk_environment *owned) : Handle(owned) {}
+
+    std::uint64_t apply_one(const cstk_environment_change &change) {
+        std::uint64_t id = 0;
+        check(cstk_environment_apply(get(), &change, 1, &id, nullptr));
+        return id;
+    }
+
+    static cstk_environment *create() {
+        cstk_environment *out = nullptr;
+        check(cstk_environment_create(&out));
+        return out;
+    }
+};
+
+} // namespace cstk
+
+#endif

@@ -1,0 +1,42 @@
+/* Part of cstk.hpp: lists as the calls take them. */
+#ifndef CSTK_SPAN_HPP
+#define CSTK_SPAN_HPP
+
+#include <cstddef>
+#include <initializer_list>
+#include <type_traits>
+#include <utility>
+
+namespace cstk {
+
+/// A view of contiguous items: from std::vector, std::array, a C array, or a pointer and a count.
+template <typename T> class Span {
+public:
+    Span() = default;
+    Span(const T *data, std::size_t size) : data_(data), size_(size) {}
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 9
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winit-list-lifetime"
+#endif
+    /// A list in braces lives until the end of the call it is written in.
+    Span(std::initializer_list<T> items) : data_(items.begin()), size_(items.size()) {}
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 9
+#pragma GCC diagnostic pop
+#endif
+    template <std::size_t N> Span(const T (&items)[N]) : data_(items), size_(N) {}
+    template <typename Container,
+              typename = std::enable_if_t<std::is_convertible_v<
+                  decltype(std::declval<const Container &>().data()), const T *>>>
+    Span(const Container &items) : data_(items.data()), size_(items.size()) {}
+
+    const T *data() const noexcept { return data_; }
+    std::size_t size() const noexcept { return size_; }
+
+private:
+    const T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+} // namespace cstk
+
+#endif
