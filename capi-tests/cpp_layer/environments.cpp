@@ -1,0 +1,44 @@
+#include "check.hpp"
+#include "subjects.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+void scenes() {
+    const char *text = "s\n* ball\n1\nsphere\n1\n4 0 0\n0 0 0 1\n0 0 0 0\n.\n";
+    cstk::Environment environment;
+    cstk_scene_options options = cstk::scene_options();
+    options.at[3] = 1;
+    const std::vector<std::uint64_t> ids = environment.load_scene_text(text, options);
+    REQUIRE(ids.size() == 1 && environment.object_pose(ids[0])[3] == 1);
+    REQUIRE(std::string(static_cast<const char *>(environment.object(ids[0]).data)) == "ball");
+    REQUIRE(status_of([&] { environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
+}
+
+/* A robot with an object in its hand, over a floor. */
+void worlds(const cstk::Space &space, const cstk::Body &body) {
+    int mark = 0;
+    const cstk::Body held = cstk::BodyBuilder().add_sphere({0, 0, 0}, 0.5).build();
+    held.set_data(&mark);
+    REQUIRE(held.data() == &mark && body.data() == nullptr);
+    cstk::Environment world;
+    const std::uint64_t id = world.add(held, cstk::translation(0, 0, 50));
+    const std::vector<double> q(space.nq(), 0.0);
+    cstk::Query query;
+    const cstk::CObject ground = cstk::CObject::below_floor(space, {0, 0, 4}, -400);
+    REQUIRE(query.distance(ground, q).distance > 90);
+    const std::uint32_t hand = static_cast<std::uint32_t>(space.link_count() - 1);
+    world.attach(id, space, hand, cstk::translation(0, 0, 20));
+    const std::uint64_t wall = world.add(body, cstk::translation(0, 0, 30));
+    const cstk::CObject all = cstk::CObject::induced(space, world);
+    const cstk_distance_result found = query.distance(all, q);
+    REQUIRE(found.witness.r_object == id && found.witness.s_object == wall);
+    REQUIRE(found.witness.r_data == &mark && query.version(world) == world.version());
+    REQUIRE(world.object(id).link == hand && world.object(id).data == &mark);
+    REQUIRE((world.objects() == std::vector<std::uint64_t>{id, wall}));
+    world.move(id, cstk::translation(0, 0, 50));
+    REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
+    REQUIRE(query.distance(all, q).witness.r_object == 0);
+    REQUIRE(space.link_name(hand) == "link1" && query.find_link_pairs(space).empty());
+}
