@@ -9,13 +9,13 @@ const UNGUARDED: [&str; 3] = [
     "cstk_version",
 ];
 
-struct Export {
-    name: String,
+pub(super) struct Export {
+    pub(super) name: String,
     body: String,
 }
 
 /// The exported functions of a source text. rustfmt closes each at the indentation of its attribute.
-fn exports(text: &str) -> Vec<Export> {
+pub(super) fn exports(text: &str) -> Vec<Export> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();
     for (i, line) in lines.iter().enumerate() {

@@ -1,5 +1,6 @@
-//! What holds of the repository itself: the order of modules, the guard around exports, the generated header.
+//! What holds of the repository itself: the order of modules, the guard around exports, the generated header, the C++ layer.
 
+mod cpp_layer;
 mod exports_guarded;
 mod header;
 mod header_sections;
