@@ -4,7 +4,7 @@
  *     #include <cstk/fcl.hpp>          // was <fcl/fcl.h> or any header below it
  *     namespace fcl = cstk_fcl;
  *
- * Covered are geometries (BVHModel of triangles or points, and all shapes but the octree), CollisionObject, collide, distance,
+ * Covered are geometries (BVHModel of triangles or points, all shapes, OcTree), CollisionObject, collide, distance,
  * continuousCollide, the broad-phase managers with their callbacks, and of Coal (HPP-FCL) security_margin, distance_upper_bound,
  * ComputeCollision and ComputeDistance. What is left out fails to compile, with a hint (not_covered.hpp). docs/migration.md lists
  * where answers differ from FCL's, and why.
@@ -24,5 +24,6 @@
 #include <cstk/fcl/managers.hpp>
 #include <cstk/fcl/model_of_shape.hpp>
 #include <cstk/fcl/not_covered.hpp>
+#include <cstk/fcl/octree.hpp>
 
 #endif

@@ -90,6 +90,13 @@ S continuousCollide(const CollisionGeometry<S> *o1, const MotionBase<S> *motion1
                     ContinuousCollisionResult<S> &result) {
     cstk_motion_options options = cstk::motion_options();
     options.tolerance = std::min(std::max(static_cast<double>(request.toc_err), 1e-12), 1.0);
+    if (o1->is_empty() || o2->is_empty()) {
+        result.is_collide = false;
+        result.time_of_contact = 1;
+        result.contact_tf1 = motion1->at(1);
+        result.contact_tf2 = motion2->at(1);
+        return 1;
+    }
     const cstk_motion_result found = detail::prove<S>({o1, motion1}, {o2, motion2}, options);
     result.is_collide = found.outcome != CSTK_MOTION_FREE;
     result.time_of_contact = static_cast<S>(found.times[0]);

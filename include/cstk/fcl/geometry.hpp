@@ -50,6 +50,9 @@ public:
         throw std::invalid_argument("cstk_fcl: planes and half-spaces have no body: they are unbounded");
     }
 
+    /// Not of FCL: whether it has no points, as an octree without occupied leaves. Such a geometry meets nothing, and is near nothing.
+    virtual bool is_empty() const { return false; }
+
     /// Not of FCL: how many convex primitives there are, and the farthest point of one along a direction (of any length but 0).
     virtual std::size_t primitive_count() const { return 1; }
     virtual Eigen::Vector3d support_point(const Eigen::Vector3d &direction, std::size_t primitive) const = 0;

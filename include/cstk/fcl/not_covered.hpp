@@ -13,11 +13,6 @@ template <typename> constexpr bool is_covered = false;
 
 } // namespace detail
 
-template <typename S> class OcTree {
-    static_assert(detail::is_covered<S>, "cstk_fcl has no OcTree: read OctoMap's files, or set occupied cells, with cstk::Octree, and place "
-                                         "it in a cstk::Environment (place), where it may change, or make a body of it (build_body)");
-};
-
 template <typename S> class SplineMotion {
     static_assert(detail::is_covered<S>, "cstk_fcl has no SplineMotion: prove splines of a robot's coordinates with "
                                          "cstk_motion_spline (cstk::Query::motion_spline)");
@@ -40,9 +35,6 @@ template <typename S> class BroadPhaseContinuousCollisionManager {
 template <typename S> class Variance3 {
     static_assert(detail::is_covered<S>, "cstk_fcl has no Variance3: use Eigen::SelfAdjointEigenSolver");
 };
-
-using OcTreef = OcTree<float>;
-using OcTreed = OcTree<double>;
 
 } // namespace cstk_fcl
 

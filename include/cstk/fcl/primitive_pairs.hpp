@@ -16,6 +16,7 @@ template <typename S> struct Placed {
     const Transform3<S> &tf2;
 
     bool has_flat() const { return is_unbounded(o1->getNodeType()) || is_unbounded(o2->getNodeType()); }
+    bool has_empty() const { return o1->is_empty() || o2->is_empty(); }
     bool is_polyhedral() const { return o1->is_polyhedral() && o2->is_polyhedral(); }
 
     /// What answers call a primitive of either.

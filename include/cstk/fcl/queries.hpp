@@ -55,6 +55,10 @@ template <typename S> double as_limit(S distance) {
 
 template <typename S> void set_lower_bound(const Placed<S> &pair, const CollisionRequest<S> &request, CollisionResult<S> &result) {
     const double margin = static_cast<double>(request.security_margin);
+    if (pair.has_empty()) {
+        result.distance_lower_bound = request.distance_upper_bound;
+        return;
+    }
     if (pair.has_flat()) {
         const double gap = flat_pairs(pair.o1, in_double(pair.tf1), pair.o2, in_double(pair.tf2), 0, true)[0].gap;
         result.distance_lower_bound = static_cast<S>(std::max(gap - margin, 0.0));
@@ -83,6 +87,9 @@ std::size_t collide(const CollisionGeometry<S> *o1, const Transform3<S> &tf1, co
     }
     if (request.enable_distance_lower_bound) {
         detail::set_lower_bound(pair, request, result);
+    }
+    if (pair.has_empty()) {
+        return result.numContacts();
     }
     const bool occupied = o1->isOccupied() && o2->isOccupied();
     const std::size_t room = request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
@@ -119,6 +126,9 @@ S distance(const CollisionGeometry<S> *o1, const Transform3<S> &tf1, const Colli
            const DistanceRequest<S> &request, DistanceResult<S> &result) {
     const detail::Placed<S> pair{o1, tf1, o2, tf2};
     detail::PrimitivePair nearest;
+    if (pair.has_empty()) {
+        return result.min_distance;
+    }
     if (pair.has_flat()) {
         nearest = detail::flat_pairs(o1, detail::in_double(tf1), o2, detail::in_double(tf2), 0, true)[0];
     } else {
