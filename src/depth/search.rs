@@ -155,6 +155,9 @@ impl<'a, 's> DepthSearch<'a, 's> {
         let mut least_depth: f64 = 0.0;
         let mut deepest = None;
         for &places in meeting.places.iter().chain(&meeting.flat) {
+            if self.scratch.meter().is_exceeded() {
+                break;
+            }
             let [a, b] = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
             let primitives =
                 [a.entry(places[0] as usize), b.entry(places[1] as usize)].map(|e| e.primitive);
@@ -211,14 +214,18 @@ impl<'a, 's> DepthSearch<'a, 's> {
         });
         let between = (-self.pairing.relative.translation).try_normalize(0.0);
         for direction in axes.chain(between) {
+            if self.scratch.meter().is_exceeded() {
+                return;
+            }
             self.descend(&direction, 0.0);
         }
     }
 
-    /// Keeps a way out if it is the shortest so far.
+    /// Keeps a way out if it is the shortest so far. Nothing is asked once the meter's limit is exceeded.
     fn offer(&mut self, way: Vec3) -> bool {
         let length = way.norm();
-        if length < self.upper && is_parted(&self.pairing, &way, self.scratch) {
+        let is_wanted = length < self.upper && !self.scratch.meter().is_exceeded();
+        if is_wanted && is_parted(&self.pairing, &way, self.scratch) {
             (self.upper, self.way) = (length, way);
             return true;
         }
@@ -359,6 +366,9 @@ impl<'a, 's> DepthSearch<'a, 's> {
     fn deepest_of(&mut self, node: &Node, point: &Vec3, places: &[[u32; 2]]) -> Option<Cover> {
         let mut best: Option<Cover> = None;
         for &places in places {
+            if self.scratch.meter().is_exceeded() {
+                break;
+            }
             let source = Source::Primitives(places);
             let number = self.number(source);
             let depth = match &self.differences[number as usize] {

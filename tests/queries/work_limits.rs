@@ -8,7 +8,7 @@ use cstk::error::{ErrorKind, Result};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::motion::SlideOptions;
 use cstk::pose::{Pose, Vec3};
-use cstk::query::{Configuration, LinkPairOptions, QueryContext, Shell};
+use cstk::query::{Configuration, DepthOptions, LinkPairOptions, QueryContext, Shell};
 use cstk::robot::JointKind;
 use cstk::space::Space;
 
@@ -142,6 +142,59 @@ fn queries_of_two_bodies() {
         query.pair_penetration(a, b, 1).unwrap().penetrations.len(),
         1
     );
+}
+
+/// Depths also count pairs of edges, which statistics do not show: limits are tried from one to enough.
+#[test]
+fn depths_of_two_bodies() {
+    let mut random = Random::new(92);
+    let ball = |random: &mut Random| hull(&(0..40).map(|_| random.unit()).collect::<Vec<_>>()).body;
+    let balls = [ball(&mut random), ball(&mut random)];
+    let (large, small) = (solid(&[cube(2.0)]), solid(&[cube(1.0)]));
+    let (dust, near, inside) = (dust(), at(0.3, 0.2, 0.1), at(0.9, 0.1, 0.2));
+    let pairs: [(&str, &Body, &Body, &Pose); 3] = [
+        ("hulls", &balls[0], &balls[1], &near),
+        ("solids", &large, &small, &inside),
+        ("pieces in a solid", &dust, &large, &inside),
+    ];
+    let options = DepthOptions {
+        max_steps: 100,
+        ..DepthOptions::default()
+    };
+    for (name, a, b, pose) in pairs {
+        let ask = |query: &mut QueryContext| {
+            let found = query.pair_depth((a, &Pose::identity()), (b, pose), &options)?;
+            Ok::<String, cstk::error::Error>(format!("{found:?}"))
+        };
+        let want = ask(&mut QueryContext::new()).unwrap();
+        let (mut ended, mut enough) = (0, 0);
+        for limit in (0..40).map(|power| 1u64 << power) {
+            let mut query = QueryContext::new();
+            query.set_limit(Some(limit));
+            match ask(&mut query) {
+                Ok(found) => {
+                    assert_eq!(found, want, "{name} within {limit}");
+                    enough += 1;
+                }
+                Err(error) => {
+                    assert_eq!(error.kind, ErrorKind::Limit, "{name}: {error}");
+                    assert!(error.message.contains(&limit.to_string()), "{error}");
+                    assert_eq!(enough, 0, "{name}: {limit} ends what less did not");
+                    let done = query.statistics();
+                    let counted = done.node_pairs + done.primitive_pairs;
+                    assert!(counted <= limit + 1000, "{name}: {counted} of {limit}");
+                    // The context serves on.
+                    query.set_limit(None);
+                    assert_eq!(ask(&mut query).unwrap(), want, "{name}");
+                    ended += 1;
+                }
+            }
+            if enough == 2 {
+                break;
+            }
+        }
+        assert!(ended > 3 && enough == 2, "{name}: {ended} and {enough}");
+    }
 }
 
 /// A chain of cubes.
