@@ -7,7 +7,7 @@ use super::bounds::{Bounds, slack};
 use super::places::{Place, Places};
 use super::tree_limits::{FAR, TreeLimits};
 use crate::boxes::Extent;
-use crate::environment::box_tree::{BoxTree, BoxTreeChanges, Boxes, OrientedBox};
+use crate::environment::box_tree::{BOX, BoxTree, BoxTreeChanges, Boxes, OrientedBox};
 use crate::index_set::IndexSet;
 use crate::pair::ROUNDING;
 
@@ -113,6 +113,15 @@ impl ObjectTree {
     /// Whether there is no object, in the tree or a stray.
     pub fn is_empty(&self) -> bool {
         self.count == 0
+    }
+
+    /// Whether the root has nodes below it.
+    pub fn has_several_nodes(&self) -> bool {
+        self.tree.root().is_some_and(|root| {
+            let wide = &self.tree.node(root).wide;
+            let children = &wide.children[..wide.count as usize];
+            children.iter().any(|child| child & BOX == 0)
+        })
     }
 
     /// The sum of half the surfaces of all nodes below the root; a traversal opens a number of nodes about proportional to it.

@@ -4,7 +4,7 @@ use super::bounds::Bounds;
 use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use crate::body::Body;
-use crate::boxes::{EightBoxes, Extent, PackedBox, WideNode};
+use crate::boxes::{EightBoxes, PackedBox, WideNode};
 use crate::environment::box_tree::BOX;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pair::bounds;
@@ -123,9 +123,11 @@ where
             }
             let wide = &objects.tree.node(next.name).wide;
             let eight = wide.boxes(lanes, descent.unit);
-            if next.bodies == all && bodies.len() > 1 {
+            if next.bodies == all
+                && let Some(around) = &descent.around
+            {
                 // Far from the bodies, one test of the box around all of them often prunes the node or leaves one child.
-                match near_all(lanes, wide, &eight, &descent, cutoff) {
+                match near_all(lanes, wide, &eight, around, cutoff) {
                     NearAll::None => continue,
                     NearAll::Node { bound, name } => {
                         self.open.push(QueueEntry {
@@ -252,10 +254,10 @@ fn near_all<I: Instructions>(
     lanes: I,
     wide: &WideNode,
     eight: &EightBoxes<I>,
-    descent: &Descent,
+    around: &PackedBox,
     cutoff: f32,
 ) -> NearAll {
-    let bounds = bounds(lanes, eight, &descent.around);
+    let bounds = bounds(lanes, eight, around);
     let near = lanes.at_most(bounds, cutoff) & ((1 << wide.count) - 1);
     if near == 0 {
         return NearAll::None;
@@ -274,8 +276,8 @@ struct Descent {
     frame: BoxFrame,
     /// The bodies' boxes.
     bodies: Vec<PackedBox>,
-    /// A box around all of them.
-    around: PackedBox,
+    /// A box around all of them, where there are several and the tree has several nodes.
+    around: Option<PackedBox>,
     /// The unit of the tree in units of the frame.
     unit: f32,
 }
@@ -294,21 +296,21 @@ impl Descent {
         }
         let deviation = objects.deviation + limits.deviation;
         let frame = BoxFrame::new(tree.center, &limits, deviation);
-        let mut whole: Option<Extent> = None;
         boxes.clear();
-        boxes.extend(bodies.iter().map(|(_, body)| {
-            let extent = body.extent();
-            whole = Some(whole.map_or(extent, |whole| whole.union(&extent)));
-            frame.pack(body)
-        }));
-        let whole = whole.unwrap_or_default();
-        Self {
-            bodies: boxes,
-            around: frame.pack_box(
+        boxes.extend(bodies.iter().map(|(_, body)| frame.pack(body)));
+        let around = (bodies.len() > 1 && objects.has_several_nodes()).then(|| {
+            let extents = bodies.iter().map(|(_, body)| body.extent());
+            let whole = extents.reduce(|all, one| all.union(&one));
+            let whole = whole.expect("there are bodies");
+            frame.pack_box(
                 &[Vec3::x(), Vec3::y()],
                 &(whole.center() - tree.center),
                 &(0.5 * (whole.high - whole.low)),
-            ),
+            )
+        });
+        Self {
+            bodies: boxes,
+            around,
             unit: (tree.scale * frame.inverse_scale) as f32,
             frame,
         }
