@@ -34,6 +34,7 @@ static void set_limit(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
         CHECK_FAILS(cstk_query_set_limit(bad->handle, 1), bad->status, "query");
         CHECK_FAILS(cstk_query_set_contacts(bad->handle, CSTK_CONTACTS_NONE), bad->status, "query");
+        CHECK_FAILS(cstk_query_set_refinement(bad->handle, 1), bad->status, "query");
     }
     fixture_unchanged(f);
 }
@@ -236,6 +237,12 @@ static void query_limits(const fixture *f, const form *of) {
     answer out;
     CHECK_FAILS(cstk_query_set_contacts(f->query, 3), CSTK_ERROR_INVALID_ARGUMENT, "3 is none");
     CHECK_FAILS(cstk_query_set_contacts(f->query, -1), CSTK_ERROR_INVALID_ARGUMENT, "-1 is none");
+    CHECK_FAILS(cstk_query_set_refinement(f->query, 0), CSTK_ERROR_INVALID_ARGUMENT, "gap is 0");
+    CHECK_FAILS(cstk_query_set_refinement(f->query, -INFINITY), CSTK_ERROR_NOT_FINITE, "gap");
+    CHECK_FAILS(cstk_query_set_refinement(f->query, NAN), CSTK_ERROR_NOT_FINITE, "gap");
+    CHECK_OK(cstk_query_set_refinement(f->query, 1e-300));
+    CHECK_OK(of->ask(&a, &out));
+    CHECK_OK(cstk_query_set_refinement(f->query, INFINITY));
     CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_NEAREST));
     CHECK_OK(cstk_query_set_contacts(f->query, CSTK_CONTACTS_ALL));
     CHECK_OK(cstk_query_set_limit(f->query, 1));

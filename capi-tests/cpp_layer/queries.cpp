@@ -92,6 +92,8 @@ void queries() {
     query.set_limit(1);
     REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_ERROR_LIMIT);
     query.set_limit(0);
+    query.set_refinement(1e-6);
+    REQUIRE(status_of([&] { query.set_refinement(0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
     const cstk_query_statistics done = query.statistics(true);
     REQUIRE(done.primitive_distances <= done.primitive_pairs);

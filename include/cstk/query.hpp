@@ -49,6 +49,9 @@ public:
         check(cstk_query_set_limit(get(), node_and_primitive_pairs));
     }
 
+    /// Refines curved surfaces until later answers are known to `gap`; infinity for never.
+    void set_refinement(double gap) const { check(cstk_query_set_refinement(get(), gap)); }
+
     cstk_query_statistics statistics(bool reset = false) const {
         cstk_query_statistics out;
         check(cstk_query_get_statistics(get(), reset, &out));

@@ -48,6 +48,12 @@ def test_a_rational_patch_is_a_quarter_of_a_cylinder(query):
     place = cstk.translation(*(3 * np.array([half, half, 0]) + [0, 0, 1]))
     found = query.pair_distance(body, cstk.identity(), cstk.Body.sphere(0.5), place)
     assert found.lower <= 1.5 <= found.upper <= found.lower + 2 * stated + 1e-9 and found.witness.r_tag == 4
+    query.set_refinement(1e-6)
+    found = query.pair_distance(body, cstk.identity(), cstk.Body.sphere(0.5), place)
+    assert found.lower <= 1.5 <= found.upper <= found.lower + 1e-6
+    with pytest.raises(cstk.InvalidArgumentError, match="gap"):
+        query.set_refinement(0)
+    query.set_refinement(None)
     with pytest.raises(ValueError, match="weights"):
         cstk.BodyBuilder().add_bezier_patch(net, 0.01, weights.T)
     with pytest.raises(ValueError, match="points"):

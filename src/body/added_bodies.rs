@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::body::{Body, BodyStatistics};
+use super::curved_cells::CurvedCells;
 use super::part::BodyPart;
 use super::solid::{Solid, Surfaces};
 use crate::error::{Error, Result};
@@ -87,6 +88,21 @@ impl AddedBodies {
     pub fn stated_deviation(&self) -> f64 {
         let stated = self.0.iter().map(|added| added.body.stated_deviation());
         stated.fold(0.0, f64::max)
+    }
+
+    /// The largest deviation of what is no cell of a patch.
+    pub fn flat_deviation(&self) -> f64 {
+        let flat = self.0.iter().map(|added| added.body.flat_deviation());
+        flat.fold(0.0, f64::max)
+    }
+
+    /// Appends the cells of their patches, in the frame around a centre.
+    pub fn append_curved(&self, curved: &mut CurvedCells, center: &Vec3) {
+        for added in &self.0 {
+            if let Some(cells) = added.body.curved() {
+                curved.append(cells, added.part.first, &added.centered(center));
+            }
+        }
     }
 
     pub fn statistics(&self) -> impl Iterator<Item = &BodyStatistics> {

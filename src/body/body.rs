@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
+use super::curved_cells::CurvedCells;
 use super::joints::Joints;
 use super::part::{BodyPart, part_of};
 use super::pieces::{Piece, Pieces};
@@ -26,6 +27,9 @@ pub struct Body {
     pub(super) radius: f64,
     pub(super) deviation: f64,
     pub(super) stated_deviation: f64,
+    /// What the deviation is of primitives that are no cells of patches.
+    flat_deviation: f64,
+    curved: Option<CurvedCells>,
     has_functions: bool,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
@@ -80,6 +84,8 @@ impl Body {
             radius: primitives.radius(),
             deviation: primitives.deviation(),
             stated_deviation: 0.0,
+            flat_deviation: 0.0,
+            curved: None,
             has_functions: primitives.have_functions(),
             packed,
             primitives,
@@ -105,6 +111,17 @@ impl Body {
     /// States how far the surface that the body stands for may be from it.
     pub(super) fn with_stated_deviation(mut self, stated_deviation: f64) -> Self {
         self.stated_deviation = stated_deviation;
+        self.flat_deviation = stated_deviation;
+        self
+    }
+
+    /// Adds the cells of patches that some primitives stand for; the others are within `flat_deviation` of what they do. Called after
+    /// [`Body::with_stated_deviation`].
+    pub(super) fn with_curved(mut self, curved: Option<CurvedCells>, flat_deviation: f64) -> Self {
+        if curved.is_some() {
+            self.curved = curved;
+            self.flat_deviation = flat_deviation;
+        }
         self
     }
 
@@ -158,6 +175,17 @@ impl Body {
     /// the two is at most this. It is subtracted from distances as a margin is (see `Target::margin` in the queries).
     pub fn stated_deviation(&self) -> f64 {
         self.stated_deviation
+    }
+
+    /// The cells of patches that primitives stand for, if any do.
+    #[inline(always)]
+    pub(crate) fn curved(&self) -> Option<&CurvedCells> {
+        self.curved.as_ref()
+    }
+
+    /// How far primitives that are no cells of patches may be from what they stand for.
+    pub(crate) fn flat_deviation(&self) -> f64 {
+        self.flat_deviation
     }
 
     /// Whether queries call support functions of the caller.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::added_bodies::AddedBodies;
 use super::body::{Body, BodyStatistics};
+use super::curved_cells::CurvedCells;
 use super::mesh::Mesh;
 use super::solid::{DegenerateFace, Solid};
 use crate::body::cloud_file::read_cloud_file;
@@ -32,6 +33,8 @@ pub struct BodyBuilder {
     stated_deviation: f64,
     /// How far the triangles of patches are from them.
     patch_deviation: f64,
+    /// The cells of patches, in the builder's frame.
+    curved: CurvedCells,
     faces_split: u64,
     faces_dropped: u64,
 }
@@ -49,6 +52,7 @@ impl BodyBuilder {
             is_solid: false,
             stated_deviation: 0.0,
             patch_deviation: 0.0,
+            curved: CurvedCells::default(),
             faces_split: 0,
             faces_dropped: 0,
         })
@@ -88,9 +92,23 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Notes that triangles are so far from the patch that they stand for.
-    pub(super) fn raise_deviation(&mut self, deviation: f64) {
+    /// Notes which primitives stand for cells of patches, and how far they are from them at most.
+    pub(super) fn take_curved(&mut self, cells: CurvedCells, deviation: f64) {
+        self.curved.append(&cells, 0, &Pose::identity());
         self.patch_deviation = self.patch_deviation.max(deviation);
+    }
+
+    /// The cells of patches in the frame around a centre. None where the builder was told how far the body is from what it stands
+    /// for: this is then not known of any part of it.
+    fn curved_cells(&self, center: &Vec3) -> Option<CurvedCells> {
+        if self.stated_deviation > 0.0 {
+            return None;
+        }
+        let mut curved = CurvedCells::default();
+        curved.append(&self.curved, 0, &Pose::from_translation(-center));
+        self.added.append_curved(&mut curved, center);
+        curved.sort();
+        (!curved.is_empty()).then_some(curved)
     }
 
     /// Adds the faces of a mesh, each tagged with its index. Faces that are not convex or not planar become triangles. Faces
@@ -292,7 +310,8 @@ impl BodyBuilder {
             self.stated_deviation
                 .max(self.patch_deviation)
                 .max(self.added.stated_deviation()),
-        ))
+        )
+        .with_curved(self.curved_cells(&center), self.added.flat_deviation()))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {

@@ -1,17 +1,19 @@
 //! A part of a Bezier patch, whose surface is proved to be near two triangles over its corners.
 //!
-//! Let L be the bilinear surface through the corners P_ab, and w and b the weights and control points of a cell of degrees m and n, whose surface is S = sum w b B / sum w B.
-//! Then (S - L) sum w B is a polynomial of degrees m + 1 and n + 1 whose Bezier coefficients are
+//! Let L be the bilinear surface through the corners P_ab, and w and b the weights and control points of a cell of degrees m and n,
+//! whose surface is S = sum w b B / sum w B. Then (S - L) sum w B is a polynomial of degrees m + 1 and n + 1 whose Bezier coefficients are
 //!
 //!   c_kl = sum over a, b in {0, 1} of alpha_a(k) beta_b(l) w_(k-a)(l-b) (b_(k-a)(l-b) - P_ab),
 //!
 //! with alpha_0(k) = 1 - k / (m + 1) and alpha_1(k) = k / (m + 1), and beta likewise (the product of Bernstein polynomials). So no point
 //! S(u, v) is farther than max |c| / min w from L(u, v), and L(u, v) is no farther than |P_00 - P_10 - P_01 + P_11| / 4 from the
-//! triangles at (u, v), which takes every point of them: the sum of both bounds the Hausdorff distance.
+//! triangles at (u, v), which takes every point of them: the sum of both bounds the Hausdorff distance. It also bounds how far any
+//! point x of the corners' convex hull is from S: x = sum l_ab P_ab with l_ab >= 0 of sum 1 differs from L(l_10 + l_11, l_01 + l_11) by
+//! (l_11 - u v)(P_00 - P_10 - P_01 + P_11), and l_11 by at most 1 / 4 from u v.
 
 use nalgebra::Vector4;
 
-use crate::pose::Vec3;
+use crate::pose::{Pose, Vec3};
 use crate::tolerance::EPSILON;
 
 /// A part of a patch: control points times weights, and weights.
@@ -20,9 +22,21 @@ pub(crate) struct Cell {
     /// The numbers of control points in the two parameters.
     sizes: [usize; 2],
     controls: Vec<Vector4<f64>>,
-    /// How often the patch was halved.
-    halvings: u32,
+    place: CellPlace,
 }
+
+/// Which part of its patch a cell is: which halves were taken, along which parameter.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CellPlace {
+    halvings: u32,
+    /// Bit k: whether the k-th halving was along the second parameter.
+    along: u128,
+    /// Bit k: whether its upper half was taken.
+    upper: u128,
+}
+
+/// A cell is halved at most this often: sides get shorter than coordinates are rounded to.
+pub(super) const MAX_HALVINGS: u32 = 80;
 
 impl Cell {
     /// All of a patch: so many rows and columns of control points times their weights, with these.
@@ -30,7 +44,7 @@ impl Cell {
         Self {
             sizes,
             controls,
-            halvings: 0,
+            place: CellPlace::default(),
         }
     }
 
@@ -41,9 +55,37 @@ impl Cell {
         [0, last_row, columns - 1, last_row + columns - 1].map(|i| point(&self.controls[i]))
     }
 
-    /// How often the patch was halved.
-    pub fn halvings(&self) -> u32 {
-        self.halvings
+    /// Which part of its patch this is.
+    pub fn place(&self) -> CellPlace {
+        self.place
+    }
+
+    /// Whether it can be halved.
+    pub fn has_halves(&self) -> bool {
+        self.place.halvings < MAX_HALVINGS
+    }
+
+    /// The part of this whole patch at a place.
+    pub fn part(&self, place: &CellPlace) -> Self {
+        (0..place.halvings).fold(self.clone(), |cell, k| {
+            let [lower, upper] = cell.halves((place.along >> k & 1) as usize);
+            match place.upper >> k & 1 {
+                0 => lower,
+                _ => upper,
+            }
+        })
+    }
+
+    /// The same moved.
+    pub fn moved(&self, pose: &Pose) -> Self {
+        let moved = self.controls.iter().map(|control| {
+            let point = pose.rotation * control.xyz() + pose.translation * control.w;
+            point.push(control.w)
+        });
+        Self {
+            controls: moved.collect(),
+            ..*self
+        }
     }
 
     fn least_weight(&self) -> f64 {
@@ -86,10 +128,10 @@ impl Cell {
         largest / self.least_weight() + 0.25 * twist.norm() + self.rounding()
     }
 
-    /// What rounding may add. Each halving averages `sizes` times; products, and what the body's own frame takes, are as small.
+    /// What rounding may add. Each halving averages `sizes` times; products, and the motions to the frames of bodies, are as small.
     fn rounding(&self) -> f64 {
         let [rows, columns] = self.sizes;
-        let averages = (rows.max(columns) * (self.halvings as usize + 4)) as f64;
+        let averages = (rows.max(columns) * (self.place.halvings as usize + 4)) as f64;
         let size = self.controls.iter().fold(0.0, |size: f64, control| {
             size.max(control.xyz().amax() / control.w)
         });
@@ -153,8 +195,15 @@ impl Cell {
             between,
         } = self.lines(along);
         let mut lower = self;
-        lower.halvings += 1;
+        let CellPlace {
+            halvings,
+            along: second,
+            ..
+        } = &mut lower.place;
+        *second |= (along as u128) << *halvings;
+        *halvings += 1;
         let mut upper = lower.clone();
+        upper.place.upper |= 1 << (upper.place.halvings - 1);
         for line in 0..lines {
             let at = |k: usize| line * between + k * step;
             for round in 1..count {

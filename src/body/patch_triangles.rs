@@ -2,15 +2,13 @@
 //! each cell are near enough.
 
 use super::builder::BodyBuilder;
+use super::curved_cells::CurvedCells;
 use super::patch_cell::Cell;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::primitive::{Convex, convex_polygon, convex_polyhedron};
 
 /// The most cells of a surface, of two triangles each.
 pub const MAX_CELLS: usize = 1 << 18;
-
-/// A cell is halved at most this often: sides get shorter than coordinates are rounded to.
-const MAX_HALVINGS: u32 = 80;
 
 impl BodyBuilder {
     /// Adds triangles that are within the tolerance of a surface of patches: all of them or none. The body states how far they are from
@@ -29,44 +27,50 @@ impl BodyBuilder {
         }
         let mut added: Vec<(Convex, u64)> = Vec::new();
         let mut deviation = 0.0f64;
-        for_each_cell(patches, tolerance, |cell, bound| {
-            deviation = deviation.max(bound);
-            for triangle in cell.triangles() {
-                let primitive = match convex_polygon(&triangle) {
-                    // Where an edge of the patch is a point.
-                    Err(error) if error.kind == ErrorKind::Degenerate => {
-                        convex_polyhedron(&triangle)?
-                    }
-                    polygon => polygon?,
-                };
-                added.push((primitive, tag));
-            }
-            Ok(())
-        })?;
+        let first = self.len();
+        let mut cells = CurvedCells::default();
+        let mut count = 0;
+        for patch in patches {
+            for_each_cell(&patch, tolerance, &mut count, |cell, bound| {
+                deviation = deviation.max(bound);
+                cells.push((first + added.len()) as u32, cell.place());
+                for triangle in cell.triangles() {
+                    let primitive = match convex_polygon(&triangle) {
+                        // Where an edge of the patch is a point.
+                        Err(error) if error.kind == ErrorKind::Degenerate => {
+                            convex_polyhedron(&triangle)?
+                        }
+                        polygon => polygon?,
+                    };
+                    added.push((primitive, tag));
+                }
+                Ok(())
+            })?;
+            cells.end_patch(patch);
+        }
         self.push_all(added, false)?;
-        self.raise_deviation(deviation);
+        self.take_curved(cells, deviation);
         Ok(())
     }
 }
 
-/// Halves cells until each part is proved to be within the tolerance of two triangles; gives each with its bound, in the order of the
-/// patches.
+/// Halves a patch until each part is proved to be within the tolerance of two triangles; gives each with its bound. `count` is the
+/// number of cells so far.
 fn for_each_cell(
-    patches: Vec<Cell>,
+    patch: &Cell,
     tolerance: f64,
+    count: &mut usize,
     mut visit: impl FnMut(&Cell, f64) -> Result<()>,
 ) -> Result<()> {
-    let mut todo = patches;
-    todo.reverse();
-    let mut cells = 0;
+    let mut todo = vec![patch.clone()];
     while let Some(cell) = todo.pop() {
         let bound = cell.deviation();
         if bound <= tolerance {
-            cells += 1;
+            *count += 1;
             visit(&cell, bound)?;
             continue;
         }
-        if cells + todo.len() >= MAX_CELLS || cell.halvings() == MAX_HALVINGS {
+        if *count + todo.len() >= MAX_CELLS || !cell.has_halves() {
             return Err(Error::new(
                 ErrorKind::Limit,
                 format!(

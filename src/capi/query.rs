@@ -167,11 +167,13 @@ fn exclusively_with(
     query: &Query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    // After a panic caches and scratch memory are dropped: they may be inconsistent. The limit stays.
+    // After a panic caches and scratch memory are dropped: they may be inconsistent. The settings stay.
     let renew = |state: &mut State| {
-        let limit = state.context.limit();
-        *state = State::default();
-        state.context.set_limit(limit);
+        let renewed = state.context.renewed();
+        *state = State {
+            context: renewed,
+            ..State::default()
+        };
     };
     exclusively(&query.0, "the query context", renew, action)
 }
@@ -279,6 +281,37 @@ pub unsafe extern "C" fn cstk_query_set_limit(
             let limit = (node_and_primitive_pairs > 0).then_some(node_and_primitive_pairs);
             state.context.set_limit(limit);
             Ok(())
+        })
+    })
+}
+
+/// Has later queries with this context refine the curved surfaces that bodies stand for (cstk_body_builder_add_bezier_patch and
+/// cstk_body_builder_add_nurbs_surface) until their answers are known to `gap`, in your unit; INFINITY, the initial setting, for never.
+///
+/// Without it an answer knows a curved surface up to the deviation that its body states. With it
+///
+/// - the bounds of a distance are at most `gap` apart (cstk_distance, cstk_pair_distance and their variants),
+/// - thresholds and classes are decided unless the distance is within `gap` of the threshold; doubt counts as within
+///   (cstk_classify, cstk_within, cstk_pair_within and their variants).
+///
+/// Witness points and normals are those of the refined parts, features and tags those of the
+/// triangles. Two surfaces that are about equally near over much of their areas end after 16384 steps, with the bounds that are proved
+/// by then; each step counts as one of `node_pairs` (cstk_query_set_limit).
+///
+/// Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
+/// contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files and refitted
+/// bodies: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
+///
+/// CSTK_ERROR_INVALID_ARGUMENT for a gap that is not above 0, CSTK_ERROR_NOT_FINITE for NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_query_set_refinement(
+    query: *mut cstk_query,
+    gap: f64,
+) -> cstk_status {
+    guard(|| {
+        with_query(query, |state| {
+            let gap = (gap != f64::INFINITY).then_some(gap);
+            Ok(state.context.set_refinement(gap)?)
         })
     })
 }

@@ -30,6 +30,7 @@ mod smooth_distance;
 mod surface_part;
 mod swept_gap;
 
+pub use self::core::Core;
 pub use closest::Closest;
 pub use contact::{Contact, ContactMode};
 pub use contacts::{contacts, first_contact};

@@ -15,8 +15,10 @@ impl QueryContext {
     /// Operation 4: whether the configuration is inside, in contact or outside.
     pub fn classify(&mut self, cobject: &CObject, at: Configuration) -> Result<Class> {
         let world = self.look(cobject);
-        self.with_scene(cobject, &world, at, |context, scene| {
-            context.class_of(cobject, scene)
+        self.refining(|context| {
+            context.with_scene(cobject, &world, at, |context, scene| {
+                context.class_of(cobject, scene)
+            })
         })
     }
 

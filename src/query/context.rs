@@ -28,6 +28,10 @@ pub struct QueryContext {
     /// Which contacts witness lists hold.
     pub(super) contacts: ContactsListed,
     pub(super) near_pairs: NearPairScratch,
+    /// How far apart the bounds of answers about curved surfaces may be, if the caller wants these refined.
+    pub(super) refinement: Option<f64>,
+    /// The same within a call that refines.
+    pub(super) gap: Option<f64>,
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
@@ -129,6 +133,17 @@ impl QueryContext {
     /// Sets which contacts later witness lists hold.
     pub fn set_contacts(&mut self, contacts: ContactsListed) {
         self.contacts = contacts;
+    }
+
+    /// A new context with the same settings.
+    pub(crate) fn renewed(&self) -> Self {
+        let mut renewed = Self {
+            contacts: self.contacts,
+            refinement: self.refinement,
+            ..Self::default()
+        };
+        renewed.set_limit(self.limit());
+        renewed
     }
 
     /// Forgets the witnesses of earlier queries.

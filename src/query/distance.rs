@@ -33,7 +33,7 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         let world = self.look(cobject);
-        self.distance_in(&world, cobject, at, max_distance)
+        self.refining(|context| context.distance_in(&world, cobject, at, max_distance))
     }
 
     /// The same in a given world.
@@ -135,8 +135,21 @@ impl QueryContext {
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, checked, filter)?;
-        let distance = self.distance_among(group, scene, &candidates, max_distance)?;
+        let mut distance = self.distance_among(group, scene, &candidates, max_distance)?;
         self.keep_memory(candidates);
+        if self.gap.is_some() && distance.excess > 0.0 {
+            // What is nearest once surfaces are refined need not be so before: all pairs that may be.
+            let filter = CandidateFilter::within(distance.upper.min(max_distance));
+            let candidates = self.candidates(scene, checked, filter)?;
+            if self.refines(&candidates) {
+                let leaf = |term: u32| group[term as usize].leaf;
+                distance = Distance {
+                    version: scene.version(),
+                    ..self.refined_distance(&candidates, max_distance, leaf)?
+                };
+            }
+            self.keep_memory(candidates);
+        }
         Ok(distance)
     }
 

@@ -8,6 +8,7 @@ mod candidates;
 mod classify;
 mod combination;
 mod context;
+mod curve_refinement;
 mod distance;
 mod distance_answer;
 mod every_pair;

@@ -75,7 +75,7 @@ impl QueryContext {
     ) -> Result<Distance> {
         check_threshold(max_distance, "max_distance")?;
         self.scratch.meter_mut().start_call();
-        self.bodies_distance(a, b, max_distance)
+        self.refining(|context| context.bodies_distance(a, b, max_distance))
     }
 
     /// The same, handed to `take`: moving an answer of this size takes as long as measuring two spheres.
@@ -94,7 +94,9 @@ impl QueryContext {
             let distance = self.singles_distance(&target, max_distance)?;
             return Ok(take(&distance));
         }
-        Ok(take(&self.searched_distance(&[target], max_distance)?))
+        let distance =
+            self.refining(|context| context.searched_distance(&[target], max_distance))?;
+        Ok(take(&distance))
     }
 
     /// The same within a call, with a checked maximum.
@@ -113,8 +115,11 @@ impl QueryContext {
 
     #[inline(never)]
     fn searched_distance(&mut self, targets: &[Target], max_distance: f64) -> Result<Distance> {
-        let found = self.nearest(targets, max_distance)?;
         let leaf = |_| Leaf::default();
+        if self.refines(targets) {
+            return self.refined_distance(targets, max_distance, leaf);
+        }
+        let found = self.nearest(targets, max_distance)?;
         let scratch = self.scratch.for_primitives();
         Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
@@ -164,7 +169,7 @@ impl QueryContext {
     pub fn pair_within(&mut self, a: Placement, b: Placement, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         self.scratch.meter_mut().start_call();
-        self.bodies_within(a, b, threshold)
+        self.refining(|context| context.bodies_within(a, b, threshold))
     }
 
     /// The same within a call, with a checked threshold.

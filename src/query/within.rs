@@ -19,7 +19,7 @@ impl QueryContext {
         check_threshold(threshold, "threshold")?;
         cobject.require_one_metric()?;
         let world = self.look(cobject);
-        self.within_in(&world, cobject, at, threshold)
+        self.refining(|context| context.within_in(&world, cobject, at, threshold))
     }
 
     /// The same in a given world, with a checked threshold and metric.
@@ -140,7 +140,12 @@ impl QueryContext {
         threshold: f64,
     ) -> Result<bool> {
         let mut is_within = false;
+        let refines = self.gap.is_some();
         self.visit_recent(scene, group, |pairing, places, margin, scratch| {
+            // The bodies may be apart though their triangles grown by the deviations are not.
+            if refines && (pairing.a.curved().is_some() || pairing.b.curved().is_some()) {
+                return;
+            }
             let mut visitor = Within::<false> {
                 margin,
                 threshold,
@@ -181,6 +186,11 @@ impl QueryContext {
                 self.first_within::<false>(&pairing, target, threshold)?
             };
             if let Some(places) = found {
+                if self.refines(std::slice::from_ref(target))
+                    && !self.refined_within(target, threshold)?
+                {
+                    continue;
+                }
                 self.remember(target.key, places);
                 return Ok(true);
             }

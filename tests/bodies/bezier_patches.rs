@@ -11,7 +11,7 @@ use cstk::query::QueryContext;
 
 use helpers::random::Random;
 
-fn built(builder: &BodyBuilder) -> Arc<Body> {
+pub fn built(builder: &BodyBuilder) -> Arc<Body> {
     let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
     Arc::new(body.unwrap())
 }
@@ -36,6 +36,16 @@ fn at(patch: &BezierPatch, u: f64, v: f64) -> Vec3 {
         }
     }
     sum / weights
+}
+
+/// A grid of points of a patch, `count` steps either way.
+pub fn samples(patch: &BezierPatch, count: usize) -> Vec<Vec3> {
+    (0..=count * count + 2 * count)
+        .map(|k| {
+            let (i, j) = (k / (count + 1), k % (count + 1));
+            at(patch, i as f64 / count as f64, j as f64 / count as f64)
+        })
+        .collect()
 }
 
 /// Control points over a bent sheet, some of them moved onto others so that edges are points.
@@ -79,12 +89,7 @@ fn bounds_hold_for_densely_sampled_patches() {
         let stated = body.stated_deviation();
         assert!(0.0 < stated && stated <= tolerance);
         assert_eq!(body.tag(0), 7);
-        let samples: Vec<Vec3> = (0..=SAMPLES * SAMPLES + 2 * SAMPLES)
-            .map(|k| {
-                let (i, j) = (k / (SAMPLES + 1), k % (SAMPLES + 1));
-                at(&patch, i as f64 / SAMPLES as f64, j as f64 / SAMPLES as f64)
-            })
-            .collect();
+        let samples = samples(&patch, SAMPLES);
         // No point of the patch is farther from a sample than half the diagonal of a cell is long; cells are bent a little.
         let gap = (0..SAMPLES * SAMPLES)
             .map(|k| {
@@ -141,6 +146,21 @@ const OCTANT: [([f64; 3], f64); 9] = [
     ([0.0, 0.0, 1.0], 1.0),
 ];
 
+/// Adds the surface of the unit sphere, as eight patches tagged with their octants.
+pub fn add_sphere(builder: &mut BodyBuilder, tolerance: f64) {
+    for octant in 0..8 {
+        let sign = Vec3::from_fn(|k, _| if octant >> k & 1 == 0 { 1.0 } else { -1.0 });
+        let points = OCTANT.map(|(p, _)| Vec3::from(p).component_mul(&sign));
+        let weights = OCTANT.map(|(_, weight)| 5.0 * weight);
+        let patch = BezierPatch {
+            degrees: [2, 2],
+            points: &points,
+            weights: Some(&weights),
+        };
+        builder.add_bezier_patch(&patch, tolerance, octant).unwrap();
+    }
+}
+
 #[test]
 fn eight_rational_patches_are_a_sphere() {
     let mut random = Random::new(2202);
@@ -148,17 +168,7 @@ fn eight_rational_patches_are_a_sphere() {
     let mut counts = Vec::new();
     for tolerance in [0.1, 0.01, 0.001] {
         let mut builder = BodyBuilder::new(3).unwrap();
-        for octant in 0..8 {
-            let sign = Vec3::from_fn(|k, _| if octant >> k & 1 == 0 { 1.0 } else { -1.0 });
-            let points = OCTANT.map(|(p, _)| Vec3::from(p).component_mul(&sign));
-            let weights = OCTANT.map(|(_, weight)| 5.0 * weight);
-            let patch = BezierPatch {
-                degrees: [2, 2],
-                points: &points,
-                weights: Some(&weights),
-            };
-            builder.add_bezier_patch(&patch, tolerance, octant).unwrap();
-        }
+        add_sphere(&mut builder, tolerance);
         let body = built(&builder);
         counts.push(body.primitives().len());
         let stated = body.stated_deviation();

@@ -7,6 +7,7 @@ mod given;
 mod obj_files;
 mod parts;
 mod placed_meshes;
+mod refined_patches;
 mod refits;
 mod solid_bodies;
 mod solid_clouds;

@@ -42,6 +42,10 @@ class Query(AtConfiguration, PairQueries, ObjectPairs, Motions, Regions, Slides)
         pairs = index("node_and_primitive_pairs", node_and_primitive_pairs, 64)
         check(lib.cstk_query_set_limit(self._pointer, pairs))
 
+    def set_refinement(self, gap: float | None) -> None:
+        """Refines curved surfaces until later distances, thresholds and classes are known to `gap`; None for never."""
+        check(lib.cstk_query_set_refinement(self._pointer, float("inf") if gap is None else float(gap)))
+
     def statistics(self, reset: bool = False) -> QueryStatistics:
         """The work done since the context was created, or since the last call with `reset`."""
         out = ffi.new("cstk_query_statistics *")
