@@ -4,7 +4,8 @@
 # of points alone; robots, builds and slides [--quick] [--seed N]; kernel, objects, shapes, motion, planners and batches [--quick]
 # [--seed N] [--only TEXT], the last for the scenes whose names hold a text (of objects and batches, for the rows whose scene and name do;
 # of shapes, for the rows whose group, bodies, poses and query do: "shapes box and box random collide"); planners [--samples N], for
-# judging paths; python [--items N] [--passes N] [--seed N]; accuracy [PAIRS [SEED]].
+# judging paths; python [--items N] [--passes N] [--seed N], for both of its tables: batches beside C, and pairs of bodies beside the
+# Python modules of Coal and FCL; accuracy [PAIRS [SEED]].
 set -euo pipefail
 from=$PWD
 cd "$(dirname "$0")/.."
@@ -93,8 +94,15 @@ if [ "$name" = python ]; then
   rm -rf "$work/venv"
   python3 -m venv "$work/venv"
   "$work/venv/bin/pip" install --quiet ./python
+  # The program names the peers that are left out.
+  for peer in python-fcl coal==3.0.3; do
+    "$work/venv/bin/pip" install --quiet --only-binary :all: "$peer" || echo "SKIPPED: $peer could not be installed" >&2
+  done
   cc -O2 -shared -fPIC -Wall -Wextra -Iinclude benches/python/c_call.c -o "$work/c_call.so"
-  exec "$work/venv/bin/python" benches/python/batch_time.py "$work/c_call.so" models "${arguments[@]}"
+  status=0
+  "$work/venv/bin/python" benches/python/batch_time.py "$work/c_call.so" models "${arguments[@]}" || status=$?
+  "$work/venv/bin/python" benches/python/pair_peers.py "${arguments[@]}" || status=$?
+  exit "$status"
 fi
 if [ "$name" = robots ]; then
   robots=$(scripts/fetch_pinocchio.sh) || { echo "SKIPPED: Pinocchio and its robots could not be fetched" >&2; exit 77; }
