@@ -1,6 +1,7 @@
 //! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
 
 mod added_bodies;
+mod b_spline;
 mod bezier_patch;
 #[allow(clippy::module_inception)]
 mod body;
@@ -19,6 +20,7 @@ mod mesh_budget;
 pub mod mesh_file;
 mod mesh_form;
 mod number_type;
+mod nurbs_surface;
 mod part;
 mod patch_cell;
 mod patch_triangles;
@@ -40,6 +42,7 @@ pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };
 pub use mesh_form::MeshForm;
+pub use nurbs_surface::NurbsSurface;
 pub use part::BodyPart;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;

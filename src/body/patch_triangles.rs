@@ -17,7 +17,7 @@ impl BodyBuilder {
     /// it at most; they are no part of the boundary of a solid.
     pub(super) fn add_patches(
         &mut self,
-        patches: Vec<Cell>,
+        patches: impl ExactSizeIterator<Item = Cell>,
         tolerance: f64,
         tag: u64,
     ) -> Result<()> {
@@ -52,21 +52,20 @@ impl BodyBuilder {
 /// Halves cells until each part is proved to be within the tolerance of two triangles; gives each with its bound, in the order of the
 /// patches.
 fn for_each_cell(
-    patches: Vec<Cell>,
+    mut patches: impl ExactSizeIterator<Item = Cell>,
     tolerance: f64,
     mut visit: impl FnMut(&Cell, f64) -> Result<()>,
 ) -> Result<()> {
-    let mut todo = patches;
-    todo.reverse();
+    let mut todo = Vec::new();
     let mut cells = 0;
-    while let Some(cell) = todo.pop() {
+    while let Some(cell) = todo.pop().or_else(|| patches.next()) {
         let bound = cell.deviation();
         if bound <= tolerance {
             cells += 1;
             visit(&cell, bound)?;
             continue;
         }
-        if cells + todo.len() >= MAX_CELLS || cell.halvings() == MAX_HALVINGS {
+        if cells + todo.len() + patches.len() >= MAX_CELLS || cell.halvings() == MAX_HALVINGS {
             return Err(Error::new(
                 ErrorKind::Limit,
                 format!(
