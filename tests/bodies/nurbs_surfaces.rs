@@ -153,8 +153,11 @@ fn bounds_hold_for_densely_sampled_surfaces() {
     println!("{triangles} triangles");
 }
 
-/// Quarters of a circle between so many control points around the axis: places and weights.
-const CIRCLE: [([f64; 2], f64); 9] = [
+/// A control point in the plane, and its weight.
+type Weighted = ([f64; 2], f64);
+
+/// Four quarters of the unit circle.
+const CIRCLE: [Weighted; 9] = [
     ([1.0, 0.0], 1.0),
     ([1.0, 1.0], FRAC_1_SQRT_2),
     ([0.0, 1.0], 1.0),
@@ -169,7 +172,7 @@ const CIRCLE: [([f64; 2], f64); 9] = [
 const CIRCLE_KNOTS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
 
 /// A profile, given by distances from the axis, heights and weights, turned once around the z axis.
-fn turned(profile: &[([f64; 2], f64)], degree: usize, knots: &[f64], tolerance: f64) -> Arc<Body> {
+fn turned(profile: &[Weighted], degree: usize, knots: &[f64], tolerance: f64) -> Arc<Body> {
     let pairs = profile
         .iter()
         .flat_map(|around| CIRCLE.map(|turn| (around, turn)));
@@ -191,7 +194,7 @@ fn turned(profile: &[([f64; 2], f64)], degree: usize, knots: &[f64], tolerance: 
 /// triangles.
 fn check_turned(
     seed: u64,
-    (profile, degree, knots): (&[([f64; 2], f64)], usize, &[f64]),
+    (profile, degree, knots): (&[Weighted], usize, &[f64]),
     distance: impl Fn(&Vec3) -> f64,
 ) {
     let mut random = Random::new(seed);
@@ -227,7 +230,7 @@ fn a_turned_circle_is_a_torus() {
 
 #[test]
 fn a_turned_half_circle_is_a_sphere() {
-    let profile: Vec<([f64; 2], f64)> = CIRCLE[..5]
+    let profile: Vec<Weighted> = CIRCLE[..5]
         .iter()
         .map(|([z, x], weight)| ([*x, *z], *weight))
         .collect();
