@@ -409,6 +409,57 @@ static void add_bezier_patch(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void add_nurbs_surface(const fixture *f) {
+    /* 3 x 2 control points, two spans in u. */
+    const double sheet[18] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0.5, 2, 0, 0, 2, 1, 0};
+    const double weights[6] = {1, 1, 1, 2, 1, 1};
+    const double spoilt[6] = {1, 1, 1, 2, -1, 1};
+    const double u[5] = {0, 0, 1, 2, 2}, v[4] = {0, 0, 1, 1};
+    const double falling[5] = {0, 0, 1, 0.5, 2}, unknown[4] = {0, 0, NAN, 1}, empty[4] = {0, 1, 1, 2};
+    const double torn[6] = {0, 0, 1, 1, 2, 2};
+    EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
+        CHECK_FAILS(cstk_body_builder_add_nurbs_surface(bad->handle, 1, 1, u, 5, v, 4, sheet, 6, weights, 0.01, 0),
+                    bad->status, "builder");
+    }
+    cstk_body_builder *builder = NULL;
+    cstk_body *body = NULL;
+    cstk_body_statistics s;
+    CHECK_OK(cstk_body_builder_create(3, &builder));
+#define FAILS(degree_u, degree_v, u, nu, v, nv, xyz, count, weights, tolerance, status, culprit)                            \
+    CHECK_FAILS(cstk_body_builder_add_nurbs_surface(builder, degree_u, degree_v, u, nu, v, nv, xyz, count, weights,    \
+                                                    tolerance, 0),                                                     \
+                status, culprit)
+    FAILS(1, 1, NULL, 5, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_NULL_ARGUMENT, "knots_u");
+    FAILS(1, 1, u, 5, NULL, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_NULL_ARGUMENT, "knots_v");
+    FAILS(1, 1, u, 5, v, 4, NULL, 6, NULL, 0.01, CSTK_ERROR_NULL_ARGUMENT, "control_points");
+    FAILS(1, 1, u, SIZE_MAX, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "knots_u");
+    FAILS(1, 1, u, 5, v, SIZE_MAX / 4, sheet, 6, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "knots_v");
+    FAILS(1, 1, u, 5, v, 4, sheet, SIZE_MAX / 2, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "control_points");
+    FAILS(1, 1, NULL, 0, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "knots_u");
+    FAILS(1, 1, u, 3, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "knots_u");
+    FAILS(1, 1, u, 5, v, 4, sheet, 5, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "surface (primitive 0)");
+    FAILS(1, 1, u, 5, v, 4, NULL, 0, NULL, 0.01, CSTK_ERROR_WRONG_SIZE, "control points");
+    FAILS(0, 1, u, 5, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "degree_u");
+    FAILS(1, UINT32_MAX, u, 5, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "degree_v");
+    FAILS(1, 1, falling, 5, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "knots_u: knot 3");
+    FAILS(1, 1, u, 5, unknown, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_NOT_FINITE, "knots_v: knot 2");
+    FAILS(1, 1, u, 5, empty, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "knots_v: knots 1 and 2");
+    FAILS(1, 1, torn, 6, v, 4, sheet, 6, NULL, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "knots_u: knots 2 to 3");
+    FAILS(1, 1, u, 5, v, 4, sheet, 6, spoilt, 0.01, CSTK_ERROR_INVALID_ARGUMENT, "weight 4");
+    FAILS(1, 1, u, 5, v, 4, sheet, 6, NULL, 0, CSTK_ERROR_INVALID_ARGUMENT, "tolerance");
+    FAILS(1, 1, u, 5, v, 4, sheet, 6, NULL, NAN, CSTK_ERROR_NOT_FINITE, "tolerance");
+    FAILS(1, 1, u, 5, v, 4, sheet, 6, NULL, 1e-300, CSTK_ERROR_LIMIT, "tolerance");
+#undef FAILS
+    CHECK_FAILS(cstk_body_build(builder, NULL, NULL, NULL, &body), CSTK_ERROR_EMPTY, "primitive");
+    CHECK_OK(cstk_body_builder_add_nurbs_surface(builder, 1, 1, u, 5, v, 4, sheet, 6, weights, 0.01, 3));
+    CHECK_OK(cstk_body_build(builder, NULL, NULL, NULL, &body));
+    CHECK_OK(cstk_body_get_statistics(body, &s));
+    CHECK(s.primitive_count > 4 && s.deviation > 0 && s.deviation <= 0.01 && s.high[0] == 2 && s.high[2] == 0.5);
+    CHECK_OK(cstk_body_release(body));
+    CHECK_OK(cstk_body_builder_release(builder));
+    fixture_unchanged(f);
+}
+
 static void set_solid(const fixture *f) {
     EACH_BAD_HANDLE(f, NOUN_BODY_BUILDER, bad) {
         CHECK_FAILS(cstk_body_builder_set_solid(bad->handle, true), bad->status, "builder");
@@ -570,6 +621,7 @@ int main(void) {
     build(&f);
     set_deviation(&f);
     add_bezier_patch(&f);
+    add_nurbs_surface(&f);
     set_solid(&f);
     solid_around(&f);
     get_statistics(&f);

@@ -735,28 +735,6 @@ cstk_status cstk_body_builder_set_deviation(cstk_body_builder *builder,
                                             double deviation);
 
 /**
- * Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
- * `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
- * the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
- *
- * `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
- * u. `weights` holds one for each, all above 0, of a rational patch, or is NULL. A NURBS surface is one such patch for each knot span,
- * once its knots have full multiplicity. All triangles have this tag. In 3-D the patch is a surface; cstk_body_builder_set_solid does not
- * count it among the faces of a boundary. Edges of a patch may be points.
- *
- * Degrees are from 1 to 32; a weight is at least 1e-6 of the largest: CSTK_ERROR_INVALID_ARGUMENT otherwise. CSTK_ERROR_WRONG_SIZE for
- * another number of points. CSTK_ERROR_LIMIT where the tolerance asks for more than 2^18 cells; halving it takes about twice as many.
- */
-cstk_status cstk_body_builder_add_bezier_patch(cstk_body_builder *builder,
-                                               uint32_t degree_u,
-                                               uint32_t degree_v,
-                                               const double *xyz,
-                                               const double *weights,
-                                               size_t point_count,
-                                               double tolerance,
-                                               uint64_t tag);
-
-/**
  * Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for
  * the defaults; `progress` may be NULL; `user` is passed to it. CSTK_ERROR_EMPTY if nothing was added. For a body declared
  * solid: CSTK_ERROR_NOT_CLOSED if the boundary has open edges, or is one-sided (not orientable), with a message that names
@@ -771,6 +749,57 @@ cstk_status cstk_body_build(cstk_body_builder *builder,
                             cstk_progress_fn progress,
                             void *user,
                             cstk_body **out);
+
+/**
+ * Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
+ * `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
+ * the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
+ *
+ * `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
+ * u. `weights` holds one for each, all above 0, of a rational patch, or is NULL. All triangles have this tag. In 3-D
+ * the patch is a surface; cstk_body_builder_set_solid does not count it among the faces of a boundary. Edges of a patch may be points.
+ *
+ * Degrees are from 1 to 32; a weight is at least 1e-6 of the largest: CSTK_ERROR_INVALID_ARGUMENT otherwise. CSTK_ERROR_WRONG_SIZE for
+ * another number of points. CSTK_ERROR_LIMIT where the tolerance asks for more than 2^18 cells; halving it takes about twice as many.
+ */
+cstk_status cstk_body_builder_add_bezier_patch(cstk_body_builder *builder,
+                                               uint32_t degree_u,
+                                               uint32_t degree_v,
+                                               const double *xyz,
+                                               const double *weights,
+                                               size_t point_count,
+                                               double tolerance,
+                                               uint64_t tag);
+
+/**
+ * Adds a NURBS surface as triangles: a tensor product B-spline surface, rational if it has weights. Knots are inserted until it is one
+ * Bezier patch for each pair of knot spans that are not empty, and each patch is added as cstk_body_builder_add_bezier_patch does: what
+ * that says of `tolerance`, the stated deviation, solids and tags holds here too. Patches are added in the order of their spans, those in
+ * v running fastest.
+ *
+ * `knots_u` has degree_u + 1 entries more than there are rows of control points, `knots_v` degree_v + 1 more than there are columns. No
+ * knot is less than the one before it. Counted from 0, the surface lies between knots `degree` and `count - 1 - degree`. These need not
+ * have full multiplicity: unclamped and periodic knots are as good as clamped ones. `control_points` holds `point_count` points of three
+ * doubles, row by row: those of one row have the same index in u. `weights` holds one for each, all above 0, or is NULL for ones.
+ *
+ * CSTK_ERROR_INVALID_ARGUMENT, with a message that names the knots or the weight: for degrees and weights as for a patch; for knots that
+ * fall, are beyond 1e50, or are unequal but less than 2.3e-308 apart; if the surface has no extent; for a knot inside of it that is there
+ * more often than its degree, where it would be torn; for any other that is there more often than its degree and once more.
+ * CSTK_ERROR_WRONG_SIZE for another number of control points than the knots ask for. CSTK_ERROR_LIMIT for more than 2^18 patches, or
+ * where the tolerance asks for more than 2^18 cells. Nothing is added then.
+ */
+cstk_status cstk_body_builder_add_nurbs_surface(cstk_body_builder *builder,
+                                                uint32_t degree_u,
+                                                uint32_t degree_v,
+                                                const double *knots_u,
+                                                size_t knot_count_u,
+                                                const double *knots_v,
+                                                size_t knot_count_v,
+                                                const double *control_points,
+                                                size_t point_count,
+                                                const double *weights,
+                                                double tolerance,
+                                                uint64_t tag);
 
 /**
  * Adds a ball around `center` (three doubles); in the plane a disc. Exact to 1e-12 of the largest coordinate, as points

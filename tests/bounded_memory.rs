@@ -1,14 +1,14 @@
 //! What calls hold at a time: queries as much as they are asked to list, not what they come upon; maps, when they are saved, no more than
-//! they hold already.
+//! they hold already; surfaces that become triangles as much as their control points and triangles.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use cstk::body::{Body, BodyBuilder};
+use cstk::body::{Body, BodyBuilder, NurbsSurface};
 use cstk::cobject::PureOptions;
-use cstk::error::Result;
+use cstk::error::{ErrorKind, Result};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::map::{Map, MapAxis, MapKind, MapOptions};
 use cstk::pose::{Pose, Vec3};
@@ -81,6 +81,7 @@ const MEGABYTE: usize = 1 << 20;
 fn memory_is_bounded() {
     by_what_is_listed();
     by_pieces_of_maps();
+    by_control_points_of_surfaces();
 }
 
 fn by_what_is_listed() {
@@ -177,4 +178,27 @@ fn by_pieces_of_maps() {
 
 fn pairs(list: &WitnessList) -> Vec<[u32; 2]> {
     list.witnesses.iter().map(|w| w.primitives).collect()
+}
+
+/// The 92 x 92 patches have 81 control points each, 22 MB in all. No tolerance is near enough for the first of them.
+fn by_control_points_of_surfaces() {
+    const COUNT: usize = 100;
+    let knots: Vec<f64> = (0..COUNT + 9).map(|k| k as f64).collect();
+    let points: Vec<Vec3> = (0..COUNT * COUNT)
+        .map(|k| Vec3::new((k / COUNT) as f64, (k % COUNT) as f64, (k % 7) as f64))
+        .collect();
+    let surface = NurbsSurface {
+        degrees: [8, 8],
+        knots: [&knots, &knots],
+        points: &points,
+        weights: None,
+    };
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let (added, bytes) = held(|| builder.add_nurbs_surface(&surface, 1e-300, 0));
+    assert_eq!(added.unwrap_err().kind, ErrorKind::Limit);
+    println!("{bytes} bytes for a surface");
+    assert!(
+        bytes < 4 * std::mem::size_of_val(&points[..]),
+        "{bytes} bytes"
+    );
 }

@@ -80,6 +80,23 @@ void bodies() {
     REQUIRE(bent.primitive_count > 2 && bent.deviation > 0 && bent.deviation <= 0.01);
     REQUIRE(status_of([&] { cstk::BodyBuilder().add_bezier_patch(2, 1, sheet, 0.01); }) ==
             CSTK_ERROR_WRONG_SIZE);
+    const std::vector<double> ends = {0, 0, 1, 1};
+    const cstk_body_statistics whole = cstk::BodyBuilder()
+                                           .add_nurbs_surface(1, 1, ends, ends, sheet, 0.01, factors, 3)
+                                           .build()
+                                           .statistics();
+    REQUIRE(whole.primitive_count == bent.primitive_count);
+    REQUIRE(status_of([&] {
+                cstk::BodyBuilder().add_nurbs_surface(2, 1, ends, ends, sheet, 0.01);
+            }) == CSTK_ERROR_WRONG_SIZE);
+    bool refused = false;
+    try {
+        const std::vector<double> three(3, 1.0);
+        cstk::BodyBuilder().add_nurbs_surface(1, 1, ends, ends, sheet, 0.01, three);
+    } catch (const std::invalid_argument &) {
+        refused = true;
+    }
+    REQUIRE(refused);
     builder.set_deviation(0.25);
     REQUIRE(builder.build().statistics().deviation == 0.25);
     REQUIRE(status_of([&] { builder.set_deviation(-1); }) == CSTK_ERROR_INVALID_ARGUMENT);

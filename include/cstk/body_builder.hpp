@@ -94,12 +94,20 @@ public:
     /// how far they are from it.
     BodyBuilder &add_bezier_patch(std::uint32_t degree_u, std::uint32_t degree_v, Span<double> xyz,
                                   double tolerance, Span<double> weights = {}, std::uint64_t tag = 0) {
-        if (weights.size() != 0 && 3 * weights.size() != xyz.size()) {
-            throw std::invalid_argument("cstk: each control point has a weight, or none has");
-        }
-        const double *factors = weights.size() != 0 ? weights.data() : nullptr;
-        check(cstk_body_builder_add_bezier_patch(get(), degree_u, degree_v, xyz.data(), factors,
-                                                 points(xyz), tolerance, tag));
+        check(cstk_body_builder_add_bezier_patch(get(), degree_u, degree_v, xyz.data(),
+                                                 factors(weights, xyz), points(xyz), tolerance, tag));
+        return *this;
+    }
+
+    /// A NURBS surface as triangles within a tolerance of it: control points row by row, those of one row with the same index in u. Knots
+    /// need not be clamped.
+    BodyBuilder &add_nurbs_surface(std::uint32_t degree_u, std::uint32_t degree_v,
+                                   Span<double> knots_u, Span<double> knots_v, Span<double> xyz,
+                                   double tolerance, Span<double> weights = {},
+                                   std::uint64_t tag = 0) {
+        check(cstk_body_builder_add_nurbs_surface(
+            get(), degree_u, degree_v, knots_u.data(), knots_u.size(), knots_v.data(), knots_v.size(),
+            xyz.data(), points(xyz), factors(weights, xyz), tolerance, tag));
         return *this;
     }
 
@@ -213,6 +221,17 @@ private:
             throw std::invalid_argument("cstk: coordinates must come in threes");
         }
         return xyz.size() / 3;
+    }
+
+    /// One for each point, or none.
+    static const double *factors(Span<double> weights, Span<double> xyz) {
+        if (weights.size() == 0) {
+            return nullptr;
+        }
+        if (3 * weights.size() != xyz.size()) {
+            throw std::invalid_argument("cstk: each control point has a weight, or none has");
+        }
+        return weights.data();
     }
 
     static cstk_body_builder *create(std::uint32_t dimension) {

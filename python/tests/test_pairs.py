@@ -60,6 +60,31 @@ def test_a_rational_patch_is_a_quarter_of_a_cylinder(query):
         cstk.BodyBuilder().add_bezier_patch(net[0], 0.01)
 
 
+def test_a_nurbs_surface_is_a_cylinder(query):
+    half = np.sqrt(0.5)
+    circle = np.array([[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1], [1, 0]])
+    ring = np.column_stack([circle, np.zeros(9)])
+    net = np.stack([ring, ring + [0, 0, 2]], axis=1)
+    weights = np.outer([1, half, 1, half, 1, half, 1, half, 1], [1, 1])
+    around, along = [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], [0, 0, 1, 1]
+    body = cstk.BodyBuilder().add_nurbs_surface(around, along, net, 0.01, weights, tag=5).build()
+    stated = body.statistics().deviation
+    assert 0 < stated <= 0.01
+    for angle in np.linspace(0, 6, 13):
+        place = cstk.translation(3 * np.cos(angle), 3 * np.sin(angle), 1)
+        found = query.pair_distance(body, cstk.identity(), cstk.Body.sphere(0.5), place)
+        assert found.lower <= 1.5 <= found.upper <= found.lower + 2 * stated + 1e-9 and found.witness.r_tag == 5
+    builder = cstk.BodyBuilder()
+    with pytest.raises(ValueError, match="weights"):
+        builder.add_nurbs_surface(around, along, net, 0.01, weights.T)
+    with pytest.raises(ValueError, match="control_points"):
+        builder.add_nurbs_surface(around, along, net[0], 0.01)
+    with pytest.raises(cstk.WrongSizeError, match="knots_v"):
+        builder.add_nurbs_surface(around, along[:3], net, 0.01)
+    with pytest.raises(cstk.InvalidArgumentError, match="knots_u: knot 2"):
+        builder.add_nurbs_surface([0, 0, -1, *around[3:]], along, net, 0.01)
+
+
 BODIES = {
     "capsule": (lambda: cstk.Body.capsule([0, 0, -1], [0, 0, 1], 0.25), 1.25),
     "cylinder": (lambda: cstk.Body.cylinder(0.5, 0.75), 0.75),

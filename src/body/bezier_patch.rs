@@ -2,7 +2,7 @@
 
 use super::builder::BodyBuilder;
 use super::control_points::{require_degrees, weighted};
-use super::patch_cell::Cell;
+use super::patch_cell::{Cell, size};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pose::Vec3;
 
@@ -29,7 +29,7 @@ impl BodyBuilder {
     ) -> Result<()> {
         let cell = patch.cell()?;
         self.require_planar(patch.points)?;
-        self.add_patches(vec![cell], tolerance, tag)
+        self.add_patches(std::iter::once(cell), tolerance, tag)
     }
 }
 
@@ -50,6 +50,8 @@ impl BezierPatch<'_> {
                 ),
             ));
         }
-        Ok(Cell::whole(sizes, weighted(self.points, self.weights)?))
+        let controls = weighted(self.points, self.weights)?;
+        let size = size(&controls);
+        Ok(Cell::whole(sizes, controls, size, 0))
     }
 }

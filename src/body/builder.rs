@@ -33,7 +33,9 @@ pub struct BodyBuilder {
     stated_deviation: f64,
     /// How far the triangles of patches are from them.
     patch_deviation: f64,
-    /// The cells of patches, in the builder's frame.
+    /// The same of those that queries do not refine.
+    flat_deviation: f64,
+    /// The cells of patches that queries may refine, in the builder's frame.
     curved: CurvedCells,
     faces_split: u64,
     faces_dropped: u64,
@@ -52,6 +54,7 @@ impl BodyBuilder {
             is_solid: false,
             stated_deviation: 0.0,
             patch_deviation: 0.0,
+            flat_deviation: 0.0,
             curved: CurvedCells::default(),
             faces_split: 0,
             faces_dropped: 0,
@@ -92,9 +95,12 @@ impl BodyBuilder {
         Ok(())
     }
 
-    /// Notes which primitives stand for cells of patches, and how far they are from them at most.
-    pub(super) fn take_curved(&mut self, cells: CurvedCells, deviation: f64) {
-        self.curved.append(&cells, 0, &Pose::identity());
+    /// Notes which primitives stand for cells of patches, if they are kept, and how far they are from them at most.
+    pub(super) fn take_curved(&mut self, cells: Option<CurvedCells>, deviation: f64) {
+        match cells {
+            Some(cells) => self.curved.append(&cells, 0, &Pose::identity()),
+            None => self.flat_deviation = self.flat_deviation.max(deviation),
+        }
         self.patch_deviation = self.patch_deviation.max(deviation);
     }
 
@@ -311,7 +317,10 @@ impl BodyBuilder {
                 .max(self.patch_deviation)
                 .max(self.added.stated_deviation()),
         )
-        .with_curved(self.curved_cells(&center), self.added.flat_deviation()))
+        .with_curved(
+            self.curved_cells(&center),
+            self.flat_deviation.max(self.added.flat_deviation()),
+        ))
     }
 
     pub(super) fn push(&mut self, primitive: Convex, tag: u64, is_face: bool) -> Result<()> {

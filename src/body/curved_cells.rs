@@ -8,6 +8,8 @@ use crate::pose::Pose;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CurvedCells {
     patches: Vec<Cell>,
+    /// The number of the patches' control points.
+    controls: usize,
     /// In order of their primitives.
     cells: Vec<CurvedCell>,
 }
@@ -33,7 +35,13 @@ impl CurvedCells {
 
     /// Adds the patch of the cells since the last one.
     pub fn end_patch(&mut self, patch: Cell) {
+        self.controls += patch.control_count();
         self.patches.push(patch);
+    }
+
+    /// The number of the patches' control points.
+    pub fn control_count(&self) -> usize {
+        self.controls
     }
 
     pub fn is_empty(&self) -> bool {
@@ -43,6 +51,7 @@ impl CurvedCells {
     /// Appends the cells of others, moved; their primitives follow from this number on.
     pub fn append(&mut self, others: &Self, first: u32, pose: &Pose) {
         let patches = self.patches.len() as u32;
+        self.controls += others.controls;
         let moved = others.patches.iter().map(|patch| patch.moved(pose));
         self.patches.extend(moved);
         self.cells

@@ -1,6 +1,7 @@
 //! Bodies: rigid unions of primitives with their hierarchy, immutable once built.
 
 mod added_bodies;
+mod b_spline;
 mod bezier_patch;
 #[allow(clippy::module_inception)]
 mod body;
@@ -20,6 +21,7 @@ mod mesh_budget;
 pub mod mesh_file;
 mod mesh_form;
 mod number_type;
+mod nurbs_surface;
 mod part;
 pub(crate) mod patch_cell;
 mod patch_triangles;
@@ -41,6 +43,7 @@ pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };
 pub use mesh_form::MeshForm;
+pub use nurbs_surface::NurbsSurface;
 pub use part::BodyPart;
 pub use pieces::{Piece, Pieces};
 pub use shapes::HeightField;

@@ -22,6 +22,10 @@ pub(crate) struct Cell {
     /// The numbers of control points in the two parameters.
     sizes: [usize; 2],
     controls: Vec<Vector4<f64>>,
+    /// The largest coordinate of the surface's control points.
+    size: f64,
+    /// How many rounds of averages knots that were inserted took.
+    insertions: usize,
     place: CellPlace,
 }
 
@@ -39,11 +43,19 @@ pub(crate) struct CellPlace {
 pub(super) const MAX_HALVINGS: u32 = 80;
 
 impl Cell {
-    /// All of a patch: so many rows and columns of control points times their weights, with these.
-    pub fn whole(sizes: [usize; 2], controls: Vec<Vector4<f64>>) -> Self {
+    /// All of a patch: so many rows and columns of control points times their weights, with these. Control points of this [`size`] became
+    /// those of the patch by so many rounds of averages, if knots were inserted.
+    pub fn whole(
+        sizes: [usize; 2],
+        controls: Vec<Vector4<f64>>,
+        size: f64,
+        insertions: usize,
+    ) -> Self {
         Self {
             sizes,
             controls,
+            size,
+            insertions,
             place: CellPlace::default(),
         }
     }
@@ -53,6 +65,11 @@ impl Cell {
         let [rows, columns] = self.sizes;
         let last_row = (rows - 1) * columns;
         [0, last_row, columns - 1, last_row + columns - 1].map(|i| point(&self.controls[i]))
+    }
+
+    /// The number of control points.
+    pub fn control_count(&self) -> usize {
+        self.controls.len()
     }
 
     /// Which part of its patch this is.
@@ -84,6 +101,8 @@ impl Cell {
         });
         Self {
             controls: moved.collect(),
+            // No coordinate is larger, before or after.
+            size: 2.0 * self.size + pose.translation.amax(),
             ..*self
         }
     }
@@ -128,14 +147,16 @@ impl Cell {
         largest / self.least_weight() + 0.25 * twist.norm() + self.rounding()
     }
 
-    /// What rounding may add. Each halving averages `sizes` times; products, and the motions to the frames of bodies, are as small.
+    /// What rounding may add. Each halving averages `sizes` times; products, and the motions to the frames of bodies, are as small. Errors
+    /// are relative to the control points that were given, of which a cell has averages that may be much smaller.
+    ///
+    /// An inserted knot averages a (1 - s) + b s, where s is a quotient of two differences. Let u be EPSILON / 2. The three errors of s
+    /// move the average by 3 u |b - a| <= 6 u size; 1 - s, the products and the sum add 3 u size. So coordinates and weights (at most 1)
+    /// are off by 9 u, and the point by (sqrt(3) + 1) 9 u = 12.3 EPSILON: two averages are counted for it.
     fn rounding(&self) -> f64 {
         let [rows, columns] = self.sizes;
-        let averages = (rows.max(columns) * (self.place.halvings as usize + 4)) as f64;
-        let size = self.controls.iter().fold(0.0, |size: f64, control| {
-            size.max(control.xyz().amax() / control.w)
-        });
-        8.0 * averages * EPSILON * size / self.least_weight()
+        let averages = rows.max(columns) * (self.place.halvings as usize + 4) + 2 * self.insertions;
+        8.0 * averages as f64 * EPSILON * self.size / self.least_weight()
     }
 
     /// How far the control points are from the straight line between those at the ends, along each parameter. Where they are on it, how
@@ -225,6 +246,12 @@ struct Lines {
     step: usize,
     lines: usize,
     between: usize,
+}
+
+/// The largest coordinate of control points.
+pub(super) fn size(controls: &[Vector4<f64>]) -> f64 {
+    let sizes = controls.iter().map(|control| point(control).amax());
+    sizes.fold(0.0, f64::max)
 }
 
 fn point(control: &Vector4<f64>) -> Vec3 {

@@ -10,12 +10,16 @@ use crate::primitive::{Convex, convex_polygon, convex_polyhedron};
 /// The most cells of a surface, of two triangles each.
 pub const MAX_CELLS: usize = 1 << 18;
 
+/// The patches of a surface are kept for queries to refine if they have at most so many control points together, 32 bytes each.
+/// Inserted knots make many times more of them than were given.
+const MAX_KEPT: usize = 1 << 20;
+
 impl BodyBuilder {
     /// Adds triangles that are within the tolerance of a surface of patches: all of them or none. The body states how far they are from
     /// it at most; they are no part of the boundary of a solid.
     pub(super) fn add_patches(
         &mut self,
-        patches: Vec<Cell>,
+        patches: impl ExactSizeIterator<Item = Cell>,
         tolerance: f64,
         tag: u64,
     ) -> Result<()> {
@@ -28,12 +32,16 @@ impl BodyBuilder {
         let mut added: Vec<(Convex, u64)> = Vec::new();
         let mut deviation = 0.0f64;
         let first = self.len();
-        let mut cells = CurvedCells::default();
+        let mut curved = Some(CurvedCells::default());
         let mut count = 0;
+        let mut to_come = patches.len();
         for patch in patches {
-            for_each_cell(&patch, tolerance, &mut count, |cell, bound| {
+            to_come -= 1;
+            for_each_cell(&patch, tolerance, (&mut count, to_come), |cell, bound| {
                 deviation = deviation.max(bound);
-                cells.push((first + added.len()) as u32, cell.place());
+                if let Some(cells) = &mut curved {
+                    cells.push((first + added.len()) as u32, cell.place());
+                }
                 for triangle in cell.triangles() {
                     let primitive = match convex_polygon(&triangle) {
                         // Where an edge of the patch is a point.
@@ -46,20 +54,23 @@ impl BodyBuilder {
                 }
                 Ok(())
             })?;
-            cells.end_patch(patch);
+            if let Some(cells) = &mut curved {
+                cells.end_patch(patch);
+            }
+            curved = curved.filter(|cells| cells.control_count() <= MAX_KEPT);
         }
         self.push_all(added, false)?;
-        self.take_curved(cells, deviation);
+        self.take_curved(curved, deviation);
         Ok(())
     }
 }
 
 /// Halves a patch until each part is proved to be within the tolerance of two triangles; gives each with its bound. `count` is the
-/// number of cells so far.
+/// number of cells so far, `to_come` that of the patches after this one.
 fn for_each_cell(
     patch: &Cell,
     tolerance: f64,
-    count: &mut usize,
+    (count, to_come): (&mut usize, usize),
     mut visit: impl FnMut(&Cell, f64) -> Result<()>,
 ) -> Result<()> {
     let mut todo = vec![patch.clone()];
@@ -70,7 +81,7 @@ fn for_each_cell(
             visit(&cell, bound)?;
             continue;
         }
-        if *count + todo.len() >= MAX_CELLS || !cell.has_halves() {
+        if *count + todo.len() + to_come >= MAX_CELLS || !cell.has_halves() {
             return Err(Error::new(
                 ErrorKind::Limit,
                 format!(

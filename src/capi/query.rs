@@ -299,8 +299,8 @@ pub unsafe extern "C" fn cstk_query_set_limit(
 /// by then; each step counts as one of `node_pairs` (cstk_query_set_limit).
 ///
 /// Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
-/// contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files and refitted
-/// bodies: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
+/// contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
+/// bodies, and surfaces with more than 2^20 control points once knots are inserted: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
 ///
 /// CSTK_ERROR_INVALID_ARGUMENT for a gap that is not above 0, CSTK_ERROR_NOT_FINITE for NaN.
 #[unsafe(no_mangle)]

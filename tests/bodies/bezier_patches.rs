@@ -1,20 +1,14 @@
 //! Bezier patches as triangles: against dense samples of the patches, and against the spheres that rational patches are.
 
 use std::f64::consts::FRAC_1_SQRT_2;
-use std::sync::Arc;
 
-use cstk::body::{BezierPatch, Body, BodyBuilder};
+use cstk::body::{BezierPatch, BodyBuilder};
 use cstk::error::ErrorKind;
-use cstk::hierarchy::HierarchyOptions;
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::Vec3;
 use cstk::query::QueryContext;
 
+use super::sampled_surfaces::{ball, built, check_ball, check_samples};
 use helpers::random::Random;
-
-pub fn built(builder: &BodyBuilder) -> Arc<Body> {
-    let body = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
-    Arc::new(body.unwrap())
-}
 
 /// Bernstein's polynomials of a degree, by their definition.
 fn bernstein(degree: usize, t: f64) -> Vec<f64> {
@@ -24,7 +18,7 @@ fn bernstein(degree: usize, t: f64) -> Vec<f64> {
         .collect()
 }
 
-fn at(patch: &BezierPatch, u: f64, v: f64) -> Vec3 {
+pub fn at(patch: &BezierPatch, u: f64, v: f64) -> Vec3 {
     let [in_u, in_v] = [(patch.degrees[0], u), (patch.degrees[1], v)].map(|(n, t)| bernstein(n, t));
     let (mut sum, mut weights) = (Vec3::zeros(), 0.0);
     for (i, a) in in_u.iter().enumerate() {
@@ -36,16 +30,6 @@ fn at(patch: &BezierPatch, u: f64, v: f64) -> Vec3 {
         }
     }
     sum / weights
-}
-
-/// A grid of points of a patch, `count` steps either way.
-pub fn samples(patch: &BezierPatch, count: usize) -> Vec<Vec3> {
-    (0..=count * count + 2 * count)
-        .map(|k| {
-            let (i, j) = (k / (count + 1), k % (count + 1));
-            at(patch, i as f64 / count as f64, j as f64 / count as f64)
-        })
-        .collect()
 }
 
 /// Control points over a bent sheet, some of them moved onto others so that edges are points.
@@ -67,12 +51,9 @@ fn drawn(random: &mut Random) -> ([usize; 2], Vec<Vec3>, Option<Vec<f64>>) {
     (degrees, points, weights)
 }
 
-/// Balls beside random patches: the distance of a patch is that of its nearest sample, but for how far samples are from each other.
 #[test]
 fn bounds_hold_for_densely_sampled_patches() {
-    const SAMPLES: usize = 120;
     let mut random = Random::new(2201);
-    let mut query = QueryContext::new();
     let mut triangles = 0;
     for round in 0..45 {
         let (degrees, points, weights) = drawn(&mut random);
@@ -86,49 +67,8 @@ fn bounds_hold_for_densely_sampled_patches() {
         builder.add_bezier_patch(&patch, tolerance, 7).unwrap();
         let body = built(&builder);
         triangles += body.primitives().len();
-        let stated = body.stated_deviation();
-        assert!(0.0 < stated && stated <= tolerance);
         assert_eq!(body.tag(0), 7);
-        let samples = samples(&patch, SAMPLES);
-        // No point of the patch is farther from a sample than half the diagonal of a cell is long; cells are bent a little.
-        let gap = (0..SAMPLES * SAMPLES)
-            .map(|k| {
-                let [i, j] = [k / SAMPLES, k % SAMPLES];
-                let corner = |a: usize, b: usize| samples[(i + a) * (SAMPLES + 1) + j + b];
-                let across = (corner(0, 0) - corner(1, 1)).norm();
-                across.max((corner(0, 1) - corner(1, 0)).norm())
-            })
-            .fold(0.0, f64::max);
-        let mut ball = BodyBuilder::new(3).unwrap();
-        ball.add_sphere(&Vec3::zeros(), 0.1, 0).unwrap();
-        let ball = built(&ball);
-        for k in 0..60 {
-            let near = samples[random.below(samples.len())];
-            let center = near + random.unit() * [0.1 + 2.0 * tolerance, 0.5, 2.0][k % 3];
-            let pose = Pose::from_translation(center);
-            let identity = Pose::identity();
-            let distances = samples.iter().map(|sample| (sample - center).norm());
-            let sampled = distances.fold(f64::INFINITY, f64::min) - 0.1;
-            let found = query
-                .pair_distance((&body, &identity), (&ball, &pose), f64::INFINITY)
-                .unwrap();
-            assert!(found.lower <= sampled.max(0.0));
-            assert!(found.upper >= sampled - gap, "{found:?} {sampled} {gap}");
-            assert!(found.upper - found.lower <= 2.0 * stated + 1e-9);
-        }
-        // Every sample is within the deviation of the triangles.
-        let mut point = BodyBuilder::new(3).unwrap();
-        point.add_sphere(&Vec3::zeros(), 0.0, 0).unwrap();
-        let point = built(&point);
-        for _ in 0..300 {
-            let sample = at(&patch, random.within(0.0, 1.0), random.within(0.0, 1.0));
-            let pose = Pose::from_translation(sample);
-            let identity = Pose::identity();
-            let found = query
-                .pair_distance((&body, &identity), (&point, &pose), f64::INFINITY)
-                .unwrap();
-            assert_eq!(found.distance, 0.0, "{sample}");
-        }
+        check_samples(&body, tolerance, |u, v| at(&patch, u, v), &mut random);
     }
     println!("{triangles} triangles");
 }
@@ -171,20 +111,14 @@ fn eight_rational_patches_are_a_sphere() {
         add_sphere(&mut builder, tolerance);
         let body = built(&builder);
         counts.push(body.primitives().len());
-        let stated = body.stated_deviation();
-        let mut ball = BodyBuilder::new(3).unwrap();
-        ball.add_sphere(&Vec3::zeros(), 0.25, 0).unwrap();
-        let ball = built(&ball);
+        let ball = ball(0.25);
         for _ in 0..3000 {
             let pose = random.pose(0.5);
-            let apart = [1.25, 0.75][random.below(2)] + random.within(-3.0, 3.0) * stated;
-            let at = Pose::from_translation(pose.translation + random.unit() * apart);
-            let truth = (apart - 1.25).max(0.75 - apart).max(0.0);
-            let found = query
-                .pair_distance((&body, &pose), (&ball, &at), f64::INFINITY)
-                .unwrap();
-            assert!(found.lower <= truth + 1e-14 && truth <= found.upper + 1e-14);
-            assert!(found.upper - found.lower <= 2.0 * stated + 1e-9);
+            let apart = [1.25, 0.75][random.below(2)];
+            let apart = apart + random.within(-3.0, 3.0) * body.stated_deviation();
+            let center = random.unit() * apart;
+            let distance = |p: &Vec3| (p.norm() - 1.0).abs();
+            check_ball(&mut query, (&body, &pose), (&ball, 0.25), &center, distance);
         }
     }
     println!("{counts:?} triangles");

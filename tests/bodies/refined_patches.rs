@@ -11,7 +11,8 @@ use cstk::query::{Configuration, DistanceKind, QueryContext};
 use helpers::random::Random;
 use helpers::robots::{against, environment, free_body, space};
 
-use crate::bezier_patches::{add_sphere, built};
+use super::bezier_patches::{add_sphere, at};
+use super::sampled_surfaces::{ball, built, samples};
 
 const GAP: f64 = 1e-6;
 
@@ -19,12 +20,6 @@ const GAP: f64 = 1e-6;
 fn sphere(tolerance: f64) -> Arc<Body> {
     let mut builder = BodyBuilder::new(3).unwrap();
     add_sphere(&mut builder, tolerance);
-    built(&builder)
-}
-
-fn ball(radius: f64) -> Arc<Body> {
-    let mut builder = BodyBuilder::new(3).unwrap();
-    builder.add_sphere(&Vec3::zeros(), radius, 0).unwrap();
     built(&builder)
 }
 
@@ -118,9 +113,9 @@ fn two_curved_surfaces_are_as_near_as_in_closed_form() {
             "{k} {apart} {}",
             found.upper - found.lower
         );
-        assert_eq!(query.pair_within(r, s, truth + 2.0 * GAP).unwrap(), true);
+        assert!(query.pair_within(r, s, truth + 2.0 * GAP).unwrap());
         if truth > 2.0 * GAP {
-            assert_eq!(query.pair_within(r, s, truth - 2.0 * GAP).unwrap(), false);
+            assert!(!query.pair_within(r, s, truth - 2.0 * GAP).unwrap());
         }
     }
 }
@@ -263,14 +258,14 @@ fn bent_sheets_are_as_near_as_their_samples() {
         let mut builder = BodyBuilder::new(3).unwrap();
         builder.add_bezier_patch(&patch, 0.2, 0).unwrap();
         let body = built(&builder);
-        let samples = crate::bezier_patches::samples(&patch, 300);
+        let samples = samples(|u, v| at(&patch, u, v), 300);
         let point = ball(0.0);
         for _ in 0..6 {
-            let at = Pose::from_translation(random.point(3.0));
-            let apart = |sample: &Vec3| (sample - at.translation).norm();
+            let beside = Pose::from_translation(random.point(3.0));
+            let apart = |sample: &Vec3| (sample - beside.translation).norm();
             let truth = samples.iter().map(apart).fold(f64::INFINITY, f64::min);
             let here = Pose::identity();
-            let found = query.pair_distance((&body, &here), (&point, &at), f64::INFINITY);
+            let found = query.pair_distance((&body, &here), (&point, &beside), f64::INFINITY);
             let found = found.unwrap();
             assert!(found.lower <= truth);
             // The square of how far samples are apart, over the distance.

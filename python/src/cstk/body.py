@@ -289,6 +289,19 @@ def _scale(scale: ArrayLike) -> Array:
     return np.full(3, array) if array.ndim == 0 else vector("scale", array, 3)
 
 
+def _control_net(name: str, points: ArrayLike, weights: Optional[ArrayLike]) -> "tuple[Array, Any]":
+    """The control points of a surface, rows by columns by 3, and the pointer to their weights: NULL without."""
+    net = numbers(name, points)
+    if net.ndim != 3 or net.shape[2] != 3 or 0 in net.shape:
+        raise WrongSizeError(f"{name} must have the shape (rows, columns, 3), not {net.shape}")
+    if weights is None:
+        return net, ffi.NULL
+    factors = numbers("weights", weights)
+    if factors.shape != net.shape[:2]:
+        raise WrongSizeError(f"weights must have the shape {net.shape[:2]}, not {factors.shape}")
+    return net, doubles(factors.reshape(-1))
+
+
 class BodyBuilder(Handle):
     """Collects the primitives of a body: of dimension 2 (planar worlds: all z are 0, polygons are solid) or 3. Each add_ method
     returns the builder. Points are (n, 3) arrays. `tag` is any number of yours; witnesses return it.
@@ -396,21 +409,42 @@ class BodyBuilder(Handle):
         """Adds triangles that are within a tolerance of a Bezier patch: `points` is an array of (degree_u + 1, degree_v + 1, 3) control
         points, `weights` one of (degree_u + 1, degree_v + 1) for a rational patch. The body states how far they are from it.
         """
-        net = np.ascontiguousarray(points, dtype=np.float64)
-        if net.ndim != 3 or net.shape[2] != 3 or 0 in net.shape:
-            raise ValueError(f"points must have the shape (degree_u + 1, degree_v + 1, 3), not {net.shape}")
-        factors = ffi.NULL
-        if weights is not None:
-            given = np.ascontiguousarray(weights, dtype=np.float64)
-            if given.shape != net.shape[:2]:
-                raise ValueError(f"weights must have the shape {net.shape[:2]}, not {given.shape}")
-            factors = doubles(given.reshape(-1))
-        count = net.shape[0] * net.shape[1]
+        net, factors = _control_net("points", points, weights)
         number, size = index("tag", tag, 64), scalar("tolerance", tolerance)
         degrees = net.shape[0] - 1, net.shape[1] - 1
+        count = net.shape[0] * net.shape[1]
         check(
             lib.cstk_body_builder_add_bezier_patch(
                 self._pointer, *degrees, doubles(net.reshape(-1)), factors, count, size, number
+            )
+        )
+        return self
+
+    def add_nurbs_surface(
+        self,
+        knots_u: ArrayLike,
+        knots_v: ArrayLike,
+        control_points: ArrayLike,
+        tolerance: float,
+        weights: Optional[ArrayLike] = None,
+        tag: int = 0,
+    ) -> "BodyBuilder":
+        """Adds triangles that are within a tolerance of a NURBS surface: `control_points` is an array of (n, m, 3), `weights` one of
+        (n, m). There are degree_u + 1 more knots in u than n, and degree_v + 1 more in v than m, which tells the degrees. Knots need not
+        be clamped. The body states how far the triangles are from the surface.
+        """
+        net, factors = _control_net("control_points", control_points, weights)
+        in_u, in_v = vector("knots_u", knots_u), vector("knots_v", knots_v)
+        degrees = in_u.size - net.shape[0] - 1, in_v.size - net.shape[1] - 1
+        for degree, name, line in zip(degrees, ("knots_u", "knots_v"), net.shape):
+            if degree < 1:
+                raise WrongSizeError(f"{name} must have more than {line + 1} entries for {line} control points")
+        number, size = index("tag", tag, 64), scalar("tolerance", tolerance)
+        knots = doubles(in_u), in_u.size, doubles(in_v), in_v.size
+        count = net.shape[0] * net.shape[1]
+        check(
+            lib.cstk_body_builder_add_nurbs_surface(
+                self._pointer, *degrees, *knots, doubles(net.reshape(-1)), count, factors, size, number
             )
         )
         return self

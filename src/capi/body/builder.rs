@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex};
 
-use crate::body::{BezierPatch, Body, BodyBuilder, Mesh};
+use crate::body::{Body, BodyBuilder, Mesh};
 use crate::capi::body::body::cstk_body;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::exclusive::exclusively;
@@ -326,50 +326,6 @@ pub unsafe extern "C" fn cstk_body_builder_set_deviation(
     deviation: f64,
 ) -> cstk_status {
     guard(|| with_builder(builder, |builder| Ok(builder.set_deviation(deviation)?)))
-}
-
-/// Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
-/// `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
-/// the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
-///
-/// `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
-/// u. `weights` holds one for each, all above 0, of a rational patch, or is NULL. A NURBS surface is one such patch for each knot span,
-/// once its knots have full multiplicity. All triangles have this tag. In 3-D the patch is a surface; cstk_body_builder_set_solid does not
-/// count it among the faces of a boundary. Edges of a patch may be points.
-///
-/// Degrees are from 1 to 32; a weight is at least 1e-6 of the largest: CSTK_ERROR_INVALID_ARGUMENT otherwise. CSTK_ERROR_WRONG_SIZE for
-/// another number of points. CSTK_ERROR_LIMIT where the tolerance asks for more than 2^18 cells; halving it takes about twice as many.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cstk_body_builder_add_bezier_patch(
-    builder: *mut cstk_body_builder,
-    degree_u: u32,
-    degree_v: u32,
-    xyz: *const f64,
-    weights: *const f64,
-    point_count: usize,
-    tolerance: f64,
-    tag: u64,
-) -> cstk_status {
-    guard(|| {
-        with_builder(builder, |builder| {
-            // SAFETY: checked for NULL; the caller states the length.
-            let points = unsafe { points(xyz, point_count, "xyz")? };
-            let weights = match weights.is_null() {
-                true => None,
-                // SAFETY: checked for NULL; the caller states the length.
-                false => Some(unsafe { slice(weights, point_count, "weights")? }),
-            };
-            let patch = BezierPatch {
-                degrees: [degree_u as usize, degree_v as usize],
-                points: &points,
-                weights,
-            };
-            let index = builder.len();
-            Ok(builder
-                .add_bezier_patch(&patch, tolerance, tag)
-                .map_err(|e| e.within(format_args!("patch (primitive {index})")))?)
-        })
-    })
 }
 
 /// Builds a body from the builder's primitives; the builder is unchanged and can be used further. `options` may be NULL for

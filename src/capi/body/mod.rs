@@ -13,6 +13,8 @@
 
 pub mod builder;
 
+pub mod surfaces;
+
 pub mod shapes;
 
 pub mod primitive;
