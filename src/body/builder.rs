@@ -281,6 +281,7 @@ impl BodyBuilder {
         Ok(Body::assemble(
             self.dimension,
             center,
+            primitives.radius(),
             primitives,
             built.wrappers,
             built.packed,
