@@ -71,6 +71,7 @@ impl Body {
     pub(super) fn assemble(
         dimension: u32,
         center: Vec3,
+        radius: f64,
         primitives: Primitives,
         wrappers: Wrappers,
         packed: PackedTree,
@@ -81,7 +82,7 @@ impl Body {
             serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
             dimension,
             center,
-            radius: primitives.radius(),
+            radius,
             deviation: primitives.deviation(),
             stated_deviation: 0.0,
             flat_deviation: 0.0,

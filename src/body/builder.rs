@@ -305,6 +305,7 @@ impl BodyBuilder {
         Ok(Body::assemble(
             self.dimension,
             center,
+            primitives.radius(),
             primitives,
             built.wrappers,
             built.packed,

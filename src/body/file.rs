@@ -103,12 +103,18 @@ impl Body {
         let stated_deviation = reader.length()?;
         reader.end()?;
         statistics.primitives = primitives.len() as u64;
-        Ok(
-            Self::assemble(dimension, center, primitives, wrappers, packed, statistics)
-                .with_solid(solid)
-                .with_parts(parts)
-                .with_stated_deviation(stated_deviation),
+        Ok(Self::assemble(
+            dimension,
+            center,
+            primitives.radius(),
+            primitives,
+            wrappers,
+            packed,
+            statistics,
         )
+        .with_solid(solid)
+        .with_parts(parts)
+        .with_stated_deviation(stated_deviation))
     }
 }
 

@@ -3,8 +3,9 @@
 use super::body::{Body, BodyStatistics};
 use super::joints::Joints;
 use super::solid::{Solid, Surfaces};
+use crate::boxes::Extent;
 use crate::error::{Error, ErrorKind, Result};
-use crate::hierarchy::refit_hierarchy;
+use crate::hierarchy::{Ball, refit_hierarchy};
 use crate::pose::Vec3;
 
 impl Body {
@@ -45,7 +46,10 @@ impl Body {
                 ),
             ));
         }
-        let mut primitives = self.primitives.with_vertices(vertices)?;
+        // Vertices that are not finite are refused next.
+        let (low, high) = self.primitives.extent_with(vertices);
+        let center = low * 0.5 + high * 0.5;
+        let primitives = self.primitives.with_vertices(vertices, &center)?;
         let joints = self.solid.as_ref().map(|solid| {
             let joints = self
                 .joints
@@ -55,9 +59,6 @@ impl Body {
         if let Some((joints, _)) = joints {
             joints.check(&self.primitives, vertices)?;
         }
-        let (low, high) = primitives.extent();
-        let center = low * 0.5 + high * 0.5;
-        primitives.recenter(&center);
         let mut solid = None;
         if let Some((joints, old)) = joints {
             let surfaces = Surfaces {
@@ -67,7 +68,16 @@ impl Body {
             solid = Solid::new(surfaces, &primitives);
         }
         let depth = self.statistics.depth as usize;
-        let built = refit_hierarchy(&primitives, &self.wrappers, &self.packed, depth)?;
+        let (radius, ball) = match primitives.are_hulls() {
+            true => {
+                let squares = vertices.iter().map(|p| (p - center).norm_squared());
+                let radius = squares.fold(0.0, f64::max).sqrt();
+                let ball = Ball::around_vertices(vertices, &center, &Extent { low, high });
+                (radius, ball)
+            }
+            false => (primitives.radius(), Ball::around(&primitives)),
+        };
+        let built = refit_hierarchy(&primitives, &self.wrappers, &self.packed, ball, depth)?;
         let statistics = BodyStatistics {
             nodes: built.nodes as u64,
             depth: built.depth as u64,
@@ -79,6 +89,7 @@ impl Body {
         let mut refitted = Self::assemble(
             self.dimension,
             center,
+            radius,
             primitives,
             built.wrappers,
             built.packed,

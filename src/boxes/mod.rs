@@ -2,6 +2,7 @@
 
 mod boxes_by_eight;
 mod extent;
+mod four_spans;
 mod oriented_box;
 mod packed_box;
 mod refit;
@@ -10,6 +11,7 @@ mod wide_node_bytes;
 
 pub use boxes_by_eight::BoxesByEight;
 pub use extent::Extent;
+pub use four_spans::FourSpans;
 pub use oriented_box::oriented_box;
 pub use packed_box::{PackedBox, fitted_axes, simply_fitted_axes};
 pub use refit::{AxisSpans, BoxMotion, StoredAxes};

@@ -1,17 +1,17 @@
-//! Wide nodes from boxes whose axes are known: those of an existing node, turned or kept. No axes are searched for.
+//! The spans of boxes whose axes are known: those of an existing node, turned or kept. No axes are searched for.
 
-use super::wide_node::{AXIS_STEP, MAX_AXIS, MAX_HALF, MAX_PLACE, WideNode};
+use super::wide_node::{AXIS_STEP, MAX_AXIS, WideNode};
 use crate::lanes::{cross3, each3};
 use crate::pose::{Mat3, Vec3};
 
 /// Added to a half side for the rounding of the axes to single precision, times the sum of the half sides: 2^-20. The third
 /// axis is a cross product in single precision, within 3 * 2^-24 of the one that is orthogonal to the other two.
-const AXIS_ROUNDING: f64 = 1.0 / 1_048_576.0;
+pub(super) const AXIS_ROUNDING: f64 = 1.0 / 1_048_576.0;
 
 /// The axes of a box as a wide node stores them.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredAxes {
-    numbers: [[i16; 3]; 2],
+    pub(super) numbers: [[i16; 3]; 2],
     /// The axes that the numbers stand for, as columns; the third is the cross product that a node computes.
     pub axes: Mat3,
 }
@@ -92,37 +92,6 @@ impl AxisSpans {
             high: middle + sides,
         }
     }
-
-    /// The centre of the box between the planes: the point with the middle coordinate along each axis.
-    #[inline(always)]
-    fn center(&self) -> Vec3 {
-        let middle = (self.low + self.high) * 0.5;
-        let near = self.axes.axes * middle;
-        // One step of Newton's method for axes that are orthonormal but for rounding.
-        near + self.axes.axes * (middle - self.axes.axes.tr_mul(&near))
-    }
-
-    #[inline(always)]
-    fn half(&self) -> Vec3 {
-        (self.high - self.low) * 0.5
-    }
-
-    /// Half sides that bound the set in both senses of [`PackedBox`](super::PackedBox) around another centre.
-    #[inline(always)]
-    fn half_around(&self, center: &Vec3) -> Vec3 {
-        let place = self.axes.axes.tr_mul(center);
-        let along = (self.high - place).sup(&(place - self.low));
-        let [x, y, z] = [0, 1, 2].map(|i| self.axes.axes.column(i));
-        // A point at coordinates s along the axes is the centre plus sum t_i axis_i, where s = (axes^T axes) t.
-        let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
-        let determinant = xx * yy - xy * xy;
-        let parts = Vec3::new(
-            (yy * along.x + xy.abs() * along.y) / determinant,
-            (xx * along.y + xy.abs() * along.x) / determinant,
-            along.z / z.norm_squared(),
-        );
-        along.sup(&parts).add_scalar(AXIS_ROUNDING * along.sum())
-    }
 }
 
 /// A rigid motion of boxes from one tree's units to another's.
@@ -133,53 +102,6 @@ pub struct BoxMotion {
     pub translation: Vec3,
     /// The unit of the tree that the boxes come from, in units of the one they come into.
     pub factor: f64,
-}
-
-impl WideNode {
-    /// A node of up to eight boxes along stored axes; the caller sets `children`. Lengths are at most about 1.
-    #[inline(always)]
-    pub fn of_spans(boxes: &[AxisSpans]) -> Self {
-        let mut node = Self {
-            count: boxes.len() as u32,
-            ..Self::default()
-        };
-        let mut centers = [Vec3::zeros(); 8];
-        let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(-f64::INFINITY));
-        let mut longest = 0.0f64;
-        for (center, one) in centers.iter_mut().zip(boxes) {
-            *center = one.center();
-            (low, high) = (low.inf(center), high.sup(center));
-            longest = longest.max(one.half().amax());
-        }
-        let origin = (low + high) * 0.5;
-        let mut step = (0.5 * (high - low).amax() / MAX_PLACE)
-            .max(longest / MAX_HALF)
-            .max(1e-30);
-        loop {
-            let [x, y, z]: [f64; 3] = origin.into();
-            node.frame = [x, y, z, step * (1.0 + 1e-6)].map(|x| x as f32);
-            let mut lanes = boxes.iter().zip(&centers).enumerate();
-            if lanes.all(|(lane, (one, center))| node.set_spans(lane, one, center)) {
-                return node;
-            }
-            // The boxes are tiny relative to their coordinates: the room for rounding was too small.
-            step *= 1.25;
-        }
-    }
-
-    /// Sets a box; false if it does not fit the step.
-    #[inline(always)]
-    fn set_spans(&mut self, lane: usize, one: &AxisSpans, center: &Vec3) -> bool {
-        for k in 0..3 {
-            for i in 0..2 {
-                self.axes[i][k][lane] = one.axes.numbers[i][k];
-            }
-        }
-        self.set_center(lane, center);
-        let stored = Vec3::from(each3(|k| f64::from(self.center_of(lane, k))));
-        let half = one.half_around(&stored);
-        self.set_half(lane, &half)
-    }
 }
 
 #[cfg(test)]

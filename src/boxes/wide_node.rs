@@ -25,7 +25,26 @@ const LONGEST_AXIS: f64 = 1.0 + 1.0 / 4096.0;
 /// The increase of the size code for a factor of two in size.
 pub const SIZE_STEPS: i32 = 8;
 /// The size code of size 1.
-const SIZE_OF_ONE: f64 = 200.0;
+const SIZE_OF_ONE: i32 = 200;
+
+/// The size code of a box of this squared size: `SIZE_OF_ONE` plus `SIZE_STEPS / 2` times the binary logarithm, rounded. It
+/// is read off the number's bits; a logarithm is a function call.
+#[inline(always)]
+pub(super) fn size_code_of(square: f64) -> u8 {
+    /// The fractions of 2^(1/8), 2^(3/8), 2^(5/8) and 2^(7/8), from which on the rounded logarithm is a step more.
+    const STEPS: [i64; 4] = [
+        0x1_72b8_3c7d_517b,
+        0x4_bfda_d536_2a28,
+        0x8_ace5_422a_a0dc,
+        0xd_5818_dcfb_a488,
+    ];
+    let bits = square.to_bits() as i64;
+    let exponent = (bits >> 52) as i32 - 1023;
+    let fraction = bits & ((1 << 52) - 1);
+    let more = STEPS.map(|step| i32::from(fraction >= step));
+    let quarters = 4 * exponent + more[0] + more[1] + more[2] + more[3];
+    (SIZE_OF_ONE + quarters).clamp(0, 255) as u8
+}
 
 /// The boxes of a node's children. Two axes of a box are stored; the third, along its shortest side, is their cross product
 /// and so orthogonal to them. Centres are relative to an origin. Centres and half sides are in units of a step.
@@ -184,7 +203,7 @@ impl WideNode {
 
     /// Sets the centre of a box, rounded to the node's steps.
     #[inline(always)]
-    pub(super) fn set_center(&mut self, lane: usize, center: &Vec3) {
+    fn set_center(&mut self, lane: usize, center: &Vec3) {
         for k in 0..3 {
             let place = (center[k] - f64::from(self.frame[k])) / f64::from(self.step());
             self.center[k][lane] = place.round().clamp(-MAX_PLACE, MAX_PLACE) as i16;
@@ -193,13 +212,13 @@ impl WideNode {
 
     /// One coordinate of a box's centre.
     #[inline(always)]
-    pub(super) fn center_of(&self, lane: usize, k: usize) -> f32 {
+    fn center_of(&self, lane: usize, k: usize) -> f32 {
         f32::from(self.center[k][lane]) * self.step() + self.frame[k]
     }
 
     /// Sets the half sides of a box, rounded up, and its size; false if they do not fit the step.
     #[inline(always)]
-    pub(super) fn set_half(&mut self, lane: usize, needed: &Vec3) -> bool {
+    fn set_half(&mut self, lane: usize, needed: &Vec3) -> bool {
         for i in 0..3 {
             let mut half = (needed[i] / f64::from(self.step())).ceil() as u16;
             while f64::from(f32::from(half) * self.step()) < needed[i] {
@@ -213,8 +232,7 @@ impl WideNode {
         let size = Vec3::from(each3(|i| {
             f64::from(f32::from(self.half[i][lane]) * self.step())
         }));
-        let code = SIZE_OF_ONE + f64::from(SIZE_STEPS) * size.norm().max(f64::MIN_POSITIVE).log2();
-        self.sizes[lane] = code.round().clamp(0.0, 255.0) as u8;
+        self.sizes[lane] = size_code_of(size.norm_squared());
         true
     }
 
@@ -306,5 +324,22 @@ impl WideNode {
             ],
             half: [half(i), half(j), half(k)],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn size_codes_are_rounded_logarithms() {
+        for i in -4000..2000 {
+            let size = (f64::from(i) * 0.01).exp2();
+            let code = f64::from(SIZE_OF_ONE) + f64::from(SIZE_STEPS) * size.log2();
+            let expected = code.round().clamp(0.0, 255.0);
+            assert_eq!(f64::from(size_code_of(size * size)), expected, "{size}");
+        }
+        assert_eq!(size_code_of(0.0), 0);
+        assert_eq!(size_code_of(f64::MAX), 255);
     }
 }

@@ -13,11 +13,13 @@ use crate::hierarchy::packed::{PackedTree, pack_wrappers, refit};
 use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::primitive::Primitives;
 
-/// The hierarchy over moved primitives with the tree, of `depth` levels, of another. Wrappers that are built with a body are built anew.
+/// The hierarchy over moved primitives with the tree, of `depth` levels, of another; `ball` bounds them. Wrappers that are
+/// built with a body are built anew.
 pub fn refit_hierarchy(
     primitives: &Primitives,
     wrappers: &Wrappers,
     packed: &PackedTree,
+    ball: Ball,
     depth: usize,
 ) -> Result<Hierarchy> {
     let start = Instant::now();
@@ -45,7 +47,7 @@ pub fn refit_hierarchy(
         Wrappers::OnDemand {
             groups, options, ..
         } => {
-            let packed_anew = refit(packed, primitives, Ball::around(primitives));
+            let packed_anew = refit(packed, primitives, ball);
             // A cloud would be grouped anew when its wrappers are asked for, into another tree.
             let groups = groups.clone().unwrap_or_else(|| {
                 let subsets = packed.subsets();

@@ -6,6 +6,10 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use super::each3;
 
+/// 1.5 * 2^52. The numbers around it are whole and one apart, so that a sum with it is rounded to a whole number. `f64::round`
+/// and `f64::ceil` are function calls on an x86-64 without SSE4.1.
+const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct F64x4(pub [f64; 4]);
@@ -72,6 +76,27 @@ impl F64x4 {
     #[inline(always)]
     pub fn unit(self) -> Self {
         self.min(Self::splat(1.0)).max(Self::splat(0.0))
+    }
+
+    /// The nearest whole numbers, of two the even one. For numbers of at most 2^31 in size.
+    #[inline(always)]
+    pub fn nearest(self) -> Self {
+        self.map(|a| (a + TO_WHOLE) - TO_WHOLE)
+    }
+
+    /// The same as integers, without calls or saturation; those of numbers out of range mean nothing.
+    #[inline(always)]
+    pub fn nearest_integers(self) -> [i32; 4] {
+        let sums = self.map(|a| a + TO_WHOLE);
+        // The lowest bits of the sum are the whole number in two's complement.
+        [0, 1, 2, 3].map(|lane: usize| sums.0[lane].to_bits() as i32)
+    }
+
+    /// The least whole numbers that are not less. For numbers of at most 2^31 in size.
+    #[inline(always)]
+    pub fn ceiling(self) -> Self {
+        self.nearest()
+            .zip(self, |near, a| if near < a { near + 1.0 } else { near })
     }
 
     #[inline(always)]
@@ -164,4 +189,32 @@ pub fn sub64(a: &Points64, b: &Points64) -> Points64 {
 #[inline(always)]
 pub fn splat64(point: &[f64; 3]) -> Points64 {
     each3(|k| F64x4::splat(point[k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_are_those_of_the_standard_library() {
+        let below_half = 0.5f64.next_down();
+        let mut numbers = vec![
+            0.0,
+            -0.0,
+            0.5,
+            1.5,
+            below_half,
+            -below_half,
+            1.0 + f64::EPSILON,
+        ];
+        numbers.extend([65_535.0, 65_535.5, 65_535.000_001, 32_767.499_999, 2e9]);
+        numbers.extend((0..40_000).map(|i| f64::from(i) * 1.637_251 - 32_768.0));
+        for number in numbers.iter().flat_map(|&a| [a, -a]) {
+            let lanes = F64x4::splat(number);
+            let nearest = number.round_ties_even();
+            assert_eq!(lanes.nearest(), F64x4::splat(nearest), "{number}");
+            assert_eq!(lanes.nearest_integers(), [nearest as i32; 4], "{number}");
+            assert_eq!(lanes.ceiling(), F64x4::splat(number.ceil()), "{number}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Primitives with other vertices: their topology stays, and they are checked as a body builder checks new ones.
 
-use smallvec::{SmallVec, smallvec};
+use smallvec::SmallVec;
 
 use super::point_tree::PointTree;
 use super::polygon::{
@@ -12,19 +12,30 @@ use crate::pose::Vec3;
 use crate::tolerance;
 
 impl Primitives {
-    /// The number of vertices of all primitives.
-    pub fn vertex_count(&self) -> usize {
-        let of_shapes = self.shapes().map(|(_, shape, _)| shape.vertices.len());
-        self.points().len() + of_shapes.sum::<usize>()
+    /// The lowest and highest coordinates of the primitives if they had other vertices, given one primitive after the other.
+    pub fn extent_with(&self, vertices: &[Vec3]) -> (Vec3, Vec3) {
+        let union = |all: (Vec3, Vec3), one: (Vec3, Vec3)| (all.0.inf(&one.0), all.1.sup(&one.1));
+        if self.are_hulls() {
+            let each = vertices.iter().map(|vertex| (*vertex, *vertex));
+            return each.reduce(union).unwrap_or_default();
+        }
+        let mut rest = vertices;
+        let each = self.iter().map(|primitive| {
+            let (own, after) = rest.split_at(primitive.vertices.len());
+            rest = after;
+            primitive.shape.extent_of(own)
+        });
+        each.reduce(union).unwrap_or_default()
     }
 
-    /// The same primitives with other vertices, given one primitive after the other, as many as before. The message of an
-    /// error names the primitive.
-    pub fn with_vertices(&self, vertices: &[Vec3]) -> Result<Self> {
+    /// The primitives with other vertices, given one primitive after the other, as many as before; moved by `-center` once they
+    /// are checked. The message of an error names the primitive.
+    pub fn with_vertices(&self, vertices: &[Vec3], center: &Vec3) -> Result<Self> {
         let mut moved = Self::default();
         moved.reserve(self);
         let mut rest = vertices;
-        for group in self.groups() {
+        // The iterator itself loops: a `for` loop would ask anew at each shape which run and sort of group it is in.
+        self.groups().try_for_each(|group| {
             let named = |error: Error, more: usize| {
                 error.within(format_args!("primitive {}", moved.len() + more))
             };
@@ -33,7 +44,7 @@ impl Primitives {
                     let (own, after) = rest.split_at(shape.vertices.len());
                     let shape = shape.with_vertices(own).map_err(|error| named(error, 0))?;
                     rest = after;
-                    moved.push(shape, tag);
+                    moved.push(shape.recentered(center), tag);
                 }
                 PrimitiveGroup::Points(shape, points) => {
                     let (own, after) = rest.split_at(points.len());
@@ -42,10 +53,11 @@ impl Primitives {
                         checked.map_err(|error| named(error, i))?;
                     }
                     rest = after;
-                    moved.push_points(shape, own.iter().copied());
+                    moved.push_points(shape, own.iter().map(|point| point - center));
                 }
             }
-        }
+            Ok(())
+        })?;
         moved.shrink();
         Ok(moved)
     }
@@ -94,18 +106,17 @@ impl Convex {
             Some(normal) => normal,
             None => check_convex_polygon(vertices)?,
         };
-        let mut moved = Self {
+        let height = |vertex: &Vec3| normal.dot(&(vertex - a)).abs();
+        Ok(Self {
             vertices: vertices.to_vec(),
             edges: self.edges.clone(),
-            faces: smallvec![Face {
+            faces: SmallVec::from_buf([Face {
                 vertices: self.faces[0].vertices.clone(),
                 normal,
-            }],
-            deviation: 0.0,
+            }]),
+            deviation: height(b).max(height(c)),
             curve: None,
-        };
-        moved.deviation = moved.height_off_faces();
-        Ok(moved)
+        })
     }
 
     fn polyhedron(&self, vertices: &[Vec3]) -> Result<Self> {

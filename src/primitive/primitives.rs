@@ -25,6 +25,12 @@ impl<'a> From<&'a Convex> for Primitive<'a> {
 }
 
 impl<'a> Primitive<'a> {
+    /// The vertices, if the set is their hull: if it is not curved.
+    #[inline(always)]
+    pub fn hull_vertices(&self) -> Option<&'a [Vec3]> {
+        self.shape.curve.is_none().then_some(self.vertices)
+    }
+
     /// Points whose hull contains the set: the vertices, unless it is curved.
     pub fn bounding_points(self) -> impl Iterator<Item = Vec3> + use<'a> {
         // Nonzero only for a point of a cloud, whose shape is at the origin.
@@ -65,6 +71,18 @@ pub struct Primitives {
     /// The shapes of points, at the origin: a point, possibly with a radius.
     point_shapes: Vec<Convex>,
     len: usize,
+    of_shapes: ShapeTotals,
+}
+
+/// What is asked about all shapes of a body, so that they need not be visited for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct ShapeTotals {
+    vertices: usize,
+    /// The largest deviation.
+    deviation: f64,
+    has_functions: bool,
+    /// Of points of clouds, too.
+    has_curves: bool,
 }
 
 /// Consecutive primitives of one sort: shapes, or points of one shape.
@@ -123,6 +141,13 @@ impl Primitives {
         if self.runs.last().is_none_or(|run| run.point_shape.is_some()) {
             self.begin(self.shapes.len(), None);
         }
+        let all = &mut self.of_shapes;
+        all.vertices += shape.vertices.len();
+        all.deviation = all.deviation.max(shape.deviation);
+        if shape.curve.is_some() {
+            all.has_curves = true;
+            all.has_functions |= shape.kind() == PrimitiveKind::SupportFunction;
+        }
         self.shapes.push(shape);
         self.tags.push(tag);
         self.len += 1;
@@ -137,6 +162,7 @@ impl Primitives {
         // Points are often added in batches of one radius.
         if self.point_shapes.last() != Some(shape) {
             self.point_shapes.push(shape.clone());
+            self.of_shapes.has_curves |= shape.curve.is_some();
         }
         self.begin(self.points.len(), Some(self.point_shapes.len() as u32 - 1));
         self.points.extend(points);
@@ -284,16 +310,7 @@ impl Primitives {
             points: self.points.iter().map(|point| point - center).collect(),
             point_shapes: self.point_shapes.as_slice().into(),
             len: self.len,
-        }
-    }
-
-    /// Moves the primitives by `-center`.
-    pub fn recenter(&mut self, center: &Vec3) {
-        for shape in &mut self.shapes {
-            shape.recenter(center);
-        }
-        for point in &mut self.points {
-            *point -= center;
+            of_shapes: self.of_shapes,
         }
     }
 
@@ -323,16 +340,24 @@ impl Primitives {
             .fold(0.0, f64::max)
     }
 
+    /// The number of vertices of all primitives.
+    pub fn vertex_count(&self) -> usize {
+        self.points.len() + self.of_shapes.vertices
+    }
+
     /// The largest deviation of a primitive.
     pub fn deviation(&self) -> f64 {
-        let deviations = self.shapes.iter().map(|shape| shape.deviation);
-        deviations.fold(0.0, f64::max)
+        self.of_shapes.deviation
     }
 
     /// Whether a primitive is given by a support function of the caller's.
     pub fn have_functions(&self) -> bool {
-        let is_one = |shape: &Convex| shape.kind() == PrimitiveKind::SupportFunction;
-        self.shapes.iter().any(is_one)
+        self.of_shapes.has_functions
+    }
+
+    /// Whether each primitive is the hull of its vertices: none is curved.
+    pub fn are_hulls(&self) -> bool {
+        !self.of_shapes.has_curves
     }
 
     /// Bytes of memory that the points take.

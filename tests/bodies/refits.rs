@@ -155,6 +155,30 @@ fn what_is_no_body_any_more_is_refused() {
     assert_eq!(refused(&flat).kind, ErrorKind::Degenerate);
 }
 
+/// The extent of the vertices is computed before they are checked.
+#[test]
+fn vertices_that_are_no_numbers_are_refused() {
+    let triangle = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder.add_polygon(&triangle, 0).unwrap();
+    builder.add_points(&triangle, 0.0).unwrap();
+    let hulls = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    builder.add_capsule(&Vec3::x(), &Vec3::y(), 0.5, 0).unwrap();
+    let curved = builder.build(&HierarchyOptions::default(), &mut |_| Ok(()));
+    for body in [hulls.unwrap(), curved.unwrap()] {
+        let vertices: Vec<Vec3> = body.vertices().collect();
+        assert!(body.refit(&vertices).is_ok());
+        for (i, bad) in [(0, f64::NAN), (2, f64::INFINITY), (5, -f64::INFINITY)] {
+            let mut given = vertices.clone();
+            given[i].y = bad;
+            let error = body.refit(&given).unwrap_err();
+            assert_eq!(error.kind, ErrorKind::NotFinite, "{}", error.message);
+            let named = format!("primitive {}", i.saturating_sub(2));
+            assert!(error.message.contains(&named), "{}", error.message);
+        }
+    }
+}
+
 /// Parts keep their places, and a body with solid parts stays the union of them.
 #[test]
 fn bodies_with_parts_are_refitted() {

@@ -37,8 +37,21 @@ pub struct PackedOutline<'a> {
     pub blocks: &'a [Points64],
 }
 
+/// The normal and offset of a triangle's plane, and the x, y and z of its corners.
+pub type PackedTriangle = [F64x4; 4];
+
 impl PackedPrimitives {
     pub fn push(&mut self, primitive: u32, shape: &Convex) {
+        if let Some(triangle) = packed_triangle(shape) {
+            self.entries.push(PackedPrimitive {
+                primitive,
+                first: self.data.len() as u32,
+                corners: 3,
+                is_plain: true,
+            });
+            self.data.extend_from_slice(&triangle);
+            return;
+        }
         let mut entry = PackedPrimitive {
             primitive,
             first: NONE,
@@ -78,6 +91,12 @@ impl PackedPrimitives {
         self.entries.reserve_exact(more);
     }
 
+    /// Reserves memory for as many primitives and outlines as others hold.
+    pub fn reserve_as(&mut self, others: &Self) {
+        self.entries.reserve_exact(others.entries.len());
+        self.data.reserve_exact(others.data.len());
+    }
+
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -108,6 +127,14 @@ impl PackedPrimitives {
         }
     }
 
+    /// The plane and the corners of a triangle whose corners are its vertices in order; `None` for other primitives.
+    #[inline(always)]
+    pub fn triangle(&self, place: usize) -> Option<&PackedTriangle> {
+        let entry = &self.entries[place];
+        let is_one = entry.corners == 3 && entry.is_plain;
+        is_one.then(|| self.data[entry.first as usize..].first_chunk())?
+    }
+
     /// The form that finds support vertices of an entry's core, if it has many vertices or is a box.
     #[inline(always)]
     pub fn form(&self, entry: &PackedPrimitive) -> Option<&Form> {
@@ -121,4 +148,20 @@ impl PackedPrimitives {
         let forms: usize = self.forms.iter().map(Form::bytes).sum();
         size_of_val(&self.entries[..]) + size_of_val(&self.data[..]) + forms
     }
+}
+
+/// A flat triangle whose face has its vertices in order: most primitives are.
+#[inline(always)]
+fn packed_triangle(shape: &Convex) -> Option<PackedTriangle> {
+    let ([a, b, c], [face]) = (&shape.vertices[..], &shape.faces[..]) else {
+        return None;
+    };
+    if shape.curve.is_some() || *face.vertices != [0, 1, 2] {
+        return None;
+    }
+    let normal = &face.normal;
+    // The last block is padded with the first corner.
+    let four = |k: usize| F64x4([a[k], b[k], c[k], a[k]]);
+    let plane = F64x4([normal.x, normal.y, normal.z, normal.dot(a)]);
+    Some([plane, four(0), four(1), four(2)])
 }
