@@ -3567,6 +3567,29 @@ cstk_status cstk_query_set_limit(cstk_query *query,
                                  uint64_t node_and_primitive_pairs);
 
 /**
+ * Has later queries with this context refine the curved surfaces that bodies stand for (cstk_body_builder_add_bezier_patch and
+ * cstk_body_builder_add_nurbs_surface) until their answers are known to `gap`, in your unit; INFINITY, the initial setting, for never.
+ *
+ * Without it an answer knows a curved surface up to the deviation that its body states. With it
+ *
+ * - the bounds of a distance are at most `gap` apart (cstk_distance, cstk_pair_distance and their variants),
+ * - thresholds and classes are decided unless the distance is within `gap` of the threshold; doubt counts as within
+ *   (cstk_classify, cstk_within, cstk_pair_within and their variants).
+ *
+ * Witness points and normals are those of the refined parts, features and tags those of the
+ * triangles. Two surfaces that are about equally near over much of their areas end after 16384 steps, with the bounds that are proved
+ * by then; each step counts as one of `node_pairs` (cstk_query_set_limit).
+ *
+ * Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
+ * contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
+ * bodies, and surfaces with more than 2^20 control points once knots are inserted: they are answered for as without it. Bodies made of others (cstk_body_builder_add_body) are refined as these are.
+ *
+ * CSTK_ERROR_INVALID_ARGUMENT for a gap that is not above 0, CSTK_ERROR_NOT_FINITE for NaN.
+ */
+cstk_status cstk_query_set_refinement(cstk_query *query,
+                                      double gap);
+
+/**
  * Writes the work done since the context was created, or since the last call with `reset`; `reset` sets the counts to 0.
  */
 cstk_status cstk_query_get_statistics(cstk_query *query,

@@ -138,6 +138,7 @@ impl QueryContext {
             open: BinaryHeap::new(),
             unlisted,
             upper: f64::INFINITY,
+            nearest: None,
             last: None,
         };
         search.begin(limit, &mut self.scratch)?;
@@ -185,8 +186,6 @@ struct PartPair {
     clear: f64,
     lower: f64,
     upper: f64,
-    /// The closest points of the hulls, where they were measured here: in the frame of the pair.
-    points: Option<[Vec3; 2]>,
     /// The numbers of the parts, r first.
     parts: [usize; 2],
     /// Which hit they are parts of.
@@ -219,6 +218,12 @@ impl PartialEq for PartPair {
 
 impl Eq for PartPair {}
 
+/// The closest points of two parts, in the frame of the pair, where these were measured here; and which hit they are parts of.
+struct Nearest {
+    points: Option<[Vec3; 2]>,
+    hit: usize,
+}
+
 /// The search among the parts of two bodies.
 struct Search<'t, 'a> {
     target: &'t Target<'a>,
@@ -232,6 +237,8 @@ struct Search<'t, 'a> {
     unlisted: f64,
     /// An upper bound of the distance.
     upper: f64,
+    /// The parts that it is from.
+    nearest: Option<Nearest>,
     /// The pair looked at last, which stays in the search: the one of the least lower bound.
     last: Option<PartPair>,
 }
@@ -391,13 +398,15 @@ impl<'a> Search<'_, 'a> {
             return Ok(());
         }
         let upper = (apart[1] - self.target.options.margin + deviation + error).max(0.0);
-        self.upper = self.upper.min(upper);
+        if upper < self.upper {
+            self.upper = upper;
+            self.nearest = Some(Nearest { points, hit });
+        }
         let number = self.open.len() + self.parts.len();
         self.open.push(PartPair {
             clear,
             lower,
             upper,
-            points,
             parts,
             hit,
             number,
@@ -441,14 +450,15 @@ impl<'a> Search<'_, 'a> {
     /// The distance, up to `limit`.
     fn answer(&self, limit: f64, leaf: Leaf, scratch: &mut Scratch) -> Distance {
         let lower = self.lower();
-        let Some(last) = self.last.as_ref().filter(|last| last.clear <= limit) else {
+        let last = self.last.as_ref().filter(|last| last.clear <= limit);
+        let (Some(last), Some(nearest)) = (last, &self.nearest) else {
             return Distance::beyond(limit, lower);
         };
         let error = self.pairing.precision.error;
         let distance = if last.clear > error { last.clear } else { 0.0 };
         let hit = Hit {
             distance,
-            ..self.hits[last.hit]
+            ..self.hits[nearest.hit]
         };
         let scratch = scratch.for_primitives();
         let closest = self.pairing.closest(&hit, scratch);
@@ -456,7 +466,7 @@ impl<'a> Search<'_, 'a> {
             .pairing
             .first_world_contact(hit.key.primitives, &closest, scratch);
         let frame = &self.pairing.frame;
-        let points = last.points.unwrap_or(closest.closest.points);
+        let points = nearest.points.unwrap_or(closest.closest.points);
         let points = points.map(|point| frame.transform_point(&point));
         // Features are those of the primitives, the rest is of their parts.
         let across = (points[0] - points[1]).try_normalize(0.0);
