@@ -1,5 +1,7 @@
 """Query contexts."""
 
+from typing import Optional
+
 from ._arrays import index
 from ._at_configuration import AtConfiguration
 from ._handle import pointer_of
@@ -42,7 +44,7 @@ class Query(AtConfiguration, PairQueries, ObjectPairs, Motions, Regions, Slides)
         pairs = index("node_and_primitive_pairs", node_and_primitive_pairs, 64)
         check(lib.cstk_query_set_limit(self._pointer, pairs))
 
-    def set_refinement(self, gap: float | None) -> None:
+    def set_refinement(self, gap: Optional[float]) -> None:
         """Refines curved surfaces until later distances, thresholds and classes are known to `gap`; None for never."""
         check(lib.cstk_query_set_refinement(self._pointer, float("inf") if gap is None else float(gap)))
 
