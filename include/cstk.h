@@ -751,8 +751,8 @@ cstk_status cstk_body_build(cstk_body_builder *builder,
                             cstk_body **out);
 
 /**
- * Adds a tensor product Bezier patch as triangles: it is halved, here and not by queries, until each cell is proved to be within
- * `tolerance` of two triangles. The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
+ * Adds a tensor product Bezier patch as triangles: it is halved until each cell is proved to be within `tolerance` of two triangles.
+ * Queries halve cells further where they are asked to (cstk_query_set_refinement). The body states the deviation that is left (cstk_body_builder_set_deviation), so that all answers hold for
  * the patch itself; the tolerance, in your unit, decides how near the bounds of a distance are to each other.
  *
  * `xyz` holds (degree_u + 1) x (degree_v + 1) control points of three doubles, row by row: those of one row have the same index in
