@@ -6,6 +6,7 @@
 
 mod answer;
 mod boundary;
+mod covers;
 mod difference;
 mod inner_balls;
 mod inside;

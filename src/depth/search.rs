@@ -11,38 +11,23 @@ use std::collections::{BinaryHeap, HashMap};
 use foldhash::fast::RandomState;
 
 use super::answer::{Depth, DepthOptions};
-use super::boundary::boundary;
-use super::difference::{Difference, RoundDifference, RoundShape};
-use super::inner_balls::{InnerBall, common_balls, widened};
+use super::covers::{CoverParts, Covers, parting};
+use super::difference::Difference;
+use super::inner_balls::widened;
 use super::least::least;
-use super::meeting::{Meeting, is_parted, meeting_at};
+use super::meeting::{is_parted, meeting_at};
 use super::node::{Face, Node};
 use super::touching::{Touching, WayOut, straightened, touching_at};
-use crate::body::Body;
-use crate::convex::{HalfSpace, parting_half_spaces};
-use crate::pair::{Pairing, RayScratch, Scratch};
+use crate::convex::HalfSpace;
+use crate::pair::{Pairing, Scratch};
 use crate::pose::Vec3;
 use crate::tolerance::EPSILON;
-
-/// The name of a difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Source {
-    Primitives([u32; 2]),
-    Balls([u32; 2]),
-}
-
-/// A difference that holds a translation, with an estimate of how deep.
-struct Cover {
-    source: Source,
-    depth: f64,
-}
 
 /// The state of a search.
 pub struct DepthSearch<'a, 's> {
     /// A's centred frame is the frame of all translations.
     pairing: Pairing<'a>,
     scratch: &'s mut Scratch,
-    rays: RayScratch,
     tolerance: f64,
     max_steps: u64,
     seeks_rivals: bool,
@@ -51,10 +36,7 @@ pub struct DepthSearch<'a, 's> {
     /// How far half-spaces are moved outwards, so that rounding excludes nothing.
     error: f64,
     rounding: f64,
-    differences: Vec<Difference>,
-    numbers: HashMap<Source, u32, RandomState>,
-    /// Balls in A and in B.
-    balls: [Vec<InnerBall>; 2],
+    covers: Covers,
     nodes: BinaryHeap<Node>,
     /// The half-spaces of the nodes made, with the least bound of each. A node that is left out relies on the node of the same
     /// half-spaces, and that one on its children: none of these may come back to the same half-spaces. Children have longer
@@ -71,17 +53,11 @@ pub struct DepthSearch<'a, 's> {
 /// Nodes waiting, at most: beyond that the search ends with the bounds that it has.
 const MAX_NODES: usize = 1 << 17;
 
-/// Balls kept of each body, at most.
-const MAX_BALLS: usize = 256;
-
 /// Halvings of a way out.
 const MAX_HALVINGS: usize = 24;
 
 /// Corrections of the way out by what touches after it.
 const MAX_CORRECTIONS: usize = 12;
-
-/// Normals closer than this differ by rounding: what is beyond one half-space and not beyond the other is nearer than the error.
-const SAME_NORMAL: f64 = 8.0 * EPSILON;
 
 /// Ways out farther apart than this, times their length, are different ones.
 const OTHER_WAY: f64 = 1e-2;
@@ -101,16 +77,13 @@ impl<'a, 's> DepthSearch<'a, 's> {
         Self {
             pairing,
             scratch,
-            rays: RayScratch::default(),
             tolerance,
             max_steps: options.max_steps,
             seeks_rivals: options.seeks_rivals,
             clearance: 4.0 * precision.error,
             error: 2.0 * precision.error,
             rounding: 8.0 * EPSILON * precision.size,
-            differences: Vec::new(),
-            numbers: HashMap::default(),
-            balls: Default::default(),
+            covers: Covers::default(),
             nodes: BinaryHeap::new(),
             seen: HashMap::default(),
             upper: f64::INFINITY,
@@ -190,7 +163,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
         if cores.is_some_and(|found| found.cores.distance > self.pairing.precision.error) {
             return false;
         }
-        let spaces = self.parting(places);
+        let spaces = parting(places, &self.pairing, self.scratch);
         let least = spaces.iter().min_by(|a, b| a.offset.total_cmp(&b.offset));
         let Some(least) = least else {
             return true;
@@ -270,7 +243,7 @@ impl<'a, 's> DepthSearch<'a, 's> {
         });
         while let Some(node) = self.nodes.peek() {
             let is_close = self.upper - node.bound.max(least_depth) <= self.tolerance;
-            let is_enough = is_close && (!self.seeks_rivals || self.has_round());
+            let is_enough = is_close && (!self.seeks_rivals || self.covers.has_round());
             let is_done = is_enough || node.bound > self.upper + self.clearance;
             let is_full = self.steps >= self.max_steps || self.nodes.len() > MAX_NODES;
             if is_done || is_full || self.scratch.meter().is_exceeded() {
@@ -281,11 +254,6 @@ impl<'a, 's> DepthSearch<'a, 's> {
             self.take(&node);
         }
         self.correct();
-    }
-
-    fn has_round(&self) -> bool {
-        let is_round = |difference: &Difference| matches!(difference, Difference::Round(_));
-        self.differences.iter().any(is_round)
     }
 
     /// Takes a node: offers a way out, or makes its children.
@@ -307,10 +275,13 @@ impl<'a, 's> DepthSearch<'a, 's> {
             self.take_way(point);
             return;
         }
-        let cover = self.cover(node, &point, &meeting);
-        let parts = cover.and_then(|cover| self.parts(node, &cover));
-        match parts {
-            Some((difference, old, parts)) => self.branch(node, difference, old, &parts),
+        let enough = 0.25 * (self.upper - node.bound);
+        let (pairing, scratch) = (&self.pairing, &mut *self.scratch);
+        let cover = self
+            .covers
+            .around(node, &point, &meeting, enough, pairing, scratch);
+        match cover.and_then(|cover| self.covers.parts(node, &cover, pairing, scratch)) {
+            Some(parts) => self.branch(node, &parts),
             None => self.floor = self.floor.min(node.bound),
         }
         let is_turn = self.steps < 16 || self.steps.is_multiple_of(8);
@@ -338,218 +309,15 @@ impl<'a, 's> DepthSearch<'a, 's> {
         (point - self.way).norm() > OTHER_WAY * self.upper
     }
 
-    /// The deepest difference known or found around a point, of those that the node is not beyond already.
-    fn cover(&mut self, node: &Node, point: &Vec3, meeting: &Meeting) -> Option<Cover> {
-        let mut best = self.deepest_of(node, point, &meeting.places);
-        if self.pairing.has_solid() && !self.pairing.precision.planar {
-            let is_deeper = |a: &Option<Cover>, b: &Option<Cover>| {
-                let depth = |cover: &Option<Cover>| cover.as_ref().map_or(0.0, |cover| cover.depth);
-                depth(a) > depth(b)
-            };
-            let mut ball = self.deepest_ball(point);
-            let wanted = 0.25 * (self.upper - node.bound);
-            let known = [&best, &ball].into_iter().flatten();
-            if known.map(|cover| cover.depth).fold(0.0, f64::max) < wanted
-                && self.balls[0].len() < MAX_BALLS
-            {
-                self.grow_balls(point, meeting);
-                ball = self.deepest_ball(point);
-            }
-            if is_deeper(&ball, &best) {
-                best = ball;
-            }
-        }
-        best.or_else(|| self.deepest_of(node, point, &meeting.flat))
-    }
-
-    /// The deepest difference of the primitives at some places.
-    fn deepest_of(&mut self, node: &Node, point: &Vec3, places: &[[u32; 2]]) -> Option<Cover> {
-        let mut best: Option<Cover> = None;
-        for &places in places {
-            if self.scratch.meter().is_exceeded() {
-                break;
-            }
-            let source = Source::Primitives(places);
-            let number = self.number(source);
-            let depth = match &self.differences[number as usize] {
-                Difference::Polytope(spaces) => {
-                    // Beyond a face of it already: only rounding says otherwise.
-                    if node.faces.iter().any(|face| face.difference == number) {
-                        continue;
-                    }
-                    let depths = spaces
-                        .iter()
-                        .map(|space| space.offset - space.normal.dot(point));
-                    depths.fold(f64::INFINITY, f64::min)
-                }
-                Difference::Round(_) => self.round_depth(places, point),
-            };
-            if best.as_ref().is_none_or(|best| depth > best.depth) {
-                best = Some(Cover { source, depth });
-            }
-        }
-        best
-    }
-
-    /// An estimate of how deep a translation is in the difference of two round primitives.
-    fn round_depth(&mut self, places: [u32; 2], point: &Vec3) -> f64 {
-        let shifted = self.pairing.shifted(point);
-        let radii = self.radii(places);
-        let found = shifted.closest_at(places, self.scratch.for_primitives());
-        found.map_or(0.0, |found| match found.cores.distance {
-            0.0 => found.cores.depth + radii,
-            apart => radii - apart,
-        })
-    }
-
-    fn radii(&self, places: [u32; 2]) -> f64 {
-        let packed = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
-        let radius = |i: usize, body: &Body| {
-            let primitive = packed[i].entry(places[i] as usize).primitive;
-            body.primitives().get(primitive as usize).shape.radius()
-        };
-        radius(0, self.pairing.a) + radius(1, self.pairing.b)
-    }
-
-    /// The two balls that overlap most after a translation.
-    fn deepest_ball(&self, point: &Vec3) -> Option<Cover> {
-        let relative = &self.pairing.relative;
-        let mut best: Option<Cover> = None;
-        for (j, in_b) in self.balls[1].iter().enumerate() {
-            let middle = relative.transform_point(&in_b.center) - point;
-            for (i, in_a) in self.balls[0].iter().enumerate() {
-                let depth = in_a.radius + in_b.radius - (in_a.center - middle).norm();
-                if depth > best.as_ref().map_or(0.0, |best| best.depth) {
-                    let source = Source::Balls([i as u32, j as u32]);
-                    best = Some(Cover { source, depth });
-                }
-            }
-        }
-        best
-    }
-
-    /// Grows balls around common points after a translation.
-    fn grow_balls(&mut self, point: &Vec3, meeting: &Meeting) {
-        /// Pairs of primitives that meet from where balls are grown.
-        const STARTS: usize = 2;
-        let shifted = self.pairing.shifted(point);
-        let mut starts = Vec::new();
-        let pairs = meeting.places.iter().chain(&meeting.flat);
-        for &places in pairs.take(STARTS) {
-            let found = shifted.closest_at(places, self.scratch.for_primitives());
-            starts.extend(found.map(|found| found.closest.points[0]));
-        }
-        if starts.is_empty() {
-            starts.push(shifted.relative.translation);
-            starts.push(Vec3::zeros());
-        }
-        for start in starts {
-            if let Some([in_a, in_b]) = common_balls(&shifted, &start, self.scratch, &mut self.rays)
-            {
-                self.balls[0].push(in_a);
-                self.balls[1].push(in_b);
-            }
-        }
-    }
-
-    /// The half-spaces that part the primitives at two places, each once.
-    fn parting(&mut self, places: [u32; 2]) -> Vec<HalfSpace> {
-        let mut buffer = Default::default();
-        let [a, b] = self.pairing.placed(places, &mut buffer);
-        let found = parting_half_spaces(&a, &b, &self.pairing.precision, self.scratch.meter_mut());
-        let mut kept: Vec<HalfSpace> = Vec::with_capacity(found.len());
-        for space in found {
-            // Parallel faces of both have the same normal up to its rounding; the wider half-space covers both.
-            let is_same = |other: &&mut HalfSpace| {
-                (other.normal - space.normal).norm_squared() <= SAME_NORMAL * SAME_NORMAL
-            };
-            match kept.iter_mut().find(is_same) {
-                Some(other) => other.offset = other.offset.min(space.offset),
-                None => kept.push(space),
-            }
-        }
-        kept
-    }
-
-    /// The number of a difference, which is made when first asked for.
-    fn number(&mut self, source: Source) -> u32 {
-        if let Some(&number) = self.numbers.get(&source) {
-            return number;
-        }
-        let is_planar = self.pairing.precision.planar;
-        let difference = match source {
-            Source::Primitives(places) => {
-                let is_round = {
-                    let mut buffer = Default::default();
-                    let placed = self.pairing.placed(places, &mut buffer);
-                    placed.iter().any(|placed| placed.shape.curve.is_some())
-                };
-                if is_round {
-                    let middle = self.middle(places);
-                    let shape = RoundShape::Primitives(places);
-                    Difference::Round(RoundDifference::new(middle, shape, is_planar, |ray| {
-                        boundary(&self.pairing, &middle, shape, ray, self.scratch)
-                    }))
-                } else {
-                    Difference::Polytope(self.parting(places))
-                }
-            }
-            Source::Balls([i, j]) => {
-                let (in_a, in_b) = (self.balls[0][i as usize], self.balls[1][j as usize]);
-                let middle = self.pairing.relative.transform_point(&in_b.center) - in_a.center;
-                let shape = RoundShape::Ball(in_a.radius + in_b.radius);
-                Difference::Round(RoundDifference::new(middle, shape, false, |ray| {
-                    boundary(&self.pairing, &middle, shape, ray, self.scratch)
-                }))
-            }
-        };
-        let number = self.differences.len() as u32;
-        self.differences.push(difference);
-        self.numbers.insert(source, number);
-        number
-    }
-
-    /// A translation well inside the difference of the primitives at two places.
-    fn middle(&self, places: [u32; 2]) -> Vec3 {
-        let packed = [self.pairing.a, self.pairing.b].map(|body| body.packed().primitives());
-        let [in_a, in_b] = [(0, self.pairing.a), (1, self.pairing.b)].map(|(i, body)| {
-            let primitive = packed[i].entry(places[i] as usize).primitive;
-            let primitive = body.primitives().get(primitive as usize);
-            let ends = (0..6).map(|i| {
-                let mut way = Vec3::zeros();
-                way[i % 3] = if i < 3 { 1.0 } else { -1.0 };
-                primitive.farthest(&way)
-            });
-            ends.sum::<Vec3>() / 6.0
-        });
-        self.pairing.relative.transform_point(&in_b) - in_a
-    }
-
-    /// The difference that covers a node, the cone of it that the node lies in, and the parts that make children.
-    fn parts(&mut self, node: &Node, cover: &Cover) -> Option<(u32, Option<u32>, Vec<u32>)> {
-        let number = self.number(cover.source);
-        let own = node.faces.iter().find(|face| face.difference == number);
-        let own = own.map(|face| face.part);
-        match (&mut self.differences[number as usize], own) {
-            (Difference::Polytope(_), Some(_)) => None,
-            (Difference::Polytope(spaces), None) => {
-                Some((number, None, (0..spaces.len() as u32).collect()))
-            }
-            (Difference::Round(round), None) => Some((number, None, round.roots().collect())),
-            (Difference::Round(round), Some(cone)) => {
-                let (middle, shape) = (round.middle, round.shape);
-                let (pairing, scratch) = (&self.pairing, &mut *self.scratch);
-                let parts =
-                    round.parts(cone, |ray| boundary(pairing, &middle, shape, ray, scratch));
-                Some((number, Some(cone), parts.collect()))
-            }
-        }
-    }
-
     /// Makes the children of a node: beyond each part of a difference.
-    fn branch(&mut self, node: &Node, difference: u32, old: Option<u32>, parts: &[u32]) {
+    fn branch(&mut self, node: &Node, children: &CoverParts) {
+        let CoverParts {
+            difference,
+            old,
+            ref parts,
+        } = *children;
         for &part in parts {
-            let spaces = match &self.differences[difference as usize] {
+            let spaces = match self.covers.get(difference) {
                 Difference::Polytope(spaces) => {
                     let HalfSpace { normal, offset } = spaces[part as usize];
                     vec![HalfSpace {
