@@ -37,15 +37,15 @@ struct Pair {
     cstk::Query query;
 };
 
-Asked depth_of(const std::shared_ptr<Pair> &pair, bool compared) {
+Asked depth_of(const std::shared_ptr<Pair> &pair) {
     const auto found = std::make_shared<cstk_depth_result>();
     return {"cstk", "", [pair] { pair->query = cstk::Query(); },
             [pair, found](std::size_t i) { *found = pair->query.pair_depth(pair->a, cstk::identity(), pair->b, pair->poses[i]); },
-            [found, compared] { return compared ? found->upper : 0; }, {}};
+            [] { return 0.0; }, {}};
 }
 
 // FCL's deepest contact of two shapes.
-Asked penetration_of(Geometry a, Geometry b, const std::vector<cstk::Pose> &poses, bool compared) {
+Asked penetration_of(Geometry a, Geometry b, const std::vector<cstk::Pose> &poses) {
     const auto placed = std::make_shared<std::vector<Transform>>(transforms(poses));
     const auto found = std::make_shared<double>();
     return {"FCL", "libccd", [] {},
@@ -58,7 +58,7 @@ Asked penetration_of(Geometry a, Geometry b, const std::vector<cstk::Pose> &pose
                     *found = std::max(*found, result.getContact(k).penetration_depth);
                 }
             },
-            [found, compared] { return compared ? *found : 0; }, {}};
+            [] { return 0.0; }, {}};
 }
 
 } // namespace
@@ -79,9 +79,9 @@ Question depth_of_unions(std::size_t parts, std::size_t queries, std::uint64_t s
     };
     const cstk::Body a = made(boxes[0]), b = made(boxes[1]);
     const auto pair = std::make_shared<Pair>(Pair{a, b, random_poses(queries, 0.5, random), {}});
-    Question question{parts, depth_of(pair, true), {}};
+    Question question{parts, depth_of(pair), {}};
     if (parts == 1) {
-        question.peers.push_back(penetration_of(boxes[0], boxes[1], pair->poses, true));
+        question.peers.push_back(penetration_of(boxes[0], boxes[1], pair->poses));
     }
     return question;
 }
@@ -111,8 +111,8 @@ Question depth_of_hulls(std::size_t queries, std::uint64_t seed) {
     };
     const cstk::Body a = made(hulls[0]), b = made(hulls[1]);
     const auto pair = std::make_shared<Pair>(Pair{a, b, random_poses(queries, 0.3, random), {}});
-    Question question{points, depth_of(pair, false), {}};
-    question.peers.push_back(penetration_of(hulls[0], hulls[1], pair->poses, false));
+    Question question{points, depth_of(pair), {}};
+    question.peers.push_back(penetration_of(hulls[0], hulls[1], pair->poses));
     return question;
 }
 
