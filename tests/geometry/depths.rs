@@ -1,5 +1,7 @@
 //! Depths of unions: closed forms, an exact oracle for unions of boxes, the definition itself by translations at random.
 
+use std::sync::Arc;
+
 use cstk::body::{Body, BodyBuilder};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Mat3, Pose, Vec3};
@@ -229,6 +231,7 @@ fn convex_pairs_have_the_signed_distances_of_closed_forms() {
         let sides = [sides(), sides()];
         let radius = random.within(0.1, 1.0);
         let ball = built(|b| b.add_sphere(&Vec3::zeros(), radius, 0).unwrap());
+        let ball = Arc::new(ball);
         let center = poses[1].translation;
         let kind = case % 4;
         let (a, b, exact) = match kind {
@@ -265,6 +268,7 @@ fn convex_pairs_have_the_signed_distances_of_closed_forms() {
                 let ends = [random.point(0.7), random.point(0.7)];
                 let thickness = random.within(0.1, 0.5);
                 let capsule = built(|b| b.add_capsule(&ends[0], &ends[1], thickness, 0).unwrap());
+                let capsule = Arc::new(capsule);
                 let axis = ends.map(|end| poses[0].transform_point(&end));
                 (
                     capsule,
