@@ -1,15 +1,16 @@
 /* A motion filter for two teleoperated arms at 1 kHz: each millisecond the operator wishes for a step, and the filter gives back the
  * part of it that slides along what is in the way, proved free on its whole length.
  *
- *   cc -std=c99 teleoperation.c workcell_scene.c $(pkg-config --cflags --libs cstk) -lm -o teleoperation
- *   ./teleoperation [SECONDS]
+ *   cc -std=c99 teleoperation.c workcell_scene.c svg.c $(pkg-config --cflags --libs cstk) -lm -o teleoperation
+ *   ./teleoperation [SECONDS [PICTURE.svg]]
  *
  * The operator's wishes are sums of sines, which drive the arms of workcell.c into the table, the fixture, each other and
- * themselves. A minute is simulated, unless the seconds are given, and the times of all ticks are printed, on the clock and of the processor (which others do not
- * take from it): median, 99.9 %, longest.
+ * themselves. A minute is simulated, unless the seconds are given, and the times of all ticks are printed, on the clock and of the
+ * processor (which others do not take from it): median, 99.9 %, longest. The picture shows the longest ticks over time.
  * A work limit ends a tick that would take too long: the arms then stand still for that millisecond.
  */
 #define _POSIX_C_SOURCE 199309L
+#include "svg.h"
 #include "workcell_scene.h"
 
 #include <math.h>
@@ -75,6 +76,39 @@ static void print_times(const char *what, double *times, size_t ticks) {
            times[ticks - 1 - ticks / 1000], times[ticks - 1]);
 }
 
+/* Where a time of a tick is in the picture: from 10 microseconds to 100 milliseconds, by its logarithm. */
+static double height(double time) { return 440 - 100 * (log10(fmin(fmax(time, 10), 1e5)) - 1); }
+
+/* The longest of the ticks in each of many parts of the time. */
+static void draw_longest(FILE *svg, const double *times, size_t ticks, const char *colour) {
+    const size_t parts = ticks < 490 ? ticks : 490;
+    fprintf(svg, "<polyline fill='none' stroke='%s' points='", colour);
+    for (size_t part = 0; part < parts; ++part) {
+        double longest = 0;
+        for (size_t i = part * ticks / parts; i < (part + 1) * ticks / parts; ++i) {
+            longest = fmax(longest, times[i]);
+        }
+        fprintf(svg, "%.1f,%.1f ", 80 + 980.0 * (double)part / (double)parts, height(longest));
+    }
+    fprintf(svg, "'/>\n");
+}
+
+static void draw(FILE *svg, const double *times, const double *work, size_t ticks) {
+    static const char *const names[] = {"10 us", "100 us", "1 ms", "10 ms", "100 ms"};
+    char title[100];
+    svg_begin(svg, 1100, 500);
+    for (int i = 0; i < 5; ++i) {
+        const double y = height(pow(10, i + 1));
+        fprintf(svg, "<path d='M80 %.1fh980' stroke='%s'/>\n", y, i == 2 ? "#c33" : "#ddd");
+        svg_text(svg, 72, y + 5, 14, "end", names[i]);
+    }
+    draw_longest(svg, times, ticks, "#bbb");
+    draw_longest(svg, work, ticks, "#36c");
+    snprintf(title, sizeof title, "longest ticks over %.0f s: of the processor (blue), on the clock (grey)", 1e-3 * (double)ticks);
+    svg_text(svg, 80, 480, 16, "start", title);
+    svg_end(svg);
+}
+
 typedef struct tally {
     size_t ticks, slid, held, over; /* all; in contact; stood still; at the work limit */
     size_t inside, wished_inside;   /* of every tenth */
@@ -107,8 +141,9 @@ int main(int argc, char **argv) {
     cstk_query *query = NULL, *judge = NULL;
     cstk_slide_options options;
     tally count = {0};
-    if (times == NULL || work == NULL || ticks == 0) {
-        fprintf(stderr, "usage: teleoperation [SECONDS]\n");
+    FILE *svg = argc > 2 ? fopen(argv[2], "w") : NULL;
+    if (times == NULL || work == NULL || ticks == 0 || (argc > 2 && svg == NULL)) {
+        fprintf(stderr, "usage: teleoperation [SECONDS [PICTURE.svg]]\n");
         return 2;
     }
     cell c = make_cell();
@@ -137,6 +172,10 @@ int main(int argc, char **argv) {
     printf("%zu ticks of a millisecond: %zu slid along contacts, %zu stood still, %zu reached the work limit\n", ticks, count.slid,
            count.held, count.over);
     printf("of every tenth, %zu wishes were inside; the arms were inside %zu times\n", count.wished_inside, count.inside);
+    if (svg != NULL) {
+        draw(svg, times, work, ticks);
+        fclose(svg);
+    }
     print_times("on the clock", times, ticks);
     print_times("of the processor", work, ticks);
     const bool well = count.inside == 0 && count.wished_inside > 0 && count.slid > 0;

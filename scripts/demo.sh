@@ -2,7 +2,8 @@
 # Builds and installs libcstk, runs the report's slider on the arm of its Appendix A and on a Puma 560, and leaves a
 # picture: demo/slider.png, frames 10, 20, 30 and 40 of both. The planar arm of Figure 16 slides in demo/planar_slider.png;
 # demo/motion.png is a sweep that samples call free and that meets a thin plate; demo/shortcut.png a Puma 560's shortcut that is not free, and two that
-# are; demo/contact_drop.png and demo/newton_cradle.png are simulations of contacts, demo/peg_in_hole.png a fine motion;
+# are; demo/contact_drop.png and demo/newton_cradle.png are simulations of contacts, demo/peg_in_hole.png a fine motion,
+# demo/teleoperation.png how long the ticks of a motion filter take;
 # demo/workcell.png shows two arms that share a workcell; demo/planner.png paths that RRT-Connect found.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -49,7 +50,8 @@ for example in contact_drop newton_cradle peg_in_hole; do
   rsvg-convert --width 1200 "demo/$example.svg" --output "demo/$example.png"
   echo
 done
-build/examples/teleoperation
+build/examples/teleoperation 60 demo/teleoperation.svg
+rsvg-convert --width 1100 demo/teleoperation.svg --output demo/teleoperation.png
 echo
 build/examples/puma_shortcut "$meshes" demo
 for frame in contact free; do
@@ -90,7 +92,7 @@ echo
 echo "picture: $PWD/demo/slider.png"
 echo "picture: $PWD/demo/planar_slider.png"
 echo "picture: $PWD/demo/motion.png"
-for example in contact_drop newton_cradle peg_in_hole; do
+for example in contact_drop newton_cradle peg_in_hole teleoperation; do
   echo "picture: $PWD/demo/$example.png"
 done
 echo "picture: $PWD/demo/shortcut.png"

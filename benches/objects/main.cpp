@@ -6,7 +6,9 @@
 // --quick leaves out the largest size and measures less often; --only asks for the rows whose scene
 // and name hold a text, such as "far classify". Ends with 1 where answers differ.
 #include "against.hpp"
+#include "depths.hpp"
 #include "fcl.hpp"
+#include "octrees.hpp"
 #include "ours.hpp"
 #include "table.hpp"
 
@@ -204,6 +206,54 @@ void show_pairs(const Options &options, Table &table) {
     }
 }
 
+void show_octrees(const Options &options, Table &table) {
+    const std::size_t queries = 60;
+    std::vector<std::size_t> counts = {1000, 10000};
+    if (!options.quick) {
+        counts.push_back(100000);
+    }
+    table.start("octrees", "Octrees: 64 cells change at a time, a body moves about the cells; n is the number of cells");
+    const auto row = [&](const std::string &name, double allowed, const std::function<Question(OctreeScene &)> &ask) {
+        std::vector<std::unique_ptr<OctreeScene>> all;
+        table.row(name, queries, allowed, [&] {
+            std::vector<Question> asked;
+            for (const std::size_t count : counts) {
+                all.push_back(std::make_unique<OctreeScene>(count, queries, options.seed));
+                asked.push_back(ask(*all.back()));
+            }
+            return asked;
+        });
+    };
+    row("cells change", 0, [](OctreeScene &scene) { return scene.change(false); });
+    row("cells change, then body meets", 0, [](OctreeScene &scene) { return scene.change(true); });
+    row("body meets", 0, [](OctreeScene &scene) { return scene.meets(); });
+    row("body's distance", distances_allowed, [](OctreeScene &scene) { return scene.nearest(); });
+}
+
+void show_depths(const Options &options, Table &table) {
+    const std::size_t queries = 100;
+    table.start("depths", "Depths: of two hulls (n: their corners), of two unions (n: the boxes of each)");
+    table.row("depth of hulls", queries, 0, [&] {
+        return std::vector<Question>{depth_of_hulls(queries, options.seed)};
+    });
+    table.row("depth of unions", queries, 0, [&] {
+        std::vector<Question> asked;
+        for (const std::size_t parts : {1, 2, 4, 8}) {
+            asked.push_back(depth_of_unions(parts, queries, options.seed));
+        }
+        return asked;
+    });
+    table.start("curved", "Distances of two bent sheets, Bezier patches of degree 3; n is the number of triangles of one");
+    for (const double gap : {1e-2, 1e-3, 1e-4}) {
+        for (const bool refined : {true, false}) {
+            const std::string name = (refined ? "refined to " : "built to ") + std::to_string(gap).substr(0, 6);
+            table.row(name, queries, 0, [&] {
+                return std::vector<Question>{distance_of_sheets(gap, refined, queries, options.seed)};
+            });
+        }
+    }
+}
+
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     const std::string key = "model name";
@@ -239,6 +289,8 @@ int run(const Options &options) {
     show_changes("Objects that move, all scattered at one density", "moves",
                  sizes(&Workplace::dense), place, table);
     show_pairs(options, table);
+    show_octrees(options, table);
+    show_depths(options, table);
     std::printf("\n%zu answers of FCL's compared, %zu differ\n", table.compared(),
                 table.differing());
     if (!options.csv.empty()) {

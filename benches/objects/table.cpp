@@ -101,20 +101,25 @@ void Table::compare(Measured &size, std::size_t queries, double allowed, const s
 void Table::print(const std::string &name, const std::vector<Measured> &sizes) {
     if (!title_.empty()) {
         std::printf("\n### %s\n\n"
-                    "| query | n | cstk, µs | FCL, µs | FCL / cstk | cstk against n = 100 | FCL "
-                    "against n = 100 |\n"
+                    "| query | n | cstk, µs | FCL, µs | FCL / cstk | cstk against the least n | FCL "
+                    "against the least n |\n"
                     "| --- | --- | --- | --- | --- | --- | --- |\n",
                     title_.c_str());
         title_.clear();
     }
-    const double first = sizes[0].ours.microseconds(), first_peer = sizes[0].peer().microseconds();
+    const double first = sizes[0].ours.microseconds();
     for (const Measured &size : sizes) {
-        const double ours = size.ours.microseconds(), peer = size.peer().microseconds();
-        std::printf("| %s | %zu | %.2f | %.2f (%s) | %#.3g | %.2f | %.2f |\n", name.c_str(),
-                    size.objects, ours, peer, size.peer().variant().c_str(), peer / ours,
-                    ours / first, peer / first_peer);
+        const double ours = size.ours.microseconds();
         const std::string place = scene_ + formatted(",%zu,", size.objects) + name;
         csv_ += place + formatted(",cstk,default,%.4f\n", ours);
+        std::printf("| %s | %zu | %.2f | ", name.c_str(), size.objects, ours);
+        if (size.peers.empty()) {
+            std::printf("- | - | %.2f | - |\n", ours / first);
+            continue;
+        }
+        const double peer = size.peer().microseconds();
+        std::printf("%.2f (%s) | %#.3g | %.2f | %.2f |\n", peer, size.peer().variant().c_str(), peer / ours, ours / first,
+                    peer / sizes[0].peer().microseconds());
         csv_ += place + ",FCL," + size.peer().variant() + formatted(",%.4f\n", peer);
     }
     std::fflush(stdout);

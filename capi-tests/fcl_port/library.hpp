@@ -10,6 +10,11 @@
 namespace fcl = cstk_fcl;
 #endif
 
+// As MoveIt asks for it.
+#if FCL_MAJOR_VERSION == 0 && FCL_MINOR_VERSION < 6
+#error "written for FCL 0.6 or later"
+#endif
+
 #include "../fcl_models.hpp"
 
 #include <algorithm>

@@ -100,7 +100,7 @@ impl Reader<'_> {
         if vertices == 0 || edges == 0 || (is_smooth && (vertices, edges, faces) != (1, 1, 0)) {
             return Err(self.damaged("a primitive"));
         }
-        let vertices: Vec<Vec3> = (0..vertices)
+        let vertices: SmallVec<[Vec3; 3]> = (0..vertices)
             .map(|_| self.vector())
             .collect::<Result<_>>()?;
         let edges: Vec<[u32; 2]> = (0..edges)

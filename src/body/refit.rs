@@ -69,12 +69,7 @@ impl Body {
         }
         let depth = self.statistics.depth as usize;
         let (radius, ball) = match primitives.are_hulls() {
-            true => {
-                let squares = vertices.iter().map(|p| (p - center).norm_squared());
-                let radius = squares.fold(0.0, f64::max).sqrt();
-                let ball = Ball::around_vertices(vertices, &center, &Extent { low, high });
-                (radius, ball)
-            }
+            true => Ball::around_vertices(vertices, &center, &Extent { low, high }),
             false => (primitives.radius(), Ball::around(&primitives)),
         };
         let built = refit_hierarchy(&primitives, &self.wrappers, &self.packed, ball, depth)?;

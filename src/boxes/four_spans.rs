@@ -49,6 +49,20 @@ impl FourSpans {
         }
     }
 
+    /// Sets the lanes from one on to the first.
+    #[inline(always)]
+    fn repeat_first(&mut self, from: usize) {
+        let points = self.axes.iter_mut().chain([&mut self.low, &mut self.high]);
+        for coordinates in points.flatten() {
+            let first = coordinates.0[0];
+            coordinates.0[from..].fill(first);
+        }
+        for numbers in self.numbers.as_flattened_mut() {
+            let first = numbers[0];
+            numbers[from..].fill(first);
+        }
+    }
+
     /// Sets all lanes to triangles: their corners, and their unit normals. The axes are along the longest edge and in the plane
     /// across it. Returns which lanes have such axes; the others, whose triangles are almost without area, have none yet.
     #[inline(always)]
@@ -162,17 +176,18 @@ impl WideNode {
     #[inline(always)]
     pub fn of_spans(boxes: &[AxisSpans]) -> Self {
         let mut fours = [FourSpans::default(); 2];
-        for (four, boxes) in fours.iter_mut().zip(boxes.chunks(4)) {
-            for lane in 0..4 {
-                four.set(lane, boxes.get(lane).unwrap_or(&boxes[0]));
-            }
+        for (i, one) in boxes.iter().enumerate() {
+            fours[i / 4].set(i % 4, one);
         }
-        Self::of_fours(&fours, boxes.len())
+        Self::of_fours(&mut fours, boxes.len())
     }
 
-    /// The same for the first `count` boxes of those in lanes. The rest of the last four must be within the others.
+    /// The same for the first `count` boxes of those in lanes. The rest of the last four is overwritten.
     #[inline(always)]
-    pub fn of_fours(fours: &[FourSpans; 2], count: usize) -> Self {
+    pub fn of_fours(fours: &mut [FourSpans; 2], count: usize) -> Self {
+        if !count.is_multiple_of(4) {
+            fours[count / 4].repeat_first(count % 4);
+        }
         let mut node = Self {
             count: count as u32,
             ..Self::default()

@@ -84,14 +84,13 @@ pub fn reserved<T>(count: usize, argument: impl Display) -> Result<Vec<T>, Failu
 }
 
 /// `count` points of three numbers each.
-pub unsafe fn points(xyz: *const f64, count: usize, argument: &str) -> Result<Vec<Vec3>, Failure> {
-    let numbers = count.saturating_mul(3);
-    // SAFETY: as the caller states.
-    let numbers = unsafe { slice(xyz, numbers, argument)? };
-    collected(
-        numbers.chunks_exact(3).map(Vec3::from_column_slice),
-        argument,
-    )
+pub unsafe fn points<'a>(
+    xyz: *const f64,
+    count: usize,
+    argument: &str,
+) -> Result<&'a [Vec3], Failure> {
+    // SAFETY: as the caller states; a Vec3 is three numbers, one after the other.
+    unsafe { slice(xyz.cast(), count, argument) }
 }
 
 /// A pose of 12 numbers.

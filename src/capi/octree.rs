@@ -128,7 +128,7 @@ pub unsafe extern "C" fn cstk_octree_set(
             let changed = Output::optional(changed, "changed")?;
             // SAFETY: checked for NULL; the caller states the length.
             let points = unsafe { points(xyz, point_count, "xyz")? };
-            changed.write(octree.set(&points, occupied)?);
+            changed.write(octree.set(points, occupied)?);
             Ok(())
         })
     })
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn cstk_octree_get(
             let occupied = OutputSlice::checked(occupied, point_count, "occupied")?;
             // SAFETY: checked for NULL; the caller states the length.
             let points = unsafe { points(xyz, point_count, "xyz")? };
-            occupied.write(&octree.are_occupied(&points)?);
+            occupied.write(&octree.are_occupied(points)?);
             Ok(())
         })
     })

@@ -38,19 +38,24 @@ impl Ball {
         Self::enclosing(center, farthest + primitives.largest_point_radius())
     }
 
-    /// The ball around points that are `vertices` moved by `-origin`, given the lowest and highest coordinates of the vertices.
-    /// It is bit for bit that around primitives whose bounding points these are, without a visit to each primitive.
-    pub fn around_vertices(vertices: &[Vec3], origin: &Vec3, extent: &Extent) -> Self {
+    /// The ball around points that are `vertices` moved by `-origin`, given the lowest and highest coordinates of the vertices,
+    /// and before it the radius of the ball around the origin. Both are bit for bit those of primitives whose bounding points
+    /// these are, without a visit to each primitive.
+    pub fn around_vertices(vertices: &[Vec3], origin: &Vec3, extent: &Extent) -> (f64, Self) {
         // Rounding keeps the order of numbers, so this is the box of the rounded differences.
         let moved = Extent {
             low: extent.low - origin,
             high: extent.high - origin,
         };
         let center = moved.center();
-        let squares = vertices
-            .iter()
-            .map(|p| (p - origin - center).norm_squared());
-        Self::enclosing(center, squares.fold(0.0, f64::max).sqrt())
+        let mut squares = [0.0f64; 2];
+        for vertex in vertices {
+            let point = vertex - origin;
+            squares[0] = squares[0].max(point.norm_squared());
+            squares[1] = squares[1].max((point - center).norm_squared());
+        }
+        let [radius, distance] = squares.map(f64::sqrt);
+        (radius, Self::enclosing(center, distance))
     }
 
     fn enclosing(center: Vec3, distance: f64) -> Self {

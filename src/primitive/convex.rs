@@ -20,8 +20,9 @@ pub struct Face {
 /// radius of that hull, its core; or within a radius of a smooth core placed at its only vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
-    /// The vertices of the core, in the primitive's frame.
-    pub vertices: Vec<Vec3>,
+    /// The vertices of the core, in the primitive's frame. Up to three stand in the primitive itself: most primitives are
+    /// triangles.
+    pub vertices: SmallVec<[Vec3; 3]>,
     /// The two vertices of each edge, by index.
     pub edges: SharedList<[u32; 2]>,
     /// The faces; none for points and segments.
@@ -106,7 +107,11 @@ impl Convex {
     }
 
     /// A flat polygon from vertices in cyclic order around `normal`, of which `corners` form a strictly convex outline.
-    pub(super) fn from_cycle(vertices: Vec<Vec3>, corners: Vec<u32>, normal: Vec3) -> Self {
+    pub(super) fn from_cycle(
+        vertices: SmallVec<[Vec3; 3]>,
+        corners: Vec<u32>,
+        normal: Vec3,
+    ) -> Self {
         let origin = vertices[corners[0] as usize];
         let heights = vertices.iter().map(|v| normal.dot(&(v - origin)).abs());
         let deviation = heights.fold(0.0, f64::max);

@@ -44,7 +44,7 @@ impl Curve {
                 let points = smooth.kind.bounding_points();
                 points.iter().map(|p| origin + smooth.axes * p).collect()
             }
-            None => core.vertices.clone(),
+            None => core.vertices.to_vec(),
         };
         if self.radius == 0.0 {
             self.bounds = grown;

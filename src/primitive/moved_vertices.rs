@@ -42,9 +42,15 @@ impl Primitives {
             match group {
                 PrimitiveGroup::Shape(shape, tag) => {
                     let (own, after) = rest.split_at(shape.vertices.len());
-                    let shape = shape.with_vertices(own).map_err(|error| named(error, 0))?;
                     rest = after;
-                    moved.push(shape.recentered(center), tag);
+                    // Most primitives are triangles that need no closer look.
+                    match shape.triangle_with(own, center) {
+                        Some(triangle) => moved.push(triangle, tag),
+                        None => {
+                            let shape = shape.with_vertices(own).map_err(|e| named(e, 0))?;
+                            moved.push(shape.recentered(center), tag);
+                        }
+                    }
                 }
                 PrimitiveGroup::Points(shape, points) => {
                     let (own, after) = rest.split_at(points.len());
@@ -90,12 +96,38 @@ impl Convex {
             ));
         }
         Ok(Self {
-            vertices: vertices.to_vec(),
+            vertices: SmallVec::from_slice(vertices),
             edges: self.edges.clone(),
             faces: SmallVec::new(),
             deviation: self.deviation,
             curve: None,
         })
+    }
+
+    /// The triangle with other corners, moved by `-center`, as most primitives of most bodies are; `None` of other primitives,
+    /// and of triangles with so little area that they need a closer look.
+    #[inline(always)]
+    fn triangle_with(&self, corners: &[Vec3], center: &Vec3) -> Option<Self> {
+        let ([a, b, c], [_], None) = (corners, &self.faces[..], &self.curve) else {
+            return None;
+        };
+        let normal = quick_triangle_normal([a, b, c])?;
+        Some(self.triangle([a, b, c], normal, center))
+    }
+
+    #[inline(always)]
+    fn triangle(&self, [a, b, c]: [&Vec3; 3], normal: Vec3, center: &Vec3) -> Self {
+        let height = |corner: &Vec3| normal.dot(&(corner - a)).abs();
+        Self {
+            vertices: SmallVec::from_buf([a - center, b - center, c - center]),
+            edges: self.edges.clone(),
+            faces: SmallVec::from_buf([Face {
+                vertices: self.faces[0].vertices.clone(),
+                normal,
+            }]),
+            deviation: height(b).max(height(c)),
+            curve: None,
+        }
     }
 
     fn polygon(&self, vertices: &[Vec3]) -> Result<Self> {
@@ -106,17 +138,7 @@ impl Convex {
             Some(normal) => normal,
             None => check_convex_polygon(vertices)?,
         };
-        let height = |vertex: &Vec3| normal.dot(&(vertex - a)).abs();
-        Ok(Self {
-            vertices: vertices.to_vec(),
-            edges: self.edges.clone(),
-            faces: SmallVec::from_buf([Face {
-                vertices: self.faces[0].vertices.clone(),
-                normal,
-            }]),
-            deviation: height(b).max(height(c)),
-            curve: None,
-        })
+        Ok(self.triangle([a, b, c], normal, &Vec3::zeros()))
     }
 
     fn polyhedron(&self, vertices: &[Vec3]) -> Result<Self> {
@@ -160,7 +182,7 @@ impl Convex {
             return Err(Error::new(ErrorKind::Degenerate, message));
         }
         let mut moved = Self {
-            vertices: vertices.to_vec(),
+            vertices: SmallVec::from_slice(vertices),
             edges: self.edges.clone(),
             faces,
             deviation: 0.0,

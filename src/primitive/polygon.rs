@@ -1,5 +1,7 @@
 //! A planar convex polygon, and the checks that it is one.
 
+use smallvec::SmallVec;
+
 use super::Convex;
 use super::planar_hull::planar_ring;
 use crate::error::{Error, ErrorKind, Result, require_finite};
@@ -15,7 +17,11 @@ pub fn convex_polygon(vertices: &[Vec3]) -> Result<Convex> {
         corners = (0..vertices.len() as u32).collect();
     }
     corners.sort_unstable();
-    Ok(Convex::from_cycle(vertices.to_vec(), corners, normal))
+    Ok(Convex::from_cycle(
+        SmallVec::from_slice(vertices),
+        corners,
+        normal,
+    ))
 }
 
 /// The size of a set of points: the diameter and longest side of their box, and the tolerance for vertices that follows.

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 use super::hull::checked_hull;
 use super::planar_hull::planar_ring;
@@ -44,7 +44,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     let (length, second) = farthest(&|p| (p - points[0]).norm());
     if length <= tolerance {
         return Ok(Convex {
-            vertices: vec![points[0]],
+            vertices: smallvec![points[0]],
             edges: SharedList::cycle(1),
             faces: SmallVec::new(),
             deviation: 0.0,
@@ -56,7 +56,7 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
     let (width, third) = farthest(&|p| along.cross(&(p - first)).norm());
     if width <= tolerance {
         return Ok(Convex {
-            vertices: vec![first, second],
+            vertices: smallvec![first, second],
             edges: vec![[0, 1]].into(),
             faces: SmallVec::new(),
             deviation: 0.0,
@@ -103,7 +103,7 @@ fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
     }
     let deviation = hull.excess + deviation_of(&vertices, &faces, 4.0 * accepted);
     Ok(Convex {
-        vertices,
+        vertices: vertices.into(),
         edges: edges.into(),
         faces: faces.into(),
         deviation,

@@ -8,7 +8,7 @@ use crate::pose::{Pose, Vec3};
 impl Convex {
     /// The primitive after a motion. Its deviation grows by the rounding of the moved vertices.
     pub fn posed(&self, pose: &Pose) -> Self {
-        let vertices: Vec<Vec3> = self
+        let vertices: SmallVec<[Vec3; 3]> = self
             .vertices
             .iter()
             .map(|vertex| pose.transform_point(vertex))

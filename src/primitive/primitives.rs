@@ -25,12 +25,6 @@ impl<'a> From<&'a Convex> for Primitive<'a> {
 }
 
 impl<'a> Primitive<'a> {
-    /// The vertices, if the set is their hull: if it is not curved.
-    #[inline(always)]
-    pub fn hull_vertices(&self) -> Option<&'a [Vec3]> {
-        self.shape.curve.is_none().then_some(self.vertices)
-    }
-
     /// Points whose hull contains the set: the vertices, unless it is curved.
     pub fn bounding_points(self) -> impl Iterator<Item = Vec3> + use<'a> {
         // Nonzero only for a point of a cloud, whose shape is at the origin.

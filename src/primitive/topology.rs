@@ -25,25 +25,50 @@ const CYCLES: [[[u32; 2]; MAX_CONSTANT]; MAX_CONSTANT + 1] = {
     cycles
 };
 
+/// What a constant list may hold.
+pub trait Constants: Sized + 'static {
+    /// The constant list of so many items; empty beyond [`MAX_CONSTANT`].
+    fn constant(count: u8) -> &'static [Self];
+}
+
+impl Constants for u32 {
+    /// The numbers from 0 on.
+    #[inline(always)]
+    fn constant(count: u8) -> &'static [Self] {
+        static ALL: [u32; MAX_CONSTANT] = NUMBERS;
+        ALL.get(..count as usize).unwrap_or_default()
+    }
+}
+
+impl Constants for [u32; 2] {
+    /// The edges of a polygon: from each vertex to the next.
+    #[inline(always)]
+    fn constant(count: u8) -> &'static [Self] {
+        static ALL: [[[u32; 2]; MAX_CONSTANT]; MAX_CONSTANT + 1] = CYCLES;
+        let cycle = ALL
+            .get(count as usize)
+            .and_then(|cycle| cycle.get(..count as usize));
+        cycle.unwrap_or_default()
+    }
+}
+
 /// An immutable list; a clone shares its items.
 #[derive(Clone)]
-pub struct SharedList<T: 'static>(Items<T>);
+pub struct SharedList<T: Constants>(Items<T>);
 
+/// A constant is known by its length alone, so that the two take 16 bytes together: each triangle has two such lists.
 #[derive(Clone)]
-enum Items<T: 'static> {
-    Constant(&'static [T]),
+enum Items<T: Constants> {
+    Constant(u8),
     Counted(Arc<[T]>),
 }
 
 impl SharedList<u32> {
     /// The numbers from 0 on.
     pub fn numbers(count: usize) -> Self {
-        match NUMBERS.get(..count) {
-            Some(_) => {
-                static ALL: [u32; MAX_CONSTANT] = NUMBERS;
-                Self(Items::Constant(&ALL[..count]))
-            }
-            None => Self((0..count as u32).collect()),
+        match count {
+            0..=MAX_CONSTANT => Self(Items::Constant(count as u8)),
+            _ => Self((0..count as u32).collect()),
         }
     }
 
@@ -59,10 +84,9 @@ impl SharedList<u32> {
 impl SharedList<[u32; 2]> {
     /// The edges of a polygon: from each vertex to the next.
     pub fn cycle(count: usize) -> Self {
-        static ALL: [[[u32; 2]; MAX_CONSTANT]; MAX_CONSTANT + 1] = CYCLES;
-        match ALL.get(count) {
-            Some(cycle) => Self(Items::Constant(&cycle[..count])),
-            None => {
+        match count {
+            0..=MAX_CONSTANT => Self(Items::Constant(count as u8)),
+            _ => {
                 let n = count as u32;
                 Self((0..n).map(|i| [i, (i + 1) % n]).collect())
             }
@@ -79,37 +103,37 @@ impl SharedList<[u32; 2]> {
     }
 }
 
-impl<T> FromIterator<T> for Items<T> {
+impl<T: Constants> FromIterator<T> for Items<T> {
     fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
         Self::Counted(items.into_iter().collect())
     }
 }
 
-impl<T> From<Vec<T>> for SharedList<T> {
+impl<T: Constants> From<Vec<T>> for SharedList<T> {
     fn from(items: Vec<T>) -> Self {
         Self(Items::Counted(items.into()))
     }
 }
 
-impl<T> Default for SharedList<T> {
+impl<T: Constants> Default for SharedList<T> {
     fn default() -> Self {
-        Self(Items::Constant(&[]))
+        Self(Items::Constant(0))
     }
 }
 
-impl<T> Deref for SharedList<T> {
+impl<T: Constants> Deref for SharedList<T> {
     type Target = [T];
 
     #[inline(always)]
     fn deref(&self) -> &[T] {
         match &self.0 {
-            Items::Constant(items) => items,
+            Items::Constant(count) => T::constant(*count),
             Items::Counted(items) => items,
         }
     }
 }
 
-impl<'a, T> IntoIterator for &'a SharedList<T> {
+impl<'a, T: Constants> IntoIterator for &'a SharedList<T> {
     type Item = &'a T;
     type IntoIter = std::slice::Iter<'a, T>;
 
@@ -118,13 +142,13 @@ impl<'a, T> IntoIterator for &'a SharedList<T> {
     }
 }
 
-impl<T: PartialEq> PartialEq for SharedList<T> {
+impl<T: Constants + PartialEq> PartialEq for SharedList<T> {
     fn eq(&self, other: &Self) -> bool {
         **self == **other
     }
 }
 
-impl<T: fmt::Debug> fmt::Debug for SharedList<T> {
+impl<T: Constants + fmt::Debug> fmt::Debug for SharedList<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         (**self).fmt(f)
     }
@@ -146,5 +170,6 @@ mod tests {
         }
         assert_eq!(*SharedList::of_corners(vec![0, 2]), [0, 2]);
         assert_eq!(*SharedList::of_edges(vec![[0, 1]]), [[0, 1]]);
+        assert_eq!(size_of::<SharedList<u32>>(), 16);
     }
 }

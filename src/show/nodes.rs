@@ -48,7 +48,7 @@ pub fn node_surfaces(body: &Body, nodes: &[u32]) -> Result<Vec<Surface>> {
                         curved_surface(primitive)
                     } else {
                         Surface {
-                            vertices: primitive.vertices.clone(),
+                            vertices: primitive.vertices.to_vec(),
                             faces: primitive
                                 .faces
                                 .iter()

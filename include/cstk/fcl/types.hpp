@@ -19,6 +19,12 @@
 #include <memory>
 #include <vector>
 
+/* What <fcl/config.h> defines, word for word: programs choose between FCL 0.5 and later by it. */
+#define FCL_VERSION "0.7.0"
+#define FCL_MAJOR_VERSION 0
+#define FCL_MINOR_VERSION 7
+#define FCL_PATCH_VERSION 0
+
 namespace cstk_fcl {
 
 template <typename S> using Vector2 = Eigen::Matrix<S, 2, 1>;

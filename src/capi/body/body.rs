@@ -314,7 +314,7 @@ pub unsafe extern "C" fn cstk_body_refit(
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL; the caller states the length.
         let vertices = unsafe { points(xyz, vertex_count, "xyz")? };
-        out.write(handle::create(Arc::new(body.refit(&vertices)?)));
+        out.write(handle::create(Arc::new(body.refit(vertices)?)));
         Ok(())
     })
 }

@@ -84,7 +84,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_polygon(
             let vertices = unsafe { points(xyz, point_count, "xyz")? };
             let index = builder.len();
             Ok(builder
-                .add_polygon(&vertices, tag)
+                .add_polygon(vertices, tag)
                 .map_err(|e| e.within(format_args!("polygon (primitive {index})")))?)
         })
     })
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_polyhedron(
             let vertices = unsafe { points(xyz, point_count, "xyz")? };
             let index = builder.len();
             Ok(builder
-                .add_polyhedron(&vertices, tag)
+                .add_polyhedron(vertices, tag)
                 .map_err(|e| e.within(format_args!("polyhedron (primitive {index})")))?)
         })
     })
@@ -154,7 +154,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
                 collected(sizes.iter().copied(), "face_sizes")?
             };
             let mesh = Mesh {
-                vertices,
+                vertices: collected(vertices.iter().copied(), "vertices")?,
                 face_sizes,
                 indices: collected(indices.iter().copied(), "indices")?,
             };

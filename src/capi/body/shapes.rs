@@ -162,7 +162,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polygon(
     run(builder, "rounded polygon", |builder| {
         // SAFETY: checked for NULL; the caller states the length.
         let vertices = unsafe { points(xyz, point_count, "xyz")? };
-        Ok(builder.add_rounded_polygon(&vertices, radius, tag)?)
+        Ok(builder.add_rounded_polygon(vertices, radius, tag)?)
     })
 }
 
@@ -179,7 +179,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_rounded_polyhedron(
     run(builder, "rounded polyhedron", |builder| {
         // SAFETY: checked for NULL; the caller states the length.
         let vertices = unsafe { points(xyz, point_count, "xyz")? };
-        Ok(builder.add_rounded_polyhedron(&vertices, radius, tag)?)
+        Ok(builder.add_rounded_polyhedron(vertices, radius, tag)?)
     })
 }
 
@@ -202,7 +202,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_points(
         with_builder(builder, |builder| {
             // SAFETY: checked for NULL; the caller states the length.
             let points = unsafe { points(xyz, point_count, "xyz")? };
-            Ok(builder.add_points(&points, radius)?)
+            Ok(builder.add_points(points, radius)?)
         })
     })
 }

@@ -35,7 +35,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_bezier_patch(
             let weights = unsafe { optional_weights(weights, point_count)? };
             let patch = BezierPatch {
                 degrees: [degree_u as usize, degree_v as usize],
-                points: &points,
+                points,
                 weights,
             };
             let index = builder.len();
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn cstk_body_builder_add_nurbs_surface(
             let surface = NurbsSurface {
                 degrees: [degree_u as usize, degree_v as usize],
                 knots,
-                points: &points,
+                points,
                 weights,
             };
             let index = builder.len();

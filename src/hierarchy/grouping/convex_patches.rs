@@ -218,7 +218,7 @@ fn intrudes(primitive: &Convex, planes: &[(Vec3, f64)]) -> bool {
         };
         return !planes.iter().any(beyond);
     }
-    let mut outline = primitive.vertices.clone();
+    let mut outline = primitive.vertices.to_vec();
     for plane in planes {
         let mut clipped = Vec::with_capacity(outline.len() + 1);
         for (k, from) in outline.iter().enumerate() {

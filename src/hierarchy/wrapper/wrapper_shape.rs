@@ -41,7 +41,7 @@ impl Wrapper<'_> {
         }
         match convex_polyhedron(self.corners) {
             Ok(hull) => Surface {
-                vertices: hull.vertices,
+                vertices: hull.vertices.into_vec(),
                 faces: hull
                     .faces
                     .iter()
