@@ -44,16 +44,33 @@ impl Pose {
     /// the nearest rotation. Reflections are refused.
     #[inline(always)]
     pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
-        let v = values;
-        let given = Self {
-            rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
-            translation: Vec3::new(v[3], v[7], v[11]),
-        };
+        let given = Self::of_row_major(values);
         // Fast path: almost all poses need no correction.
         if with_widest(IsPose(values)) {
             return Ok(given);
         }
         given.corrected(values)
+    }
+
+    /// Appends poses given in the same way; there must be room for them. Errors name the pose by its place in `argument`.
+    pub fn read_row_major(
+        given: &[[f64; 12]],
+        argument: &str,
+        poses: &mut Vec<Pose>,
+    ) -> Result<()> {
+        with_widest(ReadPoses {
+            given,
+            argument,
+            poses,
+        })
+    }
+
+    #[inline(always)]
+    fn of_row_major(v: &[f64; 12]) -> Self {
+        Self {
+            rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
+            translation: Vec3::new(v[3], v[7], v[11]),
+        }
     }
 
     #[cold]
@@ -215,6 +232,33 @@ impl Work for IsPose<'_> {
             & is_small(2)
             & (determinant > 0.0)
             & (far <= tolerance::LARGEST_COORDINATE)
+    }
+}
+
+/// Reads poses, one after the other.
+struct ReadPoses<'a> {
+    given: &'a [[f64; 12]],
+    argument: &'a str,
+    poses: &'a mut Vec<Pose>,
+}
+
+impl Work for ReadPoses<'_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> Result<()> {
+        for (i, values) in self.given.iter().enumerate() {
+            let pose = Pose::of_row_major(values);
+            if IsPose(values).run(lanes) {
+                self.poses.push(pose);
+            } else {
+                let corrected = pose.corrected(values);
+                let name = self.argument;
+                let named = corrected.map_err(|e| e.within(format_args!("{name}[{i}]")));
+                self.poses.push(named?);
+            }
+        }
+        Ok(())
     }
 }
 

@@ -26,6 +26,7 @@ impl BoxesByEight {
     }
 
     /// Puts a box in the next place.
+    #[inline(always)]
     pub fn push(&mut self, one: &PackedBox) {
         let lane = self.count % 8;
         if lane == 0 {

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::Leaf;
+use super::{Leaf, LinkRows};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::space::Space;
@@ -44,7 +44,7 @@ pub enum BodyPairs {
     /// Links of the space and the objects attached to them, against s-objects. A link without a body contributes only its
     /// attached objects.
     Objects {
-        /// The links on the r-side, by number in the space.
+        /// The links on the r-side, by number in the space; none twice.
         links: Vec<usize>,
         /// The s-side.
         objects: SObjects,
@@ -53,8 +53,10 @@ pub enum BodyPairs {
     },
     /// Links against links; the second of a pair is the nominal s-object.
     Links {
-        /// By number in the space; no pair twice.
+        /// By number in the space; no pair twice. All have bodies.
         pairs: Vec<[usize; 2]>,
+        /// The same for the broad phase.
+        rows: LinkRows,
     },
 }
 
@@ -111,7 +113,9 @@ impl BodyPairs {
             for &link in links {
                 require_link(space, link)?;
             }
-            links.to_vec()
+            let mut seen = HashSet::new();
+            let is_new = |link: &usize| seen.insert(*link);
+            links.iter().copied().filter(is_new).collect()
         };
         for (i, pair) in allowed.iter().enumerate() {
             require_link(space, pair.link).map_err(|e| e.within(format_args!("allowed[{i}]")))?;
@@ -146,8 +150,11 @@ impl BodyPairs {
         }
         let mut seen = HashSet::new();
         let is_new = |&&[r, s]: &&[usize; 2]| seen.insert([r.min(s), r.max(s)]);
-        let pairs = pairs.iter().filter(is_new).copied().collect();
-        Ok(Self::Links { pairs })
+        let pairs: Vec<[usize; 2]> = pairs.iter().filter(is_new).copied().collect();
+        Ok(Self::Links {
+            rows: LinkRows::new(&pairs),
+            pairs,
+        })
     }
 
     /// The environment of the s-objects; `None` for links against links.

@@ -3,7 +3,7 @@
 use super::box_frame::{BoxFrame, FrameLimits};
 use super::object_tree::ObjectTree;
 use super::snapshot::Snapshot;
-use super::visit_near::NearScratch;
+use super::visit_near::{Named, NearScratch};
 use crate::boxes::{EightBoxes, Extent, PackedBox};
 use crate::environment::box_tree::{BOX, BoxTree};
 use crate::lanes::{Instructions, Work, each3, with_widest};
@@ -42,14 +42,14 @@ impl Snapshot {
         let is_stray =
             |tree: &ObjectTree, place: usize| tree.strays.binary_search(&(place as u32)).is_ok();
         // The strays of this state against all objects of the other, or of its own.
-        trees[1].visit_near(self.strays(), limit, near, |named, _, place, lower| {
+        trees[1].visit_near(self.strays(), limit, near, |named, place, lower| {
             let is_within = other.is_none();
-            if !(is_within && place <= named.0 && is_stray(trees[1], place)) {
-                let [low, high] = [named.0.min(place), named.0.max(place)];
+            if !(is_within && place <= named.number && is_stray(trees[1], place)) {
+                let [low, high] = [named.number.min(place), named.number.max(place)];
                 let places = if is_within {
                     [low, high]
                 } else {
-                    [named.0, place]
+                    [named.number, place]
                 };
                 limit = visit(places, lower);
             }
@@ -57,9 +57,9 @@ impl Snapshot {
         });
         if let Some(other) = other {
             // The strays of the other against what is in this state's tree.
-            trees[0].visit_near(other.strays(), limit, near, |named, _, place, lower| {
+            trees[0].visit_near(other.strays(), limit, near, |named, place, lower| {
                 if !is_stray(trees[0], place) {
-                    limit = visit([place, named.0], lower);
+                    limit = visit([place, named.number], lower);
                 }
                 limit
             });
@@ -84,11 +84,16 @@ impl Snapshot {
         });
     }
 
-    fn strays(&self) -> impl Iterator<Item = (usize, &crate::body::Body, &crate::pose::Pose)> {
+    fn strays(&self) -> impl Iterator<Item = Named<'_>> {
         let strays = self.tree().strays.iter();
         strays.map(|&place| {
             let object = self.object(place as usize);
-            (place as usize, &*object.body, &object.pose)
+            Named {
+                number: place as usize,
+                body: &object.body,
+                pose: &object.pose,
+                bounds: self.bounds(place as usize),
+            }
         })
     }
 }

@@ -13,13 +13,13 @@ use crate::reused::emptied;
 
 impl ObjectTree {
     /// Visits, for each of some bodies, the objects that may be within `limit` of it, near subtrees first. `visit` gets the
-    /// named body, its bounds, the object's place and a safe lower bound of the distance; it returns the limit from then on.
+    /// body, the object's place and a safe lower bound of the distance; it returns the limit from then on.
     pub fn visit_near<'b>(
         &self,
         bodies: impl Iterator<Item = Named<'b>>,
         limit: f64,
         scratch: &mut NearScratch,
-        visit: impl FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
+        visit: impl FnMut(&Named<'b>, usize, f64) -> f64,
     ) {
         if self.is_empty() {
             return;
@@ -44,7 +44,7 @@ impl ObjectTree {
 pub struct NearScratch {
     open: Vec<QueueEntry>,
     boxes: Vec<PackedBox>,
-    near: Vec<(Named<'static>, Bounds)>,
+    near: Vec<Named<'static>>,
 }
 
 /// A node or an object to be visited.
@@ -57,8 +57,18 @@ struct QueueEntry {
     bodies: u64,
 }
 
-/// A name, a body and its pose.
-pub type Named<'b> = (usize, &'b Body, &'b Pose);
+/// A body by a number, at its pose, with its bounds there.
+#[derive(Clone, Copy, Debug)]
+pub struct Named<'b> {
+    /// What the caller calls the body.
+    pub number: usize,
+    /// The body.
+    pub body: &'b Body,
+    /// Where it is.
+    pub pose: &'b Pose,
+    /// Its bounds there.
+    pub bounds: &'b Bounds,
+}
 
 /// Number of bodies that traverse the tree together, one per bit of a mask.
 const BATCH: usize = u64::BITS as usize;
@@ -70,14 +80,14 @@ struct Visit<'a, 'b, B, V> {
     open: &'a mut Vec<QueueEntry>,
     boxes: &'a mut Vec<PackedBox>,
     /// The bodies that traverse the tree together.
-    batch: &'a mut Vec<(Named<'b>, Bounds)>,
+    batch: &'a mut Vec<Named<'b>>,
     visit: V,
 }
 
 impl<'b, B, V> Work for Visit<'_, 'b, B, V>
 where
     B: Iterator<Item = Named<'b>>,
-    V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
+    V: FnMut(&Named<'b>, usize, f64) -> f64,
 {
     type Output = ();
 
@@ -85,8 +95,11 @@ where
     fn run<I: Instructions>(mut self, lanes: I) {
         let mut bodies = std::mem::take(self.batch);
         loop {
-            let next = self.bodies.by_ref().take(BATCH);
-            bodies.extend(next.map(|named| (named, Bounds::of(named.1, named.2))));
+            while bodies.len() < BATCH
+                && let Some(named) = self.bodies.next()
+            {
+                bodies.push(named);
+            }
             if bodies.is_empty() {
                 break;
             }
@@ -99,11 +112,11 @@ where
 
 impl<'b, B, V> Visit<'_, 'b, B, V>
 where
-    V: FnMut(&Named<'b>, &Bounds, usize, f64) -> f64,
+    V: FnMut(&Named<'b>, usize, f64) -> f64,
 {
     /// Visits the objects near a batch of bodies.
     #[inline(always)]
-    fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[(Named<'b>, Bounds)]) {
+    fn descend<I: Instructions>(&mut self, lanes: I, bodies: &[Named<'b>]) {
         let descent = Descent::new(self.objects, bodies, std::mem::take(self.boxes));
         let objects = self.objects;
         let all = u64::MAX >> (BATCH - bodies.len());
@@ -111,9 +124,9 @@ where
         while let Some(next) = self.open.pop() {
             if next.name & BOX != 0 {
                 let place = (next.name & !BOX) as usize;
-                for (named, body) in bodies {
+                for named in bodies {
                     let lower = f64::NEG_INFINITY;
-                    self.limit = (self.visit)(named, body, place, lower);
+                    self.limit = (self.visit)(named, place, lower);
                 }
                 continue;
             }
@@ -171,7 +184,7 @@ where
         wide: &WideNode,
         eight: &EightBoxes<I>,
         descent: &Descent,
-        bodies: &[(Named<'b>, Bounds)],
+        bodies: &[Named<'b>],
         mask: u64,
     ) -> NearNodes {
         let mut cutoff = descent.frame.cutoff(self.limit);
@@ -196,10 +209,9 @@ where
                     found.bodies[lane] |= bit;
                     found.nearest[lane] = found.nearest[lane].min(bounds[lane]);
                 } else if bounds[lane] <= cutoff {
-                    let (named, body) = &bodies[at];
                     let place = (child & !BOX) as usize;
                     let lower = descent.frame.lower(bounds[lane]);
-                    self.limit = (self.visit)(named, body, place, lower);
+                    self.limit = (self.visit)(&bodies[at], place, lower);
                     cutoff = descent.frame.cutoff(self.limit);
                 }
             }
@@ -284,22 +296,24 @@ struct Descent {
 
 impl Descent {
     #[inline(always)]
-    fn new(objects: &ObjectTree, bodies: &[(Named, Bounds)], mut boxes: Vec<PackedBox>) -> Self {
+    fn new(objects: &ObjectTree, bodies: &[Named], mut boxes: Vec<PackedBox>) -> Self {
         let tree = objects.tree.frame();
         let mut limits = FrameLimits {
             size: objects.radius,
             largest_coordinate: objects.largest_coordinate,
             deviation: 0.0,
         };
-        for (_, body) in bodies {
-            limits.take_in(&tree.center, body);
+        for named in bodies {
+            limits.take_in(&tree.center, named.bounds);
         }
         let deviation = objects.deviation + limits.deviation;
         let frame = BoxFrame::new(tree.center, &limits, deviation);
         boxes.clear();
-        boxes.extend(bodies.iter().map(|(_, body)| frame.pack(body)));
+        for named in bodies {
+            boxes.push(frame.pack(named.bounds));
+        }
         let around = (bodies.len() > 1 && objects.has_several_nodes()).then(|| {
-            let extents = bodies.iter().map(|(_, body)| body.extent());
+            let extents = bodies.iter().map(|named| named.bounds.extent());
             let whole = extents.reduce(|all, one| all.union(&one));
             let whole = whole.expect("there are bodies");
             frame.pack_box(

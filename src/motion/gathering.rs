@@ -149,7 +149,7 @@ impl<'a> Gathering<'a> {
         } else {
             self.threshold
         };
-        if let BodyPairs::Links { pairs } = &term[0].pairs {
+        if let BodyPairs::Links { pairs, .. } = &term[0].pairs {
             let meter = context.scratch.meter_mut();
             meter.count_nodes(pairs.len() as u64);
             meter.check()?;

@@ -66,7 +66,7 @@ impl<'a> LinearMotion<'a> {
                 let of_carriers = held.iter().map(|(holder, _)| of_link(*holder));
                 of_links.fold(0.0, f64::max) + of_carriers.fold(0.0, f64::max)
             }
-            BodyPairs::Links { pairs } => {
+            BodyPairs::Links { pairs, .. } => {
                 let extent = |link: usize| {
                     let body = space.link(link).and_then(|link| link.body.as_deref());
                     body.map_or(0.0, |body| body.radius_from_origin())

@@ -1,6 +1,7 @@
 //! The broad phase of induced sets: the candidate body pairs in a scene.
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use super::answer::SSide;
 use super::cache_key::CacheKey;
@@ -10,10 +11,11 @@ use super::link_boxes::LinkBoxes;
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
-use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
+use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, LinkRows, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
+use crate::pose::Pose;
 use crate::work_meter::WorkMeter;
 
 /// The r-side of a pair: a link's own body, or an s-object attached to the link.
@@ -22,6 +24,14 @@ pub(super) struct RSide {
     pub link: usize,
     /// The object's id, or 0.
     pub attached: u64,
+}
+
+/// An induced set of links against links, with its number in the group.
+struct LinksTerm<'t> {
+    pairs: &'t [[usize; 2]],
+    rows: &'t LinkRows,
+    options: &'t InducedOptions,
+    number: u32,
 }
 
 /// An induced set of links against s-objects, with its number in the group and the snapshot that it sees.
@@ -102,15 +112,10 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
         let cutoff = self.candidates.cutoff(self.term.options);
         snapshot
             .tree()
-            .visit_near(bodies, cutoff, scratch, |named, bounds, place, bound| {
+            .visit_near(bodies, cutoff, scratch, |named, place, bound| {
                 let other = snapshot.bounds(place);
-                self.offer(
-                    named,
-                    bounds,
-                    SObjectAt::in_world(snapshot, place),
-                    other,
-                    bound,
-                )
+                let at = SObjectAt::in_world(snapshot, place);
+                self.offer(named, at, other, bound)
             });
     }
 
@@ -118,11 +123,10 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     fn offer_chosen(&mut self, bodies: impl Iterator<Item = Named<'s>>, ids: &[u64]) {
         let snapshot = self.term.snapshot;
         for named in bodies {
-            let bounds = Bounds::of(named.1, named.2);
             let places = ids.iter().filter_map(|id| snapshot.place_of(*id));
             for place in places.filter(|&place| snapshot.object(place).attachment.is_none()) {
                 let (at, other) = (SObjectAt::in_world(snapshot, place), snapshot.bounds(place));
-                self.offer(&named, &bounds, at, other, f64::NEG_INFINITY);
+                self.offer(&named, at, other, f64::NEG_INFINITY);
             }
         }
     }
@@ -135,28 +139,26 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
     ) {
         let objects = self.term.objects;
         let held = self.scene.held_of(environment);
-        for (_, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
-            let other = Bounds::of(&held.object.body, &held.pose);
+        let first_held = self.scene.space().link_count();
+        for (i, held) in held.filter(|(_, held)| objects.contains(held.object.id)) {
+            let other = &self.scene.bounds()[first_held + i];
             for named in bodies.clone() {
-                let bounds = Bounds::of(named.1, named.2);
-                self.offer(&named, &bounds, held.as_s_side(), &other, f64::NEG_INFINITY);
+                self.offer(&named, held.as_s_side(), other, f64::NEG_INFINITY);
             }
         }
     }
 
-    /// Offers a body and an object with their bounds and a lower bound of their distance. Returns the cutoff for further
+    /// Offers a body and an object with its bounds and a lower bound of their distance. Returns the cutoff for further
     /// pairs.
     #[inline(always)]
-    fn offer(
-        &mut self,
-        named: &Named<'s>,
-        bounds: &Bounds,
-        at: SObjectAt<'s>,
-        other: &Bounds,
-        bound: f64,
-    ) -> f64 {
+    fn offer(&mut self, named: &Named<'s>, at: SObjectAt<'s>, other: &Bounds, bound: f64) -> f64 {
         let (scene, term) = (self.scene, self.term);
-        let &(number, body, pose) = named;
+        let &Named {
+            number,
+            body,
+            pose,
+            bounds,
+        } = named;
         let r = scene.r_side(number);
         if !term.admits(r, at.object) {
             return self.candidates.cutoff(term.options);
@@ -170,6 +172,16 @@ impl<'s> ObjectOffers<'_, 's, '_, '_> {
         };
         self.candidates
             .offer(term.options, [bounds, other], bound, target)
+    }
+}
+
+/// Whether no body pair is in two terms of a group for certain: it has at most one term of each kind.
+pub(super) fn has_no_repeats(group: &Group) -> bool {
+    let is_of_links = |term: &&Arc<Induced>| matches!(term.pairs, BodyPairs::Links { .. });
+    match group.len() {
+        0 | 1 => true,
+        2 => group.iter().filter(is_of_links).count() == 1,
+        _ => false,
     }
 }
 
@@ -189,7 +201,7 @@ impl<'a> Scene<'a> {
     /// Whether the group obviously has no body pair: a cheap test.
     pub fn is_empty(&self, group: &Group) -> bool {
         group.iter().all(|term| match &term.pairs {
-            BodyPairs::Links { pairs } => pairs.is_empty(),
+            BodyPairs::Links { pairs, .. } => pairs.is_empty(),
             BodyPairs::Objects { links, objects, .. } => {
                 let Some(snapshot) = self.world().snapshot(objects.environment()) else {
                     return true;
@@ -248,8 +260,14 @@ impl<'a> Scene<'a> {
         let mut candidates = Candidates::new(filter, scratch, meter);
         for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
-                BodyPairs::Links { pairs } => {
-                    self.offer_links(pairs, &term.options, number, &mut candidates, scratch);
+                BodyPairs::Links { pairs, rows } => {
+                    let term = LinksTerm {
+                        pairs,
+                        rows,
+                        options: &term.options,
+                        number,
+                    };
+                    self.offer_links(&term, &mut candidates, &mut scratch.link_boxes);
                 }
                 BodyPairs::Objects {
                     links,
@@ -276,43 +294,32 @@ impl<'a> Scene<'a> {
 
     fn offer_links<'s>(
         &'s self,
-        pairs: &[[usize; 2]],
-        options: &InducedOptions,
-        term: u32,
+        term: &LinksTerm,
         candidates: &mut Candidates<'s, '_>,
-        scratch: &mut CandidateScratch,
+        boxes: &mut LinkBoxes,
     ) {
+        let options = term.options;
         let target = |links: [usize; 2], sides: [Placement<'s>; 2]| Target {
             options: *options,
-            term,
+            term: term.number,
             ..self.link_pair(links, sides)
         };
-        let bounds_of = |(body, pose): Placement| Bounds::of(body, pose);
+        let bounds = self.bounds();
         let cutoff = candidates.cutoff(options);
         if !candidates.wants_nearest() && cutoff < f64::INFINITY {
-            candidates.count(pairs.len());
-            let links = self.space().link_count();
-            let boxes = LinkBoxes::new(pairs, links, &mut scratch.link_boxes, |link| {
-                self.link(link).map(bounds_of)
-            });
-            boxes.visit_near(pairs, cutoff, |links, lower| {
-                if let [Some(a), Some(b)] = links.map(|link| self.link(link)) {
-                    candidates.offer_bounded(options, lower, || target(links, [a, b]));
+            candidates.count(term.pairs.len());
+            boxes.visit_near(term.rows, bounds, cutoff, |[r, s], lower| {
+                if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
+                    candidates.offer_bounded(options, lower, || target([r, s], [a, b]));
                 }
             });
             return;
         }
-        // Most links are in several pairs, so their bounds are computed once.
-        let link_bounds = &mut scratch.links;
-        link_bounds.clear();
-        link_bounds.resize(self.space().link_count(), None);
-        for &links in pairs {
-            if let [Some(a), Some(b)] = links.map(|link| self.link(link)) {
-                let [on_r, on_s] = [(links[0], a), (links[1], b)].map(|(link, placement)| {
-                    *link_bounds[link].get_or_insert_with(|| bounds_of(placement))
-                });
-                candidates.offer(options, [&on_r, &on_s], f64::NEG_INFINITY, || {
-                    target(links, [a, b])
+        for &[r, s] in term.pairs {
+            if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
+                let bounds = [&bounds[r], &bounds[s]];
+                candidates.offer(options, bounds, f64::NEG_INFINITY, || {
+                    target([r, s], [a, b])
                 });
             }
         }
@@ -334,10 +341,11 @@ impl<'a> Scene<'a> {
         let Some(object) = snapshot.first() else {
             return Ok(());
         };
-        let differs = |&&r: &&usize| {
-            let body = self.link(r).map(|(body, _)| body);
-            body.is_some_and(|body| body.dimension() != object.body.dimension())
-        };
+        // Links' bodies have the dimension of their robot.
+        if object.body.dimension() == self.space().dimension() {
+            return Ok(());
+        }
+        let differs = |&&r: &&usize| self.space().body(r).is_some();
         match links.iter().find(differs) {
             Some(r) => Err(Error::invalid(format!(
                 "s-object {} and link {r} differ in dimension",
@@ -354,7 +362,14 @@ impl<'a> Scene<'a> {
         scratch: &mut NearScratch,
     ) {
         let environment = term.objects.environment().serial();
+        let bounds = self.bounds();
         let bodies = self.r_sides(term.links, environment);
+        let bodies = bodies.map(|(number, body, pose)| Named {
+            number,
+            body,
+            pose,
+            bounds: &bounds[number],
+        });
         let mut offers = ObjectOffers {
             scene: self,
             term,
@@ -398,7 +413,7 @@ impl<'a> Scene<'a> {
         &self,
         links: &[usize],
         environment: u64,
-    ) -> impl Iterator<Item = Named<'_>> + Clone {
+    ) -> impl Iterator<Item = (usize, &Body, &Pose)> + Clone {
         let with_body = |&link: &usize| {
             let (body, pose) = self.link(link)?;
             Some((link, body, pose))
@@ -464,7 +479,7 @@ impl<'a> Scene<'a> {
             _ => return None,
         };
         match (&term.pairs, s_side) {
-            (BodyPairs::Links { pairs }, SSide::Link(s)) => {
+            (BodyPairs::Links { pairs, .. }, SSide::Link(s)) => {
                 let is_held = r.attached == 0 && pairs.contains(&[r.link, s]);
                 is_held.then_some(())?;
                 Some([self.link(r.link)?, self.link(s)?])

@@ -1,6 +1,6 @@
 //! Candidates: the body pairs that the broad phase lets through.
 
-use super::link_boxes::LinkBoxMemory;
+use super::link_boxes::LinkBoxes;
 use super::target::Target;
 use crate::cobject::InducedOptions;
 use crate::environment::{Bounds, NearScratch};
@@ -19,7 +19,7 @@ pub struct CandidateFilter {
     pub nearest: Option<f64>,
     /// Only pairs of bodies that stand for nothing but themselves.
     pub is_proved: bool,
-    /// The pairs of a single term may come in any order, without ranks.
+    /// The pairs may come in any order, without ranks; only where none is in two terms.
     pub any_order: bool,
 }
 
@@ -39,9 +39,7 @@ impl CandidateFilter {
 #[derive(Default)]
 pub(crate) struct CandidateScratch {
     pub near: NearScratch,
-    /// The bounds of each link, computed on first use.
-    pub links: Vec<Option<Bounds>>,
-    pub link_boxes: LinkBoxMemory,
+    pub link_boxes: LinkBoxes,
     targets: Vec<Target<'static>>,
 }
 
@@ -159,10 +157,10 @@ impl<'s, 'm> Candidates<'s, 'm> {
     pub fn finish(mut self) -> Result<Vec<Target<'s>>> {
         self.meter.check()?;
         let mut targets = std::mem::take(&mut self.targets);
-        targets.retain(|target| target.bound <= self.limit(&target.options));
         if self.filter.any_order {
             return Ok(targets);
         }
+        targets.retain(|target| target.bound <= self.limit(&target.options));
         targets.sort_unstable_by_key(|target| (target.parties(), target.term));
         if targets
             .windows(2)

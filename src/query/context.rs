@@ -35,6 +35,8 @@ pub struct QueryContext {
     witnesses: HashMap<CacheKey, [u32; 2], RandomState>,
     /// The pair remembered last.
     pub(super) recent: Option<CacheKey>,
+    /// Whether it was near enough when a threshold was last asked about: along a motion it mostly is the next time.
+    pub(super) recent_decides: bool,
     /// The versions of environments that the last query saw, in order of their serial numbers.
     seen: Vec<(u64, u64)>,
 }
@@ -162,6 +164,7 @@ impl QueryContext {
         }
         self.witnesses.insert(key, primitives);
         self.recent = Some(key);
+        self.recent_decides = true;
     }
 }
 

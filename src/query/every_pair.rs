@@ -17,7 +17,7 @@ impl Scene<'_> {
         self.check_term(term)?;
         let options = term.options;
         let (links, objects, allowed) = match &term.pairs {
-            BodyPairs::Links { pairs } => {
+            BodyPairs::Links { pairs, .. } => {
                 for &[link, s] in pairs {
                     let r = RSide { link, attached: 0 };
                     if let (Some(a), Some(b)) = (self.link(link), self.link(s)) {

@@ -1,12 +1,14 @@
 //! The world at a configuration.
 
+use std::cell::{Cell, OnceCell};
 use std::sync::Arc;
 
 use super::target::Placement;
 use super::world::World;
 use crate::cobject::{Induced, SpaceState};
-use crate::environment::{Attachment, SObject};
+use crate::environment::{Attachment, Bounds, SObject};
 use crate::error::{Error, Result};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Pose;
 use crate::reused::emptied;
 use crate::robot::RobotState;
@@ -31,6 +33,9 @@ pub struct Scene<'a> {
     world: &'a World,
     /// Attached s-objects, in order of their environments' serials.
     held: Vec<AttachedObject<'a>>,
+    /// See [`Scene::bounds`].
+    bounds: OnceCell<Vec<Bounds>>,
+    bounds_memory: Cell<Vec<Bounds>>,
 }
 
 /// Memory of a scene, reused by the next.
@@ -38,6 +43,7 @@ pub struct Scene<'a> {
 pub struct SceneMemory {
     poses: Vec<Pose>,
     held: Vec<AttachedObject<'static>>,
+    bounds: Vec<Bounds>,
 }
 
 /// An s-object attached to a link, with its pose in the world.
@@ -97,6 +103,8 @@ impl<'a> Scene<'a> {
             computed,
             world,
             held,
+            bounds: OnceCell::new(),
+            bounds_memory: Cell::new(memory.bounds),
         })
     }
 
@@ -104,6 +112,7 @@ impl<'a> Scene<'a> {
         SceneMemory {
             poses: self.computed,
             held: emptied(self.held),
+            bounds: (self.bounds.into_inner()).unwrap_or_else(|| self.bounds_memory.take()),
         }
     }
 
@@ -134,8 +143,22 @@ impl<'a> Scene<'a> {
 
     /// A link's body, if it has one, at its pose.
     pub fn link(&self, link: usize) -> Option<Placement<'_>> {
-        let body = self.space.link(link)?.body.as_deref()?;
+        let body = self.space.body(link)?;
         Some((body, &self.poses()[link]))
+    }
+
+    /// The bounds of all links' bodies, then of the s-objects attached to links; computed when they are first asked for. Those of a
+    /// link without a body mean nothing.
+    pub fn bounds(&self) -> &[Bounds] {
+        self.bounds.get_or_init(|| {
+            let mut bounds = self.bounds_memory.take();
+            bounds.clear();
+            with_widest(BoundAll {
+                scene: self,
+                bounds: &mut bounds,
+            });
+            bounds
+        })
     }
 
     /// The s-objects attached to links.
@@ -159,5 +182,30 @@ impl<'a> Scene<'a> {
 
     pub fn world(&self) -> &World {
         self.world
+    }
+}
+
+/// Bounds all bodies that move with the robot.
+struct BoundAll<'b, 'a> {
+    scene: &'b Scene<'a>,
+    bounds: &'b mut Vec<Bounds>,
+}
+
+impl Work for BoundAll<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) {
+        let scene = self.scene;
+        let poses = scene.poses();
+        self.bounds.reserve(poses.len() + scene.held.len());
+        for (link, pose) in poses.iter().enumerate() {
+            let body = scene.space.body(link);
+            self.bounds
+                .push(body.map_or_else(Bounds::default, |body| Bounds::of(body, pose)));
+        }
+        for held in &scene.held {
+            self.bounds.push(Bounds::of(&held.object.body, &held.pose));
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Whether the distance may be at most a threshold, for a C-object and for many body pairs.
 
-use super::body_pairs::CheckedGroup;
+use super::body_pairs::{CheckedGroup, has_no_repeats};
 use super::candidates::CandidateFilter;
 use super::combination::{Composition, Memo, cheap_first, composition, emptied};
 use super::context::{QueryContext, check_threshold};
@@ -11,6 +11,7 @@ use super::world::World;
 use crate::cobject::{CObject, Class, Set};
 use crate::error::Result;
 use crate::pair::{Pairing, Within, traverse, visit_pair};
+use smallvec::SmallVec;
 
 impl QueryContext {
     /// Whether the distance may be at most `threshold`: doubt within rounding counts as within, and so does an unknown
@@ -125,20 +126,28 @@ impl QueryContext {
         if self.recent_is_within(scene, group, threshold)? {
             return Ok(true);
         }
-        let candidates = self.candidates(scene, group, CandidateFilter::within(threshold))?;
+        let filter = CandidateFilter {
+            any_order: has_no_repeats(&group),
+            ..CandidateFilter::within(threshold)
+        };
+        let candidates = self.candidates(scene, group, filter)?;
         let is_within = self.any_within(&candidates, |_| threshold)?;
         self.keep_memory(candidates);
         Ok(is_within)
     }
 
     /// Whether the primitive pair found last is within the threshold now (temporal coherence): along a motion it mostly is,
-    /// and then the query is decided.
+    /// and then the query is decided. It is asked no more once it was not, until a pair is found again: at poses that have nothing to
+    /// do with each other it would be asked in vain.
     pub(super) fn recent_is_within(
         &mut self,
         scene: &Scene,
         group: CheckedGroup,
         threshold: f64,
     ) -> Result<bool> {
+        if !self.recent_decides {
+            return Ok(false);
+        }
         let mut is_within = false;
         let refines = self.gap.is_some();
         self.visit_recent(scene, group, |pairing, places, margin, scratch| {
@@ -154,21 +163,29 @@ impl QueryContext {
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
             is_within |= visitor.found.is_some();
         })?;
+        self.recent_decides = is_within;
         Ok(is_within)
     }
 
     /// Whether some primitive pair is within the threshold, or a body inside another; the threshold may depend on the
-    /// target.
+    /// target. The pair found last is tested first, then the others by their bounds: what is likely to meet comes soon.
     pub(super) fn any_within(
         &mut self,
         targets: &[Target],
         threshold: impl Fn(&Target) -> f64,
     ) -> Result<bool> {
-        // The pair found last is tested first.
         let recent = self.recent;
-        let is_recent = |target: &&Target| recent == Some(target.key);
-        let first = targets.iter().filter(is_recent);
-        for target in first.chain(targets.iter().filter(|target| !is_recent(target))) {
+        let mut order: SmallVec<[(f64, u32); 32]> = SmallVec::new();
+        for (target, place) in targets.iter().zip(0..) {
+            let bound = match recent == Some(target.key) {
+                true => f64::NEG_INFINITY,
+                false => target.bound,
+            };
+            order.push((bound, place));
+        }
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for &(_, place) in &order {
+            let target = &targets[place as usize];
             let threshold = threshold(target);
             self.count_body_pair()?;
             let Some(pairing) = target.pairing_within(threshold) else {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::WorldBox;
+use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
@@ -30,6 +31,8 @@ pub struct Space {
     robots: Vec<Arc<Robot>>,
     offsets: Vec<Offset>,
     links: usize,
+    /// The body of each link, if it has one.
+    bodies: Vec<Option<Arc<Body>>>,
     nv: usize,
     coordinates: Vec<Coordinate>,
     blocks: Vec<Block>,
@@ -60,6 +63,7 @@ impl Space {
             ));
         }
         let mut offsets = Vec::new();
+        let mut bodies = Vec::new();
         let (mut links, mut nv) = (0, 0);
         let (mut coordinates, mut periodic, mut blocks) = (Vec::new(), Vec::new(), Vec::new());
         for robot in &robots {
@@ -70,6 +74,7 @@ impl Space {
             };
             offsets.push(offset);
             links += robot.links().len();
+            bodies.extend(robot.links().iter().map(|link| link.body.clone()));
             nv += robot.nv();
             coordinates.extend_from_slice(robot.ranges());
             periodic.extend((0..robot.nq()).map(|c| robot.is_periodic(c)));
@@ -102,6 +107,7 @@ impl Space {
             robots,
             offsets,
             links,
+            bodies,
             nv,
             coordinates,
             blocks,
@@ -160,6 +166,12 @@ impl Space {
             let robot = self.robot_of(link);
             &self.robots[robot].links()[link - self.offsets[robot].link]
         })
+    }
+
+    /// The body of a link, if it has one.
+    #[inline]
+    pub fn body(&self, link: usize) -> Option<&Body> {
+        self.bodies.get(link)?.as_deref()
     }
 
     /// Whether the SRDF file of a robot rules out this pair of its links for self-collision.

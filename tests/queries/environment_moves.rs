@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::environment::{Attachment, Change, Environment, NearScratch, Snapshot};
+use cstk::environment::{Attachment, Bounds, Change, Environment, Named, NearScratch, Snapshot};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
@@ -114,14 +114,22 @@ fn check(state: &Snapshot, model: &Model, probe: &Body, random: &mut Random) {
             rotation: random.rotation(),
         };
         let mut found = BTreeMap::new();
-        let named = [(0, probe, &at)].into_iter();
-        state
-            .tree()
-            .visit_near(named, limit, &mut scratch, |_, _, place, at_least| {
+        let named = Named {
+            number: 0,
+            body: probe,
+            pose: &at,
+            bounds: &Bounds::of(probe, &at),
+        };
+        state.tree().visit_near(
+            [named].into_iter(),
+            limit,
+            &mut scratch,
+            |_, place, at_least| {
                 let is_new = found.insert(state.object(place).id, at_least).is_none();
                 assert!(is_new, "an object was visited twice");
                 limit
-            });
+            },
+        );
         for (id, (body, pose, is_attached)) in model {
             let answer = context.pair_distance((probe, &at), (body, pose), f64::INFINITY);
             let distance = answer.unwrap().distance;

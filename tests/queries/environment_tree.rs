@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::environment::{Change, Environment, NearScratch};
+use cstk::environment::{Bounds, Change, Environment, Named, NearScratch};
 use cstk::pose::{Pose, Vec3};
 
 use helpers::random::Random;
@@ -16,10 +16,15 @@ fn looked_at(environment: &Environment, body: &Body, at: &[Pose], limit: f64) ->
     let mut scratch = NearScratch::default();
     let mut count = 0;
     for pose in at {
-        let named = [(0, body, pose)].into_iter();
+        let named = Named {
+            number: 0,
+            body,
+            pose,
+            bounds: &Bounds::of(body, pose),
+        };
         snapshot
             .tree()
-            .visit_near(named, limit, &mut scratch, |_, _, _, _| {
+            .visit_near([named].into_iter(), limit, &mut scratch, |_, _, _| {
                 count += 1;
                 limit
             });

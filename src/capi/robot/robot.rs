@@ -313,9 +313,5 @@ pub(crate) unsafe fn read_poses(
     let room = poses.try_reserve(count);
     room.map_err(|e| Error::memory(e).within(argument))?;
     let (twelves, _) = numbers.as_chunks::<12>();
-    for (i, values) in twelves.iter().enumerate() {
-        let pose = Pose::from_row_major(values);
-        poses.push(pose.map_err(|e| e.within(format_args!("{argument}[{i}]")))?);
-    }
-    Ok(())
+    Ok(Pose::read_row_major(twelves, argument, poses)?)
 }

@@ -85,16 +85,12 @@ pub unsafe extern "C" fn cstk_space_link_poses(
 ) -> cstk_status {
     guard(|| {
         let space = &*handle::share::<Space>(space, "space")?;
-        let out = OutputSlice::checked(poses, 12 * space.link_count(), "poses")?;
+        let out = OutputSlice::checked(poses.cast::<[f64; 12]>(), space.link_count(), "poses")?;
         // SAFETY: checked for NULL; the caller states the length.
         let q = unsafe { configuration(space, q, nq, "q")? };
         let poses = space.link_poses(q)?;
-        out.write(
-            &poses
-                .iter()
-                .flat_map(Pose::to_row_major)
-                .collect::<Vec<_>>(),
-        );
+        let rows: Vec<[f64; 12]> = poses.iter().map(Pose::to_row_major).collect();
+        out.write(&rows);
         Ok(())
     })
 }
