@@ -25,11 +25,14 @@ pub struct Pose {
 
 impl Pose {
     /// The pose whose child frame is its parent frame.
+    pub const IDENTITY: Self = Self {
+        rotation: Mat3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        translation: Vec3::new(0.0, 0.0, 0.0),
+    };
+
+    /// The same.
     pub fn identity() -> Self {
-        Self {
-            rotation: Mat3::identity(),
-            translation: Vec3::zeros(),
-        }
+        Self::IDENTITY
     }
 
     /// A translation without rotation.

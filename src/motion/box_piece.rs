@@ -73,9 +73,10 @@ impl<'a> BoxPiece<'a> {
     fn in_box(&mut self, pair: &MovingPair) -> PairInBox {
         let (a, b) = pair.carried();
         let poses = [
-            self.twists.pose(a.link).compose(&a.pose),
-            b.link
-                .map_or(b.pose, |link| self.twists.pose(link).compose(&b.pose)),
+            self.twists.pose(a.link).compose(a.pose_in_carrier()),
+            b.link.map_or(*b.pose_in_carrier(), |link| {
+                self.twists.pose(link).compose(b.pose_in_carrier())
+            }),
         ];
         let known = self.rates.between(a, b);
         let Some(rates) = known else {
@@ -103,10 +104,11 @@ impl<'a> BoxPiece<'a> {
     fn farthest(&self, a: &Carried<usize>, b: &Carried<Option<usize>>, v: &[f64]) -> f64 {
         let extent = |body: &Body, pose: &Pose| pose.translation.norm() + body.radius_from_origin();
         let (space, q) = (self.space(), self.way.line.q);
-        let of_a = (a.link, extent(a.body, &a.pose));
+        let of_a = (a.link, extent(a.body, a.pose_in_carrier()));
         match b.link {
             Some(link) => {
-                space.relative_motion_bound([of_a, (link, extent(b.body, &b.pose))], q, v)
+                let of_b = (link, extent(b.body, b.pose_in_carrier()));
+                space.relative_motion_bound([of_a, of_b], q, v)
             }
             None => space.motion_bound_of_radius(of_a.0, of_a.1, q, v),
         }

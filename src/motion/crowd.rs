@@ -1,5 +1,10 @@
 //! A body that moves among objects that rest: the boxes around them are looked at eight at a time before any pair is.
 
+use std::collections::HashMap;
+use std::ptr;
+
+use foldhash::fast::RandomState;
+
 use super::moving_pair::MovingPair;
 use super::over_piece::TwistLists;
 use super::piece::Piece;
@@ -36,13 +41,14 @@ pub(super) struct CrowdOver<L: TwistLists> {
 }
 
 impl Crowd {
-    /// Of pairs whose numbers begin at `first_pair`; all have the same body A, and Bs that rest. `boxes` is used again.
+    /// Of pairs whose numbers begin at `first_pair`; all have the same body A, and Bs that rest.
     pub fn new(
         first_pair: u32,
         pairs: &[MovingPair],
         origin: Vec3,
-        mut boxes: BoxesByEight,
+        memory: &mut CrowdMemory,
     ) -> Self {
+        let mut boxes = memory.boxes.pop().unwrap_or_default();
         boxes.clear();
         let mut crowd = Self {
             first_pair,
@@ -53,11 +59,11 @@ impl Crowd {
         };
         for pair in pairs {
             let [_, b] = pair.bodies();
-            let pose = pair.pose_of_b();
-            let center = pose.transform_point(b.center()) - origin;
+            let at_rest = memory.at_rest.of(b, pair.pose_of_b());
+            let center = at_rest.center - origin;
             crowd.size = crowd.size.max(center.norm() + b.radius());
             crowd.deviation = crowd.deviation.max(b.deviation());
-            crowd.boxes.push(&root_box(b, pose, &origin));
+            crowd.boxes.push(&at_rest.root.seen_from(&origin));
         }
         crowd
     }
@@ -90,7 +96,7 @@ impl Crowd {
         let lowered = slack * (1.0 + shift / size) + ROUNDING * (size + shift);
         let [with_a, with_b] = moved.bends.map(|x| (x as f32).next_up() * 1.001);
         CrowdOver {
-            one: root_box(a, pose, &self.origin),
+            one: RootBox::new(a, pose).seen_from(&self.origin),
             twists: P::Lists::map(&moved.displacements, |by| {
                 let at_origin = by.linear - by.angular.cross(&center);
                 Twist32 {
@@ -105,19 +111,72 @@ impl Crowd {
     }
 }
 
-/// The box around a body at a pose, relative to an origin.
-fn root_box(body: &Body, pose: &Pose, origin: &Vec3) -> PackedBox {
-    let tree = body.packed();
-    let at_home = tree.bounding_box(tree.root());
-    let vector = |v: &[f32; 3]| Vec3::from(v.map(f64::from));
-    let center = body.center() + vector(&at_home.center) * tree.scale();
-    let center = pose.transform_point(&center) - origin;
-    PackedBox {
-        axes: each3(|k| {
-            let axis = turned(&pose.rotation, &vector(&at_home.axes[k]));
-            each3(|i| axis[i] as f32)
-        }),
-        center: each3(|k| center[k] as f32),
-        half: each3(|k| ((f64::from(at_home.half[k]) * tree.scale()) as f32).next_up()),
+/// The box around a body at a pose.
+#[derive(Clone, Copy)]
+struct RootBox {
+    axes: [[f32; 3]; 3],
+    half: [f32; 3],
+    /// In the world.
+    center: Vec3,
+}
+
+impl RootBox {
+    fn new(body: &Body, pose: &Pose) -> Self {
+        let tree = body.packed();
+        let at_home = tree.bounding_box(tree.root());
+        let vector = |v: &[f32; 3]| Vec3::from(v.map(f64::from));
+        let center = body.center() + vector(&at_home.center) * tree.scale();
+        Self {
+            axes: each3(|k| {
+                let axis = turned(&pose.rotation, &vector(&at_home.axes[k]));
+                each3(|i| axis[i] as f32)
+            }),
+            half: each3(|k| ((f64::from(at_home.half[k]) * tree.scale()) as f32).next_up()),
+            center: pose.transform_point(&center),
+        }
     }
+
+    /// Relative to an origin.
+    fn seen_from(&self, origin: &Vec3) -> PackedBox {
+        let center = self.center - origin;
+        PackedBox {
+            axes: self.axes,
+            center: each3(|k| center[k] as f32),
+            half: self.half,
+        }
+    }
+}
+
+/// A body that rests, in the world.
+#[derive(Clone, Copy)]
+struct AtRest {
+    center: Vec3,
+    root: RootBox,
+}
+
+/// The bodies that rest in one scene, computed once for all that move among them. By the addresses of their poses.
+#[derive(Default)]
+pub(super) struct BodiesAtRest(HashMap<usize, AtRest, RandomState>);
+
+impl BodiesAtRest {
+    /// Begins another scene.
+    pub fn start(&mut self) {
+        self.0.clear();
+    }
+
+    fn of(&mut self, body: &Body, pose: &Pose) -> &AtRest {
+        self.0
+            .entry(ptr::from_ref(pose).addr())
+            .or_insert_with(|| AtRest {
+                center: pose.transform_point(body.center()),
+                root: RootBox::new(body, pose),
+            })
+    }
+}
+
+/// Memory of crowds, used again by the next proof.
+#[derive(Default)]
+pub(super) struct CrowdMemory {
+    pub boxes: Vec<BoxesByEight>,
+    pub at_rest: BodiesAtRest,
 }

@@ -4,20 +4,18 @@ use std::cmp::Ordering;
 use std::ptr;
 
 use super::carried::Carried;
-use super::crowd::Crowd;
+use super::crowd::{Crowd, CrowdMemory};
 use super::interval_proof::MovingLeaf;
-use super::linear_motion::STEP_FRACTION;
+use super::linear_motion::{LinearMotion, STEP_FRACTION};
 use super::moving_pair::MovingPair;
 use super::moving_pure::MovingPure;
 use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
-use crate::boxes::BoxesByEight;
 use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
 use crate::environment::Bounds;
 use crate::error::{Error, ErrorKind, Result};
-use crate::pose::Pose;
 use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
 
@@ -155,7 +153,7 @@ impl<'a> Gathering<'a> {
             meter.check()?;
             return self.add_link_pairs(pairs, threshold, &term[0], scene);
         }
-        let fastest = self.way.line.fastest_pair(&term[0]).unwrap_or(0.0);
+        let fastest = self.fastest(&term[0], scene);
         if fastest.is_infinite() {
             return Err(unstated_speeds(&term[0]));
         }
@@ -196,32 +194,41 @@ impl<'a> Gathering<'a> {
         term: &Induced,
         scene: &'a Scene,
     ) -> Result<()> {
+        let mut places = vec![usize::MAX; scene.poses().len()];
+        let mut known: Vec<(Bounds, f64)> = Vec::new();
+        for &link in pairs.as_flattened() {
+            if places[link] == usize::MAX
+                && let Some((body, pose)) = scene.link(link)
+            {
+                places[link] = known.len();
+                known.push((Bounds::of(body, pose), self.speed_of_link(scene, link)));
+            }
+        }
+        let mut near: Vec<([usize; 2], f64)> = Vec::new();
+        for &[r, s] in pairs {
+            let [Some((on_r, speed_r)), Some((on_s, speed_s))] =
+                [r, s].map(|link| known.get(places[link]))
+            else {
+                continue;
+            };
+            let [lower, _] = on_r.distance(on_s);
+            let bound = lower - term.options.margin;
+            // The distance of two bodies changes no faster than both move in the world.
+            if self.may_meet(bound, threshold, speed_r + speed_s) {
+                near.push(([s, r], bound));
+            }
+        }
         // Those that the same link carries come together, for their rates.
-        let mut order: Vec<(usize, usize)> = pairs.iter().map(|&[r, s]| (s, r)).collect();
-        order.sort_unstable();
-        let mut known = vec![None; scene.poses().len()];
-        for (s, r) in order {
+        near.sort_unstable_by_key(|(links, _)| *links);
+        for ([s, r], bound) in near {
             let [Some(a), Some(b)] = [r, s].map(|link| scene.link(link)) else {
                 continue;
             };
-            let [on_r, on_s] = [(r, a), (s, b)].map(|(link, (body, pose))| {
-                *known[link].get_or_insert_with(|| {
-                    let speed = self
-                        .rates
-                        .speed_in_world(&carried(scene, link, (body, pose)));
-                    (Bounds::of(body, pose), speed.unwrap_or(f64::INFINITY))
-                })
-            });
-            let [lower, _] = on_r.0.distance(&on_s.0);
             let target = Target {
                 options: term.options,
-                bound: lower - term.options.margin,
+                bound,
                 ..scene.link_pair([r, s], [a, b])
             };
-            // The distance of two bodies changes no faster than both move in the world.
-            if !self.may_meet(target.bound, threshold, on_r.1 + on_s.1) {
-                continue;
-            }
             self.add_pair(&target, threshold, term, scene)?;
         }
         Ok(())
@@ -232,7 +239,7 @@ impl<'a> Gathering<'a> {
         target: &Target<'a>,
         threshold: f64,
         term: &Induced,
-        scene: &Scene,
+        scene: &'a Scene,
     ) -> Result<()> {
         // Where bodies may differ from what they stand for, that two meet is never proved.
         if self.complement && target.stated_deviation() > 0.0 {
@@ -245,7 +252,7 @@ impl<'a> Gathering<'a> {
             None => Carried {
                 body: on_s.0,
                 link: None,
-                pose: *on_s.1,
+                pose: Some(on_s.1),
                 number: 0,
             },
             Some(link) => {
@@ -302,14 +309,14 @@ impl Ord for OrderedBound {
 
 impl Gathering<'_> {
     /// The pairs of a body among objects that rest, which stand together. The crowds take what memory `spare` has.
-    pub fn crowds(&self, scene: &Scene, spare: &mut Vec<BoxesByEight>) -> Vec<Crowd> {
+    pub fn crowds(&self, scene: &Scene, memory: &mut CrowdMemory) -> Vec<Crowd> {
         let mut crowds = Vec::new();
+        memory.at_rest.start();
         let mut first = 0;
         for run in self.pairs.chunk_by(MovingPair::is_in_crowd_of) {
             if run.len() > 1 {
                 let origin = scene.poses()[run[0].link()].translation;
-                let boxes = spare.pop().unwrap_or_default();
-                crowds.push(Crowd::new(first, run, origin, boxes));
+                crowds.push(Crowd::new(first, run, origin, memory));
             }
             first += run.len() as u32;
         }
@@ -329,6 +336,37 @@ impl Gathering<'_> {
         }
     }
 
+    /// Bounds the change of the distance of any pair of an induced set in the whole time.
+    fn fastest(&mut self, term: &Induced, scene: &Scene) -> f64 {
+        if let BodyPairs::Objects { links, objects, .. } = &term.pairs {
+            let environment = objects.environment().serial();
+            if scene.held_of(environment).next().is_none() {
+                let speeds = links.iter().map(|&link| self.speed_of_link(scene, link));
+                return speeds.fold(0.0, f64::max);
+            }
+        }
+        self.way.line.fastest_pair(term).unwrap_or(0.0)
+    }
+
+    /// Bounds the speed of a link's own body in the world; 0 where it has none.
+    fn speed_of_link(&mut self, scene: &Scene, link: usize) -> f64 {
+        self.speeds.resize(scene.poses().len(), None);
+        if let Some(speed) = self.speeds[link] {
+            return speed;
+        }
+        let speed = scene.link(link).map_or(0.0, |(body, pose)| {
+            let known = self
+                .rates
+                .speed_in_world(&carried(scene, link, (body, pose)));
+            known.unwrap_or_else(|| {
+                let LinearMotion { q, v, cobject, .. } = self.way.line;
+                cobject.space().motion_bound(link, q, v)
+            })
+        });
+        self.speeds[link] = Some(speed);
+        speed
+    }
+
     /// Bounds the change of a pair's distance in the whole time.
     fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
         let (r_link, s_link) = target.links();
@@ -336,31 +374,24 @@ impl Gathering<'_> {
         if s_link.is_some() || r_object != 0 {
             return self.way.line.rate(scene, target);
         }
-        self.speeds.resize(scene.poses().len(), None);
-        *self.speeds[r_link].get_or_insert_with(|| {
-            let body = carried(scene, r_link, target.sides[0]);
-            let known = self.rates.speed_in_world(&body);
-            known.unwrap_or_else(|| self.way.line.rate(scene, target))
-        })
+        self.speed_of_link(scene, r_link)
     }
 }
 
 /// A body of the scene that a link carries: its own, or an object that is attached to it.
-fn carried<'a>(scene: &Scene, link: usize, (body, pose): Placement<'a>) -> Carried<'a, usize> {
-    let of_link = &scene.poses()[link];
-    let (in_link, number) = if ptr::eq(pose, of_link) {
-        (Pose::identity(), link)
-    } else {
-        let held = scene.held();
-        let place = held.iter().position(|held| ptr::eq(&held.pose, pose));
-        debug_assert!(place.is_some(), "a pose that is not the scene's");
-        let in_link = of_link.inverse().compose(pose);
-        (in_link, scene.poses().len() + place.unwrap_or(held.len()))
-    };
-    Carried {
+fn carried<'a>(scene: &'a Scene, link: usize, (body, pose): Placement<'a>) -> Carried<'a, usize> {
+    let mut carried = Carried {
         body,
         link,
-        pose: in_link,
-        number,
+        pose: None,
+        number: link,
+    };
+    if !ptr::eq(pose, &scene.poses()[link]) {
+        let held = scene.held();
+        let place = held.iter().position(|held| ptr::eq(&held.pose, pose));
+        let place = place.expect("a pose of the scene");
+        carried.pose = Some(&held[place].object.pose);
+        carried.number = scene.poses().len() + place;
     }
+    carried
 }

@@ -43,13 +43,18 @@ struct BodyState {
 pub(super) struct Relative {
     /// Of both bodies, in the world.
     pub poses: [Pose; 2],
+    pub center: CenterMotion,
+    pub angular: Vec3,
+    pub angular_acceleration: Vec3,
+}
+
+/// How A's centre moves as B sees it, with the components in the world's frame.
+pub(super) struct CenterMotion {
     /// From B's centre to A's.
     pub apart: Vec3,
     /// The velocity of A's centre, and its derivative.
     pub velocity: Vec3,
     pub acceleration: Vec3,
-    pub angular: Vec3,
-    pub angular_acceleration: Vec3,
 }
 
 impl<'a> Kinematics<'a> {
@@ -100,14 +105,23 @@ impl<'a> Kinematics<'a> {
 
     /// How A moves as B sees it, where the motion of both is known.
     pub fn relative(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Relative {
+        let center = self.center(a, b);
+        let of_a = &self.bodies[a.number].1;
+        match b.link {
+            None => of_a.seen_at_rest(b.pose_in_carrier(), center),
+            Some(_) => of_a.seen_from(&self.bodies[b.number].1, center),
+        }
+    }
+
+    /// How A's centre moves as B sees it, where the motion of both is known.
+    pub fn center(&mut self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> CenterMotion {
         self.place(a.number, a.link, a);
         let Some(link) = b.link else {
-            let a = &self.bodies[a.number].1;
-            return a.seen_at_rest(&b.pose, b.body.center());
+            return self.bodies[a.number].1.center_seen_at_rest(&b.center());
         };
         self.place(b.number, link, b);
         let [a, b] = [a.number, b.number].map(|number| &self.bodies[number].1);
-        a.seen_from(b)
+        a.center_seen_from(b)
     }
 
     /// The same where only poses are known: nothing seems to move.
@@ -116,8 +130,11 @@ impl<'a> Kinematics<'a> {
             let carrier = link.and_then(|link| Some(self.poses.as_ref()?[link]));
             carrier.map_or(*pose, |carrier| carrier.compose(pose))
         };
-        let frame = MotionState::at_rest(pose(Some(a.link), &a.pose));
-        BodyState::new(frame, a.body.center()).seen_at_rest(&pose(b.link, &b.pose), b.body.center())
+        let frame = MotionState::at_rest(pose(Some(a.link), a.pose_in_carrier()));
+        let pose_of_b = &pose(b.link, b.pose_in_carrier());
+        let state = BodyState::new(frame, a.body.center());
+        let center = state.center_seen_at_rest(&pose_of_b.transform_point(b.body.center()));
+        state.seen_at_rest(pose_of_b, center)
     }
 
     /// Computes a body's state, unless that is done.
@@ -128,7 +145,8 @@ impl<'a> Kinematics<'a> {
         }
         let (moment, body) = &mut self.bodies[number];
         if *moment != self.moment {
-            let frame = self.states.of(self.motions, link).fixed(&carried.pose);
+            let of_link = self.states.of(self.motions, link);
+            let frame = carried.pose.map_or(*of_link, |pose| of_link.fixed(pose));
             *body = BodyState::new(frame, carried.body.center());
             *moment = self.moment;
         }
@@ -147,30 +165,44 @@ impl BodyState {
     }
 
     /// As something sees it that rests in the world at a pose.
-    fn seen_at_rest(&self, pose: &Pose, center: &Vec3) -> Relative {
+    fn seen_at_rest(&self, pose: &Pose, center: CenterMotion) -> Relative {
         Relative {
             poses: [self.frame.pose, *pose],
-            apart: self.center - pose.transform_point(center),
-            velocity: self.velocity,
-            acceleration: self.acceleration,
+            center,
             angular: self.frame.angular,
             angular_acceleration: self.frame.angular_acceleration,
         }
     }
 
-    fn seen_from(&self, other: &Self) -> Relative {
-        let (a, b) = (&self.frame, &other.frame);
+    /// The centre, as something sees it that rests and has its own centre there.
+    fn center_seen_at_rest(&self, center: &Vec3) -> CenterMotion {
+        CenterMotion {
+            apart: self.center - center,
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+        }
+    }
+
+    fn center_seen_from(&self, other: &Self) -> CenterMotion {
+        let b = &other.frame;
         let from_b = self.center - b.pose.translation;
         let velocity = self.velocity - b.velocity(&from_b);
-        let angular = a.angular - b.angular;
-        Relative {
-            poses: [a.pose, b.pose],
+        CenterMotion {
             apart: self.center - other.center,
             velocity,
             // B's frame turns, so the derivatives of components in it differ from those in the world.
             acceleration: self.acceleration
                 - b.acceleration(&from_b)
                 - 2.0 * b.angular.cross(&velocity),
+        }
+    }
+
+    fn seen_from(&self, other: &Self, center: CenterMotion) -> Relative {
+        let (a, b) = (&self.frame, &other.frame);
+        let angular = a.angular - b.angular;
+        Relative {
+            poses: [a.pose, b.pose],
+            center,
             angular,
             angular_acceleration: a.angular_acceleration
                 - b.angular_acceleration

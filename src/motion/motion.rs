@@ -250,7 +250,7 @@ impl QueryContext {
             if gathering.needs_start && confirm(context, 0.0)? {
                 return Ok(Proof::Contact([0.0, 0.0]));
             }
-            let crowds = gathering.crowds(scene, &mut memory.boxes);
+            let crowds = gathering.crowds(scene, &mut memory.crowds);
             let Gathering { leaves, pairs, .. } = gathering;
             let set = MovingSet {
                 way: Some(way),
@@ -267,7 +267,7 @@ impl QueryContext {
             memory.kinematics = kinematics.into_memory();
             memory.pairs = emptied(set.pairs);
             let boxes = set.crowds.into_iter().map(Crowd::into_boxes);
-            memory.boxes.extend(boxes);
+            memory.crowds.boxes.extend(boxes);
             context.proof_memory.keep(memory);
             proof
         })

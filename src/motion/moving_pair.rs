@@ -1,7 +1,7 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
 use super::carried::Carried;
-use super::kinematics::{Kinematics, Relative};
+use super::kinematics::{CenterMotion, Kinematics, Relative};
 use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
 use super::pair_rates::PairRates;
 use super::span::Span;
@@ -100,8 +100,8 @@ impl<'a> MovingPair<'a> {
     }
 
     /// Where B rests in the world, unless a link carries it.
-    pub fn pose_of_b(&self) -> &Pose {
-        &self.b.pose
+    pub fn pose_of_b(&self) -> &'a Pose {
+        self.b.pose_in_carrier()
     }
 
     /// Whether both pairs are of the same body A, with Bs that rest in the world.
@@ -135,29 +135,38 @@ impl<'a> MovingPair<'a> {
     /// at most T_2 rho + 2 T_1 P_1 + P_2, or |a - 2 w x v| + (|alpha| + |w|^2) rho + h J' / 3 with
     /// J' <= T_3 rho + 3 T_2 P_1 + 3 T_1 P_2 + P_3.
     pub fn over_interval(&self, kinematics: &mut Kinematics, span: Span) -> PairOver<'a, OneTwist> {
-        let (relative, rates) = self.relative(kinematics);
-        let kinematics_error = self.kinematics_error(&rates);
         let reach = span.reach();
-        let center_moves = |apart: &Vec3, distance: f64| match self.bounds {
-            Bounds::Derivatives(_) => {
-                let [_, p2, p3] = rates.origin;
-                let acceleration = p2.min(relative.acceleration.norm() + reach * p3 / 3.0);
-                let parts = relative.velocity.dot(apart) / distance.max(f64::MIN_POSITIVE);
-                let bend = 0.5 * reach * reach * acceleration;
-                match span {
-                    Span::Around(_) => reach * parts.abs() + bend,
-                    Span::Before(_) => (reach * parts + bend).max(0.0),
+        match self.bounds {
+            // Most pairs are done with here: of them no more is computed than how the centres move.
+            Bounds::Derivatives(rates) => {
+                let center = kinematics.center(&self.a, &self.b);
+                let center_moves = |apart: &Vec3, distance: f64| {
+                    let [_, p2, p3] = rates.origin;
+                    let acceleration = p2.min(center.acceleration.norm() + reach * p3 / 3.0);
+                    let parts = center.velocity.dot(apart) / distance.max(f64::MIN_POSITIVE);
+                    let bend = 0.5 * reach * reach * acceleration;
+                    match span {
+                        Span::Around(_) => reach * parts.abs() + bend,
+                        Span::Before(_) => (reach * parts + bend).max(0.0),
+                    }
+                };
+                let error = self.kinematics_error(&rates);
+                if self.balls_stay_apart(&center.apart, center_moves, error) {
+                    return PairOver::Apart;
+                }
+                if reach * rates.turn[0] > MAX_TURN {
+                    return PairOver::TooLong;
                 }
             }
-            Bounds::Speed(speed) => reach * speed,
-        };
-        if self.balls_stay_apart(&relative.apart, center_moves, kinematics_error) {
-            return PairOver::Apart;
+            Bounds::Speed(speed) => {
+                let (relative, rates) = self.relative(kinematics);
+                let error = self.kinematics_error(&rates);
+                if self.balls_stay_apart(&relative.center.apart, |_, _| reach * speed, error) {
+                    return PairOver::Apart;
+                }
+            }
         }
-        if reach * rates.turn[0] > MAX_TURN {
-            return PairOver::TooLong;
-        }
-        PairOver::Near(self.placed(self.moved_over_interval(&relative, &rates, span)))
+        PairOver::Near(self.placed(self.moved(kinematics, span)))
     }
 
     /// How A moves over an interval.
@@ -179,7 +188,7 @@ impl<'a> MovingPair<'a> {
         Moved {
             poses: relative.poses,
             displacements: [Displacement {
-                linear: relative.velocity * time,
+                linear: relative.center.velocity * time,
                 angular: relative.angular * time,
             }],
             extension,
@@ -307,8 +316,12 @@ impl<'a> MovingPair<'a> {
     /// Bounds of the accelerations through an interval: of B's points as A sees them, and of A's as B sees them.
     fn accelerations(&self, relative: &Relative, rates: &MotionRates, reach: f64) -> [f64; 2] {
         let Relative {
-            velocity: v,
-            acceleration: a,
+            center:
+                CenterMotion {
+                    velocity: v,
+                    acceleration: a,
+                    ..
+                },
             angular: w,
             ..
         } = relative;

@@ -72,13 +72,13 @@ impl QueryContext {
         let first = Carried {
             body: a.body,
             link: 0,
-            pose: Pose::identity(),
+            pose: None,
             number: 0,
         };
         let second = Carried {
             body: b.body,
             link: Some(1),
-            pose: Pose::identity(),
+            pose: None,
             number: 1,
         };
         let pair = MovingPair::new(first, second, options.threshold, 0, rates, || f64::INFINITY);

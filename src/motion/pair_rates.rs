@@ -44,7 +44,7 @@ impl<'a> PairRates<'a> {
             }
         };
         // Poses are computed in the world, and rounded relative to where they are there.
-        rates.size += b.pose.translation.norm();
+        rates.size += b.pose.map_or(0.0, |pose| pose.translation.norm());
         Some(rates)
     }
 
@@ -69,8 +69,8 @@ impl<'a> PairRates<'a> {
 
 /// Goes on from a link's frame to the centre of a body that it carries.
 fn at_center(chain: &ChainRates, body: &Carried<usize>) -> MotionRates {
-    let mut rates = chain.at(&body.pose.transform_point(body.body.center()));
+    let mut rates = chain.at(&body.center());
     // The centre's place is the sum of two vectors, which are together at most this much longer than it.
-    rates.size += 2.0 * body.pose.translation.norm();
+    rates.size += body.pose.map_or(0.0, |pose| 2.0 * pose.translation.norm());
     rates
 }

@@ -1,6 +1,7 @@
 //! Whole boxes of C-space: whether all of their configurations are out of a C-object, or all inside. Nothing rests on samples but that
 //! a box is mixed.
 
+use super::crowd::CrowdMemory;
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::MovingSet;
 use super::linear_motion::LinearMotion;
@@ -145,7 +146,7 @@ impl QueryContext {
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }
-        let crowds = gathering.crowds(scene, &mut Vec::new());
+        let crowds = gathering.crowds(scene, &mut CrowdMemory::default());
         let Gathering { leaves, pairs, .. } = gathering;
         let set = &MovingSet {
             way: Some(way),

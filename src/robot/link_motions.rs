@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
 use super::{JointKind, Link, Robot};
-use crate::pose::{Mat3, Pose, Vec3, turned, turned_axes};
+use crate::pose::{Pose, Vec3, turned, turned_axes};
 
 /// One step of a chain.
 #[derive(Clone, Copy, Debug)]
@@ -109,10 +109,7 @@ pub struct LinkStates {
 impl MotionState {
     /// What rests at the origin of the world.
     pub const REST: Self = Self {
-        pose: Pose {
-            rotation: Mat3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
-            translation: Vec3::new(0.0, 0.0, 0.0),
-        },
+        pose: Pose::IDENTITY,
         linear: Vec3::new(0.0, 0.0, 0.0),
         angular: Vec3::new(0.0, 0.0, 0.0),
         linear_acceleration: Vec3::new(0.0, 0.0, 0.0),
@@ -145,8 +142,11 @@ impl MotionState {
     }
 
     fn push_fixed(&mut self, pose: &Pose) {
-        let arm = turned(&self.pose.rotation, &pose.translation);
-        self.carry(&arm);
+        // Many joints stand where the one before them stands.
+        if pose.translation != Vec3::zeros() {
+            let arm = turned(&self.pose.rotation, &pose.translation);
+            self.carry(&arm);
+        }
         self.pose.rotation = turned_axes(&self.pose.rotation, &pose.rotation);
     }
 

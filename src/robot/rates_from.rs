@@ -12,6 +12,9 @@ pub struct RatesFrom<'a> {
     motions: &'a LinkMotions,
     /// The link that sees the others, if it is not the world.
     from: Option<usize>,
+    /// The first of its carriers whose own carrier has not been looked at, if it is not the world.
+    behind: Option<usize>,
+    /// The world, once all carriers have been looked at.
     world: Seen,
     links: Vec<Option<Seen>>,
 }
@@ -29,6 +32,7 @@ impl<'a> RatesFrom<'a> {
         let mut rates = Self {
             motions,
             from: None,
+            behind: None,
             world: Seen::default(),
             links: vec![None; motions.len()],
         };
@@ -42,11 +46,19 @@ impl<'a> RatesFrom<'a> {
     pub fn look_from(&mut self, from: Option<usize>) {
         self.from = from;
         self.links.fill(None);
-        // What carries the link is seen through its joints from behind.
+        self.behind = from;
+        match from {
+            Some(link) => self.links[link] = Some(Seen::default()),
+            None => self.world = Seen::default(),
+        }
+    }
+
+    /// Looks at what carries the link that sees the others, up to a link, or for `None` to the world. Of these each is seen through
+    /// the joint of the one before it from behind. Links have larger numbers than what carries them.
+    fn look_behind(&mut self, to: Option<usize>) {
         let motions = self.motions;
-        let (mut seen, mut next) = (Seen::default(), from);
-        while let Some(link) = next {
-            self.links[link] = Some(seen);
+        while let Some(link) = self.behind.filter(|link| to.is_none_or(|to| to < *link)) {
+            let mut seen = self.links[link].unwrap_or_default();
             seen.is_unknown |= !motions.is_joint_known(link);
             for element in motions.elements_of(link).iter().rev() {
                 match element {
@@ -54,9 +66,12 @@ impl<'a> RatesFrom<'a> {
                     other => motions.push_element(&mut seen.chain, other),
                 }
             }
-            next = motions.parent(link);
+            self.behind = motions.parent(link);
+            match self.behind {
+                Some(carrier) => self.links[carrier] = Some(seen),
+                None => self.world = seen,
+            }
         }
-        self.world = seen;
     }
 
     /// The link that sees the others, if it is not the world.
@@ -87,6 +102,7 @@ impl<'a> RatesFrom<'a> {
         let mut path: SmallVec<[usize; 16]> = SmallVec::new();
         let mut next = Some(link);
         let mut seen = loop {
+            self.look_behind(next);
             let Some(index) = next else {
                 break self.world;
             };
