@@ -13,9 +13,13 @@ thread_local! {
 /// Runs an action. A panic becomes an [`ErrorKind::Internal`]: what the action may have left half changed is the caller's to mend.
 pub fn contained<T>(action: impl FnOnce() -> T) -> Result<T> {
     silence_contained_panics();
-    let outer = CONTAINED.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(action));
-    CONTAINED.set(outer);
+    // One look-up of the thread's flag: in a shared library each is a call.
+    let outcome = CONTAINED.with(|contained| {
+        let outer = contained.replace(true);
+        let outcome = catch_unwind(AssertUnwindSafe(action));
+        contained.set(outer);
+        outcome
+    });
     outcome.map_err(|payload| {
         let text = payload
             .downcast_ref::<&str>()

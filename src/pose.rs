@@ -47,9 +47,9 @@ impl Pose {
     /// the nearest rotation. Reflections are refused.
     #[inline(always)]
     pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
-        let given = Self::of_row_major(values);
+        let given = Self::as_given(values);
         // Fast path: almost all poses need no correction.
-        if with_widest(IsPose(values)) {
+        if are_poses([values]) {
             return Ok(given);
         }
         given.corrected(values)
@@ -68,8 +68,10 @@ impl Pose {
         })
     }
 
+    /// The same without a check.
     #[inline(always)]
-    fn of_row_major(v: &[f64; 12]) -> Self {
+    pub(crate) fn as_given(values: &[f64; 12]) -> Self {
+        let v = values;
         Self {
             rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
             translation: Vec3::new(v[3], v[7], v[11]),
@@ -209,16 +211,29 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     )
 }
 
-/// Whether 12 numbers are a pose, up to rounding: orthonormal columns, right-handed, and no coordinate too large. A branch-free
-/// test that may reject a few valid poses; these take the slow path.
-struct IsPose<'a>(&'a [f64; 12]);
+/// Whether each 12 numbers are a pose, up to rounding: orthonormal columns, right-handed, and no coordinate too large. A
+/// branch-free test that may reject a few valid poses; these take the slow path.
+#[inline(always)]
+pub(crate) fn are_poses<const N: usize>(rows: [&[f64; 12]; N]) -> bool {
+    with_widest(ArePoses(rows))
+}
 
-impl Work for IsPose<'_> {
+struct ArePoses<'a, const N: usize>([&'a [f64; 12]; N]);
+
+impl<const N: usize> Work for ArePoses<'_, N> {
     type Output = bool;
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> bool {
-        let (rows, _) = self.0.as_chunks::<4>();
+        let each = self.0.iter();
+        each.fold(true, |all, values| all & Self::is_pose(values))
+    }
+}
+
+impl<const N: usize> ArePoses<'_, N> {
+    #[inline(always)]
+    fn is_pose(values: &[f64; 12]) -> bool {
+        let (rows, _) = values.as_chunks::<4>();
         let rows = [rows[0], rows[1], rows[2]];
         let [x, y, z] = rows.map(F64x4);
         let [u, v, w] = rows.map(|[a, b, c, d]| F64x4([b, c, a, d]));
@@ -249,10 +264,10 @@ impl Work for ReadPoses<'_> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, lanes: I) -> Result<()> {
+    fn run<I: Instructions>(self, _: I) -> Result<()> {
         for (i, values) in self.given.iter().enumerate() {
-            let pose = Pose::of_row_major(values);
-            if IsPose(values).run(lanes) {
+            let pose = Pose::as_given(values);
+            if ArePoses::<1>::is_pose(values) {
                 self.poses.push(pose);
             } else {
                 let corrected = pose.corrected(values);
@@ -294,6 +309,7 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
 ///
 /// The difference of the centres in the world is summed in double-double arithmetic: bodies far from the world's origin, or
 /// modelled far from their own, would otherwise lose the significant digits.
+#[inline(always)]
 pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -> Pose {
     with_widest(Relative {
         poses: [a, b],

@@ -13,7 +13,7 @@ use crate::hierarchy::packed::PackedTree;
 use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::hierarchy::{BuildTimes, TreeStatistics, WrapperKind, require_level};
 use crate::pose::Vec3;
-use crate::primitive::Primitives;
+use crate::primitive::{Primitives, Sphere};
 use crate::user_data::UserData;
 
 /// A rigid union of convex primitives with its hierarchy. Its own frame has its origin at `center` in the caller's frame, the
@@ -31,6 +31,7 @@ pub struct Body {
     flat_deviation: f64,
     curved: Option<CurvedCells>,
     has_functions: bool,
+    only_sphere: Option<Sphere>,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
@@ -88,6 +89,7 @@ impl Body {
             flat_deviation: 0.0,
             curved: None,
             has_functions: primitives.have_functions(),
+            only_sphere: primitives.only().and_then(Sphere::of),
             packed,
             primitives,
             wrappers,
@@ -138,6 +140,7 @@ impl Body {
     }
 
     /// The number of the part that a primitive belongs to; `None` if it was added by itself.
+    #[inline(always)]
     pub fn part_of(&self, primitive: u32) -> Option<u32> {
         part_of(&self.parts, primitive)
     }
@@ -212,6 +215,7 @@ impl Body {
     }
 
     /// The caller's tag of a primitive.
+    #[inline(always)]
     pub fn tag(&self, primitive: u32) -> u64 {
         self.primitives.tag(primitive as usize)
     }
@@ -250,6 +254,12 @@ impl Body {
     pub fn only_place(&self) -> Option<u32> {
         let root = self.packed.root();
         root.is_leaf().then(|| self.packed.place(root))
+    }
+
+    /// The sphere that is its only primitive.
+    #[inline(always)]
+    pub fn only_sphere(&self) -> Option<&Sphere> {
+        self.only_sphere.as_ref()
     }
 
     /// Whether it is a single leaf that stands for nothing but itself, and no boundary of a solid.

@@ -16,7 +16,12 @@ pub struct BodyPart {
 }
 
 /// The index of the part that a primitive belongs to, among parts in order.
+#[inline(always)]
 pub(super) fn part_of(parts: &[BodyPart], primitive: u32) -> Option<u32> {
+    // Fast path: most bodies have none.
+    if parts.is_empty() {
+        return None;
+    }
     let after = parts.partition_point(|part| part.first <= primitive);
     let index = after.checked_sub(1)?;
     let part = &parts[index];

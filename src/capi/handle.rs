@@ -102,6 +102,7 @@ pub fn share<T: Noun>(handle: *const T::Handle, argument: &str) -> Result<Arc<T>
 }
 
 /// The object behind a handle, for the time of a call that runs no callbacks: only they could release the handle during it.
+#[inline(always)]
 pub fn borrowed<'a, T: Noun>(handle: *const T::Handle, argument: &str) -> Result<&'a T, Failure> {
     let slot = slot_of::<T>(handle, argument)?;
     // SAFETY: a slot of this kind holds a pointer from Arc::into_raw, and the caller holds a reference during the call.

@@ -101,14 +101,36 @@ pub unsafe fn pose(values: *const f64, argument: &str) -> Result<Pose, Failure> 
     Ok(Pose::from_row_major(values).map_err(|e| e.within(argument))?)
 }
 
+/// Replaces two given poses, of which one needs it, by the nearest ones. In place: a result of this size would be copied on its
+/// way out.
+#[cold]
+#[inline(never)]
+pub fn correct_poses(
+    poses: &mut [Pose; 2],
+    rows: [&[f64; 12]; 2],
+    arguments: [&str; 2],
+) -> Result<(), Failure> {
+    for side in 0..2 {
+        let corrected = Pose::from_row_major(rows[side]);
+        poses[side] = corrected.map_err(|e| e.within(arguments[side]))?;
+    }
+    Ok(())
+}
+
 /// Exactly N numbers.
+#[inline(always)]
 pub unsafe fn array<'a, const N: usize>(
     values: *const f64,
     argument: &str,
 ) -> Result<&'a [f64; N], Failure> {
-    // SAFETY: as the caller states.
-    let values = unsafe { slice(values, N, argument)? };
-    values.try_into().map_err(|_| null(argument))
+    if values.is_null() {
+        return Err(null(argument));
+    }
+    if !values.is_aligned() {
+        return Err(misaligned(argument));
+    }
+    // SAFETY: not null, aligned, and the caller states that it holds N numbers.
+    Ok(unsafe { &*values.cast::<[f64; N]>() })
 }
 
 /// The numbers of `count` items of `width` each.
@@ -173,6 +195,7 @@ unsafe fn c_string<'a>(string: *const c_char, argument: &str) -> Result<&'a CStr
 pub struct Output<T>(*mut T);
 
 impl<T> Output<T> {
+    #[inline(always)]
     pub fn checked(out: *mut T, argument: &str) -> Result<Self, Failure> {
         if out.is_null() {
             return Err(null(argument));

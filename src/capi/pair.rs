@@ -11,7 +11,7 @@
 
 use super::boundary::{Failure, guard};
 use super::handle;
-use super::input::{Output, pose};
+use super::input::{Output, array, correct_poses};
 use super::query::{State, cstk_query, with_borrowed_query, with_query};
 use crate::body::Body;
 use crate::capi::at_configuration::answers::{
@@ -19,7 +19,7 @@ use crate::capi::at_configuration::answers::{
 };
 use crate::capi::body::body::cstk_body;
 use crate::capi::status::status::cstk_status;
-use crate::pose::Pose;
+use crate::pose::{Pose, are_poses};
 use crate::query::Distance;
 
 type Placement<'a> = (&'a Body, &'a Pose);
@@ -39,9 +39,14 @@ unsafe fn run<T>(
         let b = handle::borrowed::<Body>(body_b, "body_b")?;
         let answer = |state: &mut State| {
             let out = Output::checked(out, "out")?;
-            // SAFETY: checked for NULL; the header states the lengths.
-            let (pose_a, pose_b) = unsafe { (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?) };
-            action(state, (a, &pose_a), (b, &pose_b), out)
+            let names = ["pose_a", "pose_b"];
+            // SAFETY: the header states the lengths.
+            let rows = unsafe { [array(pose_a, names[0])?, array(pose_b, names[1])?] };
+            let mut poses = [Pose::as_given(rows[0]), Pose::as_given(rows[1])];
+            if !are_poses(rows) {
+                correct_poses(&mut poses, rows, names)?;
+            }
+            action(state, (a, &poses[0]), (b, &poses[1]), out)
         };
         if a.has_functions() || b.has_functions() {
             // Callbacks may release the bodies during the call.
@@ -76,7 +81,7 @@ pub unsafe extern "C" fn cstk_pair_distance(
             pose_b,
             out,
             |state, a, b, out| {
-                let write = |distance: &Distance| out.write(distance.into());
+                let write = |distance: Distance| out.write((&distance).into());
                 Ok(state
                     .context
                     .take_pair_distance(a, b, max_distance, write)?)

@@ -53,6 +53,21 @@ impl Ranked for Hit {
 }
 
 impl Hit {
+    /// The only primitives of two bodies at a distance, which counts as 0 where they are not known to be apart.
+    #[inline(always)]
+    pub(super) fn of_singles(apart: f64, is_apart: bool) -> Self {
+        Self {
+            distance: if is_apart { apart } else { 0.0 },
+            apart,
+            key: HitKey {
+                pair: 0,
+                primitives: [0; 2],
+            },
+            places: [0; 2],
+            contained: None,
+        }
+    }
+
     /// The primitives of the body pair `pair` from which on, in order of ids, no pair can rank before this hit. `None` if there
     /// are none: this hit is at a distance above 0, or its body pair ranks behind `pair`.
     pub fn outranks_from(&self, pair: u32) -> Option<[u32; 2]> {

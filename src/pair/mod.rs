@@ -9,6 +9,7 @@ mod pair_visits;
 mod pairing;
 mod shortlist;
 mod singles;
+mod spheres;
 mod swept_bounds;
 mod swept_leaves;
 mod traversal;
@@ -20,7 +21,8 @@ pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, sharper_bounds
 pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use shortlist::{Ranked, Shortlist};
-pub use singles::Singles;
+pub use singles::{Singles, SinglesNearest};
+pub use spheres::Spheres;
 pub use swept_bounds::{SweptGaps, Twist32, sum_factor, swept_gaps};
 pub use swept_leaves::{SweptLeaves, SweptLimits};
 pub use traversal::{Scratch, traverse, visit_pair};

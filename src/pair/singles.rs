@@ -1,12 +1,29 @@
 //! Two bodies of one primitive each: measured without a traversal.
 
-use super::hit::{Hit, HitKey};
+use super::hit::Hit;
 use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
 use crate::convex::{
     DistanceScratch, PlacedPrimitive, PrimitiveDistance, closed_distance, first_contact, measure,
     meeting_or_beyond,
 };
 use crate::gjk::DistanceLimits;
+use crate::pose::Vec3;
+
+/// The nearest points of two singles, in the world.
+pub struct SinglesNearest {
+    pub hit: Hit,
+    /// A safe lower bound of the distance.
+    pub lower: f64,
+    pub points: [Vec3; 2],
+    pub contact: Option<WorldContact>,
+}
+
+/// Whether a distance in closed form, given its error, may be at most `threshold`; doubt counts as within.
+#[inline(always)]
+pub(super) fn is_within(distance: f64, error: f64, threshold: f64) -> bool {
+    let is_apart = distance > error;
+    !is_apart || distance - error <= threshold
+}
 
 /// The only primitives of two bodies, in the centred frame of A.
 pub struct Singles<'a> {
@@ -39,8 +56,7 @@ impl<'a> Singles<'a> {
         };
         let precision = &self.pairing.precision;
         if let Some(distance) = closed_distance(&self.a, &self.b, precision) {
-            let is_apart = distance > precision.error;
-            return !is_apart || distance - precision.error <= threshold;
+            return is_within(distance, precision.error, threshold);
         }
         if let Some(meet) = meeting_or_beyond(&self.a, &self.b, precision, limits) {
             return meet;
@@ -49,9 +65,24 @@ impl<'a> Singles<'a> {
             .is_some_and(|(hit, measured)| self.lower(&hit, &measured) <= threshold)
     }
 
+    /// Their nearest points and contact; `None` if they are proved to be farther apart than `max_distance`.
+    #[inline(always)]
+    pub fn nearest(&mut self, max_distance: f64) -> Option<SinglesNearest> {
+        let (hit, measured) = self.measure(DistanceLimits {
+            cutoff: max_distance + self.pairing.slack(),
+            ..DistanceLimits::EXACT
+        })?;
+        Some(SinglesNearest {
+            lower: self.lower(&hit, &measured),
+            points: self.pairing.world_points(&measured.closest),
+            contact: self.first_contact(&measured),
+            hit,
+        })
+    }
+
     /// Their distance and the full result; `None` if they are proved to be beyond the limits' cutoff.
     #[inline(always)]
-    pub fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
+    fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
         let precision = &self.pairing.precision;
         let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
         let apart = self.pairing.above_error(measured.closest.distance);
@@ -59,21 +90,11 @@ impl<'a> Singles<'a> {
             return None;
         }
         let is_apart = apart > precision.error + measured.closest.doubt;
-        let hit = Hit {
-            distance: if is_apart { apart } else { 0.0 },
-            apart,
-            key: HitKey {
-                pair: 0,
-                primitives: [0; 2],
-            },
-            places: [0; 2],
-            contained: None,
-        };
-        Some((hit, measured))
+        Some((Hit::of_singles(apart, is_apart), measured))
     }
 
     /// A safe lower bound of a measured distance.
-    pub fn lower(&self, hit: &Hit, measured: &PrimitiveDistance) -> f64 {
+    fn lower(&self, hit: &Hit, measured: &PrimitiveDistance) -> f64 {
         if hit.distance == 0.0 {
             return 0.0;
         }
@@ -82,7 +103,7 @@ impl<'a> Singles<'a> {
 
     /// The contact at the closest points, if the two are apart.
     #[inline(always)]
-    pub fn first_contact(&self, measured: &PrimitiveDistance) -> Option<WorldContact> {
+    fn first_contact(&self, measured: &PrimitiveDistance) -> Option<WorldContact> {
         let found = first_contact(&self.a, &self.b, measured, &self.pairing.precision)?;
         Some(self.pairing.in_world(found))
     }

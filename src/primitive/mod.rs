@@ -19,6 +19,7 @@ mod posed;
 mod primitives;
 mod ready_made;
 mod smooth;
+mod sphere;
 mod support_function;
 mod topology;
 
@@ -37,5 +38,6 @@ pub use posed::PosedPrimitives;
 pub use primitives::{Primitive, PrimitiveGroup, Primitives};
 pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
 pub use smooth::{HIGH_END, LOW_END, Smooth, SmoothKind};
+pub use sphere::Sphere;
 pub use support_function::{SupportFunction, WatchedSupport};
 pub use topology::SharedList;

@@ -189,13 +189,11 @@ impl Primitives {
     }
 
     /// The run of a primitive, and its index within the run. Panics where there is no such primitive, as slices do.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, index: usize) -> (&Run, usize) {
-        assert!(
-            index < self.len,
-            "primitive {index} of {} primitives",
-            self.len
-        );
+        if index >= self.len {
+            no_such(index, self.len);
+        }
         let run = match &self.runs[..] {
             [only] => only,
             runs => &runs[runs.partition_point(|run| run.first as usize <= index) - 1],
@@ -204,7 +202,7 @@ impl Primitives {
     }
 
     /// The primitive of this index. Panics where there is none; see [`Primitives::try_get`].
-    #[inline]
+    #[inline(always)]
     pub fn get(&self, index: usize) -> Primitive<'_> {
         let (run, offset) = self.locate(index);
         let place = run.place as usize + offset;
@@ -228,6 +226,7 @@ impl Primitives {
     }
 
     /// The tag of a primitive. Panics where there is no such primitive.
+    #[inline(always)]
     pub fn tag(&self, index: usize) -> u64 {
         let (run, offset) = self.locate(index);
         match run.point_shape {
@@ -358,6 +357,12 @@ impl Primitives {
     pub fn point_bytes(&self) -> usize {
         size_of_val(&self.points[..])
     }
+}
+
+#[cold]
+#[inline(never)]
+fn no_such(index: usize, len: usize) -> ! {
+    panic!("primitive {index} of {len} primitives")
 }
 
 /// The largest absolute coordinates of a box around a point, given its corners relative to the point.

@@ -8,8 +8,7 @@ use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
-use crate::gjk::DistanceLimits;
-use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles};
+use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles, SinglesNearest, Spheres};
 
 /// Refuses bodies of different dimension, and planar bodies that leave the plane.
 #[inline(always)]
@@ -65,6 +64,31 @@ pub(super) fn are_singles(a: &Body, b: &Body) -> bool {
     a.is_single() && b.is_single() && (are_planar || !has_outline(a) || !has_outline(b))
 }
 
+/// The answer for bodies of one primitive each.
+#[inline(always)]
+fn singles_answer(
+    nearest: SinglesNearest,
+    target: &Target,
+    error: f64,
+    max_distance: f64,
+) -> Distance {
+    let SinglesNearest {
+        hit,
+        lower,
+        points,
+        contact,
+    } = nearest;
+    if hit.distance > max_distance {
+        return Distance::beyond(max_distance, lower);
+    }
+    let found = NearestPair {
+        hit: &hit,
+        points,
+        contact: contact.map(|contact| ContactRecord::new(contact, 0.0)),
+    };
+    Distance::of_pair(&found, lower, target, error, Leaf::default())
+}
+
 impl QueryContext {
     /// The distance of two bodies, up to `max_distance`, and the nearest primitive pair.
     pub fn pair_distance(
@@ -85,18 +109,17 @@ impl QueryContext {
         a: Placement,
         b: Placement,
         max_distance: f64,
-        take: impl FnOnce(&Distance) -> T,
+        take: impl FnOnce(Distance) -> T,
     ) -> Result<T> {
         check_threshold(max_distance, "max_distance")?;
         self.scratch.meter_mut().start_call();
         let target = target(a, b)?;
         if are_singles(a.0, b.0) {
-            let distance = self.singles_distance(&target, max_distance)?;
-            return Ok(take(&distance));
+            return self.singles_distance(&target, max_distance, take);
         }
         let distance =
             self.refining(|context| context.searched_distance(&[target], max_distance))?;
-        Ok(take(&distance))
+        Ok(take(distance))
     }
 
     /// The same within a call, with a checked maximum.
@@ -108,7 +131,7 @@ impl QueryContext {
     ) -> Result<Distance> {
         let target = target(a, b)?;
         if are_singles(a.0, b.0) {
-            return self.singles_distance(&target, max_distance);
+            return self.singles_distance(&target, max_distance, |distance| distance);
         }
         self.searched_distance(&[target], max_distance)
     }
@@ -124,43 +147,32 @@ impl QueryContext {
         Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
 
-    /// The same of bodies of one primitive each, which need no search.
+    /// The same of bodies of one primitive each, which need no search; handed to `take`.
     #[inline(always)]
-    pub(super) fn singles_distance(
+    pub(super) fn singles_distance<T>(
         &mut self,
         target: &Target,
         max_distance: f64,
-    ) -> Result<Distance> {
+        take: impl FnOnce(Distance) -> T,
+    ) -> Result<T> {
         self.count_body_pair()?;
         let pairing = target.pairing();
         if pairing.sphere_bound() > max_distance {
-            return Ok(Distance::beyond(max_distance, f64::INFINITY));
+            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
         }
-        let mut singles = Singles::new(&pairing, self.scratch.for_one_pair()?);
-        let limits = DistanceLimits {
-            cutoff: max_distance + pairing.slack(),
-            ..DistanceLimits::EXACT
-        };
-        let Some((hit, measured)) = singles.measure(limits) else {
-            return Ok(Distance::beyond(max_distance, f64::INFINITY));
-        };
-        let lower = singles.lower(&hit, &measured);
-        if hit.distance > max_distance {
-            return Ok(Distance::beyond(max_distance, lower));
-        }
-        let contact = singles.first_contact(&measured);
-        let found = NearestPair {
-            hit: &hit,
-            points: pairing.world_points(&measured.closest),
-            contact: contact.map(|contact| ContactRecord::new(contact, 0.0)),
-        };
+        let scratch = self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
-        Ok(Distance::of_pair(
-            &found,
-            lower,
-            target,
-            error,
-            Leaf::default(),
+        // Not one branch's result or the other's: choosing would copy it.
+        if let Some(spheres) = Spheres::of(&pairing)
+            && let Some(nearest) = spheres.nearest()
+        {
+            return Ok(take(singles_answer(nearest, target, error, max_distance)));
+        }
+        Ok(take(
+            match Singles::new(&pairing, scratch).nearest(max_distance) {
+                Some(nearest) => singles_answer(nearest, target, error, max_distance),
+                None => Distance::beyond(max_distance, f64::INFINITY),
+            },
         ))
     }
 
@@ -195,7 +207,10 @@ impl QueryContext {
             return Ok(false);
         }
         let scratch = self.scratch.for_one_pair()?;
-        Ok(Singles::new(pairing, scratch).are_within(threshold))
+        Ok(match Spheres::of(pairing) {
+            Some(spheres) => spheres.are_within(threshold),
+            None => Singles::new(pairing, scratch).are_within(threshold),
+        })
     }
 
     /// All primitive pairs at most `epsilon` apart, nearest first, at most `max_count` of them.

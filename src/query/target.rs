@@ -53,12 +53,14 @@ impl<'a> Target<'a> {
     }
 
     /// The tags of two primitives, one of each body.
+    #[inline(always)]
     pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
         let [(a, _), (b, _)] = self.sides;
         [a.tag(on_a), b.tag(on_b)]
     }
 
     /// The parts of the bodies that two primitives belong to, one of each body.
+    #[inline(always)]
     pub fn parts(&self, [on_a, on_b]: [u32; 2]) -> [Option<u32>; 2] {
         let [(a, _), (b, _)] = self.sides;
         [a.part_of(on_a), b.part_of(on_b)]

@@ -16,4 +16,5 @@ mod shape_bodies;
 mod shapes;
 mod slivers;
 mod smooth_shapes;
+mod sphere_pairs;
 mod winding;
