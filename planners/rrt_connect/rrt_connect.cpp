@@ -9,24 +9,28 @@ namespace rrt_connect {
 namespace {
 
 /// The tree grows from its nearest node towards q, by one edge of at most `range`. Returns the node it came to.
-std::optional<std::size_t> extend(Tree &tree, std::size_t nearest, const Configuration &q, const cstk::Space &space,
+std::optional<std::size_t> extend(Tree &tree, const Nearest &nearest, const Configuration &q, const cstk::Space &space,
                                   EdgeProver &edges, double range) {
-    const double distance = space.distance(tree.at(nearest), q);
-    const Configuration end = distance > range ? space.interpolate(tree.at(nearest), q, range / distance) : q;
-    if (!edges.is_free(tree.at(nearest), end)) {
+    const Configuration &from = tree.at(nearest.node);
+    const Configuration end =
+        nearest.distance > range ? space.interpolate(from, q, range / nearest.distance) : q;
+    if (!edges.is_free(from, end)) {
         return {};
     }
-    return tree.add(end, nearest);
+    return tree.add(end, nearest.node);
 }
 
 /// The tree grows towards q until it is there or something is met. Returns the node at q.
 std::optional<std::size_t> connect(Tree &tree, const Configuration &q, const cstk::Space &space, EdgeProver &edges,
                                    double range) {
-    std::optional<std::size_t> last = tree.nearest(q);
-    do {
-        last = extend(tree, *last, q, space, edges, range);
-    } while (last && tree.at(*last) != q);
-    return last;
+    Nearest last = tree.nearest(q);
+    while (const auto grown = extend(tree, last, q, space, edges, range)) {
+        if (tree.at(*grown) == q) {
+            return grown;
+        }
+        last = {*grown, space.distance(tree.at(*grown), q)};
+    }
+    return {};
 }
 
 /// Both trees have a node at the same configuration.
@@ -56,14 +60,13 @@ Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObjec
         }
         // The goal is the first sample, so that a straight way is found at once.
         const Configuration sample = i == 0 ? goal : space.sample(random);
-        const std::size_t nearest = growing->nearest(sample);
-        const double distance = space.distance(growing->at(nearest), sample);
-        if (growing->is_blocked(nearest) && distance > options.domain * options.range) {
+        const Nearest nearest = growing->nearest(sample);
+        if (growing->is_blocked(nearest.node) && nearest.distance > options.domain * options.range) {
             continue;
         }
         const auto grown = extend(*growing, nearest, sample, space, edges, options.range);
         if (!grown) {
-            growing->block(nearest);
+            growing->block(nearest.node);
             continue;
         }
         const auto met = connect(*waiting, growing->at(*grown), space, edges, options.range);

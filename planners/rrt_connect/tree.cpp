@@ -63,10 +63,10 @@ void Tree::split(std::size_t leaf) {
     parts_.push_back(std::move(outside));
 }
 
-std::size_t Tree::nearest(const Configuration &q) const {
+Nearest Tree::nearest(const Configuration &q) const {
     Nearest best = {0, std::numeric_limits<double>::infinity()};
     search(0, q, best);
-    return best.node;
+    return best;
 }
 
 void Tree::search(std::size_t at, const Configuration &q, Nearest &best) const {

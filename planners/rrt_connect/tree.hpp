@@ -10,6 +10,12 @@ namespace rrt_connect {
 
 using Configuration = std::vector<double>;
 
+/// A node by its number, and how far it is.
+struct Nearest {
+    std::size_t node;
+    double distance;
+};
+
 /// Nodes are numbered as they come; 0 is the root. Beside the motions that join them there is a vantage point tree (Yianilos, 1993)
 /// with some nodes in each leaf, which asks no more of a space than its metric: Space::distances, which is one but for free joints
 /// (see cstk_space_distance).
@@ -20,8 +26,8 @@ class Tree {
     /// Adds a node that a motion joins to its parent; returns its number.
     std::size_t add(const Configuration &q, std::size_t parent);
 
-    /// The number of the node nearest to q.
-    std::size_t nearest(const Configuration &q) const;
+    /// The node nearest to q.
+    Nearest nearest(const Configuration &q) const;
 
     const Configuration &at(std::size_t node) const { return nodes_[node].q; }
 
@@ -56,11 +62,6 @@ class Tree {
         Configuration vantage = {};
         double radius = 0;
         std::size_t inside = none, outside = none;
-    };
-
-    struct Nearest {
-        std::size_t node;
-        double distance;
     };
 
     void split(std::size_t leaf);

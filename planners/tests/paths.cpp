@@ -86,7 +86,7 @@ void the_nearest_node_is_that_of_a_search_through_all(const cstk::Space &space, 
                 nearest = node;
             }
         }
-        expect(tree.nearest(q) == nearest, "the nearest node in the space of " + what);
+        expect(tree.nearest(q).node == nearest, "the nearest node in the space of " + what);
     }
 }
 
