@@ -14,7 +14,6 @@ use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
-use crate::environment::Bounds;
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
@@ -194,27 +193,14 @@ impl<'a> Gathering<'a> {
         term: &Induced,
         scene: &'a Scene,
     ) -> Result<()> {
-        let mut places = vec![usize::MAX; scene.poses().len()];
-        let mut known: Vec<(Bounds, f64)> = Vec::new();
-        for &link in pairs.as_flattened() {
-            if places[link] == usize::MAX
-                && let Some((body, pose)) = scene.link(link)
-            {
-                places[link] = known.len();
-                known.push((Bounds::of(body, pose), self.speed_of_link(scene, link)));
-            }
-        }
+        let bounds = scene.bounds();
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
-            let [Some((on_r, speed_r)), Some((on_s, speed_s))] =
-                [r, s].map(|link| known.get(places[link]))
-            else {
-                continue;
-            };
-            let [lower, _] = on_r.distance(on_s);
+            let [lower, _] = bounds[r].distance(&bounds[s]);
             let bound = lower - term.options.margin;
             // The distance of two bodies changes no faster than both move in the world.
-            if self.may_meet(bound, threshold, speed_r + speed_s) {
+            let speed = self.speed_of_link(scene, r) + self.speed_of_link(scene, s);
+            if self.may_meet(bound, threshold, speed) {
                 near.push(([s, r], bound));
             }
         }
@@ -308,7 +294,7 @@ impl Ord for OrderedBound {
 }
 
 impl Gathering<'_> {
-    /// The pairs of a body among objects that rest, which stand together. The crowds take what memory `spare` has.
+    /// The pairs of a body among objects that rest, which stand together.
     pub fn crowds(&self, scene: &Scene, memory: &mut CrowdMemory) -> Vec<Crowd> {
         let mut crowds = Vec::new();
         memory.at_rest.start();
