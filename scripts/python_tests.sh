@@ -29,7 +29,9 @@ for peer in python-fcl coal==3.0.3; do
 done
 
 "$venv/python" -m mypy --config-file python/pyproject.toml -p cstk
-"$venv/python" -m pytest -q -rs -p no:cacheprovider python/tests
+# A test that hangs is ended, and pytest then says where it hung.
+run_tests() { timeout --signal=ABRT 900 "$1" -m pytest -q -rs -p no:cacheprovider python/tests; }
+run_tests "$venv/python"
 for example in python/examples/*.py; do
   echo "== $example"
   MPLBACKEND=Agg "$venv/python" "$example" "$work/pictures"
@@ -39,4 +41,4 @@ echo "== the same wheel on $(pypy3 --version 2>&1 | grep PyPy)"
 rm -rf "$work/pypy"
 pypy3 -m venv "$work/pypy"
 "$work/pypy/bin/pip" install --quiet --only-binary :all: pytest "$work"/wheels/cstk-*.whl
-"$work/pypy/bin/python" -m pytest -q -rs -p no:cacheprovider python/tests
+run_tests "$work/pypy/bin/python"
