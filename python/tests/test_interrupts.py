@@ -1,12 +1,16 @@
 """What ends a program passes through calls: Ctrl-C in every function of the caller's, and before its first line."""
 
+import pathlib
 import signal
 import sys
+import traceback
 
 import numpy as np
 import pytest
 
 import cstk
+
+package = pathlib.Path(cstk.__file__).parent
 
 
 @pytest.fixture
@@ -16,13 +20,19 @@ def q(rng):
 
 @pytest.fixture
 def ask_until_interrupted(monkeypatch):
-    """Asks until KeyboardInterrupt, raised after so many seconds as Ctrl-C does, wherever Python is then, has come through.
+    """Asks once, and then until KeyboardInterrupt, raised after so many seconds as Ctrl-C does, wherever Python is then, has come
+    through.
 
     Python drops what is raised while it collects garbage (the functions of weak references, generators that end), and says so:
-    another interrupt follows then. One dropped without a word fails the test.
+    another interrupt follows then. One dropped without a word, or in a function of cstk, fails the test.
     """
     interrupted = False
+    # The files of the functions that were left, of each.
     dropped = []
+
+    def note(unraisable):
+        frames = traceback.extract_tb(unraisable.exc_traceback)
+        dropped.append((unraisable.exc_type, [frame.filename for frame in frames]))
 
     def interrupt(number, frame):
         nonlocal interrupted
@@ -40,10 +50,12 @@ def ask_until_interrupted(monkeypatch):
                     ask()
             except KeyboardInterrupt:
                 return
-            assert dropped == [KeyboardInterrupt], "a call returned as if there had been no interrupt"
-            dropped.clear()
+            assert len(dropped) == 1, "a call returned as if there had been no interrupt"
+            error, files = dropped.pop()
+            assert error is KeyboardInterrupt
+            assert not any(file.startswith(str(package)) for file in files)
 
-    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: dropped.append(unraisable.exc_type))
+    monkeypatch.setattr(sys, "unraisablehook", note)
     before = signal.signal(signal.SIGALRM, interrupt)
     yield ask_until
     signal.setitimer(signal.ITIMER_REAL, 0)
