@@ -1,5 +1,6 @@
 """What ends a program passes through calls: Ctrl-C in every function of the caller's, and before its first line."""
 
+import gc
 import pathlib
 import signal
 import sys
@@ -48,6 +49,8 @@ def ask_until_interrupted(monkeypatch):
                 signal.setitimer(signal.ITIMER_REAL, seconds)
                 while not interrupted:
                     ask()
+                # What came while an object was released is raised by the next call.
+                ask()
             except KeyboardInterrupt:
                 return
             assert len(dropped) == 1, "a call returned as if there had been no interrupt"
@@ -107,6 +110,23 @@ def test_progress_ends_a_batch_whose_predicate_raised(arm, q):
     with pytest.raises(KeyboardInterrupt):
         cstk.Batch(threads=1).classify(cobject, q, progress=lambda part: None)
     assert 0 < len(asked) < len(q) / 10
+
+
+def test_interrupts_while_an_object_is_released_are_raised_by_the_next_call(arm, query):
+    cobject = cstk.CObject.predicate(arm.space, lambda point: cstk.Class.OUTSIDE)
+
+    def interrupt(frame, event, argument):
+        if frame.f_code.co_name == "drop":
+            raise KeyboardInterrupt
+
+    gc.collect()
+    sys.settrace(interrupt)
+    cobject.release()
+    gc.collect()
+    sys.settrace(None)
+    with pytest.raises(KeyboardInterrupt):
+        query.classify(arm.cobject, [0, 0])
+    assert query.classify(arm.cobject, [0, 0]) == cstk.Class.OUTSIDE
 
 
 @pytest.mark.parametrize("delay", [0.02, 0.03, 0.04])

@@ -8,6 +8,7 @@ import itertools
 from typing import Any, Dict, Optional, Tuple
 
 from ._callback import callback
+from ._callback_errors import keep_to_raise
 from ._native import ffi
 
 _numbers = itertools.count(1)
@@ -16,9 +17,11 @@ _kept: Dict[int, Any] = {}
 _names: Dict[int, Tuple[int, str]] = {}
 
 
-@callback("void(void *)")
+@callback("void(void *)", keep_to_raise)
 def drop(user: Any, kept: Dict[int, Any] = _kept, address: Any = ffi.cast) -> None:
-    """The library's last reference is gone. This may be when the process ends, and the names of this module with it."""
+    """The library's last reference is gone. This may be when the process ends, and the names of this module with it. An interrupt
+    meanwhile is raised by the call that runs, or by the next one where Python collects garbage.
+    """
     kept.pop(int(address("uintptr_t", user)), None)
 
 
