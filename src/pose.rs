@@ -225,8 +225,12 @@ impl<const N: usize> Work for ArePoses<'_, N> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> bool {
-        let each = self.0.iter();
-        each.fold(true, |all, values| all & Self::is_pose(values))
+        // A loop, for `Iterator::fold` is not always inlined.
+        let mut all = true;
+        for values in self.0 {
+            all &= Self::is_pose(values);
+        }
+        all
     }
 }
 

@@ -13,7 +13,7 @@ use crate::hierarchy::packed::PackedTree;
 use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::hierarchy::{BuildTimes, TreeStatistics, WrapperKind, require_level};
 use crate::pose::Vec3;
-use crate::primitive::{Primitives, Sphere};
+use crate::primitive::{Primitives, Round};
 use crate::user_data::UserData;
 
 /// A rigid union of convex primitives with its hierarchy. Its own frame has its origin at `center` in the caller's frame, the
@@ -31,7 +31,7 @@ pub struct Body {
     flat_deviation: f64,
     curved: Option<CurvedCells>,
     has_functions: bool,
-    only_sphere: Option<Sphere>,
+    only_round: Option<Round>,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
@@ -89,7 +89,7 @@ impl Body {
             flat_deviation: 0.0,
             curved: None,
             has_functions: primitives.have_functions(),
-            only_sphere: primitives.only().and_then(Sphere::of),
+            only_round: primitives.only().and_then(Round::of),
             packed,
             primitives,
             wrappers,
@@ -256,10 +256,10 @@ impl Body {
         root.is_leaf().then(|| self.packed.place(root))
     }
 
-    /// The sphere that is its only primitive.
+    /// The sphere or capsule that is its only primitive.
     #[inline(always)]
-    pub fn only_sphere(&self) -> Option<&Sphere> {
-        self.only_sphere.as_ref()
+    pub fn only_round(&self) -> Option<&Round> {
+        self.only_round.as_ref()
     }
 
     /// Whether it is a single leaf that stands for nothing but itself, and no boundary of a solid.

@@ -289,6 +289,18 @@ impl Segment {
         }
     }
 
+    #[inline(always)]
+    pub fn ends(&self) -> [Vec3; 2] {
+        [self.start, self.end]
+    }
+
+    /// From the start to the end.
+    #[inline(always)]
+    pub fn along(&self) -> &Vec3 {
+        &self.along
+    }
+
+    #[inline(always)]
     pub fn at(&self, parameter: f64) -> Vec3 {
         if parameter >= 1.0 {
             self.end
@@ -311,7 +323,19 @@ impl Segment {
 /// The lines' parameters are computed from the cross product of the directions. Nearly parallel directions make the parameters
 /// inaccurate, but the distance then depends on them as much less: it is fully accurate at any angle. With the usual
 /// determinant it would lose half its digits.
+#[inline(always)]
 pub fn closest_parameters(p: &Segment, q: &Segment) -> (f64, f64) {
+    // A segment of length 0 is a point.
+    if p.square == 0.0 {
+        return (0.0, q.nearest_parameter(&p.start));
+    }
+    if q.square == 0.0 {
+        return (p.nearest_parameter(&q.start), 0.0);
+    }
+    closest_of_lines(p, q)
+}
+
+fn closest_of_lines(p: &Segment, q: &Segment) -> (f64, f64) {
     let cross = p.along.cross(&q.along);
     let square = cross.norm_squared();
     let between = q.start - p.start;

@@ -31,8 +31,8 @@ mod surface_part;
 mod swept_gap;
 
 pub use self::core::Core;
-pub use closest::Closest;
-pub use contact::{Contact, ContactMode};
+pub use closest::{Closest, Segment, closest_parameters};
+pub use contact::{Contact, ContactMode, mode_of};
 pub use contacts::{contacts, first_contact};
 pub use distance::{PrimitiveDistance, closed_distance, measure, meeting_or_beyond, parts};
 pub use outline::{MAX_CORNERS, Outline, moved};

@@ -24,6 +24,7 @@ pub struct NearestParts<'a> {
 
 impl<'a> NearestParts<'a> {
     /// Takes the surface parts between the named extreme points of the two cores; `None` where a core has no such part.
+    #[inline(always)]
     pub fn new(cores: [&'a Core<'a>; 2], names: [&[u32]; 2], accepted: f64) -> Option<Self> {
         let part = |side: usize| SurfacePart::between(cores[side], names[side]);
         Some(Self {
@@ -34,6 +35,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// The closest points, from a guess of the unit direction from B to A; `None` unless a direction certifies them.
+    #[inline(always)]
     pub fn solve(&self, guess: &Vec3) -> Option<Nearby> {
         for side in 0..2 {
             if let Some(found) = self.over_face(side, guess) {
@@ -60,6 +62,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// The other set's support point towards a face of one set, if it lies over that face.
+    #[inline(always)]
     fn over_face(&self, side: usize, guess: &Vec3) -> Option<Nearby> {
         let outwards = if side == 0 { -guess } else { *guess };
         let normal = self.parts[side].face_normal(&outwards)?;
@@ -74,6 +77,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// The closest points of two lines, for a direction that satisfies both constraints.
+    #[inline(always)]
     fn between_lines(&self, direction: &Vec3) -> Option<Nearby> {
         let [p, q] = self.supports(direction).map(|at| at.point);
         let (along_p, half_p) = self.parts[0].line(&-direction)?;
@@ -94,6 +98,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// Newton steps along the circle of directions that satisfy the constraint of the one line.
+    #[inline(always)]
     fn turn_around(&self, (axis, height): (Vec3, f64), guess: &Vec3) -> Option<Nearby> {
         let radius = (1.0 - height * height).sqrt();
         let on_circle = |n: &Vec3| {
@@ -119,6 +124,7 @@ impl<'a> NearestParts<'a> {
     }
 
     /// Newton steps over the sphere of directions.
+    #[inline(always)]
     fn turn_freely(&self, guess: &Vec3) -> Option<Nearby> {
         let mut direction = *guess;
         for _ in 0..MAX_STEPS {
@@ -146,12 +152,14 @@ impl<'a> NearestParts<'a> {
     }
 
     /// The support points of both parts towards each other, for a direction from B to A.
+    #[inline(always)]
     fn supports(&self, direction: &Vec3) -> [PartSupport; 2] {
         let [a, b] = &self.parts;
         [a.support(&-direction), b.support(direction)]
     }
 
     /// The same where one part is a line: its point nearest to the other part, and the places of both points along their lines.
+    #[inline(always)]
     fn points_on_line(
         &self,
         supports: &[PartSupport; 2],
@@ -171,17 +179,20 @@ impl<'a> NearestParts<'a> {
     }
 
     /// Minus the derivative of the vector between the points as the direction turns by `by`.
+    #[inline(always)]
     fn bend(&self, [at_a, at_b]: &[PartSupport; 2], by: &Vec3, places: [f64; 2]) -> Vec3 {
         let [a, b] = &self.parts;
         b.bend(at_b, by, places[1]) - a.bend(at_a, &-by, places[0])
     }
 
     /// Whether the remaining offset across the direction lengthens the distance by no more than the accepted gap.
+    #[inline(always)]
     fn is_within_accepted(&self, off: &Vec3, apart: f64) -> bool {
         off.norm_squared() <= self.accepted * apart.abs()
     }
 
     /// The points, if the direction certifies their distance to within the accepted gap.
+    #[inline(always)]
     fn accept(&self, direction: &Vec3, points: [Vec3; 2]) -> Option<Nearby> {
         let [a, b] = self.cores;
         let lower = direction.dot(&(a.support(&-direction) - b.support(direction)));
@@ -195,6 +206,7 @@ impl<'a> NearestParts<'a> {
 }
 
 /// The components of the vector from B's point to A's across a direction and along it.
+#[inline(always)]
 fn split(points: &[Vec3; 2], direction: &Vec3) -> (Vec3, f64) {
     let way = points[0] - points[1];
     let apart = direction.dot(&way);
@@ -202,6 +214,7 @@ fn split(points: &[Vec3; 2], direction: &Vec3) -> (Vec3, f64) {
 }
 
 /// A unit direction after a step of at most `MAX_TURN`; `None` if the step is not finite.
+#[inline(always)]
 fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
     let length = step.norm();
     if !length.is_finite() {
@@ -216,6 +229,7 @@ fn turned_by(direction: &Vec3, step: &Vec3) -> Option<Vec3> {
 }
 
 /// Two unit vectors perpendicular to a third and to each other.
+#[inline(always)]
 fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
     let other = if direction.x.abs() < 0.6 {
         Vec3::x()
@@ -228,6 +242,7 @@ fn perpendicular_to(direction: &Vec3) -> (Vec3, Vec3) {
 
 /// The unit direction that satisfies two constraints; of two solutions the one nearer to a guess. `None` where the constraints
 /// are parallel or have no solution.
+#[inline(always)]
 fn direction_on_both(one: (Vec3, f64), other: (Vec3, f64), guess: &Vec3) -> Option<Vec3> {
     let ((g, s), (h, t)) = (one, other);
     let across = g.cross(&h);

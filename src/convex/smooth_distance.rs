@@ -5,7 +5,8 @@ use super::core::Core;
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
-use crate::gjk::{DistanceLimits, RefinedBounds, refined};
+use crate::gjk::{DistanceLimits, Nearby, RefinedBounds, refined};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 use crate::tolerance;
@@ -97,9 +98,30 @@ fn refined_pair(
     let accepted = tolerance::CERTIFIED_GAP * pair.size;
     refined(a, b, start, pair.size, limits, |names, direction| {
         let [(on_a, len_a), (on_b, len_b)] = [names.of(0), names.of(1)];
-        let names = [&on_a[..len_a], &on_b[..len_b]];
-        NearestParts::new([a, b], names, accepted)?.solve(direction)
+        with_widest(Finish {
+            cores: [a, b],
+            names: [&on_a[..len_a], &on_b[..len_b]],
+            accepted,
+            direction,
+        })
     })
+}
+
+/// The end of a search, by Newton's method.
+struct Finish<'a> {
+    cores: [&'a Core<'a>; 2],
+    names: [&'a [u32]; 2],
+    accepted: f64,
+    direction: &'a Vec3,
+}
+
+impl Work for Finish<'_> {
+    type Output = Option<Nearby>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Option<Nearby> {
+        NearestParts::new(self.cores, self.names, self.accepted)?.solve(self.direction)
+    }
 }
 
 /// The feature of a polytope that holds its closest point.

@@ -53,6 +53,7 @@ pub struct PartSupport {
 
 impl SurfacePart {
     /// The part of a core between the extreme points of these names; `None` for a support function of the caller's.
+    #[inline(always)]
     pub fn between(core: &Core, names: &[u32]) -> Option<Self> {
         let Some((smooth, axes)) = core.smooth() else {
             return Some(match *names {
@@ -124,6 +125,7 @@ impl SurfacePart {
     }
 
     /// The support point along a direction.
+    #[inline(always)]
     pub fn support(&self, direction: &Vec3) -> PartSupport {
         let at = |point: Vec3| PartSupport {
             point,
@@ -178,6 +180,7 @@ impl SurfacePart {
     }
 
     /// The line of support points along a direction: its unit direction and half its length.
+    #[inline(always)]
     pub fn line(&self, direction: &Vec3) -> Option<(Vec3, f64)> {
         match *self {
             Self::Edge { along, half, .. } => Some((along, half)),
@@ -197,6 +200,7 @@ impl SurfacePart {
     }
 
     /// The directions along which such a line supports: all n with n . v = c, for the returned unit vector v and number c.
+    #[inline(always)]
     pub fn constraint(&self) -> Option<(Vec3, f64)> {
         match *self {
             Self::Edge { along, .. } => Some((along, 0.0)),
@@ -212,6 +216,7 @@ impl SurfacePart {
     }
 
     /// The derivative of a support point as the unit direction turns by `by`; for a line, of the point at `place` along it.
+    #[inline(always)]
     pub fn bend(&self, at: &PartSupport, by: &Vec3, place: f64) -> Vec3 {
         let around = |axis: &Vec3, radius: f64| {
             let tangent = axis.cross(&at.outwards);
@@ -241,6 +246,7 @@ impl SurfacePart {
 
     /// The normal towards `direction` of the face that the part is, or that it bounds. For a rim, only if the disc's normal is
     /// close to `direction`.
+    #[inline(always)]
     pub fn face_normal(&self, direction: &Vec3) -> Option<Vec3> {
         match self {
             Self::Facet([a, b, c]) => {
@@ -257,6 +263,7 @@ impl SurfacePart {
     }
 
     /// The foot of a point on that face, if it lies inside.
+    #[inline(always)]
     pub fn foot(&self, normal: &Vec3, point: &Vec3) -> Option<Vec3> {
         match self {
             Self::Facet([a, b, c]) => {
@@ -280,6 +287,7 @@ impl SurfacePart {
 const MIN_FACE_COSINE: f64 = 0.999;
 
 /// The component of a direction perpendicular to an axis: normalized, and its length.
+#[inline(always)]
 fn across(direction: &Vec3, axis: &Vec3) -> (Vec3, f64) {
     let away = direction - axis * axis.dot(direction);
     // Projected twice: near the axis, rounding along it would not be small compared with the remainder.

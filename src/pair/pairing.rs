@@ -421,7 +421,7 @@ impl<'a> Pairing<'a> {
     }
 
     #[inline(always)]
-    fn points_in_world(&self, [on_a, on_b]: &[Vec3; 2]) -> [Vec3; 2] {
+    pub(super) fn points_in_world(&self, [on_a, on_b]: &[Vec3; 2]) -> [Vec3; 2] {
         let frame = &self.frame;
         [frame.transform_point(on_a), frame.transform_point(on_b)]
     }

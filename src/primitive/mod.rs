@@ -18,8 +18,8 @@ mod polyhedron;
 mod posed;
 mod primitives;
 mod ready_made;
+mod round;
 mod smooth;
-mod sphere;
 mod support_function;
 mod topology;
 
@@ -37,7 +37,7 @@ pub use polyhedron::convex_polyhedron;
 pub use posed::PosedPrimitives;
 pub use primitives::{Primitive, PrimitiveGroup, Primitives};
 pub use ready_made::{block, capsule, cone, cylinder, ellipsoid, rounded, sphere, support_set};
+pub use round::Round;
 pub use smooth::{HIGH_END, LOW_END, Smooth, SmoothKind};
-pub use sphere::Sphere;
 pub use support_function::{SupportFunction, WatchedSupport};
 pub use topology::SharedList;

@@ -8,7 +8,7 @@ use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
-use crate::pair::{Collect, Pairing, PrimitiveScratch, Singles, SinglesNearest, Spheres};
+use crate::pair::{Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest};
 
 /// Refuses bodies of different dimension, and planar bodies that leave the plane.
 #[inline(always)]
@@ -163,8 +163,8 @@ impl QueryContext {
         let scratch = self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
         // Not one branch's result or the other's: choosing would copy it.
-        if let Some(spheres) = Spheres::of(&pairing)
-            && let Some(nearest) = spheres.nearest()
+        if let Some(rounds) = Rounds::of(&pairing)
+            && let Some(nearest) = rounds.nearest()
         {
             return Ok(take(singles_answer(nearest, target, error, max_distance)));
         }
@@ -207,8 +207,8 @@ impl QueryContext {
             return Ok(false);
         }
         let scratch = self.scratch.for_one_pair()?;
-        Ok(match Spheres::of(pairing) {
-            Some(spheres) => spheres.are_within(threshold),
+        Ok(match Rounds::of(pairing) {
+            Some(rounds) => rounds.are_within(threshold),
             None => Singles::new(pairing, scratch).are_within(threshold),
         })
     }

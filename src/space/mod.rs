@@ -10,7 +10,7 @@ mod world_box;
 
 pub use crate::robot::Coordinate;
 pub(crate) use rigid_step::screw_between;
-pub use sampling::Sampler;
+pub use sampling::{Sample, Sampler};
 pub use space::{Offset, Space};
 pub use tangent::shorter_way;
 pub use world_box::WorldBox;

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use smallvec::SmallVec;
+
 use super::Space;
 use crate::error::{Error, ErrorKind, Result};
 use crate::robot::Coordinate;
@@ -26,12 +28,16 @@ impl Sampler {
     }
 }
 
+/// A configuration, in memory of its own for most robots.
+pub type Sample = SmallVec<[f64; 16]>;
+
 impl Space {
     /// A configuration drawn uniformly from the coordinates' ranges: intervals by length, circles by angle, quaternions by
     /// the volume of SO(3) (Shoemake 1992). The world box is ignored. Refused where an interval is unbounded.
-    pub fn sample(&self, sampler: &mut Sampler) -> Result<Vec<f64>> {
-        let unbounded = |coordinate: &Coordinate| matches!(coordinate, Coordinate::Interval { lower, upper } if !(upper - lower).is_finite());
-        if let Some(i) = self.coordinates().iter().position(unbounded) {
+    pub fn sample(&self, sampler: &mut Sampler) -> Result<Sample> {
+        let mut q = Sample::from_elem(0.0, self.nq());
+        let mut advanced = *sampler;
+        if let Some(i) = self.make_sample(&mut advanced, &mut q) {
             return Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
@@ -39,27 +45,28 @@ impl Space {
                 ),
             ));
         }
-        let mut q = vec![0.0; self.nq()];
-        self.make_sample(sampler, &mut q);
+        *sampler = advanced;
         Ok(q)
     }
 
     /// The same, but unbounded coordinates are copied from `beside`.
-    pub fn sample_beside(&self, sampler: &mut Sampler, beside: &[f64]) -> Vec<f64> {
-        let mut q = beside.to_vec();
+    pub fn sample_beside(&self, sampler: &mut Sampler, beside: &[f64]) -> Sample {
+        let mut q = Sample::from_slice(beside);
         self.make_sample(sampler, &mut q);
         q
     }
 
-    /// Draws all coordinates of q but those that are unbounded.
-    fn make_sample(&self, sampler: &mut Sampler, q: &mut [f64]) {
-        for (coordinate, x) in self.coordinates().iter().zip(&mut *q) {
+    /// Draws all coordinates of q but those that are unbounded; returns the first of these.
+    fn make_sample(&self, sampler: &mut Sampler, q: &mut [f64]) -> Option<usize> {
+        let mut unbounded = None;
+        for (i, (coordinate, x)) in self.coordinates().iter().zip(&mut *q).enumerate() {
             match *coordinate {
                 Coordinate::Circle => *x = sampler.unit() * TAU,
                 Coordinate::Interval { lower, upper } if (upper - lower).is_finite() => {
                     *x = (lower + (upper - lower) * sampler.unit()).clamp(lower, upper);
                 }
-                Coordinate::Interval { .. } | Coordinate::Quaternion => {}
+                Coordinate::Interval { .. } => unbounded = unbounded.or(Some(i)),
+                Coordinate::Quaternion => {}
             }
         }
         for at in self.quaternions() {
@@ -69,5 +76,6 @@ impl Space {
             let (t, d) = (sampler.unit() * TAU).sin_cos();
             q[at..at + 4].copy_from_slice(&[large * s, large * c, small * t, small * d]);
         }
+        unbounded
     }
 }

@@ -226,9 +226,9 @@ impl Space {
         others: &[f64],
         count: usize,
         weights: Option<&[f64]>,
-    ) -> std::result::Result<Vec<f64>, (usize, Error)> {
+    ) -> std::result::Result<SmallVec<[f64; 64]>, (usize, Error)> {
         let nq = self.nq();
-        let mut distances = Vec::with_capacity(count);
+        let mut distances = SmallVec::with_capacity(count);
         for i in 0..count {
             let other = &others[i * nq..(i + 1) * nq];
             self.check_configuration(other)

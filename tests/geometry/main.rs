@@ -12,9 +12,10 @@ mod parallel_contacts;
 mod penetration;
 mod planar_contacts;
 mod published_cases;
+mod round_pairs;
 mod shape_bodies;
 mod shapes;
 mod slivers;
 mod smooth_shapes;
-mod sphere_pairs;
+
 mod winding;

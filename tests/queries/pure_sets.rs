@@ -219,7 +219,7 @@ fn gradients_are_the_derivatives_of_clearances() {
                 offset: random.within(-1.0, 1.0),
             },
             PureShape::Ball {
-                center,
+                center: center.to_vec(),
                 radius: random.within(0.1, 5.0),
             },
             PureShape::Predicate(Arc::new(Ellipse { has_gradient: true })),

@@ -80,7 +80,7 @@ fn draw(robot: &Arc<Robot>, sampler: &mut Sampler) -> Vec<f64> {
         &ranges,
         cstk::space::WorldBox::unbounded(),
     );
-    bounded.unwrap().sample(sampler).unwrap()
+    bounded.unwrap().sample(sampler).unwrap().to_vec()
 }
 
 const GROUPS: [&[usize]; 6] = [&[1, 2], &[0], &[3, 6], &[8], &[4, 5, 7], &[2, 1, 0, 2]];
