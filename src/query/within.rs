@@ -137,8 +137,8 @@ impl QueryContext {
     }
 
     /// Whether the primitive pair found last is within the threshold now (temporal coherence): along a motion it mostly is,
-    /// and then the query is decided. It is asked no more once it was not, until a pair is found again: at poses that have nothing to
-    /// do with each other it would be asked in vain.
+    /// and then the query is decided. It is asked no more once it was not, until the same pair is found twice in a row: at poses that have
+    /// nothing to do with each other it would be asked in vain.
     pub(super) fn recent_is_within(
         &mut self,
         scene: &Scene,
