@@ -139,14 +139,17 @@ impl Pose {
     }
 
     /// The product self * child: the pose of the child's child in this pose's parent frame.
+    #[inline(always)]
     pub fn compose(&self, child: &Pose) -> Pose {
+        let moved = turned64(&self.rotation, &child.translation) + lanes_of(&self.translation);
         Pose {
             rotation: turned_axes(&self.rotation, &child.rotation),
-            translation: self.transform_point(&child.translation),
+            translation: Vec3::new(moved.0[0], moved.0[1], moved.0[2]),
         }
     }
 
     /// The pose after a turn by `angle` radians about a unit axis of its own frame.
+    #[inline(always)]
     pub fn turned_about(&self, axis: &Vec3, angle: f64) -> Pose {
         let rotation = match [axis.x, axis.y, axis.z].map(f64::abs) {
             [0.0, 0.0, 1.0] => turned_about_axis::<2>(&self.rotation, angle * axis.z),
@@ -158,6 +161,7 @@ impl Pose {
     }
 
     /// The pose after a shift along a unit axis of its own frame.
+    #[inline(always)]
     pub fn shifted_along(&self, axis: &Vec3, length: f64) -> Pose {
         Pose {
             translation: self.translation + turned(&self.rotation, axis) * length,
@@ -332,13 +336,9 @@ impl Work for Relative<'_> {
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Pose {
         let [a, b] = self.poses;
-        let column = |pose: &Pose, j: usize| {
-            let r = &pose.rotation;
-            F64x4([r[(0, j)], r[(1, j)], r[(2, j)], 0.0])
-        };
-        let row = |v: &Vec3| F64x4([v.x, v.y, v.z, 0.0]);
-        let mut sum = TwoFold::new(row(&b.translation));
-        sum.add(-row(&a.translation));
+        let column = |pose: &Pose, j: usize| column64(&pose.rotation, j);
+        let mut sum = TwoFold::new(lanes_of(&b.translation));
+        sum.add(-lanes_of(&a.translation));
         // Fast path for centres at the bodies' origins, as of most single shapes.
         if *self.centers[1] != Vec3::zeros() {
             for j in 0..3 {
@@ -381,28 +381,47 @@ pub fn turned_back(matrix: &Mat3, v: &Vec3) -> Vec3 {
     Vec3::new(column(0), column(1), column(2))
 }
 
-/// matrix * axes, written out.
-#[inline]
+/// matrix * axes, a column at a time.
+#[inline(always)]
 pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
-    let column = |j: usize| {
-        let v = Vec3::new(axes[(0, j)], axes[(1, j)], axes[(2, j)]);
-        turned(matrix, &v)
-    };
-    Mat3::from_columns(&[column(0), column(1), column(2)])
+    of_columns(each3(|j| {
+        let axis = Vec3::new(axes[(0, j)], axes[(1, j)], axes[(2, j)]);
+        turned64(matrix, &axis)
+    }))
 }
 
 /// A rotation after a turn about one of its own axes, the case of most joints: only two columns change.
-#[inline]
+#[inline(always)]
 fn turned_about_axis<const AXIS: usize>(rotation: &Mat3, angle: f64) -> Mat3 {
     let (sine, cosine) = angle.sin_cos();
     let [i, j] = [(AXIS + 1) % 3, (AXIS + 2) % 3];
-    let mut turned = *rotation;
-    for row in 0..3 {
-        let [x, y] = [rotation[(row, i)], rotation[(row, j)]];
-        turned[(row, i)] = cosine * x + sine * y;
-        turned[(row, j)] = cosine * y - sine * x;
-    }
-    turned
+    let mut columns = each3(|k| column64(rotation, k));
+    let (x, y) = (columns[i], columns[j]);
+    columns[i] = x * cosine + y * sine;
+    columns[j] = y * cosine - x * sine;
+    of_columns(columns)
+}
+
+/// matrix * v, as [`turned`] has it, to the last bit; the fourth lane is 0.
+#[inline(always)]
+fn turned64(matrix: &Mat3, v: &Vec3) -> F64x4 {
+    along64(&each3(|k| column64(matrix, k)), &[v.x, v.y, v.z])
+}
+
+#[inline(always)]
+fn column64(matrix: &Mat3, k: usize) -> F64x4 {
+    F64x4([matrix[(0, k)], matrix[(1, k)], matrix[(2, k)], 0.0])
+}
+
+#[inline(always)]
+fn lanes_of(v: &Vec3) -> F64x4 {
+    F64x4([v.x, v.y, v.z, 0.0])
+}
+
+#[inline(always)]
+fn of_columns([x, y, z]: [F64x4; 3]) -> Mat3 {
+    let ([x, y, z], [a, b, c]) = ([x.0, y.0, z.0], [0, 1, 2]);
+    Mat3::new(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c])
 }
 
 /// Double-double sums, after Dekker (1971) and Knuth's TwoSum.

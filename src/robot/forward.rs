@@ -3,15 +3,36 @@
 
 use super::{JointKind, Robot};
 use crate::error::{Error, Result};
+use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Pose;
 
 impl Robot {
     /// Appends the pose of every link at configuration q, in the world. `q` has `nq()` entries. Fails only in a custom
     /// joint.
     pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) -> Result<()> {
+        with_widest(LinkPoses {
+            robot: self,
+            q,
+            poses,
+        })
+    }
+}
+
+struct LinkPoses<'a> {
+    robot: &'a Robot,
+    q: &'a [f64],
+    poses: &'a mut Vec<Pose>,
+}
+
+impl Work for LinkPoses<'_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Result<()> {
+        let Self { robot, q, poses } = self;
         let first = poses.len();
-        poses.reserve(self.links().len());
-        for (index, link) in self.links().iter().enumerate() {
+        poses.reserve(robot.links().len());
+        for (index, link) in robot.links().iter().enumerate() {
             let at = match link.parent {
                 None => link.at,
                 Some(parent) => poses[first + parent].compose(&link.at),
@@ -23,7 +44,7 @@ impl Robot {
                 JointKind::Prismatic => at.shifted_along(&joint.axis, joint.position(q)),
                 _ => {
                     let motion = joint.motion(q).and_then(|motion| {
-                        self.check_motion(&motion)?;
+                        robot.check_motion(&motion)?;
                         Ok(motion)
                     });
                     let at_link =
