@@ -79,21 +79,12 @@ class Bench {
         csv_ << "problem,planner,library,milliseconds,checks,invalid\n";
     }
 
-    /// Each problem with so many seeds, by all variants in turn. Of a tenth of the seeds, where a variant takes none.
+    /// Each problem with so many seeds, by one variant after the other, as a planner runs that has the processor's caches for itself.
     std::vector<Results> measure(const std::vector<Problem> &scene, std::size_t runs, const std::vector<Variant> &variants) {
         const std::string way = FclCell::fastest_way(*scene.front().workcell);
-        std::vector<Results> results(variants.size());
-        // Each problem has seeds of its own.
-        std::uint64_t seed = arguments_.seed;
-        for (const Problem &problem : scene) {
-            const FclCell judge(*problem.workcell, FclCell::exact_way());
-            for (std::size_t k = 0; k < runs; ++k, ++seed) {
-                for (std::size_t i = 0; i < variants.size(); ++i) {
-                    if (variants[i].has_seeds || k % 10 == 0) {
-                        results[i].add(judged(problem, variants[i], variants[i].solve({problem, seed, way}), judge));
-                    }
-                }
-            }
+        std::vector<Results> results;
+        for (const Variant &variant : variants) {
+            results.push_back(measured(scene, runs, variant, way));
         }
         print(scene.front().scene, variants, results);
         return results;
@@ -106,6 +97,29 @@ class Bench {
     }
 
   private:
+    /// Of a tenth of the seeds, where the variant takes none. Paths are judged when all are planned.
+    Results measured(const std::vector<Problem> &scene, std::size_t runs, const Variant &variant, const std::string &way) {
+        std::vector<std::vector<Run>> planned;
+        // Each problem has seeds of its own.
+        std::uint64_t seed = arguments_.seed;
+        for (const Problem &problem : scene) {
+            planned.emplace_back();
+            for (std::size_t k = 0; k < runs; ++k, ++seed) {
+                if (variant.has_seeds || k % 10 == 0) {
+                    planned.back().push_back(variant.solve({problem, seed, way}));
+                }
+            }
+        }
+        Results results;
+        for (std::size_t i = 0; i < scene.size(); ++i) {
+            const FclCell judge(*scene[i].workcell, FclCell::exact_way());
+            for (const Run &run : planned[i]) {
+                results.add(judged(scene[i], variant, run, judge));
+            }
+        }
+        return results;
+    }
+
     Result judged(const Problem &problem, const Variant &variant, const Run &run, const FclCell &judge) {
         const cstk::Space &space = problem.workcell->space;
         const auto is_free = [&](const problems::Configuration &q) { return !judge.meets(q); };
