@@ -6,7 +6,7 @@ use super::cuboids_within::cuboids_within;
 use super::placed::{PlacedPrimitive, Precision};
 use super::polytope_distance::{DistanceScratch, closed_form, closest_polytopes, cuboid};
 use super::smooth_distance::smooth_closest;
-use crate::gjk::{DistanceLimits, Support, meeting};
+use crate::gjk::{DistanceLimits, Proved, Support, meeting};
 use crate::pose::Vec3;
 use crate::primitive::{Smooth, SmoothKind};
 use crate::tolerance;
@@ -33,7 +33,35 @@ impl PrimitiveDistance {
     }
 }
 
-/// The closest points of two primitives in a common frame; `None` where they are proved to be farther apart than the cutoff.
+/// What proves two primitives, or their cores, to be farther apart than a cutoff.
+#[derive(Clone, Copy, Debug)]
+pub struct Beyond {
+    /// The unit direction from B to A along which they are apart; zero where it is not known.
+    pub direction: Vec3,
+    /// How far apart the cores are along it.
+    pub gap: f64,
+}
+
+impl Beyond {
+    /// Along a direction of any length; zero if it is not known. `lowest` is the lowest point of A - B along it.
+    pub fn along(direction: &Vec3, lowest: &Vec3) -> Self {
+        match direction.try_normalize(0.0) {
+            Some(direction) => Self {
+                direction,
+                gap: direction.dot(lowest),
+            },
+            None => Self::SOMEHOW,
+        }
+    }
+
+    /// Along a direction that is not known.
+    pub const SOMEHOW: Self = Self {
+        direction: Vec3::new(0.0, 0.0, 0.0),
+        gap: f64::INFINITY,
+    };
+}
+
+/// The closest points of two primitives in a common frame, unless they are proved to be farther apart than the cutoff.
 #[inline(always)]
 pub fn measure(
     a: &PlacedPrimitive,
@@ -41,7 +69,7 @@ pub fn measure(
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<PrimitiveDistance> {
+) -> Result<PrimitiveDistance, Beyond> {
     let radii = [a.shape.radius(), b.shape.radius()];
     let limits = limits.of_cores(radii[0] + radii[1]);
     let (cores, direction) = core_closest(a, b, pair, limits, scratch)?;
@@ -49,7 +77,7 @@ pub fn measure(
     if closest.distance <= pair.error {
         closest.distance = 0.0;
     }
-    Some(PrimitiveDistance {
+    Ok(PrimitiveDistance {
         closest,
         cores,
         direction,
@@ -57,7 +85,7 @@ pub fn measure(
 }
 
 /// The closest points of the cores, and for smooth cores the unit direction from B to A that certifies their distance; zero if
-/// there is none. `None` where the cores are proved to be farther apart than the cutoff.
+/// there is none.
 #[inline(always)]
 fn core_closest(
     a: &PlacedPrimitive,
@@ -65,12 +93,12 @@ fn core_closest(
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<(Closest, Vec3)> {
+) -> Result<(Closest, Vec3), Beyond> {
     if is_smooth(a, b) {
         smooth_closest(a, b, pair, limits)
     } else {
         let found = closest_polytopes(a, b, pair, limits, scratch)?;
-        Some((found, Vec3::zeros()))
+        Ok((found, Vec3::zeros()))
     }
 }
 
@@ -147,18 +175,25 @@ fn proved_cutoff(
     (!has_function).then(|| cutoff.max(tolerance::SMOOTH_ERROR * pair.size))
 }
 
-/// `Some(true)` if two primitives meet, `Some(false)` if they are farther apart than the cutoff; `None` where only the full
-/// distance decides.
+/// Whether two primitives meet or are farther apart than the cutoff; `None` where only the full distance decides.
 pub fn meeting_or_beyond(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
-) -> Option<bool> {
+) -> Option<Proved> {
     let radii = a.shape.radius() + b.shape.radius();
     if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
         let limits = limits.of_cores(radii);
-        return cuboids_within([a, b], [on_a, on_b], pair.size, limits);
+        return Some(
+            match cuboids_within([a, b], [on_a, on_b], pair.size, limits)? {
+                true => Proved::Meet,
+                false => Proved::Beyond {
+                    direction: Vec3::zeros(),
+                    lowest: Vec3::zeros(),
+                },
+            },
+        );
     }
     // Rounded primitives, or ones that only need to be near, may be within the limits without their cores meeting.
     if pair.planar || limits.enough > 0.0 || radii > 0.0 {

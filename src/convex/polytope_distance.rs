@@ -4,6 +4,7 @@
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
+use super::distance::Beyond;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};
@@ -18,8 +19,7 @@ pub struct DistanceScratch {
     b: FeatureSet,
 }
 
-/// The closest points of the hulls of two primitives' vertices; `None` where these are proved to be farther apart than the
-/// cutoff.
+/// The closest points of the hulls of two primitives' vertices, unless these are proved to be farther apart than the cutoff.
 #[inline(always)]
 pub fn closest_polytopes(
     a: &PlacedPrimitive,
@@ -27,7 +27,7 @@ pub fn closest_polytopes(
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<Closest> {
+) -> Result<Closest, Beyond> {
     let mut found = match closed_form(a, b, pair) {
         Some(found) => found,
         None => closest_by_features(a, b, pair, limits, scratch)?,
@@ -37,7 +37,7 @@ pub fn closest_polytopes(
         snapped(a, found.features[0], on_a, pair.error),
         snapped(b, found.features[1], on_b, pair.error),
     ];
-    Some(found)
+    Ok(found)
 }
 
 /// The same for primitives without a closed form.
@@ -48,15 +48,15 @@ fn closest_by_features(
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<Closest> {
+) -> Result<Closest, Beyond> {
     let needs_bounds = |placed: &PlacedPrimitive| placed.shape.is_solid() || is_large(placed);
     if pair.planar {
-        return Some(planar_closest(a, b, pair, scratch));
+        return Ok(planar_closest(a, b, pair, scratch));
     }
     if let (Some(on_a), Some(on_b)) = (cuboid(a), cuboid(b)) {
         return match cuboids_closest([a, b], [on_a, on_b], pair.size, limits) {
-            CuboidsClosest::Beyond => None,
-            CuboidsClosest::Found(found) => Some(found),
+            CuboidsClosest::Beyond => Err(Beyond::SOMEHOW),
+            CuboidsClosest::Found(found) => Ok(found),
             CuboidsClosest::Unknown(start) => bounded_closest(a, b, start, pair, limits, scratch),
         };
     }
@@ -66,9 +66,9 @@ fn closest_by_features(
         return bounded_closest(a, b, start, pair, limits, scratch);
     }
     if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
-        return None;
+        return Err(Beyond::SOMEHOW);
     }
-    Some(all_features(a, b, scratch))
+    Ok(all_features(a, b, scratch))
 }
 
 /// The closest points in closed form, in space: of a point or segment with a point, segment or box, and of a point with a small
@@ -185,17 +185,20 @@ fn bounded_closest(
     pair: &Precision,
     limits: DistanceLimits,
     scratch: &mut DistanceScratch,
-) -> Option<Closest> {
+) -> Result<Closest, Beyond> {
     let size = pair.size;
     let bounds = gjk(a, b, start, limits);
     if bounds.lower > limits.cutoff {
-        return None;
+        return Err(Beyond {
+            direction: bounds.direction,
+            gap: bounds.lower,
+        });
     }
     // A separating direction is trusted over a tetrahedron around the origin.
     let may_meet = bounds.lower <= tolerance::SUPPORT_ERROR * size;
     if may_meet && bounds.overlap > tolerance::TOUCH_DEPTH * size {
         let interior = [Feature::interior(); 2];
-        return Some(Closest {
+        return Ok(Closest {
             depth: bounds.overlap,
             ..Closest::meeting_at(bounds.common, interior)
         });
@@ -203,14 +206,14 @@ fn bounded_closest(
     if let Some(points) = bounds.near
         && bounds.overlap == 0.0
     {
-        return Some(Closest::between(points, [Feature::interior(); 2]));
+        return Ok(Closest::between(points, [Feature::interior(); 2]));
     }
     if let Some(nearest) = &bounds.nearest
         && bounds.lower > 0.0
         && nearest.difference.norm() - bounds.lower <= tolerance::CERTIFIED_GAP * size
         && let Some(found) = between_corners(a, b, nearest)
     {
-        return Some(found);
+        return Ok(found);
     }
     if bounds.lower > 0.0 {
         let slack = tolerance::NEAR_SUPPORT * size;
@@ -221,25 +224,25 @@ fn bounded_closest(
         if found.distance - bounds.lower <= accepted
             || found.distance - certificate(a, b, &found, bounds.direction) <= accepted
         {
-            return Some(found);
+            return Ok(found);
         }
     }
     // Features that touch or cross are tested first: they say more than a vertex of one set inside the other.
     let found = all_features(a, b, scratch);
     if found.distance <= pair.error {
-        return Some(found);
+        return Ok(found);
     }
     let contained = |outer: &PlacedPrimitive, inner: &PlacedPrimitive| {
         let (i, point) = contained_vertex(inner, outer)?;
         Some((Feature::vertex(i), point))
     };
     if let Some((vertex, point)) = contained(b, a) {
-        return Some(Closest::meeting_at(point, [vertex, Feature::interior()]));
+        return Ok(Closest::meeting_at(point, [vertex, Feature::interior()]));
     }
     if let Some((vertex, point)) = contained(a, b) {
-        return Some(Closest::meeting_at(point, [Feature::interior(), vertex]));
+        return Ok(Closest::meeting_at(point, [Feature::interior(), vertex]));
     }
-    Some(found)
+    Ok(found)
 }
 
 /// The nearest points between the corners that GJK ended with, if the corners of each side span a feature.

@@ -2,6 +2,7 @@
 
 use super::closest::{Closest, Segment, closest_parameters};
 use super::core::Core;
+use super::distance::Beyond;
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;
@@ -12,30 +13,33 @@ use crate::primitive::Feature;
 use crate::tolerance;
 
 /// The closest points of two such cores, and the unit direction from B to A that certifies their distance; zero if there is
-/// none. `None` where the cores are proved to be farther apart than the cutoff.
+/// none; unless the cores are proved to be farther apart than the cutoff.
 pub fn smooth_closest(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
     pair: &Precision,
     limits: DistanceLimits,
-) -> Option<(Closest, Vec3)> {
+) -> Result<(Closest, Vec3), Beyond> {
     let (core_a, core_b) = (Core::of(a), Core::of(b));
     if let Some(found) = from_point(a, &core_b, pair).or_else(|| {
         let found = from_point(b, &core_a, pair)?;
         Some(found.swapped())
     }) {
         let direction = (found.points[0] - found.points[1]) / found.distance;
-        return Some((found, direction));
+        return Ok((found, direction));
     }
     // A start that depends on the two primitives alone, so that the answer does too.
     let start = a.middle() - b.middle();
     let found = refined_pair(&core_a, &core_b, start, pair, limits);
     if found.lower > limits.cutoff {
-        return None;
+        return Err(Beyond {
+            direction: found.direction,
+            gap: found.lower,
+        });
     }
     if found.upper <= limits.enough {
         let interior = [Feature::interior(); 2];
-        return Some((Closest::between(found.points, interior), found.direction));
+        return Ok((Closest::between(found.points, interior), found.direction));
     }
     let slack = tolerance::ON_FEATURE * pair.size;
     let closest = Closest {
@@ -53,7 +57,7 @@ pub fn smooth_closest(
         doubt: doubt(&found, pair),
         depth: found.depth,
     };
-    Some((closest, found.direction))
+    Ok((closest, found.direction))
 }
 
 /// The closest points of a single point and a smooth core in closed form, if they are far enough apart to define a direction.

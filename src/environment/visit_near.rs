@@ -190,6 +190,7 @@ where
         let mut cutoff = descent.frame.cutoff(self.limit);
         let children = (1 << wide.count) - 1;
         let mut found = NearNodes {
+            lanes: 0,
             nearest: [f32::INFINITY; 8],
             bodies: [0; 8],
         };
@@ -206,6 +207,7 @@ where
                 near &= near - 1;
                 let child = wide.children[lane];
                 if child & BOX == 0 {
+                    found.lanes |= 1 << lane;
                     found.bodies[lane] |= bit;
                     found.nearest[lane] = found.nearest[lane].min(bounds[lane]);
                 } else if bounds[lane] <= cutoff {
@@ -223,11 +225,10 @@ where
     #[inline(always)]
     fn open_children(&mut self, wide: &WideNode, near: &NearNodes) {
         let first = self.open.len();
-        for lane in 0..wide.count as usize & 15 {
-            let lane = lane & 7;
-            if near.bodies[lane] == 0 {
-                continue;
-            }
+        let mut rest = near.lanes;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize & 7;
+            rest &= rest - 1;
             let bound = near.nearest[lane];
             let mut at = self.open.len();
             self.open.push(QueueEntry {
@@ -245,6 +246,8 @@ where
 
 /// The bodies near each child node of a node, one bit each, and the least of their bounds.
 struct NearNodes {
+    /// The children that a body is near, one bit each.
+    lanes: u32,
     nearest: [f32; 8],
     bodies: [u64; 8],
 }

@@ -9,21 +9,35 @@ use crate::tolerance;
 /// Sets that need more steps than this are mostly close to touching; the caller then computes their distance.
 const MAX_STEPS: usize = 16;
 
-/// `Some(true)` if A and B meet, `Some(false)` if they are farther apart than `cutoff`; `None` if neither is proved within a
-/// few steps. No coordinate of A and B exceeds `size`. `start` is a guess of the direction from B to A, or zero.
+/// What a few steps have proved of two sets.
+pub enum Proved {
+    /// They meet.
+    Meet,
+    /// They are farther apart than the cutoff.
+    Beyond {
+        /// A direction from B to A along which they are, of any length.
+        direction: Vec3,
+        /// The lowest point of A - B along it.
+        lowest: Vec3,
+    },
+}
+
+/// Whether A and B meet or are farther apart than `cutoff`; `None` if neither is proved within a few steps. No coordinate of A and B
+/// exceeds `size`. `start` is a guess of the direction from B to A, or zero.
 pub fn meeting<A: Support, B: Support>(
     a: &A,
     b: &B,
     start: Vec3,
     size: f64,
     cutoff: f64,
-) -> Option<bool> {
+) -> Option<Proved> {
     // Directions are products of three lengths, and support functions square them: in units of the size they stay in range.
     let unit = power_of_two(size);
     with_widest(MeetingSearch {
         a,
         b,
         start: start / unit,
+        unit,
         inverse_unit: 1.0 / unit,
         depth: tolerance::TOUCH_DEPTH * (size / unit),
         cutoff: cutoff / unit,
@@ -40,6 +54,7 @@ struct MeetingSearch<'a, A, B> {
     a: &'a A,
     b: &'a B,
     start: Vec3,
+    unit: f64,
     inverse_unit: f64,
     /// The depth, in units, from which the origin counts as inside a tetrahedron.
     depth: f64,
@@ -47,19 +62,22 @@ struct MeetingSearch<'a, A, B> {
 }
 
 impl<A: Support, B: Support> Work for MeetingSearch<'_, A, B> {
-    type Output = Option<bool>;
+    type Output = Option<Proved>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Option<bool> {
+    fn run<I: Instructions>(self, _: I) -> Option<Proved> {
         let in_units = |corner: Corner| corner.difference * self.inverse_unit;
         match walk(self.a, self.b, self.start, in_units).1 {
             End::Apart { newest, v } => {
                 // `v` separates the sets, but maybe by less than the cutoff.
                 let along = v.dot(&newest);
                 let is_apart = along * along > self.cutoff * self.cutoff * v.norm_squared();
-                is_apart.then_some(false)
+                is_apart.then(|| Proved::Beyond {
+                    direction: v,
+                    lowest: newest * self.unit,
+                })
             }
-            End::Inside(corners) => is_deep_inside(&corners, self.depth).then_some(true),
+            End::Inside(corners) => is_deep_inside(&corners, self.depth).then_some(Proved::Meet),
             End::Open => None,
         }
     }

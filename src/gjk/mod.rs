@@ -9,7 +9,7 @@ mod refined;
 mod simplex;
 
 use self::meeting::beginning;
-pub use self::meeting::meeting;
+pub use self::meeting::{Proved, meeting};
 pub use self::refined::{Nearby, RefinedBounds, refined};
 use self::simplex::{Corner, OriginPosition, Simplex};
 pub use self::simplex::{CornerNames, NearestCorners};

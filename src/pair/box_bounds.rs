@@ -120,6 +120,8 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
 pub struct BoundRefinement<'a> {
     /// A unit vector from the eight boxes to the one, tried as a separating direction.
     pub direction: Option<&'a [f32; 3]>,
+    /// Of what the one box holds, the point nearest to the eight along the direction, where it is known.
+    pub nearest: Option<&'a [f32; 3]>,
     /// Bounds above this are not sharpened further.
     pub cutoff: f32,
     /// The bit mask of the lanes that hold boxes.
@@ -139,7 +141,11 @@ pub fn sharper_bounds<I: Instructions>(
     let upright = lanes.splat(AXIS_FACTOR);
     let mut known = lanes.mul(lanes.max(largest[0], largest[1]), upright);
     if let Some(direction) = wanted.direction {
-        known = lanes.max(known, gaps_along(lanes, eight, one, direction));
+        let other = match wanted.nearest {
+            Some(point) => (point, 0.0),
+            None => (&one.center, extent_of(one, direction)),
+        };
+        known = lanes.max(known, gaps_along(lanes, eight, other, direction));
     }
     if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
         return known;
@@ -154,7 +160,7 @@ pub fn sharper_bounds<I: Instructions>(
 /// The terms of the gaps along the axes of the eight boxes, and along the axes of the one.
 #[inline(always)]
 fn sides<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> [Gaps<I>; 2] {
-    let apart = apart(lanes, eight, one);
+    let apart = apart(lanes, eight, &one.center);
     let half = splat(lanes, &one.half);
     // The products of the axes of the eight with those of the one.
     let [x, y, z] = &one.axes;
@@ -260,12 +266,13 @@ impl<I: Instructions> Gaps<I> {
     }
 }
 
-/// The gaps along a unit vector from the eight to the one: lower bounds of the same distances, negative where they may overlap.
+/// The gaps along a unit vector from the eight to the one, which is given by its centre and its extent along the vector: lower bounds
+/// of the same distances, negative where they may overlap.
 #[inline(always)]
 fn gaps_along<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
-    one: &PackedBox,
+    (center, extent): (&[f32; 3], f32),
     direction: &[f32; 3],
 ) -> Lanes8<I> {
     let [a, b, c] = &eight.axes;
@@ -274,15 +281,26 @@ fn gaps_along<I: Instructions>(
         lanes.along(b, direction),
         lanes.along(c, direction),
     ];
-    let across = lanes.splat(extent_of(one, direction));
-    let place = lanes.along(&apart(lanes, eight, one), direction);
+    let across = lanes.splat(extent);
+    let place = lanes.along(&apart(lanes, eight, center), direction);
     lanes.sub(place, extent_along(lanes, &along, &eight.half, across))
 }
 
-/// The vectors from the centres of the eight to that of the one.
+/// The gaps along a unit vector from the eight to what lies beyond a point.
 #[inline(always)]
-fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> Triple<I> {
-    let [x, y, z] = splat(lanes, &one.center);
+pub fn gaps_from_point<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    point: &[f32; 3],
+    direction: &[f32; 3],
+) -> Lanes8<I> {
+    gaps_along(lanes, eight, (point, 0.0), direction)
+}
+
+/// The vectors from the centres of the eight to a point.
+#[inline(always)]
+fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, point: &[f32; 3]) -> Triple<I> {
+    let [x, y, z] = splat(lanes, point);
     let [a, b, c] = eight.center;
     [lanes.sub(x, a), lanes.sub(y, b), lanes.sub(z, c)]
 }

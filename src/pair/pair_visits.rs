@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::pairing::{BeyondCutoff, MovedOutline, PairDistance, Pairing, PrimitiveScratch};
 use super::visitor::{PrimitivePair, Visitor};
-use crate::convex::{NearestFeatures, Outline};
+use crate::convex::Outline;
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work};
 use crate::pose::Vec3;
@@ -88,9 +88,13 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
             .distance_to(places, &outline, &direction, limits, primitives);
         let apart = match found {
             Ok(apart) => apart,
-            Err(BeyondCutoff { nearest }) => {
+            Err(BeyondCutoff { nearest, proof }) => {
                 if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
-                    self.state.last_direction = unit_across(&nearest, a, b);
+                    self.state.last_direction = unit(&nearest.across(a, b));
+                }
+                // Where all pairs are beyond the bound, the nearest of them is the best to aim along. Of polygons it gains nothing.
+                if aims && proof.gap < self.state.direction_at {
+                    (self.state.direction, self.state.direction_at) = (proof.direction, proof.gap);
                 }
                 return ControlFlow::Continue(());
             }
@@ -106,14 +110,14 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
                 let across = match (&outlines, apart.nearest, &apart.measured) {
-                    (Some((a, b)), Some(nearest), _) => unit_across(&nearest, a, b),
+                    (Some((a, b)), Some(nearest), _) => unit(&nearest.across(a, b)),
                     (_, _, Some(measured)) => {
                         let [on_a, on_b] = measured.closest.points;
                         on_a - on_b
                     }
                     _ => Vec3::zeros(),
                 };
-                across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+                unit(&across)
             } else {
                 Vec3::zeros()
             };
@@ -137,11 +141,11 @@ impl<V: Visitor> PairVisits<'_, V> {
             .pairing
             .measured_apart(places, &nowhere, limits, primitives)
         {
-            Some(apart) => {
+            Ok(apart) => {
                 let meter = &mut self.state.meter;
                 show(self.pairing, places, &apart, self.visitor, meter)
             }
-            None => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Continue(()),
         }
     }
 }
@@ -174,10 +178,9 @@ fn moved_outline<'b>(
     outline
 }
 
-/// The unit vector between the closest points of two polygons, from the second to the first; zero where they touch.
+/// The unit vector along another; zero for zero.
 #[inline(always)]
-fn unit_across(nearest: &NearestFeatures, a: &Outline, b: &Outline) -> Vec3 {
-    let across = nearest.across(a, b);
+fn unit(across: &Vec3) -> Vec3 {
     across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 

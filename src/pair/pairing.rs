@@ -4,17 +4,17 @@ use super::hit::Hit;
 use super::visitor::PrimitivePair;
 use crate::body::Body;
 use crate::convex::{
-    Closest, Contact, DistanceScratch, MAX_CORNERS, NearestFeatures, Outline, Penetration,
-    PlacedBuffer, PlacedPrimitive, PolygonDistance, Precision, PrimitiveDistance, contacts,
-    first_contact, measure, meeting_or_beyond, moved, parts, penetration, polygon_closest,
-    polygon_distance,
+    Beyond, Closest, Contact, Core, DistanceScratch, MAX_CORNERS, NearestFeatures, Outline,
+    Penetration, PlacedBuffer, PlacedPrimitive, PolygonDistance, Precision, PrimitiveDistance,
+    contacts, cuboid, first_contact, measure, meeting_or_beyond, moved, parts, penetration,
+    polygon_closest, polygon_distance,
 };
 use crate::error::Result;
-use crate::gjk::DistanceLimits;
+use crate::gjk::{DistanceLimits, Proved, Support};
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Vec3, relative_centered, turned, turned_back};
-use crate::primitive::Form;
+use crate::primitive::{Form, SmoothKind};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
@@ -56,6 +56,17 @@ pub struct PairDistance {
 pub struct BeyondCutoff {
     /// Their nearest features, if these were computed.
     pub nearest: Option<NearestFeatures>,
+    /// What proves it, of primitives without outlines.
+    pub proof: Beyond,
+}
+
+impl BeyondCutoff {
+    fn of_outlines(nearest: Option<NearestFeatures>) -> Self {
+        Self {
+            nearest,
+            proof: Beyond::SOMEHOW,
+        }
+    }
 }
 
 impl PairDistance {
@@ -134,6 +145,31 @@ impl<'a> Pairing<'a> {
         Some([self.a.only_place()?, self.b.only_place()?])
     }
 
+    /// Of the only primitive of a body, 0 for A and 1 for B, the point of its core that is the nearest along a direction, which leads to
+    /// it from the other body, whose frame both are in. `None` if there are several primitives, if the body's box fits its only one as well,
+    /// or leaves out another radius than that around the core, and for a support function of the caller's.
+    #[inline]
+    pub fn nearest_of_only(&self, body: usize, direction: &Vec3) -> Option<Vec3> {
+        let of = [self.a, self.b][body];
+        let (place, packed) = (of.only_place()?, of.packed());
+        let entry = packed.primitives().entry(place as usize);
+        let primitive = of.primitives().get(entry.primitive as usize);
+        let only = PlacedPrimitive::at_home(primitive, packed.primitives().form(entry));
+        let is_fitted = match only.shape.smooth() {
+            Some(smooth) => matches!(smooth.kind, SmoothKind::Function(_)),
+            None => only.vertex_count() <= 2 || cuboid(&only).is_some(),
+        };
+        if is_fitted || self.precision.planar || only.shape.radius() != packed.core_radius() {
+            return None;
+        }
+        let to_other = match body {
+            0 => self.relative.inverse(),
+            _ => self.relative,
+        };
+        let towards = -turned_back(&to_other.rotation, direction);
+        Some(to_other.transform_point(&Core::of(&only).support(&towards)))
+    }
+
     /// Whether both primitives are polygons with outlines.
     pub fn are_outlines(&self, places: [u32; 2]) -> bool {
         let sides = [(self.a, places[0]), (self.b, places[1])];
@@ -210,7 +246,7 @@ impl<'a> Pairing<'a> {
             _ => PolygonDistance::Doubt,
         };
         let apart = match found {
-            PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff { nearest }),
+            PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff::of_outlines(nearest)),
             PolygonDistance::Apart(distance, nearest) => PairDistance {
                 distance: self.above_error(distance),
                 nearest: Some(nearest),
@@ -219,15 +255,16 @@ impl<'a> Pairing<'a> {
             PolygonDistance::Cross => PairDistance::NONE,
             PolygonDistance::Doubt => {
                 let measured = self.measured_apart(places, direction, limits, scratch);
-                return measured.ok_or(BeyondCutoff { nearest: None });
+                return measured.map_err(|proof| BeyondCutoff {
+                    nearest: None,
+                    proof,
+                });
             }
         };
         if apart.distance <= limits.cutoff {
             Ok(apart)
         } else {
-            Err(BeyondCutoff {
-                nearest: apart.nearest,
-            })
+            Err(BeyondCutoff::of_outlines(apart.nearest))
         }
     }
 
@@ -239,24 +276,32 @@ impl<'a> Pairing<'a> {
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
-    ) -> Option<PairDistance> {
+    ) -> std::result::Result<PairDistance, Beyond> {
         let PrimitiveScratch { buffer, distance } = scratch;
         let [a, b] = &self.placed(places, buffer);
         let is_aimed = *direction != Vec3::zeros();
         if is_aimed && parts(a, b, direction, &self.precision, limits.cutoff) {
-            return None;
+            return Err(Beyond::SOMEHOW);
         }
         if limits.enough >= 0.0
-            && let Some(meet) = meeting_or_beyond(a, b, &self.precision, limits)
+            && let Some(proved) = meeting_or_beyond(a, b, &self.precision, limits)
         {
-            return meet.then_some(PairDistance::NONE);
+            return match proved {
+                Proved::Meet => Ok(PairDistance::NONE),
+                Proved::Beyond { direction, lowest } => Err(Beyond::along(&direction, &lowest)),
+            };
         }
         let measured = measure(a, b, &self.precision, limits, distance)?;
         let Closest {
             distance, doubt, ..
         } = measured.closest;
         let distance = self.above_error(distance);
-        (distance - doubt <= limits.cutoff).then_some(PairDistance {
+        if distance - doubt > limits.cutoff {
+            let [on_a, on_b] = measured.closest.points;
+            let across = on_a - on_b;
+            return Err(Beyond::along(&across, &across));
+        }
+        Ok(PairDistance {
             distance,
             nearest: None,
             measured: Some(measured),
@@ -294,7 +339,7 @@ impl<'a> Pairing<'a> {
         scratch: &mut PrimitiveScratch,
     ) -> Option<PrimitiveDistance> {
         let [a, b] = self.placed(places, &mut scratch.buffer);
-        measure(&a, &b, &self.precision, limits, &mut scratch.distance)
+        measure(&a, &b, &self.precision, limits, &mut scratch.distance).ok()
     }
 
     /// The closest points of a hit, in A's centred frame, and what its contacts are computed from.

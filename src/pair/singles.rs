@@ -6,7 +6,7 @@ use crate::convex::{
     DistanceScratch, PlacedPrimitive, PrimitiveDistance, closed_distance, first_contact, measure,
     meeting_or_beyond,
 };
-use crate::gjk::DistanceLimits;
+use crate::gjk::{DistanceLimits, Proved};
 use crate::pose::Vec3;
 
 /// The nearest points of two singles, in the world.
@@ -58,8 +58,8 @@ impl<'a> Singles<'a> {
         if let Some(distance) = closed_distance(&self.a, &self.b, precision) {
             return is_within(distance, precision.error, threshold);
         }
-        if let Some(meet) = meeting_or_beyond(&self.a, &self.b, precision, limits) {
-            return meet;
+        if let Some(proved) = meeting_or_beyond(&self.a, &self.b, precision, limits) {
+            return matches!(proved, Proved::Meet);
         }
         self.measure(limits)
             .is_some_and(|(hit, measured)| self.lower(&hit, &measured) <= threshold)
@@ -84,7 +84,7 @@ impl<'a> Singles<'a> {
     #[inline(always)]
     fn measure(&mut self, limits: DistanceLimits) -> Option<(Hit, PrimitiveDistance)> {
         let precision = &self.pairing.precision;
-        let measured = measure(&self.a, &self.b, precision, limits, self.scratch)?;
+        let measured = measure(&self.a, &self.b, precision, limits, self.scratch).ok()?;
         let apart = self.pairing.above_error(measured.closest.distance);
         if apart - measured.closest.doubt > limits.cutoff {
             return None;

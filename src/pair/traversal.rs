@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use super::box_bounds::{
-    BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, sharper_bounds,
+    BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, gaps_from_point, sharper_bounds,
 };
 use super::nearest_first::{Entry, PendingPairs};
 use super::pair_visits::{PairVisits, SinglePair, State};
@@ -153,8 +153,13 @@ struct Walk<'a, V> {
     /// The direction at the nearest pair so far, as unit vectors or zero: from A to B in A's frame, and from B to A in B's
     /// frame.
     directions: [[f32; 3]; 2],
+    /// Of a body with a single primitive, the point of its core that is nearest to the other body along its direction, in the other
+    /// body's frame. The other body's number is the place.
+    nearest: [Option<[f32; 3]>; 2],
     /// Bounds are lowered by this. It includes the radii around the cores, which the boxes leave out.
     slack: f64,
+    /// A body is a single round primitive, whose box leaves out the radius.
+    is_round: bool,
     stack: &'a mut PendingPairs,
 }
 
@@ -175,7 +180,9 @@ impl<'a, V: Visitor> Walk<'a, V> {
             size_offset: SIZE_STEPS * (exponent(b) - exponent(a)),
             inverse_scale,
             directions: [[0.0; 3]; 2],
+            nearest: [None; 2],
             slack: pairing.slack() + ROUNDING * size + a.core_radius() + b.core_radius(),
+            is_round: a.core_radius() + b.core_radius() > 0.0,
             visits,
             trees: [a, b],
             stack,
@@ -262,6 +269,11 @@ impl<'a, V: Visitor> Walk<'a, V> {
     fn turn_direction(&mut self) {
         let direction = each3(|k| self.visits.state.direction[k] as f32);
         self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
+        self.nearest = [0, 1].map(|body| {
+            let from = self.directions[body].map(f64::from).into();
+            let point = self.visits.pairing.nearest_of_only(1 - body, &from)?;
+            Some(each3(|k| (point[k] * self.inverse_scale) as f32))
+        });
     }
 
     /// Opens the larger node of a pair, or the only one that is not a leaf.
@@ -287,17 +299,27 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let children = tree.children(index);
+        let is_aimed = self.visits.state.direction != Vec3::zeros();
+        let direction = is_aimed.then_some(&self.directions[opened]);
+        let nearest = self.nearest[opened].as_ref();
         // With a cutoff near 0, sharper bounds prune no more.
-        let bounds = if V::REFINES && cutoff > SHARP_FROM {
-            let is_aimed = self.visits.state.direction != Vec3::zeros();
+        let is_sharp = (V::REFINES || self.is_round) && cutoff > SHARP_FROM;
+        let bounds = if is_sharp {
             let wanted = BoundRefinement {
-                direction: is_aimed.then_some(&self.directions[opened]),
+                direction,
+                nearest,
                 cutoff,
                 among: (1 << children.count) - 1,
             };
             sharper_bounds(lanes, &eight, &one, &wanted)
         } else {
-            bounds(lanes, &eight, &one)
+            let plain = bounds(lanes, &eight, &one);
+            match (direction, nearest) {
+                (Some(direction), Some(point)) => {
+                    lanes.max(plain, gaps_from_point(lanes, &eight, point, direction))
+                }
+                _ => plain,
+            }
         };
         self.visits.state.meter.count_nodes(children.count as u64);
         self.stack

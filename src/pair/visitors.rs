@@ -64,9 +64,11 @@ impl NearestPrimitives {
                 .as_ref()
                 .is_none_or(|best| hit.order(best).is_lt())
         {
+            // Once something meets, the pairs that come after it are looked at no more closely than that takes.
+            let is_exact = self.enough() < 0.0;
+            self.measured = measured.filter(|_| is_exact).copied();
             self.limit = hit.distance;
             self.best = Some(hit);
-            self.measured = measured.copied();
         }
     }
 }
@@ -76,6 +78,13 @@ impl Visitor for NearestPrimitives {
 
     fn bound(&self) -> f64 {
         self.limit + self.margin
+    }
+
+    fn enough(&self) -> f64 {
+        match self.limit == 0.0 && self.margin == 0.0 {
+            true => 0.0,
+            false => f64::NEG_INFINITY,
+        }
     }
 
     fn irrelevant_from(&self) -> Option<[u32; 2]> {

@@ -243,29 +243,40 @@ fn answers_scale_with_the_world() {
     }
 }
 
-/// The bounds of a node's boxes from another, coarse and refined.
-struct Bounded<'a>(&'a WideNode, &'a PackedBox);
+/// The bounds of a node's boxes from another box, coarse and refined, and the latter with a direction and the nearest along it of what
+/// the box holds.
+struct Bounded<'a> {
+    node: &'a WideNode,
+    one: &'a PackedBox,
+    direction: &'a [f32; 3],
+    nearest: &'a [f32; 3],
+}
 
 impl Work for Bounded<'_> {
-    type Output = [[f32; 8]; 2];
+    type Output = [[f32; 8]; 3];
 
     fn run<I: Instructions>(self, lanes: I) -> Self::Output {
-        let eight = self.0.boxes(lanes, 1.0);
-        let wanted = BoundRefinement {
+        let eight = self.node.boxes(lanes, 1.0);
+        let plain = BoundRefinement {
             direction: None,
+            nearest: None,
             cutoff: f32::INFINITY,
             among: 255,
         };
-        let coarse = lanes.array(bounds(lanes, &eight, self.1));
-        [
-            coarse,
-            lanes.array(sharper_bounds(lanes, &eight, self.1, &wanted)),
-        ]
+        let aimed = BoundRefinement {
+            direction: Some(self.direction),
+            nearest: Some(self.nearest),
+            ..plain
+        };
+        let refined = |wanted| lanes.array(sharper_bounds(lanes, &eight, self.one, wanted));
+        let coarse = lanes.array(bounds(lanes, &eight, self.one));
+        [coarse, refined(&plain), refined(&aimed)]
     }
 }
 
 #[test]
 fn no_bound_is_above_the_distance_of_the_boxes() {
+    let single = |v: &Vec3| [0, 1, 2].map(|k| v[k] as f32);
     let corners = |given: &PackedBox| -> Vec<Vec3> {
         let vector = |v: [f32; 3]| Vec3::from(v.map(f64::from));
         let (center, half) = (vector(given.center), vector(given.half));
@@ -276,6 +287,7 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
     };
     let mut random = Random::new(71);
     let (mut coarse_sum, mut refined_sum, mut exact_sum) = (0.0, 0.0, 0.0);
+    let (mut aimed_sum, mut within_sum) = (0.0, 0.0);
     for step in 0..150 {
         let half = [0.3, 0.1, 0.01][step % 3];
         let mut held = || {
@@ -289,15 +301,34 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
         };
         let all: Vec<ChildPoints> = (0..1 + step % 8).map(|_| held()).collect();
         let node = WideNode::new(&all);
-        let one = WideNode::new(&[held()]).get(0);
-        let found = [
-            with_widest(Bounded(&node, &one)),
-            Bounded(&node, &one).run(Plain),
-        ];
+        let held = held();
+        let one = WideNode::new(std::slice::from_ref(&held)).get(0);
+        // From the first box towards the other one.
+        let towards = Vec3::from(one.center.map(f64::from))
+            - corners(&node.get(0)).iter().sum::<Vec3>() / 8.0;
+        let direction = towards.normalize();
+        let along = |p: &&Vec3| p.dot(&direction);
+        let nearest = held
+            .points
+            .iter()
+            .min_by(|p, q| along(p).total_cmp(&along(q)));
+        let (direction, nearest) = (single(&direction), single(nearest.unwrap()));
+        let bounded = || Bounded {
+            node: &node,
+            one: &one,
+            direction: &direction,
+            nearest: &nearest,
+        };
+        let found = [with_widest(bounded()), bounded().run(Plain)];
         for lane in 0..all.len() {
             let exact = hull_distance(&corners(&node.get(lane)), &corners(&one)).lower();
-            for [coarse, refined] in found {
-                let [coarse, refined] = [coarse, refined].map(|b| f64::from(b[lane]));
+            let within = hull_distance(&corners(&node.get(lane)), &held.points).lower();
+            for [coarse, refined, aimed] in found {
+                let [coarse, refined, aimed] = [coarse, refined, aimed].map(|b| f64::from(b[lane]));
+                assert!(aimed <= within.max(0.0) + ROUNDING, "{aimed} {within}");
+                assert!(refined <= aimed);
+                aimed_sum += aimed.max(0.0);
+                within_sum += within.max(0.0);
                 assert!(refined <= exact.max(0.0) + ROUNDING, "{refined} {exact}");
                 assert!(coarse <= refined);
                 coarse_sum += coarse.max(0.0);
@@ -309,6 +340,9 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
     let shares = [coarse_sum, refined_sum].map(|sum| sum / exact_sum);
     // The largest gap alone is short of distances between corners.
     assert!(shares[0] > 0.88 && shares[1] > 0.98, "{shares:?}");
+    // What the box holds is farther away than the box.
+    assert!(within_sum > 1.05 * exact_sum, "{within_sum} {exact_sum}");
+    println!("aimed {aimed_sum}, within {within_sum}, boxes {exact_sum}");
 }
 
 /// Triangles so small, for where they stand in the body, that single precision of their boxes' centres outgrows what the

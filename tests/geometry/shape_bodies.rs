@@ -209,6 +209,73 @@ fn thresholds_of_single_shapes_agree_with_distances() {
     assert!(touching > 500, "{touching}");
 }
 
+/// Of a body of one primitive the walk asks for the primitive's own support along a direction, in either place of the pair. What it
+/// prunes by that is no nearer than what it finds: the nearest triangle of a surface, each a body of its own, for hulls by brute
+/// force too.
+#[test]
+fn single_shapes_are_as_near_to_a_surface_as_to_its_nearest_triangle() {
+    let mut random = Random::new(46);
+    let mut surface = BodyBuilder::new(3).unwrap();
+    let triangles: Vec<Vec<Vec3>> = (0..200)
+        .map(|_| {
+            let at = random.unit() * random.within(0.7, 1.0);
+            random.points(3, 0.15).iter().map(|p| at + p).collect()
+        })
+        .collect();
+    for triangle in &triangles {
+        surface.add_polygon(triangle, 0).unwrap();
+    }
+    let surface = body(&surface);
+    let part = |triangle: &Vec<Vec3>| {
+        let mut builder = BodyBuilder::new(3).unwrap();
+        builder.add_polygon(triangle, 0).unwrap();
+        body(&builder)
+    };
+    let parts: Vec<Arc<Body>> = triangles.iter().map(part).collect();
+    let here = Pose::identity();
+    let (mut touching, mut apart) = (0, 0);
+    for case in 0..9 * 60 {
+        let shape = single(&mut random, case % 9);
+        let pose = random.pose(1.2);
+        let mut query = QueryContext::new();
+        let mut asked = |other: &Arc<Body>| {
+            query
+                .pair_distance((other, &here), (&shape, &pose), f64::INFINITY)
+                .unwrap()
+        };
+        let found = asked(&surface);
+        let each = parts.iter().map(&mut asked);
+        let nearest = each.min_by(|a, b| a.distance.total_cmp(&b.distance));
+        let nearest = nearest.unwrap().distance;
+        let turned = query.pair_distance((&shape, &pose), (&surface, &here), f64::INFINITY);
+        for distance in [found.distance, turned.unwrap().distance] {
+            let error = (distance - nearest).abs();
+            assert!(error < 1e-9, "case {case}: {distance} {nearest}");
+        }
+        if case % 9 == 6 {
+            let moved = shape.primitives().get(0).vertices.iter();
+            let center = shape.center();
+            let moved: Vec<Vec3> = moved.map(|p| pose.transform_point(&(p + center))).collect();
+            let truth = triangles.iter().map(|t| hull_distance(t, &moved).upper);
+            let truth = truth.fold(f64::INFINITY, f64::min);
+            assert!((found.distance - truth).abs() < 1e-12, "{found:?} {truth}");
+        }
+        for factor in [0.0, 0.5, 0.9, 0.999, 1.001, 1.1] {
+            let threshold = factor * nearest;
+            let is_near = nearest == 0.0 || factor > 1.0;
+            for within in [
+                query.pair_within((&surface, &here), (&shape, &pose), threshold),
+                query.pair_within((&shape, &pose), (&surface, &here), threshold),
+            ] {
+                assert_eq!(within.unwrap(), is_near, "case {case} {factor} {found:?}");
+            }
+        }
+        touching += usize::from(nearest == 0.0);
+        apart += usize::from(nearest > 0.0);
+    }
+    assert!(touching > 100 && apart > 100, "{touching} {apart}");
+}
+
 /// The whole is as far away as the nearest of its parts, each a body of its own: pruning loses nothing.
 #[test]
 fn a_mixture_is_as_near_as_its_nearest_part() {
