@@ -1,5 +1,6 @@
 //! The distance of two primitives: that of their cores, by the form of these, less the radii.
 
+use super::beyond::Beyond;
 use super::closest::Closest;
 use super::core::{Core, is_smooth};
 use super::cuboids_within::cuboids_within;
@@ -31,34 +32,6 @@ impl PrimitiveDistance {
             direction: Vec3::zeros(),
         }
     }
-}
-
-/// What proves two primitives, or their cores, to be farther apart than a cutoff.
-#[derive(Clone, Copy, Debug)]
-pub struct Beyond {
-    /// The unit direction from B to A along which they are apart; zero where it is not known.
-    pub direction: Vec3,
-    /// How far apart the cores are along it.
-    pub gap: f64,
-}
-
-impl Beyond {
-    /// Along a direction of any length; zero if it is not known. `lowest` is the lowest point of A - B along it.
-    pub fn along(direction: &Vec3, lowest: &Vec3) -> Self {
-        match direction.try_normalize(0.0) {
-            Some(direction) => Self {
-                direction,
-                gap: direction.dot(lowest),
-            },
-            None => Self::SOMEHOW,
-        }
-    }
-
-    /// Along a direction that is not known.
-    pub const SOMEHOW: Self = Self {
-        direction: Vec3::new(0.0, 0.0, 0.0),
-        gap: f64::INFINITY,
-    };
 }
 
 /// The closest points of two primitives in a common frame, unless they are proved to be farther apart than the cutoff.

@@ -1,10 +1,10 @@
 //! The exact distance of the hulls of two primitives' vertices: GJK finds the candidate features, closed forms give their
 //! distance, and a supporting direction certifies it; where none does, all features are compared.
 
+use super::beyond::Beyond;
 use super::closest::{Closest, FeatureSet, closest_features, closest_segments};
 use super::cuboid_distance::segment_to_cuboid;
 use super::cuboids_closest::{CuboidsClosest, cuboids_closest};
-use super::distance::Beyond;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_polygon::point_to_polygon;
 use crate::gjk::{DistanceLimits, NearestCorners, gjk};

@@ -1,8 +1,8 @@
 //! The closest points of two cores of which at least one is smooth: known only by its support function.
 
+use super::beyond::Beyond;
 use super::closest::{Closest, Segment, closest_parameters};
 use super::core::Core;
-use super::distance::Beyond;
 use super::nearest_parts::NearestParts;
 use super::placed::{PlacedPrimitive, Precision};
 use super::point_to_smooth::point_to_smooth;

@@ -317,6 +317,7 @@ impl QueryContext {
 
 /// The eighths of a motion to be looked at first, but those between which the last link with a body, which the most joints carry,
 /// moves less far than its body reaches from the link's origin: what lies nearer together tells little that its neighbours do not.
+/// The end is looked at however short the motion is: of short motions that are not free it is mostly inside.
 fn times_sampled_first(way: &Way) -> impl Iterator<Item = f64> {
     let LinearMotion { cobject, q, v, .. } = way.line;
     let space = cobject.space();
@@ -331,7 +332,7 @@ fn times_sampled_first(way: &Way) -> impl Iterator<Item = f64> {
     let is_asked = move |&eighths: &u32| {
         // Halves, quarters or eighths.
         let parts = (8 >> eighths.trailing_zeros()).max(2);
-        length > radius * f64::from(parts) / 2.0
+        eighths == 8 || length > radius * f64::from(parts) / 2.0
     };
     let asked = SAMPLED_FIRST.into_iter().filter(is_asked);
     asked.map(|eighths| f64::from(eighths) / 8.0)

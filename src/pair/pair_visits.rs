@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::pairing::{BeyondCutoff, MovedOutline, PairDistance, Pairing, PrimitiveScratch};
 use super::visitor::{PrimitivePair, Visitor};
-use crate::convex::Outline;
+use crate::convex::{Beyond, Outline};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work};
 use crate::pose::Vec3;
@@ -88,13 +88,16 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
             .distance_to(places, &outline, &direction, limits, primitives);
         let apart = match found {
             Ok(apart) => apart,
-            Err(BeyondCutoff { nearest, proof }) => {
+            Err(BeyondCutoff::Outlines(nearest)) => {
                 if let (Some((a, b)), Some(nearest)) = (&outlines, nearest) {
                     self.state.last_direction = unit(&nearest.across(a, b));
                 }
-                // Where all pairs are beyond the bound, the nearest of them is the best to aim along. Of polygons it gains nothing.
-                if aims && proof.gap < self.state.direction_at {
-                    (self.state.direction, self.state.direction_at) = (proof.direction, proof.gap);
+                return ControlFlow::Continue(());
+            }
+            // Where all pairs are beyond the bound, the nearest of them is the best to aim along. Of polygons it gains nothing.
+            Err(BeyondCutoff::Others(Beyond { direction, gap })) => {
+                if aims && gap < self.state.direction_at {
+                    (self.state.direction, self.state.direction_at) = (direction, gap);
                 }
                 return ControlFlow::Continue(());
             }

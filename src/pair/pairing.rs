@@ -53,20 +53,11 @@ pub struct PairDistance {
 }
 
 /// The result for two primitives that are farther apart than the cutoff.
-pub struct BeyondCutoff {
-    /// Their nearest features, if these were computed.
-    pub nearest: Option<NearestFeatures>,
-    /// What proves it, of primitives without outlines.
-    pub proof: Beyond,
-}
-
-impl BeyondCutoff {
-    fn of_outlines(nearest: Option<NearestFeatures>) -> Self {
-        Self {
-            nearest,
-            proof: Beyond::SOMEHOW,
-        }
-    }
+pub enum BeyondCutoff {
+    /// Polygons with outlines; their nearest features, if these were computed.
+    Outlines(Option<NearestFeatures>),
+    /// Others; what proves it.
+    Others(Beyond),
 }
 
 impl PairDistance {
@@ -145,9 +136,9 @@ impl<'a> Pairing<'a> {
         Some([self.a.only_place()?, self.b.only_place()?])
     }
 
-    /// Of the only primitive of a body, 0 for A and 1 for B, the point of its core that is the nearest along a direction, which leads to
-    /// it from the other body, whose frame both are in. `None` if there are several primitives, if the body's box fits its only one as well,
-    /// or leaves out another radius than that around the core, and for a support function of the caller's.
+    /// Of a body with a single primitive, 0 for A and 1 for B, the point of the primitive's core that is nearest to the other body along
+    /// a direction, which leads from there to it. Both are in the other body's frame. `None` where the body's box fits as closely, where the
+    /// boxes do not leave out the radius around the core, and for support functions of the caller's.
     #[inline]
     pub fn nearest_of_only(&self, body: usize, direction: &Vec3) -> Option<Vec3> {
         let of = [self.a, self.b][body];
@@ -246,7 +237,7 @@ impl<'a> Pairing<'a> {
             _ => PolygonDistance::Doubt,
         };
         let apart = match found {
-            PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff::of_outlines(nearest)),
+            PolygonDistance::Beyond(nearest) => return Err(BeyondCutoff::Outlines(nearest)),
             PolygonDistance::Apart(distance, nearest) => PairDistance {
                 distance: self.above_error(distance),
                 nearest: Some(nearest),
@@ -255,16 +246,13 @@ impl<'a> Pairing<'a> {
             PolygonDistance::Cross => PairDistance::NONE,
             PolygonDistance::Doubt => {
                 let measured = self.measured_apart(places, direction, limits, scratch);
-                return measured.map_err(|proof| BeyondCutoff {
-                    nearest: None,
-                    proof,
-                });
+                return measured.map_err(BeyondCutoff::Others);
             }
         };
         if apart.distance <= limits.cutoff {
             Ok(apart)
         } else {
-            Err(BeyondCutoff::of_outlines(apart.nearest))
+            Err(BeyondCutoff::Outlines(apart.nearest))
         }
     }
 

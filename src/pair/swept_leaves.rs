@@ -1,7 +1,7 @@
 //! Two primitives over an interval of time, or a box of configurations: whether they stay apart, or meet at its middle.
 
 use super::Scratch;
-use super::pairing::{BeyondCutoff, EMPTY, PairDistance, Pairing, PrimitiveScratch};
+use super::pairing::{EMPTY, PairDistance, Pairing, PrimitiveScratch};
 use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};
@@ -122,7 +122,7 @@ impl Pairing<'_> {
         let found = self.distance_to(places, &outline, &Vec3::zeros(), exact, scratch);
         let apart = match found {
             Ok(apart) => apart,
-            Err(BeyondCutoff { .. }) => return SweptLeaves::Free,
+            Err(_) => return SweptLeaves::Free,
         };
         let error = self.precision.error + apart.doubt;
         let lower = apart.distance - error;
