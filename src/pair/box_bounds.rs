@@ -120,8 +120,6 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
 pub struct BoundRefinement<'a> {
     /// A unit vector from the eight boxes to the one, tried as a separating direction.
     pub direction: Option<&'a [f32; 3]>,
-    /// Of what the one box holds, the point nearest to the eight along the direction, where it is known.
-    pub nearest: Option<&'a [f32; 3]>,
     /// Bounds above this are not sharpened further.
     pub cutoff: f32,
     /// The bit mask of the lanes that hold boxes.
@@ -141,11 +139,7 @@ pub fn sharper_bounds<I: Instructions>(
     let upright = lanes.splat(AXIS_FACTOR);
     let mut known = lanes.mul(lanes.max(largest[0], largest[1]), upright);
     if let Some(direction) = wanted.direction {
-        let other = match wanted.nearest {
-            Some(point) => (point, 0.0),
-            None => (&one.center, extent_of(one, direction)),
-        };
-        known = lanes.max(known, gaps_along(lanes, eight, other, direction));
+        known = lanes.max(known, gaps_along(lanes, eight, one, direction));
     }
     if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
         return known;
@@ -266,13 +260,36 @@ impl<I: Instructions> Gaps<I> {
     }
 }
 
-/// The gaps along a unit vector from the eight to the one, which is given by its centre and its extent along the vector: lower bounds
-/// of the same distances, negative where they may overlap.
+/// The gaps along a unit vector from the eight to the one: lower bounds of the same distances, negative where they may overlap.
 #[inline(always)]
 fn gaps_along<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
-    (center, extent): (&[f32; 3], f32),
+    one: &PackedBox,
+    direction: &[f32; 3],
+) -> Lanes8<I> {
+    let extent = lanes.splat(extent_of(one, direction));
+    gaps_beyond(lanes, eight, &one.center, extent, direction)
+}
+
+/// The gaps along a unit vector from the eight to a point, and to all that lies beyond the point along it.
+#[inline(always)]
+pub fn gaps_to_point<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    point: &[f32; 3],
+    direction: &[f32; 3],
+) -> Lanes8<I> {
+    gaps_beyond(lanes, eight, point, lanes.splat(0.0), direction)
+}
+
+/// The gaps along a unit vector from the eight to what extends so far around a point.
+#[inline(always)]
+fn gaps_beyond<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    point: &[f32; 3],
+    extent: Lanes8<I>,
     direction: &[f32; 3],
 ) -> Lanes8<I> {
     let [a, b, c] = &eight.axes;
@@ -281,20 +298,8 @@ fn gaps_along<I: Instructions>(
         lanes.along(b, direction),
         lanes.along(c, direction),
     ];
-    let across = lanes.splat(extent);
-    let place = lanes.along(&apart(lanes, eight, center), direction);
-    lanes.sub(place, extent_along(lanes, &along, &eight.half, across))
-}
-
-/// The gaps along a unit vector from the eight to what lies beyond a point.
-#[inline(always)]
-pub fn gaps_from_point<I: Instructions>(
-    lanes: I,
-    eight: &EightBoxes<I>,
-    point: &[f32; 3],
-    direction: &[f32; 3],
-) -> Lanes8<I> {
-    gaps_along(lanes, eight, (point, 0.0), direction)
+    let place = lanes.along(&apart(lanes, eight, point), direction);
+    lanes.sub(place, extent_along(lanes, &along, &eight.half, extent))
 }
 
 /// The vectors from the centres of the eight to a point.

@@ -17,7 +17,7 @@ mod visitor;
 mod visitors;
 mod winding;
 
-pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, sharper_bounds};
+pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gaps_to_point, sharper_bounds};
 pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
 pub use rounds::Rounds;

@@ -139,7 +139,7 @@ impl<'a> Pairing<'a> {
     /// Of a body with a single primitive, 0 for A and 1 for B, the point of the primitive's core that is nearest to the other body along
     /// a direction, which leads from there to it. Both are in the other body's frame. `None` where the body's box fits as closely, where the
     /// boxes do not leave out the radius around the core, and for support functions of the caller's.
-    #[inline]
+    #[inline(never)]
     pub fn nearest_of_only(&self, body: usize, direction: &Vec3) -> Option<Vec3> {
         let of = [self.a, self.b][body];
         let (place, packed) = (of.only_place()?, of.packed());

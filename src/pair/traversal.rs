@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use super::box_bounds::{
-    BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, gaps_from_point, sharper_bounds,
+    BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, gaps_to_point, sharper_bounds,
 };
 use super::nearest_first::{Entry, PendingPairs};
 use super::pair_visits::{PairVisits, SinglePair, State};
@@ -158,7 +158,9 @@ struct Walk<'a, V> {
     nearest: [Option<[f32; 3]>; 2],
     /// Bounds are lowered by this. It includes the radii around the cores, which the boxes leave out.
     slack: f64,
-    /// A body is a single round primitive, whose box leaves out the radius.
+    /// A body has a single primitive.
+    has_single: bool,
+    /// That is round, and its box leaves out the radius.
     is_round: bool,
     stack: &'a mut PendingPairs,
 }
@@ -182,6 +184,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             directions: [[0.0; 3]; 2],
             nearest: [None; 2],
             slack: pairing.slack() + ROUNDING * size + a.core_radius() + b.core_radius(),
+            has_single: a.root().is_leaf() || b.root().is_leaf(),
             is_round: a.core_radius() + b.core_radius() > 0.0,
             visits,
             trees: [a, b],
@@ -269,11 +272,13 @@ impl<'a, V: Visitor> Walk<'a, V> {
     fn turn_direction(&mut self) {
         let direction = each3(|k| self.visits.state.direction[k] as f32);
         self.directions = [each3(|k| -direction[k]), self.motions[1].turn(&direction)];
-        self.nearest = [0, 1].map(|body| {
-            let from = self.directions[body].map(f64::from).into();
-            let point = self.visits.pairing.nearest_of_only(1 - body, &from)?;
-            Some(each3(|k| (point[k] * self.inverse_scale) as f32))
-        });
+        if self.has_single {
+            self.nearest = [0, 1].map(|body| {
+                let from = self.directions[body].map(f64::from).into();
+                let point = self.visits.pairing.nearest_of_only(1 - body, &from)?;
+                Some(each3(|k| (point[k] * self.inverse_scale) as f32))
+            });
+        }
     }
 
     /// Opens the larger node of a pair, or the only one that is not a leaf.
@@ -299,28 +304,29 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
         let children = tree.children(index);
+        let among = (1 << children.count) - 1;
         let is_aimed = self.visits.state.direction != Vec3::zeros();
-        let direction = is_aimed.then_some(&self.directions[opened]);
-        let nearest = self.nearest[opened].as_ref();
+        let direction = &self.directions[opened];
+        let mut beyond = lanes.splat(f32::NEG_INFINITY);
+        if is_aimed && let Some(point) = &self.nearest[opened] {
+            beyond = gaps_to_point(lanes, &eight, point, direction);
+            if lanes.at_most(beyond, cutoff) & among == 0 {
+                self.visits.state.meter.count_nodes(children.count as u64);
+                return;
+            }
+        }
         // With a cutoff near 0, sharper bounds prune no more.
-        let is_sharp = (V::REFINES || self.is_round) && cutoff > SHARP_FROM;
-        let bounds = if is_sharp {
+        let bounds = if (V::REFINES || self.is_round) && cutoff > SHARP_FROM {
             let wanted = BoundRefinement {
-                direction,
-                nearest,
+                direction: is_aimed.then_some(direction),
                 cutoff,
-                among: (1 << children.count) - 1,
+                among,
             };
             sharper_bounds(lanes, &eight, &one, &wanted)
         } else {
-            let plain = bounds(lanes, &eight, &one);
-            match (direction, nearest) {
-                (Some(direction), Some(point)) => {
-                    lanes.max(plain, gaps_from_point(lanes, &eight, point, direction))
-                }
-                _ => plain,
-            }
+            bounds(lanes, &eight, &one)
         };
+        let bounds = lanes.max(bounds, beyond);
         self.visits.state.meter.count_nodes(children.count as u64);
         self.stack
             .push_nearest_last(lanes, bounds, cutoff, opened, &children, other);

@@ -10,3 +10,5 @@ mod planning_scene;
 mod spaces;
 mod srdf;
 mod urdf;
+mod urdf_folder;
+mod urdf_meshes;
