@@ -203,7 +203,8 @@ impl BoxPiece<'_> {
         let [a, b] = pair.bodies();
         let [at_a, at_b] = &found.poses;
         let apart = at_a.transform_point(a.center()) - at_b.transform_point(b.center());
-        if pair.balls_stay_apart(&apart, center_moves, found.kinematics_error) {
+        let error = found.kinematics_error;
+        if pair.balls().stay_apart(&apart, center_moves, error) {
             return PairOver::Apart;
         }
         if let SecondOrder::Rates(rates) = &found.second_order

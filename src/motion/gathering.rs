@@ -3,14 +3,17 @@
 use std::cmp::Ordering;
 use std::ptr;
 
+use super::balls::{Balls, kinematics_error};
 use super::carried::Carried;
 use super::crowd::{Crowd, CrowdMemory};
 use super::interval_proof::MovingLeaf;
+use super::kinematics::Kinematics;
 use super::linear_motion::{LinearMotion, STEP_FRACTION};
 use super::moving_pair::MovingPair;
 use super::moving_pure::MovingPure;
 use super::pair_rates::PairRates;
 use super::set_tree::{LeafContent, SetLeaf, SetTree};
+use super::span::Span;
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
@@ -39,9 +42,10 @@ fn unstated_speeds(term: &Induced) -> Error {
 }
 
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
-pub(super) struct Gathering<'a> {
+pub(super) struct Gathering<'a, 'k> {
     way: &'a Way<'a>,
     rates: PairRates<'a>,
+    middle: Option<&'k mut Kinematics<'a>>,
     threshold: f64,
     keeps: Keeps,
     is_plain: bool,
@@ -51,23 +55,26 @@ pub(super) struct Gathering<'a> {
     pub pairs: Vec<MovingPair<'a>>,
     /// The proof does not see whether the start is free: pairs that rest, and bodies inside others.
     pub needs_start: bool,
-    /// Of links' bodies in the world, where they were asked for.
-    speeds: Vec<Option<f64>>,
+    /// How far links' bodies go from where they are at the middle, where that was asked for.
+    shifts: Vec<Option<f64>>,
     /// Of a motion that is known not to begin inside: what touches at its start.
     pub start: Option<&'a StartContacts>,
 }
 
-impl<'a> Gathering<'a> {
+impl<'a, 'k> Gathering<'a, 'k> {
+    /// On an interval of time; `middle` are the kinematics at its middle. Without them in a box of configurations.
     pub fn new(
         way: &'a Way<'a>,
         motions: &'a LinkMotions,
         threshold: f64,
         tree: &SetTree,
         keeps: Keeps,
+        middle: Option<&'k mut Kinematics<'a>>,
     ) -> Self {
         Self {
             way,
             rates: PairRates::new(motions),
+            middle,
             threshold,
             keeps,
             is_plain: tree.is_plain_union(),
@@ -75,7 +82,7 @@ impl<'a> Gathering<'a> {
             leaves: Vec::with_capacity(tree.leaves.len()),
             pairs: Vec::new(),
             needs_start: false,
-            speeds: Vec::new(),
+            shifts: Vec::new(),
             start: None,
         }
     }
@@ -152,11 +159,11 @@ impl<'a> Gathering<'a> {
             meter.check()?;
             return self.add_link_pairs(pairs, threshold, &term[0], scene);
         }
-        let fastest = self.fastest(&term[0], scene);
-        if fastest.is_infinite() {
+        let farthest = self.farthest(&term[0], scene);
+        if farthest.is_infinite() {
             return Err(unstated_speeds(&term[0]));
         }
-        if fastest == 0.0 && self.is_plain {
+        if farthest == 0.0 && self.is_plain {
             self.needs_start = true;
             return Ok(());
         }
@@ -164,15 +171,15 @@ impl<'a> Gathering<'a> {
         // No distance at another time is less than that at the middle by more than what the motion changes up to there.
         let wanted = CandidateFilter {
             any_order: true,
-            ..CandidateFilter::within(threshold + self.share() * fastest / STEP_FRACTION)
+            ..CandidateFilter::within(threshold + farthest / STEP_FRACTION)
         };
         let meter = context.scratch.meter_mut();
         let found = scene.candidates(checked, wanted, &mut context.candidates, meter)?;
         // Those of one body together, what is near first.
         let mut order: Vec<(usize, u64, OrderedBound, usize)> = Vec::with_capacity(found.len());
         for (place, target) in found.iter().enumerate() {
-            let speed = self.speed(scene, target);
-            if self.may_meet(target.bound, threshold, speed) {
+            let shift = self.shift(scene, target);
+            if may_meet(target.bound, threshold, shift) {
                 let (link, object, _) = target.parties();
                 order.push((link, object, OrderedBound(target.bound), place));
             }
@@ -196,11 +203,14 @@ impl<'a> Gathering<'a> {
         let bounds = scene.bounds();
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
+            if self.links_stay_apart([r, s], threshold + term.options.margin, scene) {
+                continue;
+            }
             let [lower, _] = bounds[r].distance(&bounds[s]);
             let bound = lower - term.options.margin;
-            // The distance of two bodies changes no faster than both move in the world.
-            let speed = self.speed_of_link(scene, r) + self.speed_of_link(scene, s);
-            if self.may_meet(bound, threshold, speed) {
+            // The distance of two bodies changes by no more than both move in the world.
+            let shift = self.shift_of_link(scene, r) + self.shift_of_link(scene, s);
+            if may_meet(bound, threshold, shift) {
                 near.push(([s, r], bound));
             }
         }
@@ -218,6 +228,32 @@ impl<'a> Gathering<'a> {
             self.add_pair(&target, threshold, term, scene)?;
         }
         Ok(())
+    }
+
+    /// Whether the balls around two links' bodies stay apart the whole time. How both move in the world says so of most pairs, before
+    /// any pair has rates of its own.
+    fn links_stay_apart(&mut self, links: [usize; 2], limit: f64, scene: &'a Scene) -> bool {
+        let Some(middle) = &mut self.middle else {
+            return false;
+        };
+        let [Some(a), Some(b)] = links.map(|link| Some(carried(scene, link, scene.link(link)?)))
+        else {
+            return false;
+        };
+        let [Some(of_a), Some(of_b)] = [&a, &b].map(|body| self.rates.of_body(body)) else {
+            return false;
+        };
+        let bodies = [a.body, b.body];
+        let stated_deviation = a.body.stated_deviation() + b.body.stated_deviation();
+        let balls = Balls {
+            bodies,
+            threshold: limit + stated_deviation,
+        };
+        let error = [(&a, &of_a), (&b, &of_b)]
+            .map(|(body, rates)| kinematics_error(rates, body.body.radius()));
+        let bounds = [1, 2].map(|k| of_a.origin[k] + of_b.origin[k]);
+        let center = middle.center_from_center(&a, &b);
+        balls.stay_apart_over(&center, bounds, Span::Around(0.5), error[0] + error[1])
     }
 
     fn add_pair(
@@ -260,7 +296,8 @@ impl<'a> Gathering<'a> {
         if let Some(start) = self.start {
             pair.followed_from = start.pair_followed_from(term, target);
         }
-        if pair.followed_from >= 1.0 || !self.may_meet(target.bound, threshold, pair.speed()) {
+        let shift = self.share() * pair.speed();
+        if pair.followed_from >= 1.0 || !may_meet(target.bound, threshold, shift) {
             return Ok(());
         }
         if self.is_plain {
@@ -293,7 +330,7 @@ impl Ord for OrderedBound {
     }
 }
 
-impl Gathering<'_> {
+impl<'a> Gathering<'a, '_> {
     /// The pairs of a body among objects that rest, which stand together.
     pub fn crowds(&self, scene: &Scene, memory: &mut CrowdMemory) -> Vec<Crowd> {
         let mut crowds = Vec::new();
@@ -309,11 +346,6 @@ impl Gathering<'_> {
         crowds
     }
 
-    /// Whether a pair whose distance less margin at the middle has this lower bound may come within the threshold at any other time.
-    fn may_meet(&self, bound: f64, threshold: f64, speed: f64) -> bool {
-        STEP_FRACTION * (bound - threshold) <= self.share() * speed
-    }
-
     /// The largest part of a motion that lies between the middle and any other time.
     fn share(&self) -> f64 {
         match self.way.kind {
@@ -322,46 +354,62 @@ impl Gathering<'_> {
         }
     }
 
-    /// Bounds the change of the distance of any pair of an induced set in the whole time.
-    fn fastest(&mut self, term: &Induced, scene: &Scene) -> f64 {
+    /// Bounds the change of the distance of any pair of an induced set, from the middle to any other time.
+    fn farthest(&mut self, term: &Induced, scene: &'a Scene) -> f64 {
         if let BodyPairs::Objects { links, objects, .. } = &term.pairs {
             let environment = objects.environment().serial();
             if scene.held_of(environment).next().is_none() {
-                let speeds = links.iter().map(|&link| self.speed_of_link(scene, link));
-                return speeds.fold(0.0, f64::max);
+                let shifts = links.iter().map(|&link| self.shift_of_link(scene, link));
+                return shifts.fold(0.0, f64::max);
             }
         }
-        self.way.line.fastest_pair(term).unwrap_or(0.0)
+        self.share() * self.way.line.fastest_pair(term).unwrap_or(0.0)
     }
 
-    /// Bounds the speed of a link's own body in the world; 0 where it has none.
-    fn speed_of_link(&mut self, scene: &Scene, link: usize) -> f64 {
-        self.speeds.resize(scene.poses().len(), None);
-        if let Some(speed) = self.speeds[link] {
-            return speed;
+    /// Bounds how far a link's own body goes in the world from where it is at the middle; 0 where it has none.
+    fn shift_of_link(&mut self, scene: &'a Scene, link: usize) -> f64 {
+        self.shifts.resize(scene.poses().len(), None);
+        if let Some(shift) = self.shifts[link] {
+            return shift;
         }
-        let speed = scene.link(link).map_or(0.0, |(body, pose)| {
-            let known = self
-                .rates
-                .speed_in_world(&carried(scene, link, (body, pose)));
-            known.unwrap_or_else(|| {
+        let shift = scene.link(link).map_or(0.0, |placement| {
+            let body = carried(scene, link, placement);
+            self.shift_of_body(&body).unwrap_or_else(|| {
                 let LinearMotion { q, v, cobject, .. } = self.way.line;
-                cobject.space().motion_bound(link, q, v)
+                self.share() * cobject.space().motion_bound(link, q, v)
             })
         });
-        self.speeds[link] = Some(speed);
-        speed
+        self.shifts[link] = Some(shift);
+        shift
     }
 
-    /// Bounds the change of a pair's distance in the whole time.
-    fn speed(&mut self, scene: &Scene, target: &Target) -> f64 {
+    /// The same; `None` where a custom joint moves the body.
+    fn shift_of_body(&mut self, body: &Carried<'a, usize>) -> Option<f64> {
+        let rates = self.rates.of_body(body)?;
+        let radius = body.body.radius();
+        let by_speed = self.share() * (rates.turn[0] * radius + rates.origin[0]);
+        let Some(middle) = &mut self.middle else {
+            return Some(by_speed);
+        };
+        let by_velocity = middle.shift(body, &rates, Span::Around(0.5));
+        Some(by_speed.min(by_velocity))
+    }
+
+    /// Bounds the change of a pair's distance from the middle to any other time.
+    fn shift(&mut self, scene: &'a Scene, target: &Target) -> f64 {
         let (r_link, s_link) = target.links();
         let (_, r_object, _) = target.parties();
         if s_link.is_some() || r_object != 0 {
-            return self.way.line.rate(scene, target);
+            return self.share() * self.way.line.rate(scene, target);
         }
-        self.speed_of_link(scene, r_link)
+        self.shift_of_link(scene, r_link)
     }
+}
+
+/// Whether a pair whose distance less margin at the middle has this lower bound may come within the threshold, if the distance changes
+/// by no more than `shift` from there.
+fn may_meet(bound: f64, threshold: f64, shift: f64) -> bool {
+    STEP_FRACTION * (bound - threshold) <= shift
 }
 
 /// A body of the scene that a link carries: its own, or an object that is attached to it.

@@ -1,10 +1,11 @@
 //! Where bodies are at one time of a motion, and how they move.
 
 use super::carried::Carried;
+use super::span::Span;
 use super::way::{Way, WayKind};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3, turned};
-use crate::robot::{LinkMotions, LinkStates, MotionState};
+use crate::robot::{LinkMotions, LinkStates, MotionRates, MotionState};
 
 /// Memory of [`Kinematics`].
 #[derive(Default)]
@@ -21,6 +22,8 @@ pub(super) struct Kinematics<'a> {
     bodies: Vec<(u32, BodyState)>,
     /// The number of the time.
     moment: u32,
+    /// The time that began last.
+    time: Option<f64>,
     /// `None` for bodies without a robot.
     way: Option<&'a Way<'a>>,
     /// Poses alone are needed too, since not all velocities are known.
@@ -58,11 +61,10 @@ pub(super) struct CenterMotion {
 }
 
 impl<'a> Kinematics<'a> {
-    /// `memory` is used again.
+    /// Of velocities that are known; `memory` is used again.
     pub fn new(
         motions: &'a LinkMotions,
         way: Option<&'a Way<'a>>,
-        needs_poses: bool,
         memory: KinematicsMemory,
     ) -> Self {
         let KinematicsMemory { states, mut bodies } = memory;
@@ -72,10 +74,17 @@ impl<'a> Kinematics<'a> {
             states,
             bodies,
             moment: 0,
+            time: None,
             way,
-            needs_poses,
+            needs_poses: false,
             poses: None,
         }
+    }
+
+    /// From now on poses are known too where velocities are not.
+    pub fn need_poses(&mut self) {
+        self.needs_poses = true;
+        self.time = None;
     }
 
     pub fn into_memory(self) -> KinematicsMemory {
@@ -85,21 +94,25 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Begins a new time.
+    /// Begins a time, unless it is the one that began last.
     pub fn start(&mut self, time: f64) -> Result<()> {
+        if self.time == Some(time) {
+            return Ok(());
+        }
+        self.time = None;
         self.states.start(self.motions, time);
         self.moment += 1;
-        let Some(way) = self.way else {
-            return Ok(());
-        };
-        if let WayKind::Stated(motion) = way.kind {
-            let given = self.states.given_mut();
-            given.clear();
-            given.extend(motion.at(time)?.coordinates());
+        if let Some(way) = self.way {
+            if let WayKind::Stated(motion) = way.kind {
+                let given = self.states.given_mut();
+                given.clear();
+                given.extend(motion.at(time)?.coordinates());
+            }
+            if self.needs_poses {
+                self.poses = Some(way.link_poses(time)?);
+            }
         }
-        if self.needs_poses {
-            self.poses = Some(way.link_poses(time)?);
-        }
+        self.time = Some(time);
         Ok(())
     }
 
@@ -124,7 +137,35 @@ impl<'a> Kinematics<'a> {
         a.center_seen_from(b)
     }
 
-    /// The same where only poses are known: nothing seems to move.
+    /// How A's centre moves as something sees it that goes with B's centre and does not turn.
+    pub fn center_from_center(&mut self, a: &Carried<usize>, b: &Carried<usize>) -> CenterMotion {
+        self.place(a.number, a.link, a);
+        self.place(b.number, b.link, b);
+        let [a, b] = [a, b].map(|body| &self.bodies[body.number].1);
+        CenterMotion {
+            apart: a.center - b.center,
+            velocity: a.velocity - b.velocity,
+            acceleration: a.acceleration - b.acceleration,
+        }
+    }
+
+    /// Bounds how far a body's points go in the world over an interval, of whose derivatives these bounds are known.
+    ///
+    /// A point moves on at the velocity that it has, and leaves this line by at most the square of time over 2 times the largest
+    /// acceleration on the way: see [`super::moving_pair::MovingPair::over_interval`].
+    pub fn shift(&mut self, body: &Carried<usize>, rates: &MotionRates, span: Span) -> f64 {
+        self.place(body.number, body.link, body);
+        let state = &self.bodies[body.number].1;
+        let (reach, radius) = (span.reach(), body.body.radius());
+        let turning = state.frame.angular.norm_squared() + state.frame.angular_acceleration.norm();
+        let jerk = rates.turn[2] * radius + rates.origin[2];
+        let acceleration = (state.acceleration.norm() + turning * radius + reach * jerk / 3.0)
+            .min(rates.turn[1] * radius + rates.origin[1]);
+        let velocity = state.velocity.norm() + state.frame.angular.norm() * radius;
+        reach * (velocity + 0.5 * reach * acceleration) * (1.0 + 1e-9)
+    }
+
+    /// How A moves as B sees it where only poses are known: nothing seems to.
     pub fn still(&self, a: &Carried<usize>, b: &Carried<Option<usize>>) -> Relative {
         let pose = |link: Option<usize>, pose: &Pose| {
             let carrier = link.and_then(|link| Some(self.poses.as_ref()?[link]));

@@ -1,5 +1,6 @@
 //! Motions: proofs that motions and paths are free, their clearance, and the sliding step (Appendix A).
 
+mod balls;
 mod box_piece;
 mod carried;
 mod clearance;

@@ -242,7 +242,11 @@ impl QueryContext {
         let LinearMotion { world, cobject, .. } = way.line;
         self.with_scene(cobject, world, at, |context, scene| {
             let mut memory: Box<ProofMemory> = context.proof_memory.take();
-            let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out);
+            let states = std::mem::take(&mut memory.kinematics);
+            let mut kinematics = Kinematics::new(motions, Some(way), states);
+            kinematics.start(0.5)?;
+            let middle = Some(&mut kinematics);
+            let mut gathering = Gathering::new(way, motions, threshold, tree, Keeps::Out, middle);
             gathering.pairs = emptied(std::mem::take(&mut memory.pairs));
             gathering.start = start;
             for leaf in &tree.leaves {
@@ -260,9 +264,9 @@ impl QueryContext {
                 pairs,
                 crowds,
             };
-            let needs_poses = set.pairs.iter().any(MovingPair::needs_poses);
-            let states = std::mem::take(&mut memory.kinematics);
-            let mut kinematics = Kinematics::new(motions, Some(way), needs_poses, states);
+            if set.pairs.iter().any(MovingPair::needs_poses) {
+                kinematics.need_poses();
+            }
             let search = &mut memory.search;
             let proof = prove(&set, &mut kinematics, limits, context, confirm, search);
             memory.kinematics = kinematics.into_memory();

@@ -1,5 +1,6 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
+use super::balls::{Balls, kinematics_error};
 use super::carried::Carried;
 use super::kinematics::{CenterMotion, Kinematics, Relative};
 use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
@@ -12,11 +13,6 @@ use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned_back};
 use crate::robot::MotionRates;
-use crate::tolerance::EPSILON;
-
-/// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
-/// them: some operations a joint, of some tens of joints.
-const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
 
 /// A body pair on a motion, from t = 0 to 1.
 pub(super) struct MovingPair<'a> {
@@ -140,18 +136,9 @@ impl<'a> MovingPair<'a> {
             // Most pairs are done with here: of them no more is computed than how the centres move.
             Bounds::Derivatives(rates) => {
                 let center = kinematics.center(&self.a, &self.b);
-                let center_moves = |apart: &Vec3, distance: f64| {
-                    let [_, p2, p3] = rates.origin;
-                    let acceleration = p2.min(center.acceleration.norm() + reach * p3 / 3.0);
-                    let parts = center.velocity.dot(apart) / distance.max(f64::MIN_POSITIVE);
-                    let bend = 0.5 * reach * reach * acceleration;
-                    match span {
-                        Span::Around(_) => reach * parts.abs() + bend,
-                        Span::Before(_) => (reach * parts + bend).max(0.0),
-                    }
-                };
+                let [_, p2, p3] = rates.origin;
                 let error = self.kinematics_error(&rates);
-                if self.balls_stay_apart(&center.apart, center_moves, error) {
+                if self.balls().stay_apart_over(&center, [p2, p3], span, error) {
                     return PairOver::Apart;
                 }
                 if reach * rates.turn[0] > MAX_TURN {
@@ -161,7 +148,8 @@ impl<'a> MovingPair<'a> {
             Bounds::Speed(speed) => {
                 let (relative, rates) = self.relative(kinematics);
                 let error = self.kinematics_error(&rates);
-                if self.balls_stay_apart(&relative.center.apart, |_, _| reach * speed, error) {
+                let apart = &relative.center.apart;
+                if self.balls().stay_apart(apart, |_, _| reach * speed, error) {
                     return PairOver::Apart;
                 }
             }
@@ -267,7 +255,7 @@ impl<'a> MovingPair<'a> {
     }
 
     pub fn kinematics_error(&self, rates: &MotionRates) -> f64 {
-        KINEMATICS_ERROR * (rates.size + self.a.body.radius()) * (1.0 + rates.angle)
+        kinematics_error(rates, self.a.body.radius())
     }
 
     /// As [`Sweep::bends`], with more than the rounding of their sums.
@@ -296,21 +284,11 @@ impl<'a> MovingPair<'a> {
         }
     }
 
-    /// Whether the balls around the bodies stay apart through a piece, along the line between their centres: a ball does not turn.
-    /// `apart` leads from B's centre to A's; `center_moves` bounds how far A's centre moves along it, given with its length.
-    #[inline(always)]
-    pub fn balls_stay_apart(
-        &self,
-        apart: &Vec3,
-        center_moves: impl Fn(&Vec3, f64) -> f64,
-        kinematics_error: f64,
-    ) -> bool {
-        let [a, b] = self.bodies();
-        let distance = apart.norm();
-        let moved = center_moves(apart, distance);
-        let reach = a.radius() + b.radius();
-        let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
-        distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
+    pub fn balls(&self) -> Balls<'a> {
+        Balls {
+            bodies: self.bodies(),
+            threshold: self.threshold,
+        }
     }
 
     /// Bounds of the accelerations through an interval: of B's points as A sees them, and of A's as B sees them.

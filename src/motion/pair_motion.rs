@@ -102,7 +102,7 @@ impl QueryContext {
             };
             let mut memory: Box<ProofMemory> = self.proof_memory.take();
             let states = std::mem::take(&mut memory.kinematics);
-            let mut kinematics = Kinematics::new(&motions, None, false, states);
+            let mut kinematics = Kinematics::new(&motions, None, states);
             let confirm = &mut |context: &mut Self, t: f64| meets(context, t);
             let search = &mut memory.search;
             let proof = prove(set, &mut kinematics, limits, self, confirm, search);

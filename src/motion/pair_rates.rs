@@ -48,14 +48,8 @@ impl<'a> PairRates<'a> {
         Some(rates)
     }
 
-    /// Bounds the speed of a body's points in the world; `None` where a custom joint moves it.
-    pub fn speed_in_world(&mut self, body: &Carried<usize>) -> Option<f64> {
-        let MotionRates { turn, origin, .. } = self.of_body(body)?;
-        Some(turn[0] * body.body.radius() + origin[0])
-    }
-
-    /// The derivatives of a body's centre in the world.
-    fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
+    /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
+    pub fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
         if self.of_bodies.len() <= body.number {
             self.of_bodies.resize(body.number + 1, None);
         }

@@ -142,7 +142,7 @@ impl QueryContext {
         }
         let motions = &way.link_motions();
         let scene = &way.scene(q)?;
-        let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps);
+        let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps, None);
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;
         }

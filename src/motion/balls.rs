@@ -1,0 +1,66 @@
+//! The balls around two bodies: as long as they stay apart, nothing else of the bodies needs to be looked at. A ball does not turn, so
+//! that only the way of its centre counts.
+
+use super::kinematics::CenterMotion;
+use super::span::Span;
+use crate::body::Body;
+use crate::pose::Vec3;
+use crate::robot::MotionRates;
+use crate::tolerance::EPSILON;
+
+/// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
+/// them: some operations a joint, of some tens of joints.
+const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
+
+/// The balls around two bodies, which count as meeting up to some distance.
+pub(super) struct Balls<'a> {
+    pub bodies: [&'a Body; 2],
+    pub threshold: f64,
+}
+
+/// The rounding of the places of a body of this radius, whose centre moves with these rates.
+pub(super) fn kinematics_error(rates: &MotionRates, radius: f64) -> f64 {
+    KINEMATICS_ERROR * (rates.size + radius) * (1.0 + rates.angle)
+}
+
+impl Balls<'_> {
+    /// Whether the balls stay apart through a piece, along the line between their centres. `apart` leads from B's centre to A's;
+    /// `center_moves` bounds how far A's centre moves along it, given with its length.
+    #[inline(always)]
+    pub fn stay_apart(
+        &self,
+        apart: &Vec3,
+        center_moves: impl Fn(&Vec3, f64) -> f64,
+        kinematics_error: f64,
+    ) -> bool {
+        let [a, b] = self.bodies;
+        let distance = apart.norm();
+        let moved = center_moves(apart, distance);
+        let reach = a.radius() + b.radius();
+        let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
+        distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
+    }
+
+    /// The same over an interval, through which the second and third derivative of A's centre are at most `bounds`.
+    #[inline(always)]
+    pub fn stay_apart_over(
+        &self,
+        center: &CenterMotion,
+        bounds: [f64; 2],
+        span: Span,
+        kinematics_error: f64,
+    ) -> bool {
+        let reach = span.reach();
+        let center_moves = |apart: &Vec3, distance: f64| {
+            let [p2, p3] = bounds;
+            let acceleration = p2.min(center.acceleration.norm() + reach * p3 / 3.0);
+            let parts = center.velocity.dot(apart) / distance.max(f64::MIN_POSITIVE);
+            let bend = 0.5 * reach * reach * acceleration;
+            match span {
+                Span::Around(_) => reach * parts.abs() + bend,
+                Span::Before(_) => (reach * parts + bend).max(0.0),
+            }
+        };
+        self.stay_apart(&center.apart, center_moves, kinematics_error)
+    }
+}
