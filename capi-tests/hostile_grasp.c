@@ -254,6 +254,69 @@ static void link_pairs(const fixture *f) {
     fixture_unchanged(f);
 }
 
+static void refuse_clear_pairs(const fixture *f, const cstk_cobject *cobject, const cstk_clear_pair_options *options,
+                               cstk_status status, const char *culprit) {
+    cstk_cobject *out = NULL;
+    cstk_clear_pair_summary summary = {0}, untouched = {0};
+    CHECK_REFUSED(out, cstk_prove_clear_pairs(f->query, cobject, options, NULL, NULL, &summary, &out), status, culprit);
+    CHECK(memcmp(&summary, &untouched, sizeof summary) == 0);
+}
+
+static void clear_pairs(const fixture *f) {
+    cstk_cobject *out, *pairs, *both;
+    cstk_clear_pair_options options;
+    CHECK_FAILS(cstk_clear_pair_options_default(NULL, sizeof options), CSTK_ERROR_NULL_ARGUMENT, "out");
+    CHECK_FAILS(cstk_clear_pair_options_default(&options, 7), CSTK_ERROR_WRONG_SIZE, "size");
+    CHECK_OK(cstk_clear_pair_options_default(&options, sizeof options));
+    const uint32_t links[2] = {1, 3};
+    CHECK_OK(cstk_cobject_induced_links(f->space, links, 1, NULL, &pairs));
+    EACH_BAD_HANDLE(f, NOUN_QUERY, bad) {
+        CHECK_REFUSED(out, cstk_prove_clear_pairs(bad->handle, pairs, NULL, NULL, NULL, NULL, &out), bad->status,
+                      "query");
+    }
+    EACH_BAD_HANDLE(f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(out, cstk_prove_clear_pairs(f->query, bad->handle, NULL, NULL, NULL, NULL, &out), bad->status,
+                      "cobject");
+    }
+    EACH_BAD_OPTIONS(options, bad) { refuse_clear_pairs(f, pairs, bad->options, bad->status, "options"); }
+    CHECK_FAILS(cstk_prove_clear_pairs(f->query, pairs, NULL, NULL, NULL, NULL, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    cstk_clear_pair_options changed = options;
+    changed.max_blocks = 0;
+    refuse_clear_pairs(f, pairs, &changed, CSTK_ERROR_INVALID_ARGUMENT, "max_blocks");
+    CHECK_REFUSED(out, cstk_prove_clear_pairs(f->query, pairs, NULL, stop, NULL, NULL, &out), CSTK_ERROR_CANCELLED,
+                  "progress");
+    /* Only a set of link pairs, alone. */
+    refuse_clear_pairs(f, f->cobject, NULL, CSTK_ERROR_UNSUPPORTED, "pairs");
+    const cstk_cobject *parts[2] = {f->cobject, pairs};
+    CHECK_OK(cstk_cobject_union(parts, 2, &both));
+    refuse_clear_pairs(f, both, NULL, CSTK_ERROR_UNSUPPORTED, "pairs");
+
+    /* A copy answers as the set does, and has a number of its own. */
+    cstk_clear_pair_summary summary;
+    changed.max_blocks = 500;
+    CHECK_OK(cstk_prove_clear_pairs(f->query, pairs, &changed, NULL, NULL, &summary, &out));
+    CHECK(summary.pair_count == 1 && summary.proved_count <= 1);
+    CHECK(summary.proved_share >= 0 && summary.proved_share <= 1 && (summary.proved_count == 0) == (summary.bytes == 0));
+    uint64_t numbers[2];
+    CHECK_OK(cstk_cobject_get_data(pairs, NULL, &numbers[0]));
+    CHECK_OK(cstk_cobject_get_data(out, NULL, &numbers[1]));
+    CHECK(numbers[0] != numbers[1]);
+    for (int i = 0; i < 200; ++i) {
+        double q[FIXTURE_NQ];
+        for (int k = 0; k < FIXTURE_NQ; ++k) {
+            q[k] = sin(1 + i * (k + 1.7)) * 3;
+        }
+        cstk_class expected, found;
+        CHECK_OK(cstk_classify(f->query, pairs, q, FIXTURE_NQ, &expected));
+        CHECK_OK(cstk_classify(f->query, out, q, FIXTURE_NQ, &found));
+        CHECK(found == expected);
+    }
+    cstk_cobject_release(out);
+    cstk_cobject_release(both);
+    cstk_cobject_release(pairs);
+    fixture_unchanged(f);
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
@@ -262,6 +325,7 @@ int main(void) {
     grasp_and_release(&f);
     allowed_refusals(&f);
     link_pairs(&f);
+    clear_pairs(&f);
     fixture_release(&f);
     return check_result();
 }

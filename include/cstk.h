@@ -4070,6 +4070,41 @@ typedef struct cstk_link_pair_list {
 } cstk_link_pair_list;
 
 /**
+ * Options of cstk_prove_clear_pairs. Write it with cstk_clear_pair_options_default first.
+ */
+typedef struct cstk_clear_pair_options {
+  uint32_t size;
+  uint32_t cookie;
+  /**
+   * The most blocks of cells that are tried for a pair, at least 1. More prove more, and take longer. Default 20000.
+   */
+  uint64_t max_blocks;
+} cstk_clear_pair_options;
+
+/**
+ * What cstk_prove_clear_pairs has proved.
+ */
+typedef struct cstk_clear_pair_summary {
+  /**
+   * The pairs of the set.
+   */
+  size_t pair_count;
+  /**
+   * Those of them that have cells which are proved.
+   */
+  size_t proved_count;
+  /**
+   * The mean of the part of their cells that is proved, from 0 to 1; 0 without such pairs.
+   */
+  double proved_share;
+  /**
+   * The memory that the cells take.
+   */
+  size_t bytes;
+  uint64_t reserved[4];
+} cstk_clear_pair_summary;
+
+/**
  * A pair of primitives that meet, and the shortest translation that separates them.
  */
 typedef struct cstk_penetration {
@@ -4276,6 +4311,35 @@ cstk_status cstk_find_link_pairs(cstk_query *query,
                                  cstk_progress_fn progress,
                                  void *user,
                                  cstk_link_pair_list *out);
+
+/**
+ * Writes the default options. `size` is sizeof(cstk_clear_pair_options).
+ */
+cstk_status cstk_clear_pair_options_default(cstk_clear_pair_options *out, size_t size);
+
+/**
+ * Creates a copy of a set of link pairs (cstk_cobject_induced_links) that knows by proof where its links are apart. How two links stand
+ * to each other depends on the joints between them alone: for each pair that up to three coordinates move so, the space of these
+ * coordinates is divided into cells, and cells are proved free of contact as boxes of C-space are (cstk_region_classify). It is done once for
+ * a robot, takes from some milliseconds to some seconds, and needs no environment.
+ *
+ * The copy has the same class at every configuration. Queries that only ask for contact need not look at a pair inside a proved cell:
+ * cstk_classify, cstk_within with a threshold up to the contact epsilon, batches, maps, and straight motions with a threshold up to it,
+ * where the whole motion stays in proved cells. Motions that are not free may end at times that differ, within their tolerance, from those
+ * of the set without proofs. All other queries ignore the proofs; so do those at link poses, which do not know coordinates, and
+ * certificates, which take nobody's word.
+ *
+ * The joints between must be revolute or prismatic, with limits or whole turns; other pairs are asked as before. The copy keeps the data
+ * and the shell, and gets a new number (cstk_cobject_get_data). CSTK_ERROR_UNSUPPORTED for all other C-objects: prove pairs before a set
+ * is combined. `options` may be NULL for the defaults; `progress` may be NULL; `user` is passed to it. `summary` may be NULL.
+ */
+cstk_status cstk_prove_clear_pairs(cstk_query *query,
+                                   const cstk_cobject *cobject,
+                                   const cstk_clear_pair_options *options,
+                                   cstk_progress_fn progress,
+                                   void *user,
+                                   cstk_clear_pair_summary *summary,
+                                   cstk_cobject **out);
 
 /** @} */
 

@@ -4,6 +4,8 @@
 #include "sampling.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <deque>
 #include <limits>
 #include <memory>
@@ -16,15 +18,15 @@ const double tolerance = 1e-6;
 // Advancement that needs more configurations gives up: the motion counts as one that hits.
 const std::size_t max_checks = 5000;
 
-Variant proof(const Scene &scene, bool any_contact) {
+Variant proof(const std::string &name, const cstk::CObject &contact, bool any_contact) {
     const cstk::Query query;
     cstk_motion_options options = cstk::motion_options();
     options.tolerance = tolerance;
     options.any_contact = any_contact;
-    const auto ask = [=, &scene](const Segment &segment) {
+    const auto ask = [=](const Segment &segment) {
         const Ends &ends = segment.ends;
         cstk_motion_result found;
-        cstk::check(cstk_motion(query.get(), scene.contact.get(), ends.q0.data(), ends.q1.data(),
+        cstk::check(cstk_motion(query.get(), contact.get(), ends.q0.data(), ends.q1.data(),
                                 ends.q0.size(), &options, nullptr, &found));
         const bool is_hit = found.outcome != CSTK_MOTION_FREE;
         return Verdict{is_hit, 0, is_hit ? std::optional(found.times[1]) : std::nullopt};
@@ -33,21 +35,21 @@ Variant proof(const Scene &scene, bool any_contact) {
         const cstk_query_statistics counted = query.statistics(true);
         return static_cast<std::size_t>(counted.node_pairs + counted.primitive_pairs);
     };
-    return {"cstk", any_contact ? "proof any" : "proof", ask, work};
+    return {"cstk", name, ask, work};
 }
 
-Variant sampling(const Scene &scene, const Step &step) {
+Variant sampling(const std::string &name, const Scene &scene, const cstk::CObject &contact, const Step &step) {
     const cstk::Query query;
     const auto q = std::make_shared<Numbers>();
     const auto ask = [=, &scene](const Segment &segment) {
         return sampled(scene.space, segment, step, *q, [&](const Numbers &at) {
             cstk_class found = CSTK_CLASS_OUTSIDE;
             cstk::check(
-                cstk_classify(query.get(), scene.contact.get(), at.data(), at.size(), &found));
+                cstk_classify(query.get(), contact.get(), at.data(), at.size(), &found));
             return found == CSTK_CLASS_INSIDE;
         });
     };
-    return {"cstk", step.name, ask};
+    return {"cstk", name, ask};
 }
 
 // Each link with all obstacles, and each pair of links, is asked for its own distance and has its own bound: a link near the base moves
@@ -213,14 +215,35 @@ template <class Way> Variant made(const Scene &scene, const char *name) {
     return {"cstk", name, [way](const Segment &segment) { return way->ask(segment); }};
 }
 
+cstk::CObject contact_with_pairs_proved(const Scene &scene) {
+    const cstk::CObject obstacles = cstk::CObject::induced(scene.space, scene.environment,
+                                                           cstk::induced_options(), scene.moving);
+    const auto start = std::chrono::steady_clock::now();
+    const cstk::CObject links = cstk::CObject::induced_links(scene.space, scene.pairs);
+    cstk_clear_pair_summary summary;
+    const cstk::CObject proved =
+        cstk::Query().prove_clear_pairs(links, cstk::clear_pair_options(), &summary);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::fprintf(stderr, "\n%s: %zu of %zu pairs proved in %.0f %% of their cells, %.1f s\n", scene.name.c_str(),
+                 summary.proved_count, summary.pair_count, 100 * summary.proved_share, seconds.count());
+    return cstk::CObject::union_of({obstacles, proved});
+}
+
 } // namespace
 
 std::vector<Variant> our_variants(const Scene &scene) {
-    std::vector<Variant> all = {proof(scene, false), proof(scene, true)};
+    std::vector<Variant> all = {proof("proof", scene.contact, false), proof("proof any", scene.contact, true)};
     for (const Step &step : steps) {
-        all.push_back(sampling(scene, step));
+        all.push_back(sampling(step.name, scene, scene.contact, step));
     }
     all.push_back(made<Advancement>(scene, "advancement"));
     all.push_back(made<Bisection>(scene, "bisection"));
+    if (!scene.pairs.empty()) {
+        const cstk::CObject proved = contact_with_pairs_proved(scene);
+        all.push_back(proof("proof with pairs proved", proved, false));
+        for (const Step &step : steps) {
+            all.push_back(sampling(std::string(step.name) + " with pairs proved", scene, proved, step));
+        }
+    }
     return all;
 }

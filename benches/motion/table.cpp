@@ -18,7 +18,10 @@ const Column ours[] = {{"cstk", "proof", "proof"},
                        {"cstk", "sampled 0.01", "0.01"},
                        {"cstk", "sampled 1 mm", "1 mm"},
                        {"cstk", "advancement", "advancement"},
-                       {"cstk", "bisection", "bisection"}};
+                       {"cstk", "bisection", "bisection"},
+                       {"cstk", "proof with pairs proved", "proof with pairs proved"},
+                       {"cstk", "sampled 0.05 with pairs proved", "0.05 with pairs proved"},
+                       {"cstk", "sampled 1 mm with pairs proved", "1 mm with pairs proved"}};
 
 const Column peers[] = {
     {"fcl", "sampled 0.05", "FCL 0.05"},    {"fcl", "sampled 0.01", "FCL 0.01"},

@@ -41,4 +41,6 @@ void worlds(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
     REQUIRE(query.distance(all, q).witness.r_object == 0);
     REQUIRE(space.link_name(hand) == "link1" && query.find_link_pairs(space).empty());
+    const cstk::CObject none = cstk::CObject::induced_links(space, {});
+    REQUIRE(query.prove_clear_pairs(none).number() != none.number());
 }

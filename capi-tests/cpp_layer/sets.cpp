@@ -68,6 +68,7 @@ static void explanations(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(query.explain(all, {1.5, 0}, 0).list.truncated);
     REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] { query.prove_clear_pairs(obstacle); }) == CSTK_ERROR_UNSUPPORTED);
     REQUIRE(obstacle.with_shell(0.1).data() == &destroyed);
     REQUIRE(query.classify(obstacle.with_known(cstk::CObject::ball(space, {1.5, 0}, 0.1), CSTK_CLASS_OUTSIDE),
                            {1.5, 0}) == CSTK_CLASS_OUTSIDE);

@@ -24,6 +24,12 @@ inline cstk_link_pair_options link_pair_options() {
     return options;
 }
 
+inline cstk_clear_pair_options clear_pair_options() {
+    cstk_clear_pair_options options;
+    check(cstk_clear_pair_options_default(&options, sizeof options));
+    return options;
+}
+
 namespace detail {
 
 /// What Query answers at one configuration.
@@ -83,6 +89,15 @@ public:
             pairs[i] = {list.tested[2 * i], list.tested[2 * i + 1]};
         }
         return pairs;
+    }
+
+    /// A copy of a set of link pairs that knows by proof where its links are apart.
+    CObject prove_clear_pairs(const CObject &cobject,
+                              const cstk_clear_pair_options &options = clear_pair_options(),
+                              cstk_clear_pair_summary *summary = nullptr) const {
+        cstk_cobject *out = nullptr;
+        check(cstk_prove_clear_pairs(query_of(*this), cobject.get(), &options, nullptr, nullptr, summary, &out));
+        return CObject(out);
     }
 
     /// The class, and which leaves and pairs made it.

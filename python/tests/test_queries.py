@@ -167,6 +167,15 @@ def test_link_pairs(query):
     assert query.classify(itself, [0, 0, 0]) == cstk.Class.OUTSIDE
     assert query.classify(itself, [0, 2.5, 2.5]) == cstk.Class.INSIDE
     assert query.distance(itself, [0, 0, 0]).distance == pytest.approx(0.8)
+    seen = []
+    proved = query.prove_clear_pairs(itself, max_blocks=2000, progress=lambda part: seen.append(part) or True)
+    assert seen[0] == 0 and seen[-1] == 1
+    for q in np.random.default_rng(1).uniform(-3, 3, (200, 3)):
+        assert query.classify(proved, q) == query.classify(itself, q)
+    with pytest.raises(cstk.CancelledError):
+        query.prove_clear_pairs(itself, progress=lambda part: False)
+    with pytest.raises(cstk.InvalidArgumentError, match="max_blocks"):
+        query.prove_clear_pairs(itself, max_blocks=0)
 
 
 def test_pictures(arm, tmp_path):

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::compound::{Compound, CompoundKind};
 use super::leaf::next_serial;
 use super::{
-    AllowedPair, BodyPairs, Class, Induced, InducedOptions, KnownClass, Leaf, PureOptions, PureSet,
-    PureShape, SObjects,
+    AllowedPair, BodyPairs, Class, ClearCells, ClearPairs, Induced, InducedOptions, KnownClass,
+    Leaf, PureOptions, PureSet, PureShape, SObjects,
 };
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -300,6 +300,55 @@ impl CObject {
             ));
         }
         Ok(self.with_new_serial(self.data.clone(), Some(shell)))
+    }
+
+    /// The link pairs of an induced set of links; `None` for other C-objects.
+    pub fn link_pairs(&self) -> Option<(&Induced, &[[usize; 2]])> {
+        match self.leaf_set()? {
+            Set::Union { induced, .. } => match &induced[0].pairs {
+                BodyPairs::Links { pairs, .. } => Some((&induced[0], pairs)),
+                BodyPairs::Objects { .. } => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The grids of the pairs of an induced set of links that are proved apart in some cells.
+    pub fn clear_grids(&self) -> &[ClearCells] {
+        match self.link_pairs() {
+            Some((
+                Induced {
+                    pairs:
+                        BodyPairs::Links {
+                            clear: Some(clear), ..
+                        },
+                    ..
+                },
+                _,
+            )) => clear.grids(),
+            _ => &[],
+        }
+    }
+
+    /// The same induced set of links, under a new number, with what is proved of its pairs.
+    pub(crate) fn with_clear_pairs(&self, proved: ClearPairs) -> Option<Self> {
+        let (induced, _) = self.link_pairs()?;
+        let mut induced = induced.clone();
+        if let BodyPairs::Links { clear, .. } = &mut induced.pairs {
+            *clear = Some(Arc::new(proved));
+        }
+        induced.leaf.serial = next_serial();
+        let serial = induced.leaf.serial;
+        let set = Set::Union {
+            induced: vec![Arc::new(induced)],
+            others: Vec::new(),
+        };
+        Some(Self::with_set(
+            serial,
+            self.space.clone(),
+            set,
+            self.data.clone(),
+        ))
     }
 
     /// The same set under a new number; the data and the shell go to its leaf, if it is one.

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::{Leaf, LinkRows};
+use super::{ClearPairs, Leaf, LinkRows};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::space::Space;
@@ -57,6 +57,8 @@ pub enum BodyPairs {
         pairs: Vec<[usize; 2]>,
         /// The same for the broad phase.
         rows: LinkRows,
+        /// Where some of them are proved apart.
+        clear: Option<Arc<ClearPairs>>,
     },
 }
 
@@ -153,6 +155,7 @@ impl BodyPairs {
         let pairs: Vec<[usize; 2]> = pairs.iter().filter(is_new).copied().collect();
         Ok(Self::Links {
             rows: LinkRows::new(&pairs),
+            clear: None,
             pairs,
         })
     }

@@ -2,6 +2,8 @@
 
 mod bounded_distance;
 mod class;
+mod clear_cells;
+mod clear_pairs;
 #[allow(clippy::module_inception)]
 mod cobject;
 mod compound;
@@ -19,6 +21,8 @@ mod world_place;
 
 pub use bounded_distance::{BoundedDistance, Measure};
 pub use class::Class;
+pub use clear_cells::{CellAxis, ClearCells, MAX_CELL_AXES};
+pub use clear_pairs::ClearPairs;
 pub use cobject::{CObject, Set};
 pub use induced::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
 pub use known::{Around, ConvexSets, KnownClass};

@@ -16,7 +16,7 @@ use super::set_tree::{LeafContent, SetLeaf, SetTree};
 use super::span::Span;
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
-use crate::cobject::{BodyPairs, Induced, PureSet, PureShape};
+use crate::cobject::{BodyPairs, ClearPairs, Induced, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{CandidateFilter, Group, Placement, QueryContext, Scene, Target};
 use crate::robot::LinkMotions;
@@ -153,11 +153,11 @@ impl<'a, 'k> Gathering<'a, 'k> {
         } else {
             self.threshold
         };
-        if let BodyPairs::Links { pairs, .. } = &term[0].pairs {
+        if let BodyPairs::Links { pairs, clear, .. } = &term[0].pairs {
             let meter = context.scratch.meter_mut();
             meter.count_nodes(pairs.len() as u64);
             meter.check()?;
-            return self.add_link_pairs(pairs, threshold, &term[0], scene);
+            return self.add_link_pairs(pairs, clear.as_deref(), threshold, &term[0], scene);
         }
         let farthest = self.farthest(&term[0], scene);
         if farthest.is_infinite() {
@@ -196,14 +196,19 @@ impl<'a, 'k> Gathering<'a, 'k> {
     fn add_link_pairs(
         &mut self,
         pairs: &[[usize; 2]],
+        clear: Option<&ClearPairs>,
         threshold: f64,
         term: &Induced,
         scene: &'a Scene,
     ) -> Result<()> {
+        let clear = clear.filter(|_| threshold <= term.options.contact_epsilon);
         let bounds = scene.bounds();
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
-            if self.links_stay_apart([r, s], threshold + term.options.margin, scene) {
+            let known = clear.and_then(|pairs| pairs.of([r, s]));
+            if known.is_some_and(|cells| self.way.stays_in(cells))
+                || self.links_stay_apart([r, s], threshold + term.options.margin, scene)
+            {
                 continue;
             }
             let [lower, _] = bounds[r].distance(&bounds[s]);

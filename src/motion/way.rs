@@ -5,7 +5,7 @@ use super::linear_motion::LinearMotion;
 use super::set_tree::SetTree;
 use super::span::Span;
 use super::stated_motion::StatedMotion;
-use crate::cobject::Around;
+use crate::cobject::{Around, ClearCells};
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;
@@ -81,6 +81,14 @@ impl<'a> Way<'a> {
             is_line: matches!(self.kind, WayKind::Line),
         };
         Ok(tree.is_free_by_word(self.line.cobject.space(), around))
+    }
+
+    /// Whether the whole way is in cells that are proved. They are looked up for straight motions only.
+    pub fn stays_in(&self, cells: &ClearCells) -> bool {
+        match self.kind {
+            WayKind::Line => cells.contain_motion(self.line.q, self.line.v),
+            WayKind::Curve { .. } | WayKind::Stated(_) | WayKind::Box { .. } => false,
+        }
     }
 
     /// The configurations of an interval, given as a time and how far it goes from there; of a box, all of it.

@@ -11,7 +11,9 @@ use super::link_boxes::LinkBoxes;
 use super::scene::{AttachedObject, Group, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
-use crate::cobject::{AllowedPair, BodyPairs, Induced, InducedOptions, LinkRows, SObjects};
+use crate::cobject::{
+    AllowedPair, BodyPairs, ClearPairs, Induced, InducedOptions, LinkRows, SObjects,
+};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
 use crate::error::{Error, ErrorKind, Result};
 use crate::pair::Pairing;
@@ -30,6 +32,7 @@ pub(super) struct RSide {
 struct LinksTerm<'t> {
     pairs: &'t [[usize; 2]],
     rows: &'t LinkRows,
+    clear: Option<&'t ClearPairs>,
     options: &'t InducedOptions,
     number: u32,
 }
@@ -260,10 +263,11 @@ impl<'a> Scene<'a> {
         let mut candidates = Candidates::new(filter, scratch, meter);
         for (number, term) in (0..).zip(&*group) {
             match &term.pairs {
-                BodyPairs::Links { pairs, rows } => {
+                BodyPairs::Links { pairs, rows, clear } => {
                     let term = LinksTerm {
                         pairs,
                         rows,
+                        clear: clear.as_deref(),
                         options: &term.options,
                         number,
                     };
@@ -306,10 +310,17 @@ impl<'a> Scene<'a> {
         };
         let bounds = self.bounds();
         let cutoff = candidates.cutoff(options);
+        let clear = term.clear.zip(self.coordinates());
+        let clear = clear.filter(|_| candidates.wants_contacts_alone(options));
+        let is_clear = |links: [usize; 2]| {
+            clear.is_some_and(|(pairs, q)| pairs.of(links).is_some_and(|cells| cells.contain(q)))
+        };
         if !candidates.wants_nearest() && cutoff < f64::INFINITY {
             candidates.count(term.pairs.len());
             boxes.visit_near(term.rows, bounds, cutoff, |[r, s], lower| {
-                if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
+                if let (Some(a), Some(b)) = (self.link(r), self.link(s))
+                    && !is_clear([r, s])
+                {
                     candidates.offer_bounded(options, lower, || target([r, s], [a, b]));
                 }
             });

@@ -125,6 +125,11 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.filter.nearest.is_some()
     }
 
+    /// Whether only pairs count that are in contact, by the options of their set: what is proved farther apart need not be offered.
+    pub fn wants_contacts_alone(&self, options: &InducedOptions) -> bool {
+        !self.wants_nearest() && self.limit(options) <= options.contact_epsilon
+    }
+
     /// Counts tests of bounds.
     pub fn count(&mut self, tests: usize) {
         self.meter.count_nodes(tests as u64);

@@ -135,6 +135,11 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// The configuration; `None` where only the poses are known.
+    pub fn coordinates(&self) -> Option<&[f64]> {
+        self.q
+    }
+
     /// The configuration with its link poses; `None` where only the poses are known.
     pub fn state(&self) -> Option<RobotState<'_>> {
         let poses = self.poses();

@@ -140,6 +140,13 @@ impl Space {
         &self.coordinates
     }
 
+    /// Whether a whole turn of a coordinate leaves every link where it was.
+    pub fn is_periodic(&self, coordinate: usize) -> bool {
+        let before = |offset: &Offset| offset.coordinate <= coordinate;
+        let robot = self.offsets.partition_point(before) - 1;
+        self.robots[robot].is_periodic(coordinate - self.offsets[robot].coordinate)
+    }
+
     /// The blocks of coordinates that move together.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks

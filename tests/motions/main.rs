@@ -3,6 +3,7 @@
 mod certificate_forgeries;
 mod certificate_sets;
 mod certificates;
+mod clear_pairs;
 mod clearance;
 mod compound;
 mod curves;

@@ -24,7 +24,7 @@ pub fn built(add: impl FnOnce(&mut BodyBuilder)) -> Arc<Body> {
 }
 
 /// A body of any kind, about 1 across.
-fn body(random: &mut Random) -> Arc<Body> {
+pub fn body(random: &mut Random) -> Arc<Body> {
     let identity = Pose::identity();
     match random.below(9) {
         0 => hull(&random.points(12, 0.4)).body,

@@ -164,3 +164,19 @@ class AtConfiguration(Handle):
         query = self._pointer
         reporting(lambda function, user: lib.cstk_find_link_pairs(query, place, given, function, user, out), progress)
         return LinkPairs(out)
+
+    def prove_clear_pairs(
+        self, cobject: CObject, *, max_blocks: Optional[int] = None, progress: Optional[Progress] = None
+    ) -> CObject:
+        """A copy of a set of link pairs (CObject.induced_links) that knows by proof where its links are apart, so that classes and
+        motions need not look at them there. Takes up to some seconds, once for a robot; `max_blocks` (default 20000) a pair bounds it.
+        """
+        given = options(
+            "clear_pair_options", max_blocks=None if max_blocks is None else index("max_blocks", max_blocks, 64)
+        )
+        query, of = self._pointer, pointer_of(CObject, "cobject", cobject)
+        out = ffi.new("cstk_cobject **")
+        reporting(
+            lambda function, user: lib.cstk_prove_clear_pairs(query, of, given, function, user, ffi.NULL, out), progress
+        )
+        return CObject._take(out[0])

@@ -17,3 +17,5 @@ pub mod questions;
 pub mod explain;
 
 pub mod find_link_pairs;
+
+pub mod prove_clear_pairs;
