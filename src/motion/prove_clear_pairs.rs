@@ -6,8 +6,10 @@ use std::f64::consts::{PI, TAU};
 use smallvec::SmallVec;
 
 use super::gathering::Keeps;
-use super::region_proof::{BoxProof, Region};
-use crate::cobject::{CObject, CellAxis, ClearCells, ClearPairs, InducedOptions, MAX_CELL_AXES};
+use super::region_proof::{BoxProof, BoxWork, Center, Region};
+use crate::cobject::{
+    CObject, CellAxis, Class, ClearCells, ClearPairs, InducedOptions, MAX_CELL_AXES,
+};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
 use crate::robot::{Coordinate, JointKind};
@@ -162,14 +164,21 @@ impl PairProof<'_> {
             region.low[axis.coordinate] = low;
             region.high[axis.coordinate] = high;
         }
-        let is_cell = block.iter().all(|[first, end]| end - first == 1);
-        let parts = if is_cell {
-            PARTS_OF_CELL
-        } else {
-            PARTS_OF_BLOCK
-        };
         let (world, cobject) = (self.world, &self.cobject);
-        let found = context.prove_region(world, cobject, &region, Keeps::Out, parts)?;
+        let Center { q, .. } = region.center(space);
+        if context.classify_in(world, cobject, &q)? == Class::Inside {
+            return Ok(false);
+        }
+        let is_cell = block.iter().all(|[first, end]| end - first == 1);
+        let work = BoxWork {
+            max_boxes: if is_cell {
+                PARTS_OF_CELL
+            } else {
+                PARTS_OF_BLOCK
+            },
+            samples: 0,
+        };
+        let found = context.prove_region(world, cobject, &region, Keeps::Out, work)?;
         Ok(matches!(found, BoxProof::Free))
     }
 }

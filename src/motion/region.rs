@@ -5,7 +5,7 @@ use super::crowd::CrowdMemory;
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::MovingSet;
 use super::linear_motion::LinearMotion;
-use super::region_proof::{BoxProof, Center, Region, RegionProof, prove_region};
+use super::region_proof::{BoxProof, BoxWork, Center, Region, RegionProof, prove_region};
 use super::set_tree::SetTree;
 use super::way::{Way, WayKind};
 use crate::cobject::{CObject, Class};
@@ -91,7 +91,13 @@ impl QueryContext {
         let Center { q, .. } = region.center(cobject.space());
         let is_inside = self.classify_in(world, cobject, &q)? == Class::Inside;
         let keeps = if is_inside { Keeps::In } else { Keeps::Out };
-        let found = self.prove_region(world, cobject, region, keeps, options.max_boxes)?;
+        let found = self.prove_region(
+            world,
+            cobject,
+            region,
+            keeps,
+            BoxWork::sampled(options.max_boxes),
+        )?;
         let (outcome, proved, other) = match found {
             BoxProof::Free if is_inside => (RegionOutcome::Inside, 1.0, None),
             BoxProof::Free => (RegionOutcome::Free, 1.0, None),
@@ -111,14 +117,15 @@ impl QueryContext {
         })
     }
 
-    /// Proves that all configurations of a box are as its middle is: not inside, or inside.
+    /// Proves that all configurations of a box are as its middle is, which the caller has classified: not inside, or inside. A body may
+    /// be inside a solid without meeting its surface.
     pub(super) fn prove_region(
         &mut self,
         world: &World,
         cobject: &CObject,
         region: &Region,
         keeps: Keeps,
-        max_boxes: usize,
+        work: BoxWork,
     ) -> Result<BoxProof> {
         let Center { q, half } = &region.center(cobject.space());
         let way = &Way {
@@ -160,7 +167,7 @@ impl QueryContext {
             cobject,
             set,
             region,
-            max_boxes,
+            work,
         };
         prove_region(proof, self, &mut |context, q| {
             let is_inside = context.classify_in(world, cobject, q)? == Class::Inside;

@@ -1,7 +1,7 @@
 //! A box of C-space around a configuration, grown until contacts stop each of its sides.
 
 use super::gathering::Keeps;
-use super::region_proof::{BoxProof, Region, coordinates_of_velocities};
+use super::region_proof::{BoxProof, BoxWork, Region, coordinates_of_velocities};
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::query::{Configuration, Distance, QueryContext, World};
@@ -224,7 +224,13 @@ impl QueryContext {
 impl Growth<'_> {
     fn prove(&self, region: &Region, context: &mut QueryContext) -> Result<BoxProof> {
         let max_boxes = self.options.max_boxes;
-        context.prove_region(self.world, self.cobject, region, Keeps::Out, max_boxes)
+        context.prove_region(
+            self.world,
+            self.cobject,
+            region,
+            Keeps::Out,
+            BoxWork::sampled(max_boxes),
+        )
     }
 
     /// The box with all sides moved on from where they are.

@@ -22,6 +22,25 @@ const SHORTEST_SIDE: f64 = 1.0 / (1u64 << 40) as f64;
 /// The configurations tried when a box is not proved at once: contacts are cheaper to find by chance than by halving.
 const SAMPLES: usize = 16;
 
+/// How much work goes into a box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxWork {
+    /// How many parts it is halved into at most.
+    pub max_boxes: usize,
+    /// How many configurations are tried if it is not proved at once.
+    pub samples: usize,
+}
+
+impl BoxWork {
+    /// With configurations that are tried.
+    pub fn sampled(max_boxes: usize) -> Self {
+        Self {
+            max_boxes,
+            samples: SAMPLES,
+        }
+    }
+}
+
 /// The most undecided pairs that are asked which coordinate moves them most.
 const MAX_ASKED_PAIRS: usize = 64;
 
@@ -63,14 +82,14 @@ impl Region {
 
     /// Both ends, then points that fill the box evenly: multiples of the powers of 1 / g, where g is the root of
     /// g^(n+1) = g + 1 (Roberts 2018).
-    fn samples(&self) -> impl Iterator<Item = Vec<f64>> {
+    fn samples(&self, count: usize) -> impl Iterator<Item = Vec<f64>> {
         let dimensions = self.low.iter().zip(&self.high).filter(|(l, h)| l < h);
         let dimensions = dimensions.count() as i32;
         let mut ratio = 2.0f64;
         for _ in 0..40 {
             ratio = (1.0 + ratio).powf(1.0 / f64::from(dimensions + 1));
         }
-        (0..SAMPLES).map(move |i| match i {
+        (0..count).map(move |i| match i {
             0 => self.low.clone(),
             1 => self.high.clone(),
             _ => {
@@ -129,7 +148,7 @@ pub(super) struct RegionProof<'a> {
     pub cobject: &'a CObject,
     pub set: &'a MovingSet<'a>,
     pub region: &'a Region,
-    pub max_boxes: usize,
+    pub work: BoxWork,
 }
 
 /// Asked for a configuration: whether the set is certainly met there.
@@ -169,7 +188,7 @@ impl Work for Prover<'_, '_, '_> {
             cobject,
             set,
             region,
-            max_boxes,
+            work: BoxWork { max_boxes, samples },
         } = proof;
         let space = cobject.space();
         let whole_half = region.center(space).half;
@@ -240,7 +259,7 @@ impl Work for Prover<'_, '_, '_> {
                 return Ok(BoxProof::Meets(q));
             }
             if boxes == 1 {
-                for sample in region.samples() {
+                for sample in region.samples(samples) {
                     if confirm(context, &sample)? {
                         return Ok(BoxProof::Meets(sample));
                     }

@@ -15,6 +15,7 @@ use cstk::space::{Space, WorldBox};
 use helpers::random::Random;
 use helpers::robots::{against, environment, link, robot, space};
 use helpers::shapes::cuboid;
+use helpers::surfaces::{cube, solid_one};
 
 use crate::random_scenes::{at, body, class};
 
@@ -60,7 +61,10 @@ fn chain(random: &mut Random) -> Arc<Space> {
             }
             LinkDefinition {
                 at: random.pose(0.9),
-                body: Some(body(random)),
+                body: Some(match random.below(6) {
+                    0 => solid_one(&cube(random.within(0.3, 1.5))),
+                    _ => body(random),
+                }),
                 ..link(parent, kind, random.unit())
             }
         })
