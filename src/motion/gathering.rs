@@ -205,10 +205,12 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let bounds = scene.bounds();
         let mut near: Vec<([usize; 2], f64)> = Vec::new();
         for &[r, s] in pairs {
+            let limit = threshold + term.options.margin;
+            if self.links_stay_apart([r, s], limit, scene) {
+                continue;
+            }
             let known = clear.and_then(|pairs| pairs.of([r, s]));
-            if known.is_some_and(|cells| self.way.stays_in(cells))
-                || self.links_stay_apart([r, s], threshold + term.options.margin, scene)
-            {
+            if known.is_some_and(|cells| self.way.stays_in(cells)) {
                 continue;
             }
             let [lower, _] = bounds[r].distance(&bounds[s]);
@@ -388,16 +390,16 @@ impl<'a> Gathering<'a, '_> {
         shift
     }
 
-    /// The same; `None` where a custom joint moves the body.
+    /// The same; `None` where a custom joint moves the body, or bounds overflow.
     fn shift_of_body(&mut self, body: &Carried<'a, usize>) -> Option<f64> {
         let rates = self.rates.of_body(body)?;
         let radius = body.body.radius();
         let by_speed = self.share() * (rates.turn[0] * radius + rates.origin[0]);
         let Some(middle) = &mut self.middle else {
-            return Some(by_speed);
+            return Some(by_speed).filter(|shift| !shift.is_nan());
         };
         let by_velocity = middle.shift(body, &rates, Span::Around(0.5));
-        Some(by_speed.min(by_velocity))
+        Some(by_speed.min(by_velocity)).filter(|shift| !shift.is_nan())
     }
 
     /// Bounds the change of a pair's distance from the middle to any other time.
@@ -412,9 +414,10 @@ impl<'a> Gathering<'a, '_> {
 }
 
 /// Whether a pair whose distance less margin at the middle has this lower bound may come within the threshold, if the distance changes
-/// by no more than `shift` from there.
+/// by no more than `shift` from there. Of what is no number nothing is known.
 fn may_meet(bound: f64, threshold: f64, shift: f64) -> bool {
-    STEP_FRACTION * (bound - threshold) <= shift
+    let is_beyond = STEP_FRACTION * (bound - threshold) > shift;
+    !is_beyond
 }
 
 /// A body of the scene that a link carries: its own, or an object that is attached to it.

@@ -154,7 +154,12 @@ impl<'a> MovingPair<'a> {
                 }
             }
         }
-        PairOver::Near(self.placed(self.moved(kinematics, span)))
+        let moved = self.moved(kinematics, span);
+        // Nothing is farther than what overflows.
+        if moved.bends.iter().any(|bend| !bend.is_finite()) {
+            return PairOver::TooLong;
+        }
+        PairOver::Near(self.placed(moved))
     }
 
     /// How A moves over an interval.

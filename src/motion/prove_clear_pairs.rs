@@ -80,7 +80,7 @@ impl QueryContext {
             contact_epsilon,
             margin,
         } = induced.options;
-        let mut proved = ClearPairs::new(space.link_count());
+        let mut proved = Vec::new();
         for (number, &links) in pairs.iter().enumerate() {
             progress(number as f64 / pairs.len() as f64)?;
             let Some(axes) = axes_between(space, links) else {
@@ -88,7 +88,7 @@ impl QueryContext {
             };
             let in_contact = InducedOptions {
                 contact_epsilon: 0.0,
-                margin: margin + contact_epsilon,
+                margin: (margin + contact_epsilon).min(f64::MAX),
             };
             let proof = PairProof {
                 world,
@@ -98,11 +98,11 @@ impl QueryContext {
             let part = |done: f64| (number as f64 + done) / pairs.len() as f64;
             let grid = proof.run(self, axes, &mut |done| progress(part(done)))?;
             if grid.proved_share() > 0.0 {
-                proved.add(links, grid);
+                proved.push((links, grid));
             }
         }
         progress(1.0)?;
-        let found = cobject.with_clear_pairs(proved);
+        let found = cobject.with_clear_pairs(ClearPairs::new(space.link_count(), proved));
         found.ok_or_else(|| Error::invalid("the set has no link pairs"))
     }
 }

@@ -8,6 +8,7 @@ use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
 use super::{JointKind, Link, Robot};
 use crate::pose::{Pose, Vec3, turned, turned_axes};
+use crate::tolerance::EPSILON;
 
 /// One step of a chain.
 #[derive(Clone, Copy, Debug)]
@@ -301,7 +302,9 @@ impl LinkMotions {
     /// Adds what a twist makes of the last frame, in the frame that it moves.
     fn screw(&mut self, linear: &Vec3, angular: &Vec3) {
         let rate = angular.norm();
-        if rate == 0.0 {
+        // Turned by so little in all, no point is farther off a straight line than rounding puts it; and the screw's axis would be so far
+        // away that bounds overflow.
+        if rate <= EPSILON {
             self.shift_at(Vec3::zeros(), *linear);
             return;
         }

@@ -415,3 +415,49 @@ fn bad_input_is_refused_and_what_starts_inside_says_so() {
         Err(error) => assert_eq!(error.kind, ErrorKind::Limit),
     }
 }
+
+/// A body that hardly turns on its way, by any small angle, is not free of what lies on it; nor is an arm on it that reaches into itself.
+/// (Between 1e-3 and rounding the axis of the screw is so far away that bounds are too coarse to tell what is near from what hits.)
+#[test]
+fn turns_of_any_smallness_hide_nothing() {
+    let cube = cuboid([0.2; 3]).body;
+    let base = LinkDefinition {
+        body: Some(cube.clone()),
+        ..link(None, JointKind::Free, Vec3::z())
+    };
+    let arm = LinkDefinition {
+        at: Pose::from_translation(Vec3::new(0.0, 1.0, 0.0)),
+        body: Some(cube.clone()),
+        ..link(Some(0), JointKind::Prismatic, Vec3::y())
+    };
+    let space = space(vec![robot(3, vec![base, arm])]);
+    let (environment, _) =
+        environment(&[(&cube, Pose::from_translation(Vec3::new(1.5, 0.0, 0.0)))]);
+    let wall = against(&space, &environment);
+    let itself =
+        CObject::induced_links(space.clone(), &[[0, 1]], InducedOptions::default()).unwrap();
+    let context = &mut QueryContext::new();
+    let q = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    for exponent in (0..330).step_by(3) {
+        for linear in [2.0, -2.0] {
+            let turn = 10f64.powi(-exponent).min(0.01);
+            let outcome = |set: &CObject, context: &mut QueryContext, v: &[f64]| {
+                let options = MotionOptions::default();
+                context.motion_along(set, &q, v, &options).unwrap().outcome
+            };
+            let is_told = !(2e-16..=1e-3).contains(&turn);
+            let v = [linear, 0.0, 0.0, 0.0, turn, 0.0, 0.0];
+            let found = outcome(&wall, context, &v);
+            let wrong = [MotionOutcome::Hit, MotionOutcome::Free][usize::from(linear > 0.0)];
+            assert_ne!(found, wrong, "{turn:e}");
+            assert!(!is_told || found != MotionOutcome::Near, "{turn:e}");
+            let v = [linear, 0.0, 0.0, 0.0, turn, 0.0, -0.9];
+            let found = outcome(&itself, context, &v);
+            assert_ne!(found, MotionOutcome::Free, "{turn:e}");
+            assert!(
+                !is_told || found == MotionOutcome::Hit,
+                "{turn:e}: {found:?}"
+            );
+        }
+    }
+}

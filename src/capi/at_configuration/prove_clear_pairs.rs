@@ -66,11 +66,12 @@ pub unsafe extern "C" fn cstk_clear_pair_options_default(
 /// coordinates is divided into cells, and cells are proved free of contact as boxes of C-space are (cstk_region_classify). It is done once for
 /// a robot, takes from some milliseconds to some seconds, and needs no environment.
 ///
-/// The copy has the same class at every configuration. Queries that only ask for contact need not look at a pair inside a proved cell:
-/// cstk_classify, cstk_within with a threshold up to the contact epsilon, batches, maps, and straight motions with a threshold up to it,
-/// where the whole motion stays in proved cells. Motions that are not free may end at times that differ, within their tolerance, from those
-/// of the set without proofs. All other queries ignore the proofs; so do those at link poses, which do not know coordinates, and
-/// certificates, which take nobody's word.
+/// The copy has the same class at every configuration, up to rounding. What only asks for contact need not look at a pair inside a proved
+/// cell: cstk_classify, cstk_within with a threshold up to the contact epsilon, lists of contacts, batches, maps, and straight motions with a
+/// threshold up to it, where the whole motion stays in proved cells, and what is made of such motions: paths, shortcuts and slides. Motions
+/// that are not free may end at times that differ, within their tolerance, from those of the set without proofs, and slides may go
+/// farther. Distances ignore the proofs; so do queries at link poses, which do not know coordinates, and certificates, which take
+/// nobody's word. The whole call counts as one query for cstk_query_set_limit.
 ///
 /// The joints between must be revolute or prismatic, with limits or whole turns; other pairs are asked as before. The copy keeps the data
 /// and the shell, and gets a new number (cstk_cobject_get_data). CSTK_ERROR_UNSUPPORTED for all other C-objects: prove pairs before a set
