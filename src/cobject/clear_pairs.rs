@@ -3,7 +3,7 @@
 use super::clear_cells::ClearCells;
 
 /// Grids of the pairs of links that few coordinates move relative to each other.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct ClearPairs {
     /// Where the entries of each link begin, and where those of the last end.
     starts: Vec<u32>,
