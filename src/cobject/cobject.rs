@@ -315,19 +315,8 @@ impl CObject {
 
     /// The grids of the pairs of an induced set of links that are proved apart in some cells.
     pub fn clear_grids(&self) -> &[ClearCells] {
-        match self.link_pairs() {
-            Some((
-                Induced {
-                    pairs:
-                        BodyPairs::Links {
-                            clear: Some(clear), ..
-                        },
-                    ..
-                },
-                _,
-            )) => clear.grids(),
-            _ => &[],
-        }
+        let clear = self.link_pairs().and_then(|(set, _)| set.pairs.clear());
+        clear.map_or(&[], ClearPairs::grids)
     }
 
     /// The same induced set of links, under a new number, with what is proved of its pairs.

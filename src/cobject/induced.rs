@@ -160,6 +160,14 @@ impl BodyPairs {
         })
     }
 
+    /// What is proved of pairs of links.
+    pub fn clear(&self) -> Option<&ClearPairs> {
+        match self {
+            Self::Links { clear, .. } => clear.as_deref(),
+            Self::Objects { .. } => None,
+        }
+    }
+
     /// The environment of the s-objects; `None` for links against links.
     pub fn environment(&self) -> Option<&Arc<Environment>> {
         match self {

@@ -15,8 +15,8 @@ use crate::query::{QueryContext, World};
 use crate::robot::{Coordinate, JointKind};
 use crate::space::Space;
 
-/// The most cells along an axis: of a grid over one coordinate, over two and over three.
-const MOST_CELLS: [u32; MAX_CELL_AXES] = [256, 128, 48];
+/// The number of cells along an axis: of a grid over one coordinate, over two and over three.
+const CELLS: [u32; MAX_CELL_AXES] = [256, 128, 48];
 
 /// How many parts the proof of a block halves it into before it is given up or divided.
 const PARTS_OF_BLOCK: usize = 4;
@@ -212,7 +212,7 @@ fn axes_between(space: &Space, links: [usize; 2]) -> Option<SmallVec<[CellAxis; 
             coordinates.push(own);
         }
     }
-    let most = *MOST_CELLS.get(coordinates.len().checked_sub(1)?)?;
+    let count = *CELLS.get(coordinates.len().checked_sub(1)?)?;
     let axis = |&[coordinate, velocity]: &[usize; 2]| {
         let is_periodic = space.is_periodic(coordinate);
         let (low, high, is_periodic) = match space.coordinates()[coordinate] {
@@ -223,14 +223,14 @@ fn axes_between(space: &Space, links: [usize; 2]) -> Option<SmallVec<[CellAxis; 
             Coordinate::Interval { lower, upper } => (lower, upper, false),
             Coordinate::Quaternion => return None,
         };
-        let width = (high - low) / f64::from(most);
+        let width = (high - low) / f64::from(count);
         let is_divided = width.is_finite() && width > 0.0;
         is_divided.then_some(CellAxis {
             coordinate,
             velocity,
             low,
             width,
-            count: most,
+            count,
             is_periodic,
         })
     };

@@ -11,6 +11,7 @@ use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{Coordinate, JointKind, LinkDefinition};
 use cstk::space::{Space, WorldBox};
+use cstk::user_data::UserData;
 
 use helpers::random::Random;
 use helpers::robots::{against, environment, link, robot, space};
@@ -356,6 +357,24 @@ fn what_is_proved_is_told() {
     for kind in [JointKind::Prismatic, JointKind::Fixed, JointKind::Planar] {
         assert_eq!(share(&arm(1.0, kind)), (0, 0.0));
     }
+}
+
+/// The data of the set, of which its leaf tells, and its shell go with the copy.
+#[test]
+fn a_copy_keeps_the_data_and_the_shell() {
+    let space = chain(&mut Random::new(815));
+    let options = InducedOptions::default();
+    let plain = CObject::induced_links(space, &[[0, 2]], options).unwrap();
+    let plain = plain
+        .with_data(UserData::new(7, None))
+        .with_shell(0.1)
+        .unwrap();
+    let copy = proved(&plain, 10);
+    let [(a, _), (b, _)] = [&plain, &copy].map(|set| set.link_pairs().unwrap());
+    assert_eq!((a.leaf.data, a.shell), (7, Some(0.1)));
+    assert_eq!((b.leaf.data, b.shell), (7, Some(0.1)));
+    assert_ne!(a.leaf.serial, b.leaf.serial);
+    assert_eq!(b.leaf.serial, copy.serial());
 }
 
 #[test]
