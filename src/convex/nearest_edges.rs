@@ -2,7 +2,7 @@
 
 use super::closest::Closest;
 use super::outline::{MAX_CORNERS, Outline, Side};
-use crate::lanes::{F64x4, Points64, cross64, dot64, each3, sub64};
+use crate::lanes::{DoubleTriple, Doubles, F64x4, Instructions, cross64, dot64, each3, sub64};
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -15,28 +15,6 @@ pub struct NearestEdges {
 }
 
 impl NearestEdges {
-    /// Compares an edge of A with all of B's.
-    #[inline(always)]
-    fn offer(&mut self, a: &Outline, i: usize, b: &Outline) {
-        let (start, edge) = a.edge(i);
-        let inverse_square = dot64(&edge, &edge).inverse();
-        for block in 0..b.blocks.len() {
-            let starts = &b.blocks[block];
-            let along = sub64(&b.following(block), starts);
-            let (_, _, squares) = edge_places(&start, &edge, inverse_square, starts, &along);
-            let pair = F64x4::splat((MAX_CORNERS * block + i) as f64);
-            for lane in 0..4 {
-                let is_less = squares.0[lane] < self.squares.0[lane];
-                self.pairs.0[lane] = if is_less {
-                    pair.0[lane]
-                } else {
-                    self.pairs.0[lane]
-                };
-            }
-            self.squares = squares.min(self.squares);
-        }
-    }
-
     #[inline(always)]
     pub fn distance(&self) -> f64 {
         self.squares.least().sqrt()
@@ -44,17 +22,14 @@ impl NearestEdges {
 
     /// The vector between the closest points, from B to A.
     #[inline(always)]
-    pub fn across(&self, a: &Outline, b: &Outline) -> Vec3 {
+    pub fn across<I: Instructions>(&self, a: &Outline<I>, b: &Outline<I>) -> Vec3 {
         let (i, block, lane) = self.best();
-        let starts = &b.blocks[block];
-        let along = sub64(&b.following(block), starts);
-        let (start, edge) = a.edge(i);
+        let ((start, edge), (starts, along)) = (a.edge(i), b.edges(block));
         let inverse_square = dot64(&edge, &edge).inverse();
-        let (s, t, _) = edge_places(&start, &edge, inverse_square, starts, &along);
-        let (s, t) = (s.0[lane], t.0[lane]);
+        let (s, t, _) = edge_places(&start, &edge, inverse_square, &starts, &along);
         let [x, y, z] = each3(|k| {
-            let on_a = start[k].0[lane] + edge[k].0[lane] * s;
-            on_a - (starts[k].0[lane] + along[k].0[lane] * t)
+            let on_a = start[k] + edge[k] * s;
+            (on_a - (starts[k] + along[k] * t)).array().0[lane]
         });
         Vec3::new(x, y, z)
     }
@@ -74,16 +49,14 @@ impl NearestEdges {
 
     /// The closest points. A point within `error` of a corner counts as that corner.
     #[inline(always)]
-    pub fn points(&self, a: &Outline, b: &Outline, error: f64) -> Closest {
+    pub fn points<I: Instructions>(&self, a: &Outline<I>, b: &Outline<I>, error: f64) -> Closest {
         let (i, block, lane) = self.best();
-        let starts = &b.blocks[block];
-        let along = sub64(&b.following(block), starts);
-        let (start, edge) = a.edge(i);
+        let ((start, edge), (starts, along)) = (a.edge(i), b.edges(block));
         let inverse_square = dot64(&edge, &edge).inverse();
-        let (s, t, _) = edge_places(&start, &edge, inverse_square, starts, &along);
+        let (s, t, _) = edge_places(&start, &edge, inverse_square, &starts, &along);
         let places = [
-            a.on_edge(i, s.0[lane], error),
-            b.on_edge(4 * block + lane, t.0[lane], error),
+            a.on_edge(i, s.array().0[lane], error),
+            b.on_edge(4 * block + lane, t.array().0[lane], error),
         ];
         Closest {
             distance: self.squares.0[lane].sqrt(),
@@ -95,32 +68,66 @@ impl NearestEdges {
     }
 }
 
-/// The nearest edges of two polygons, given the side of each other's plane on which they lie.
-#[inline(always)]
-pub fn nearest_edges(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> NearestEdges {
-    let mut found = NearestEdges {
-        squares: F64x4::splat(f64::INFINITY),
-        pairs: F64x4::splat(0.0),
-    };
-    if a.corners <= 4 || !search_edges(a, b, sides, size, &mut found) {
-        for i in 0..a.corners {
-            found.offer(a, i, b);
+/// The search for the nearest edges, in registers.
+struct Search<'a, I: Instructions> {
+    a: &'a Outline<'a, I>,
+    b: &'a Outline<'a, I>,
+    squares: Doubles<I>,
+    pairs: Doubles<I>,
+}
+
+impl<I: Instructions> Search<'_, I> {
+    /// Compares an edge of A with all of B's.
+    #[inline(always)]
+    fn offer(&mut self, i: usize) {
+        let (start, edge) = self.a.edge(i);
+        let inverse_square = dot64(&edge, &edge).inverse();
+        for block in 0..self.b.blocks.len() {
+            let (starts, along) = self.b.edges(block);
+            let (_, _, squares) = edge_places(&start, &edge, inverse_square, &starts, &along);
+            let pair = self.a.splat((MAX_CORNERS * block + i) as f64);
+            self.pairs = squares.chosen(self.squares, pair, self.pairs);
+            self.squares = squares.min(self.squares);
         }
     }
-    found
+
+    #[inline(always)]
+    fn found(&self) -> NearestEdges {
+        NearestEdges {
+            squares: self.squares.array(),
+            pairs: self.pairs.array(),
+        }
+    }
+}
+
+/// The nearest edges of two polygons, given the side of each other's plane on which they lie.
+#[inline(always)]
+pub fn nearest_edges<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
+    sides: &[Side; 2],
+    size: f64,
+) -> NearestEdges {
+    let mut search = Search {
+        a,
+        b,
+        squares: a.splat(f64::INFINITY),
+        pairs: a.splat(0.0),
+    };
+    if a.corners <= 4 || !search_edges(&mut search, sides, size) {
+        for i in 0..a.corners {
+            search.offer(i);
+        }
+    }
+    search.found()
 }
 
 /// Compares only A's edges at its nearest-looking corners, with all of B's. Returns true once a separating plane proves that no
 /// other edge is nearer.
 #[inline(always)]
-fn search_edges(
-    a: &Outline,
-    b: &Outline,
-    sides: &[Side; 2],
-    size: f64,
-    found: &mut NearestEdges,
-) -> bool {
+fn search_edges<I: Instructions>(search: &mut Search<I>, sides: &[Side; 2], size: f64) -> bool {
     const TRIES: usize = 4;
+    let (a, b) = (search.a, search.b);
     let mut corner = if sides[1].gap > sides[0].gap {
         a.corner_with(&b.normal.into(), sides[1].extreme)
     } else {
@@ -134,10 +141,10 @@ fn search_edges(
         for edge in [before, corner_in] {
             if compared >> edge & 1 == 0 {
                 compared |= 1 << edge;
-                found.offer(a, edge, b);
+                search.offer(edge);
             }
         }
-        let closest = found.points(a, b, 0.0);
+        let closest = search.found().points(a, b, 0.0);
         let across = closest.points[0] - closest.points[1];
         let direction: [f64; 3] = across.into();
         let nearest = a.extent_along(&direction).0;
@@ -156,13 +163,13 @@ fn search_edges(
 ///
 /// The lines' parameters are computed from the cross product of the directions, see `closest_parameters`.
 #[inline(always)]
-fn edge_places(
-    p: &Points64,
-    dp: &Points64,
-    inverse_square: F64x4,
-    q: &Points64,
-    dq: &Points64,
-) -> (F64x4, F64x4, F64x4) {
+fn edge_places<I: Instructions>(
+    p: &DoubleTriple<I>,
+    dp: &DoubleTriple<I>,
+    inverse_square: Doubles<I>,
+    q: &DoubleTriple<I>,
+    dq: &DoubleTriple<I>,
+) -> (Doubles<I>, Doubles<I>, Doubles<I>) {
     let between = sub64(q, p);
     let cross = cross64(dp, dq);
     let square = dot64(&cross, &cross);

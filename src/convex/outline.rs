@@ -1,6 +1,8 @@
 //! The outline of a flat polygon, four corners at a time.
 
-use crate::lanes::{F64x4, Points64, along64, cross64, dot64, each3, splat64, sub64};
+use crate::lanes::{
+    DoubleTriple, Doubles, Instructions, Points64, along64, cross64, dot64, each3, sub64,
+};
 use crate::pose::{Pose, Vec3};
 use crate::primitive::Feature;
 
@@ -9,7 +11,9 @@ pub const MAX_CORNERS: usize = 64;
 
 /// A convex polygon in space: its corners in cyclic order, in blocks of four; the last block is padded with the first corner.
 #[derive(Clone, Copy)]
-pub struct Outline<'a> {
+pub struct Outline<'a, I> {
+    /// What it is computed with.
+    pub lanes: I,
     pub blocks: &'a [Points64],
     pub corners: usize,
     /// The plane normal . x = offset.
@@ -17,11 +21,22 @@ pub struct Outline<'a> {
     pub offset: f64,
 }
 
-impl Outline<'_> {
+impl<I: Instructions> Outline<'_, I> {
     #[inline(always)]
     pub fn corner(&self, i: usize) -> Vec3 {
         let block = &self.blocks[i / 4];
         Vec3::new(block[0].0[i % 4], block[1].0[i % 4], block[2].0[i % 4])
+    }
+
+    /// Four corners.
+    #[inline(always)]
+    pub fn block(&self, block: usize) -> DoubleTriple<I> {
+        Doubles::points(self.lanes, &self.blocks[block])
+    }
+
+    #[inline(always)]
+    pub fn splat(&self, value: f64) -> Doubles<I> {
+        Doubles::splat(self.lanes, value)
     }
 
     /// The point of an edge at a parameter, and the corner or edge that holds it. An edge index in the padding stands for
@@ -46,34 +61,39 @@ impl Outline<'_> {
 
     /// A corner and the edge vector from it to the next, the same in all lanes.
     #[inline(always)]
-    pub fn edge(&self, i: usize) -> (Points64, Points64) {
+    pub fn edge(&self, i: usize) -> (DoubleTriple<I>, DoubleTriple<I>) {
         let next = if i + 1 == self.corners { 0 } else { i + 1 };
-        let corner = |i: usize| {
-            let block = &self.blocks[i / 4];
-            each3(|k| F64x4::splat(block[k].0[i % 4]))
-        };
+        let corner = |i: usize| Doubles::point(self.lanes, &self.corner(i).into());
         let start = corner(i);
         (start, sub64(&corner(next), &start))
     }
 
-    /// The next corner of each corner of a block. Edges in the padding have length 0.
+    /// The next corner of each corner of a block.
     #[inline(always)]
-    pub fn following(&self, block: usize) -> Points64 {
-        let next = self.blocks.get(block + 1).unwrap_or(&self.blocks[0]);
-        let block = &self.blocks[block];
-        each3(|k| {
-            let [_, b, c, d] = block[k].0;
-            F64x4([b, c, d, next[k].0[0]])
-        })
+    pub fn following(&self, block: usize) -> DoubleTriple<I> {
+        let next = if block + 1 < self.blocks.len() {
+            block + 1
+        } else {
+            0
+        };
+        let (corners, next) = (self.block(block), self.block(next));
+        each3(|k| corners[k].following(next[k]))
+    }
+
+    /// The corners of a block, and the edge vector from each to the next. Edges in the padding have length 0.
+    #[inline(always)]
+    pub fn edges(&self, block: usize) -> (DoubleTriple<I>, DoubleTriple<I>) {
+        let starts = self.block(block);
+        (starts, sub64(&self.following(block), &starts))
     }
 
     /// The extremes of direction . x over the polygon.
     #[inline(always)]
     pub fn extent_along(&self, direction: &[f64; 3]) -> (f64, f64) {
-        let first = along64(&self.blocks[0], direction);
+        let first = along64(&self.block(0), direction);
         let (mut low, mut high) = (first, first);
-        for block in &self.blocks[1..] {
-            let along = along64(block, direction);
+        for block in 1..self.blocks.len() {
+            let along = along64(&self.block(block), direction);
             (low, high) = (low.min(along), high.max(along));
         }
         (low.least(), high.greatest())
@@ -82,7 +102,7 @@ impl Outline<'_> {
     /// Where another polygon lies relative to this one's plane. If it crosses the plane, it extends to both sides; the gap is
     /// then minus the smaller of its two extents.
     #[inline(always)]
-    pub fn side(&self, other: &Outline) -> Side {
+    pub fn side(&self, other: &Outline<I>) -> Side {
         let (low, high) = other.extent_along(&self.normal.into());
         let (above, below) = (low - self.offset, self.offset - high);
         Side {
@@ -100,12 +120,17 @@ impl Outline<'_> {
     /// The first corner whose projection on a direction equals `extreme`.
     #[inline(always)]
     pub fn corner_with(&self, direction: &[f64; 3], extreme: f64) -> usize {
-        for (block, corners) in self.blocks.iter().enumerate() {
-            let along = along64(corners, direction);
-            for lane in 0..4 {
-                if along.0[lane] == extreme {
-                    return 4 * block + lane;
-                }
+        let extreme = self.splat(extreme);
+        self.first(|corners| along64(corners, direction).equal(extreme))
+    }
+
+    /// The first corner in the bit masks of the blocks; 0 if there is none.
+    #[inline(always)]
+    fn first(&self, mask: impl Fn(&DoubleTriple<I>) -> u32) -> usize {
+        for block in 0..self.blocks.len() {
+            let lanes = mask(&self.block(block));
+            if lanes != 0 {
+                return 4 * block + lanes.trailing_zeros() as usize;
             }
         }
         0
@@ -114,43 +139,44 @@ impl Outline<'_> {
     /// The corner nearest to a point.
     #[inline(always)]
     pub fn corner_near(&self, point: &Vec3) -> usize {
-        let point = splat64(&[point.x, point.y, point.z]);
-        let (mut best, mut least) = (0, f64::INFINITY);
-        for (block, corners) in self.blocks.iter().enumerate() {
+        let point = Doubles::point(self.lanes, &(*point).into());
+        let squares = |corners: &DoubleTriple<I>| {
             let apart = sub64(corners, &point);
-            let squares = dot64(&apart, &apart);
-            for lane in 0..4 {
-                if squares.0[lane] < least {
-                    (best, least) = (4 * block + lane, squares.0[lane]);
-                }
-            }
+            dot64(&apart, &apart)
+        };
+        let mut least = squares(&self.block(0));
+        for block in 1..self.blocks.len() {
+            least = least.min(squares(&self.block(block)));
         }
-        best
+        let least = self.splat(least.least());
+        self.first(|corners| squares(corners).equal(least))
     }
 
     /// Whether the foot of a point lies inside the polygon.
     #[inline(always)]
     pub fn is_under(&self, point: &Vec3) -> bool {
-        let mut least = F64x4::splat(0.0);
-        let normal = splat64(&self.normal.into());
-        for (block, starts) in self.blocks.iter().enumerate() {
-            let inwards = cross64(&normal, &sub64(&self.following(block), starts));
-            let from_start = sub64(&splat64(&[point.x, point.y, point.z]), starts);
-            least = least.min(dot64(&from_start, &inwards));
+        let mut least = self.splat(0.0);
+        let normal = Doubles::point(self.lanes, &self.normal.into());
+        let point = Doubles::point(self.lanes, &(*point).into());
+        for block in 0..self.blocks.len() {
+            let (starts, along) = self.edges(block);
+            let inwards = cross64(&normal, &along);
+            least = least.min(dot64(&sub64(&point, &starts), &inwards));
         }
         least.least() >= 0.0
     }
 
     /// For each point the least signed area that it spans with an edge of the polygon; negative outside.
     #[inline(always)]
-    pub fn innermost(&self, points: &Points64) -> F64x4 {
-        let mut least = F64x4::splat(f64::INFINITY);
-        let normal = splat64(&self.normal.into());
+    pub fn innermost(&self, points: &DoubleTriple<I>) -> Doubles<I> {
+        let mut least = self.splat(f64::INFINITY);
+        let normal = Doubles::point(self.lanes, &self.normal.into());
         for (block, starts) in self.blocks.iter().enumerate() {
-            let inwards = cross64(&normal, &sub64(&self.following(block), starts));
+            let (_, along) = self.edges(block);
+            let inwards = cross64(&normal, &along).map(Doubles::array);
             for lane in 0..(self.corners - 4 * block).min(4) {
-                let start = each3(|k| F64x4::splat(starts[k].0[lane]));
-                let inward = each3(|k| F64x4::splat(inwards[k].0[lane]));
+                let start = each3(|k| self.splat(starts[k].0[lane]));
+                let inward = each3(|k| self.splat(inwards[k].0[lane]));
                 least = least.min(dot64(&sub64(points, &start), &inward));
             }
         }
@@ -160,17 +186,23 @@ impl Outline<'_> {
 
 /// Moves the corners of a polygon into the buffer.
 #[inline(always)]
-pub fn moved<'a>(outline: &Outline, pose: &Pose, buffer: &'a mut [Points64]) -> Outline<'a> {
+pub fn moved<'a, I: Instructions>(
+    outline: &Outline<I>,
+    pose: &Pose,
+    buffer: &'a mut [Points64],
+) -> Outline<'a, I> {
     let r = &pose.rotation;
     let t = &pose.translation;
-    for (to, from) in buffer.iter_mut().zip(outline.blocks) {
+    for (block, to) in buffer[..outline.blocks.len()].iter_mut().enumerate() {
+        let from = outline.block(block);
         for k in 0..3 {
             let row = [r[(k, 0)], r[(k, 1)], r[(k, 2)]];
-            to[k] = along64(from, &row) + F64x4::splat(t[k]);
+            to[k] = (along64(&from, &row) + outline.splat(t[k])).array();
         }
     }
     let normal = r * outline.normal;
     Outline {
+        lanes: outline.lanes,
         blocks: &buffer[..outline.blocks.len()],
         corners: outline.corners,
         normal,

@@ -1,28 +1,32 @@
 //! Whether two polygons cross.
 
 use super::outline::Outline;
-use crate::lanes::{F64x4, along64, each3, sub64};
+use crate::lanes::{Instructions, along64, each3, sub64};
 use crate::tolerance;
 
 /// Whether an edge of B passes through A; `None` where the answer is within rounding.
 #[inline(always)]
-fn pierces(a: &Outline, b: &Outline, doubt: f64, rounding: f64) -> Option<bool> {
+fn pierces<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
+    doubt: f64,
+    rounding: f64,
+) -> Option<bool> {
     let normal: [f64; 3] = a.normal.into();
     let (mut maybe, mut surely) = (false, false);
     for block in 0..b.blocks.len() {
-        let (starts, ends) = (&b.blocks[block], &b.following(block));
-        let from = along64(starts, &normal) - F64x4::splat(a.offset);
-        let to = along64(ends, &normal) - F64x4::splat(a.offset);
+        let (starts, ends) = (b.block(block), b.following(block));
+        let from = along64(&starts, &normal) - a.splat(a.offset);
+        let to = along64(&ends, &normal) - a.splat(a.offset);
         let at = from.quotient(from - to).unit();
-        let along = sub64(ends, starts);
+        let along = sub64(&ends, &starts);
         let point = each3(|k| starts[k] + along[k] * at);
         let inside = a.innermost(&point);
-        for lane in 0..4 {
-            let low = from.0[lane].min(to.0[lane]);
-            let high = from.0[lane].max(to.0[lane]);
-            maybe |= (low <= rounding) & (high >= -rounding) & (inside.0[lane] >= doubt);
-            surely |= (low < -rounding) & (high > rounding) & (inside.0[lane] > -doubt);
-        }
+        let (low, high) = (from.min(to), from.max(to));
+        let (plus, minus) = (a.splat(rounding), a.splat(-rounding));
+        let misses = plus.less(low) | high.less(minus) | inside.less(a.splat(doubt));
+        maybe |= misses != 0b1111;
+        surely |= low.less(minus) & plus.less(high) & a.splat(-doubt).less(inside) != 0;
     }
     if surely {
         Some(true)
@@ -35,7 +39,7 @@ fn pierces(a: &Outline, b: &Outline, doubt: f64, rounding: f64) -> Option<bool> 
 
 /// Whether two polygons cross that neither plane separates; `None` where the answer is within rounding.
 #[inline(always)]
-pub fn cross(a: &Outline, b: &Outline, size: f64) -> Option<bool> {
+pub fn cross<I: Instructions>(a: &Outline<I>, b: &Outline<I>, size: f64) -> Option<bool> {
     let rounding = tolerance::INSIDE_DOUBT * size;
     // The slack is an area, because the error of a short edge's direction is multiplied by the length it is compared with.
     let doubt = -rounding * size;

@@ -4,6 +4,7 @@ use super::closest::Closest;
 use super::nearest_edges::{NearestEdges, nearest_edges};
 use super::outline::{Outline, Side};
 use super::polygon_crossing::cross;
+use crate::lanes::Instructions;
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 use crate::tolerance;
@@ -35,7 +36,7 @@ pub enum NearestFeatures {
 impl NearestFeatures {
     /// The vector between the closest points, from the second polygon to the first.
     #[inline(always)]
-    pub fn across(&self, a: &Outline, b: &Outline) -> Vec3 {
+    pub fn across<I: Instructions>(&self, a: &Outline<I>, b: &Outline<I>) -> Vec3 {
         match *self {
             Self::FirstCorner(corner) => b.normal * b.height(&a.corner(corner)),
             Self::SecondCorner(corner) => a.normal * -a.height(&b.corner(corner)),
@@ -50,7 +51,12 @@ impl NearestFeatures {
 /// few EPSILON of `size`. If rounding puts a foot on the wrong side of an edge, the distance to that edge is the same within
 /// rounding.
 #[inline(always)]
-pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> PolygonDistance {
+pub fn polygon_distance<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
+    cutoff: f64,
+    size: f64,
+) -> PolygonDistance {
     let rounding = tolerance::INSIDE_DOUBT * size;
     let sides = [a.side(b), b.side(a)];
     let apart = sides[0].gap.max(sides[1].gap);
@@ -75,12 +81,17 @@ pub fn polygon_distance(a: &Outline, b: &Outline, cutoff: f64, size: f64) -> Pol
 /// The closest points of polygons that do not cross, with the corners, edges and faces that hold them; `None` if they may
 /// cross. A point within `error` of a corner counts as that corner.
 #[inline(always)]
-pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Option<Closest> {
+pub fn polygon_closest<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
+    size: f64,
+    error: f64,
+) -> Option<Closest> {
     let PolygonDistance::Apart(distance, nearest) = polygon_distance(a, b, f64::INFINITY, size)
     else {
         return None;
     };
-    let over = |polygon: &Outline, other: &Outline, corner: usize| {
+    let over = |polygon: &Outline<I>, other: &Outline<I>, corner: usize| {
         let point = other.corner(corner);
         let foot = point - polygon.normal * polygon.height(&point);
         let vertex = if corner < other.corners { corner } else { 0 };
@@ -115,7 +126,12 @@ pub fn polygon_closest(a: &Outline, b: &Outline, size: f64, error: f64) -> Optio
 /// it. If several corners are equally near, testing one suffices: either it is over the inside, or an edge from it to another
 /// such corner passes over the outline equally near.
 #[inline(always)]
-fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, NearestFeatures) {
+fn nearest<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
+    sides: &[Side; 2],
+    size: f64,
+) -> (f64, NearestFeatures) {
     let rounding = tolerance::INSIDE_DOUBT * size;
     if sides[0].gap >= rounding {
         let corner = b.corner_with(&a.normal.into(), sides[0].extreme);
@@ -145,15 +161,15 @@ fn nearest(a: &Outline, b: &Outline, sides: &[Side; 2], size: f64) -> (f64, Near
 
 /// The nearer of the nearest edges and of the corners over the other's inside, for polygons that neither plane separates.
 #[inline(never)]
-fn nearest_corner(
-    a: &Outline,
-    b: &Outline,
+fn nearest_corner<I: Instructions>(
+    a: &Outline<I>,
+    b: &Outline<I>,
     by_edges: (f64, NearestFeatures),
 ) -> (f64, NearestFeatures) {
     let (mut distance, mut found) = by_edges;
     for (is_first, polygon, other) in [(false, a, b), (true, b, a)] {
-        for (block, corners) in other.blocks.iter().enumerate() {
-            let inside = polygon.innermost(corners);
+        for block in 0..other.blocks.len() {
+            let inside = polygon.innermost(&other.block(block)).array();
             for lane in 0..4 {
                 let corner = 4 * block + lane;
                 let height = polygon.height(&other.corner(corner)).abs();
@@ -174,59 +190,79 @@ fn nearest_corner(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{F64x4, Instructions, Plain, Points64, Work, each3, with_widest};
+    use crate::lanes::{F64x4, Plain, Points64, Work, each3, with_widest};
 
-    struct Measure<'a>(Outline<'a>, Outline<'a>);
+    /// A regular polygon about a point, turned about two axes.
+    struct Polygon {
+        blocks: Vec<Points64>,
+        corners: usize,
+        normal: Vec3,
+    }
 
-    impl Work for Measure<'_> {
-        type Output = PolygonDistance;
+    impl Polygon {
+        fn new(corners: usize, center: Vec3, turns: [f64; 2]) -> Self {
+            let [(s, c), (t, d)] = turns.map(f64::sin_cos);
+            let (x, y) = (Vec3::new(c, s, 0.0), Vec3::new(-s * d, c * d, t));
+            let corner = |i: usize| {
+                let i = if i < corners { i } else { 0 };
+                let (sin, cos) = (std::f64::consts::TAU * i as f64 / corners as f64).sin_cos();
+                center + x * cos + y * sin
+            };
+            let block =
+                |b: usize| each3(|k| F64x4([0, 1, 2, 3].map(|lane| corner(4 * b + lane)[k])));
+            Self {
+                blocks: (0..corners.div_ceil(4)).map(block).collect(),
+                corners,
+                normal: x.cross(&y),
+            }
+        }
 
-        #[inline(always)]
-        fn run<I: Instructions>(self, _: I) -> PolygonDistance {
-            polygon_distance(&self.0, &self.1, f64::INFINITY, 4.0)
+        fn outline<I: Instructions>(&self, lanes: I) -> Outline<'_, I> {
+            let first = each3(|k| self.blocks[0][k].0[0]);
+            Outline {
+                lanes,
+                blocks: &self.blocks,
+                corners: self.corners,
+                normal: self.normal,
+                offset: self.normal.dot(&Vec3::from(first)),
+            }
         }
     }
 
-    /// A square about a point, turned about two axes.
-    fn square(center: Vec3, turns: [f64; 2]) -> (Points64, Vec3) {
-        let [(s, c), (t, d)] = turns.map(f64::sin_cos);
-        let (x, y) = (Vec3::new(c, s, 0.0), Vec3::new(-s * d, c * d, t));
-        let corners = [-x - y, x - y, x + y, y - x].map(|corner| center + corner);
-        let block = each3(|k| F64x4([0, 1, 2, 3].map(|i: usize| corners[i][k])));
-        (block, x.cross(&y))
+    struct Measure<'a>(&'a Polygon, &'a Polygon);
+
+    impl Work for Measure<'_> {
+        type Output = (PolygonDistance, Option<[Vec3; 2]>);
+
+        #[inline(always)]
+        fn run<I: Instructions>(self, lanes: I) -> Self::Output {
+            let (a, b) = (self.0.outline(lanes), self.1.outline(lanes));
+            let closest = polygon_closest(&a, &b, 4.0, 1e-12);
+            let distance = polygon_distance(&a, &b, f64::INFINITY, 4.0);
+            (distance, closest.map(|closest| closest.points))
+        }
     }
 
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
         let mut distances = Vec::new();
-        for step in 0..200 {
-            let s = f64::from(step);
-            let (a, normal_a) = square(Vec3::zeros(), [0.0, 0.3]);
+        for step in 0..1000 {
+            let s = (step % 200) as f64;
+            let [first, second] = [[4, 4], [3, 3], [3, 5], [7, 4], [12, 9]][step / 200];
+            let a = Polygon::new(first, Vec3::zeros(), [0.0, 0.3]);
             let center = Vec3::new(0.02 * s, (0.7 * s).sin(), (0.3 * s).cos());
-            let (b, normal_b) = square(center, [0.1 * s, 0.37 * s]);
-            let outline = |block: &'static [Points64], normal: Vec3| Outline {
-                blocks: block,
-                corners: 4,
-                normal,
-                offset: normal.dot(&Vec3::new(
-                    block[0][0].0[0],
-                    block[0][1].0[0],
-                    block[0][2].0[0],
-                )),
-            };
-            let (a, b) = (
-                outline(Vec::leak(vec![a]), normal_a),
-                outline(Vec::leak(vec![b]), normal_b),
-            );
-            let plain = Measure(a, b).run(Plain);
-            assert_eq!(plain, with_widest(Measure(a, b)), "step {step}");
-            distances.push(plain);
+            let b = Polygon::new(second, center, [0.1 * s, 0.37 * s]);
+            let plain = Measure(&a, &b).run(Plain);
+            assert_eq!(plain, with_widest(Measure(&a, &b)), "step {step}");
+            distances.push(plain.0);
         }
         assert!(distances.contains(&PolygonDistance::Cross));
-        assert!(
-            distances
-                .iter()
-                .any(|d| matches!(d, PolygonDistance::Apart(x, _) if *x > 1.0))
-        );
+        let features = |is_such: fn(&NearestFeatures) -> bool| {
+            let is_far = |d: &PolygonDistance| matches!(d, PolygonDistance::Apart(x, f) if *x > 0.1 && is_such(f));
+            distances.iter().any(is_far)
+        };
+        assert!(features(|f| matches!(f, NearestFeatures::Edges(_))));
+        assert!(features(|f| matches!(f, NearestFeatures::FirstCorner(_))));
+        assert!(features(|f| matches!(f, NearestFeatures::SecondCorner(_))));
     }
 }

@@ -1,9 +1,10 @@
-//! Eight lanes with AVX2 and FMA. An [`Avx2`] is created only after the processor was detected to have both; that makes its
+//! Eight lanes, and four of doubles, with AVX2 and FMA. An [`Avx2`] is created only after the processor was detected to have both; that makes its
 //! operations safe.
 
 use std::arch::x86_64::*;
 
 use super::F64x4;
+use super::doubles::DoubleInstructions;
 use super::eight::{Instructions, LANES_OF};
 
 /// The proof that the processor has AVX2 and FMA.
@@ -183,6 +184,91 @@ impl Instructions for Avx2 {
             let values = _mm256_loadu_si256(values.as_ptr().cast());
             std::mem::transmute::<__m256i, [u32; 8]>(_mm256_permutevar8x32_epi32(values, order))
         }
+    }
+}
+
+impl DoubleInstructions for Avx2 {
+    type Numbers64 = __m256d;
+
+    #[inline(always)]
+    fn splat64(self, value: f64) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_set1_pd(value) }
+    }
+
+    #[inline(always)]
+    fn load64(self, values: &F64x4) -> __m256d {
+        // SAFETY: four numbers are read, and the processor has the instruction.
+        unsafe { _mm256_loadu_pd(values.0.as_ptr()) }
+    }
+
+    #[inline(always)]
+    fn array64(self, a: __m256d) -> F64x4 {
+        // SAFETY: both are four numbers, and the processor has the instruction.
+        unsafe { std::mem::transmute::<__m256d, F64x4>(a) }
+    }
+
+    #[inline(always)]
+    fn add64(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_add_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn sub64(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_sub_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn mul64(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_mul_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn quotient64(self, a: __m256d, divisor: __m256d) -> __m256d {
+        // SAFETY: the processor has the instructions.
+        unsafe {
+            let is_none = _mm256_cmp_pd::<_CMP_EQ_OQ>(divisor, _mm256_setzero_pd());
+            _mm256_andnot_pd(is_none, _mm256_div_pd(a, divisor))
+        }
+    }
+
+    #[inline(always)]
+    fn min64(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_min_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn max64(self, a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_max_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn following64(self, a: __m256d, next: __m256d) -> __m256d {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_permute4x64_pd::<0b00_11_10_01>(_mm256_blend_pd::<0b0001>(a, next)) }
+    }
+
+    #[inline(always)]
+    fn less64(self, a: __m256d, b: __m256d) -> u32 {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn equal64(self, a: __m256d, b: __m256d) -> u32 {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn chosen64(self, a: __m256d, b: __m256d, if_less: __m256d, otherwise: __m256d) -> __m256d {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_blendv_pd(otherwise, if_less, _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) }
     }
 
     #[inline(always)]

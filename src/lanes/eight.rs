@@ -1,7 +1,7 @@
 //! Eight lanes in single precision, for bounds. Bounds only prune, so products and sums are fused where that is cheap, and
 //! different instruction sets may give different bits.
 
-use super::F64x4;
+use super::doubles::DoubleInstructions;
 
 /// Eight lanes of an instruction set.
 pub type Lanes8<I> = <I as Instructions>::Numbers;
@@ -10,7 +10,7 @@ pub type Lanes8<I> = <I as Instructions>::Numbers;
 pub type Triple<I> = [Lanes8<I>; 3];
 
 /// An instruction set that the processor has.
-pub trait Instructions: Copy {
+pub trait Instructions: DoubleInstructions {
     /// Eight lanes of f32.
     type Numbers: Copy;
 
@@ -48,10 +48,6 @@ pub trait Instructions: Copy {
     fn only(self, a: Self::Numbers, lanes: u32) -> Self::Numbers;
     /// Compacts the values of the lanes in a bit mask to the front; what follows them is meaningless.
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8];
-
-    /// The rounding error of a product in double precision. It is exact, and so the same on every instruction set, except near
-    /// overflow and underflow.
-    fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
 
     /// The minimum over all lanes.
     #[inline(always)]

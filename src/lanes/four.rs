@@ -162,18 +162,29 @@ impl Mul<f64> for F64x4 {
 /// Four points or vectors, as one [`F64x4`] per coordinate.
 pub type Points64 = [F64x4; 3];
 
+/// Four numbers: an [`F64x4`], or the register of an instruction set.
+pub trait FourNumbers:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+{
+}
+
+impl<N> FourNumbers for N where
+    N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Mul<f64, Output = N>
+{
+}
+
 #[inline(always)]
-pub fn dot64(a: &Points64, b: &Points64) -> F64x4 {
+pub fn dot64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> N {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-pub fn along64(points: &Points64, direction: &[f64; 3]) -> F64x4 {
+pub fn along64<N: FourNumbers>(points: &[N; 3], direction: &[f64; 3]) -> N {
     points[0] * direction[0] + points[1] * direction[1] + points[2] * direction[2]
 }
 
 #[inline(always)]
-pub fn cross64(a: &Points64, b: &Points64) -> Points64 {
+pub fn cross64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -182,7 +193,7 @@ pub fn cross64(a: &Points64, b: &Points64) -> Points64 {
 }
 
 #[inline(always)]
-pub fn sub64(a: &Points64, b: &Points64) -> Points64 {
+pub fn sub64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

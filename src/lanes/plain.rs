@@ -1,6 +1,7 @@
-//! Eight lanes without special instructions, for every processor.
+//! Eight lanes, and four of doubles, without special instructions, for every processor.
 
 use super::F64x4;
+use super::doubles::DoubleInstructions;
 use super::eight::{Instructions, LANES_OF};
 
 /// The fallback, available on every processor.
@@ -145,6 +146,91 @@ impl Instructions for Plain {
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
         let order = &LANES_OF[(lanes & 255) as usize];
         order.map(|lane| values[usize::from(lane & 7)])
+    }
+}
+
+/// The bit mask of the lanes that are true.
+#[inline(always)]
+fn mask(lanes: [bool; 4]) -> u32 {
+    let mut mask = 0;
+    for (lane, is_true) in lanes.into_iter().enumerate() {
+        mask |= u32::from(is_true) << lane;
+    }
+    mask
+}
+
+impl DoubleInstructions for Plain {
+    type Numbers64 = F64x4;
+
+    #[inline(always)]
+    fn splat64(self, value: f64) -> F64x4 {
+        F64x4::splat(value)
+    }
+
+    #[inline(always)]
+    fn load64(self, values: &F64x4) -> F64x4 {
+        *values
+    }
+
+    #[inline(always)]
+    fn array64(self, a: F64x4) -> F64x4 {
+        a
+    }
+
+    #[inline(always)]
+    fn add64(self, a: F64x4, b: F64x4) -> F64x4 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn sub64(self, a: F64x4, b: F64x4) -> F64x4 {
+        a - b
+    }
+
+    #[inline(always)]
+    fn mul64(self, a: F64x4, b: F64x4) -> F64x4 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn quotient64(self, a: F64x4, divisor: F64x4) -> F64x4 {
+        a.quotient(divisor)
+    }
+
+    #[inline(always)]
+    fn min64(self, a: F64x4, b: F64x4) -> F64x4 {
+        a.min(b)
+    }
+
+    #[inline(always)]
+    fn max64(self, a: F64x4, b: F64x4) -> F64x4 {
+        a.max(b)
+    }
+
+    #[inline(always)]
+    fn following64(self, a: F64x4, next: F64x4) -> F64x4 {
+        F64x4([a.0[1], a.0[2], a.0[3], next.0[0]])
+    }
+
+    #[inline(always)]
+    fn less64(self, a: F64x4, b: F64x4) -> u32 {
+        mask([0, 1, 2, 3].map(|lane: usize| a.0[lane] < b.0[lane]))
+    }
+
+    #[inline(always)]
+    fn equal64(self, a: F64x4, b: F64x4) -> u32 {
+        mask([0, 1, 2, 3].map(|lane: usize| a.0[lane] == b.0[lane]))
+    }
+
+    #[inline(always)]
+    fn chosen64(self, a: F64x4, b: F64x4, if_less: F64x4, otherwise: F64x4) -> F64x4 {
+        let mut chosen = otherwise;
+        for lane in 0..4 {
+            if a.0[lane] < b.0[lane] {
+                chosen.0[lane] = if_less.0[lane];
+            }
+        }
+        chosen
     }
 
     /// After Dekker (1971).

@@ -63,11 +63,17 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
     /// Visits the primitives at two places, unless they are beyond the bound. With `aims`, the direction between the nearest
     /// pair so far becomes the separating direction tried on later pairs.
     #[inline(always)]
-    pub(super) fn visit(&mut self, places: [u32; 2], aims: bool) -> ControlFlow<()> {
+    pub(super) fn visit<I: Instructions>(
+        &mut self,
+        lanes: I,
+        places: [u32; 2],
+        aims: bool,
+    ) -> ControlFlow<()> {
         let cutoff = self.visitor.bound() + self.pairing.slack();
         self.state.meter.count_primitives(1);
-        let outline = moved_outline(self.pairing, places[1], self.buffer, &mut self.state.moved);
-        let outlines = self.pairing.outline_a(places[0]).zip(outline);
+        let moved = &mut self.state.moved;
+        let outline = moved_outline(lanes, self.pairing, places[1], self.buffer, moved);
+        let outlines = self.pairing.outline_a(lanes, places[0]).zip(outline);
         if let Some((a, b)) = &outlines {
             for direction in [&self.state.direction, &self.state.last_direction] {
                 let direction: [f64; 3] = (*direction).into();
@@ -85,7 +91,7 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
         let direction = self.state.direction;
         let found = self
             .pairing
-            .distance_to(places, &outline, &direction, limits, primitives);
+            .distance_to(lanes, places, &outline, &direction, limits, primitives);
         let apart = match found {
             Ok(apart) => apart,
             Err(BeyondCutoff::Outlines(nearest)) => {
@@ -155,23 +161,25 @@ impl<V: Visitor> PairVisits<'_, V> {
 
 /// The outline of a primitive of B in A's frame, if it has one. Reuses the buffer if the last call was for the same primitive.
 #[inline(always)]
-fn moved_outline<'b>(
+fn moved_outline<'b, I: Instructions>(
+    lanes: I,
     pairing: &Pairing,
     place: u32,
     buffer: &'b mut MovedOutline,
     moved: &mut Option<MovedPlane>,
-) -> Option<Outline<'b>> {
+) -> Option<Outline<'b, I>> {
     if let Some(plane) = moved
         && plane.place == place
     {
         return Some(Outline {
+            lanes,
             blocks: &buffer[..plane.corners.div_ceil(4)],
             corners: plane.corners,
             normal: plane.normal,
             offset: plane.offset,
         });
     }
-    let outline = pairing.outline_b(place, buffer);
+    let outline = pairing.outline_b(lanes, place, buffer);
     *moved = outline.map(|outline| MovedPlane {
         place,
         corners: outline.corners,
@@ -214,7 +222,7 @@ impl<V: Visitor> Work for SinglePair<'_, V> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]
-    fn run<I: Instructions>(mut self, _: I) -> ControlFlow<()> {
-        self.visits.visit(self.places, false)
+    fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
+        self.visits.visit(lanes, self.places, false)
     }
 }

@@ -192,46 +192,49 @@ impl<'a> Pairing<'a> {
 
     /// The distance of the primitives at two places, unless it is above `cutoff`: a pure function of the primitives and
     /// the relative pose. 0 where they touch to within the pair's error.
-    #[inline(always)]
     pub fn distance(
         &self,
         places: [u32; 2],
         cutoff: f64,
         scratch: &mut PrimitiveScratch,
     ) -> Option<f64> {
-        let mut buffer = EMPTY;
-        let b = self.outline_b(places[1], &mut buffer);
-        let limits = DistanceLimits {
+        with_widest(DistanceOfPair {
+            pairing: self,
+            places,
             cutoff,
-            ..DistanceLimits::EXACT
-        };
-        let apart = self.distance_to(places, &b, &Vec3::zeros(), limits, scratch);
-        Some(apart.ok()?.distance)
+            scratch,
+        })
     }
 
     #[inline(always)]
-    pub fn outline_a(&self, place: u32) -> Option<Outline<'_>> {
-        outline(self.a.packed().primitives(), place)
+    pub fn outline_a<I: Instructions>(&self, lanes: I, place: u32) -> Option<Outline<'_, I>> {
+        outline(lanes, self.a.packed().primitives(), place)
     }
 
     /// The outline of a primitive of B in A's frame, if it has one.
     #[inline(always)]
-    pub fn outline_b<'b>(&self, place: u32, buffer: &'b mut MovedOutline) -> Option<Outline<'b>> {
-        let outline = outline(self.b.packed().primitives(), place)?;
+    pub fn outline_b<'b, I: Instructions>(
+        &self,
+        lanes: I,
+        place: u32,
+        buffer: &'b mut MovedOutline,
+    ) -> Option<Outline<'b, I>> {
+        let outline = outline(lanes, self.b.packed().primitives(), place)?;
         (!self.precision.planar).then(|| moved(&outline, &self.relative, buffer))
     }
 
     /// The same as `distance`, given the outline of B's primitive and a separating direction to try first.
     #[inline(always)]
-    pub fn distance_to(
+    pub fn distance_to<I: Instructions>(
         &self,
+        lanes: I,
         places: [u32; 2],
-        outline_b: &Option<Outline>,
+        outline_b: &Option<Outline<I>>,
         direction: &Vec3,
         limits: DistanceLimits,
         scratch: &mut PrimitiveScratch,
     ) -> std::result::Result<PairDistance, BeyondCutoff> {
-        let outline_a = outline(self.a.packed().primitives(), places[0]);
+        let outline_a = outline(lanes, self.a.packed().primitives(), places[0]);
         let found = match (&outline_a, outline_b) {
             (Some(a), Some(b)) => polygon_distance(a, b, limits.cutoff, self.precision.size),
             _ => PolygonDistance::Doubt,
@@ -351,19 +354,14 @@ impl<'a> Pairing<'a> {
 
     /// The same for polygons that do not cross.
     fn closest_outlines(&self, places: [u32; 2]) -> Option<Closest> {
-        let mut buffer = EMPTY;
-        let (a, b) = (
-            self.outline_a(places[0])?,
-            self.outline_b(places[1], &mut buffer)?,
-        );
         let entries = [(self.a, places[0]), (self.b, places[1])]
             .map(|(body, place)| body.packed().primitives().entry(place as usize));
         let is_plain = entries.iter().all(|entry| entry.is_plain);
         is_plain
             .then(|| {
                 with_widest(ClosestOutlines {
-                    outlines: [a, b],
-                    precision: &self.precision,
+                    pairing: self,
+                    places,
                 })
             })
             .flatten()
@@ -460,27 +458,61 @@ impl<'a> Pairing<'a> {
     }
 }
 
+struct DistanceOfPair<'a> {
+    pairing: &'a Pairing<'a>,
+    places: [u32; 2],
+    cutoff: f64,
+    scratch: &'a mut PrimitiveScratch,
+}
+
+impl Work for DistanceOfPair<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> Option<f64> {
+        let Self {
+            pairing, places, ..
+        } = self;
+        let mut buffer = EMPTY;
+        let b = pairing.outline_b(lanes, places[1], &mut buffer);
+        let limits = DistanceLimits {
+            cutoff: self.cutoff,
+            ..DistanceLimits::EXACT
+        };
+        let apart = pairing.distance_to(lanes, places, &b, &Vec3::zeros(), limits, self.scratch);
+        Some(apart.ok()?.distance)
+    }
+}
+
 struct ClosestOutlines<'a> {
-    outlines: [Outline<'a>; 2],
-    precision: &'a Precision,
+    pairing: &'a Pairing<'a>,
+    places: [u32; 2],
 }
 
 impl Work for ClosestOutlines<'_> {
     type Output = Option<Closest>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Option<Closest> {
-        let [a, b] = &self.outlines;
-        polygon_closest(a, b, self.precision.size, self.precision.error)
+    fn run<I: Instructions>(self, lanes: I) -> Option<Closest> {
+        let Self { pairing, places } = self;
+        let mut buffer = EMPTY;
+        let a = pairing.outline_a(lanes, places[0])?;
+        let b = pairing.outline_b(lanes, places[1], &mut buffer)?;
+        polygon_closest(&a, &b, pairing.precision.size, pairing.precision.error)
     }
 }
 
 #[inline(always)]
-fn outline(primitives: &PackedPrimitives, place: u32) -> Option<Outline<'_>> {
+fn outline<I: Instructions>(
+    lanes: I,
+    primitives: &PackedPrimitives,
+    place: u32,
+) -> Option<Outline<'_, I>> {
     let entry = primitives.entry(place as usize);
     (entry.corners > 0).then(|| {
         let packed = primitives.outline(entry);
         Outline {
+            lanes,
             blocks: packed.blocks,
             corners: entry.corners.into(),
             normal: packed.normal,

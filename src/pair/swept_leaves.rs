@@ -49,31 +49,15 @@ impl Work for SweptPair<'_, '_> {
     type Output = SweptLeaves;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> SweptLeaves {
+    fn run<I: Instructions>(self, lanes: I) -> SweptLeaves {
         self.pairing.swept_pair(
+            lanes,
             self.places,
             self.direction,
             self.sweep,
             self.limits,
             self.scratch,
         )
-    }
-}
-
-/// The same for the distance alone.
-struct DistancePair<'a, 'p> {
-    pairing: &'a Pairing<'p>,
-    places: [u32; 2],
-    scratch: &'a mut PrimitiveScratch,
-}
-
-impl Work for DistancePair<'_, '_> {
-    type Output = Option<f64>;
-
-    #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Option<f64> {
-        self.pairing
-            .distance(self.places, f64::INFINITY, self.scratch)
     }
 }
 
@@ -98,8 +82,9 @@ impl Pairing<'_> {
     }
 
     #[inline(always)]
-    fn swept_pair(
+    fn swept_pair<I: Instructions>(
         &self,
+        lanes: I,
         places: [u32; 2],
         direction: &[f32; 3],
         sweep: &Sweep,
@@ -114,12 +99,12 @@ impl Pairing<'_> {
             }
         }
         let mut buffer = EMPTY;
-        let outline = self.outline_b(places[1], &mut buffer);
+        let outline = self.outline_b(lanes, places[1], &mut buffer);
         let exact = DistanceLimits {
             cutoff: needed + limits.displacement,
             ..DistanceLimits::EXACT
         };
-        let found = self.distance_to(places, &outline, &Vec3::zeros(), exact, scratch);
+        let found = self.distance_to(lanes, places, &outline, &Vec3::zeros(), exact, scratch);
         let apart = match found {
             Ok(apart) => apart,
             Err(_) => return SweptLeaves::Free,
@@ -132,7 +117,7 @@ impl Pairing<'_> {
         if lower - limits.displacement > needed {
             return SweptLeaves::Free;
         }
-        let outlines = self.outline_a(places[0]).zip(outline);
+        let outlines = self.outline_a(lanes, places[0]).zip(outline);
         let between = match (&outlines, &apart) {
             (
                 Some((a, b)),
@@ -176,11 +161,7 @@ impl Pairing<'_> {
 
     /// The distance of the primitives at two places, 0 where they touch to within the pair's error.
     pub fn distance_of_leaves(&self, places: [u32; 2], scratch: &mut PrimitiveScratch) -> f64 {
-        let distance = with_widest(DistancePair {
-            pairing: self,
-            places,
-            scratch,
-        });
+        let distance = self.distance(places, f64::INFINITY, scratch);
         distance.unwrap_or(f64::INFINITY)
     }
 

@@ -129,7 +129,7 @@ impl<V: Visitor> Work for Traversal<'_, V> {
     fn run<I: Instructions>(mut self, lanes: I) -> ControlFlow<()> {
         if let Some(places) = self.first {
             self.visits.state.meter.done.cache_hits += 1;
-            self.visits.visit(places, true)?;
+            self.visits.visit(lanes, places, true)?;
         }
         Walk::new(self.visits, self.stack).run(lanes)
     }
@@ -210,7 +210,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             }
             if entry.is_of_leaves() {
                 let before = self.visits.visitor.bound();
-                self.visit_leaves(entry.a, entry.b)?;
+                self.visit_leaves(lanes, entry.a, entry.b)?;
                 // The neighbours of a nearer pair need not be the nearest: continue from the best waiting pair.
                 if self.visits.visitor.bound() < before {
                     self.stack.raise_nearest(lanes);
@@ -338,11 +338,15 @@ impl<'a, V: Visitor> Walk<'a, V> {
     }
 
     #[inline(always)]
-    fn visit_leaves(&mut self, a: NodeRef, b: NodeRef) -> ControlFlow<()> {
+    fn visit_leaves<I: Instructions>(
+        &mut self,
+        lanes: I,
+        a: NodeRef,
+        b: NodeRef,
+    ) -> ControlFlow<()> {
         let nearest = self.visits.state.direction_at;
-        let visited = self
-            .visits
-            .visit([self.trees[0].place(a), self.trees[1].place(b)], true);
+        let places = [self.trees[0].place(a), self.trees[1].place(b)];
+        let visited = self.visits.visit(lanes, places, true);
         if self.visits.state.direction_at < nearest {
             self.turn_direction();
         }

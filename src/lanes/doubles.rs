@@ -1,0 +1,205 @@
+//! Four lanes in double precision, in a register of an instruction set. What loops over an [`F64x4`] is left to the compiler,
+//! which in long code takes registers of two lanes.
+
+use std::ops::{Add, Mul, Sub};
+
+use super::F64x4;
+use super::each3;
+use super::four::Points64;
+
+/// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
+/// bits; they are those of the operations of the same names of [`F64x4`].
+pub trait DoubleInstructions: Copy {
+    /// Four lanes of f64.
+    type Numbers64: Copy;
+
+    fn splat64(self, value: f64) -> Self::Numbers64;
+    fn load64(self, values: &F64x4) -> Self::Numbers64;
+    fn array64(self, a: Self::Numbers64) -> F64x4;
+    fn add64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    fn sub64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    fn mul64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    /// The quotient, and 0 where the divisor is 0.
+    fn quotient64(self, a: Self::Numbers64, divisor: Self::Numbers64) -> Self::Numbers64;
+    /// The lane-wise minimum; the second operand where either is NaN.
+    fn min64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    /// The lane-wise maximum; the second operand where either is NaN.
+    fn max64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    /// The last three lanes, then the first lane of the next four.
+    fn following64(self, a: Self::Numbers64, next: Self::Numbers64) -> Self::Numbers64;
+    /// The bit mask of the lanes where one is less than the other.
+    fn less64(self, a: Self::Numbers64, b: Self::Numbers64) -> u32;
+    /// The bit mask of the lanes that are equal.
+    fn equal64(self, a: Self::Numbers64, b: Self::Numbers64) -> u32;
+    /// Where `a` is less than `b` the lanes of the first of two, and of the second elsewhere.
+    fn chosen64(
+        self,
+        a: Self::Numbers64,
+        b: Self::Numbers64,
+        if_less: Self::Numbers64,
+        otherwise: Self::Numbers64,
+    ) -> Self::Numbers64;
+
+    /// The rounding error of a product. It is exact, and so the same on every instruction set, except near overflow and underflow.
+    fn product_error(self, x: F64x4, y: F64x4, product: F64x4) -> F64x4;
+}
+
+/// Four doubles.
+#[derive(Clone, Copy)]
+pub struct Doubles<I: DoubleInstructions> {
+    numbers: I::Numbers64,
+    lanes: I,
+}
+
+/// Four points or vectors, as one register per coordinate.
+pub type DoubleTriple<I> = [Doubles<I>; 3];
+
+impl<I: DoubleInstructions> Doubles<I> {
+    #[inline(always)]
+    pub fn splat(lanes: I, value: f64) -> Self {
+        Self {
+            numbers: lanes.splat64(value),
+            lanes,
+        }
+    }
+
+    #[inline(always)]
+    pub fn load(lanes: I, values: &F64x4) -> Self {
+        Self {
+            numbers: lanes.load64(values),
+            lanes,
+        }
+    }
+
+    #[inline(always)]
+    pub fn points(lanes: I, points: &Points64) -> DoubleTriple<I> {
+        each3(|k| Self::load(lanes, &points[k]))
+    }
+
+    /// One point in all lanes.
+    #[inline(always)]
+    pub fn point(lanes: I, point: &[f64; 3]) -> DoubleTriple<I> {
+        each3(|k| Self::splat(lanes, point[k]))
+    }
+
+    #[inline(always)]
+    pub fn array(self) -> F64x4 {
+        self.lanes.array64(self.numbers)
+    }
+
+    #[inline(always)]
+    fn with(self, other: Self, f: impl Fn(I, I::Numbers64, I::Numbers64) -> I::Numbers64) -> Self {
+        Self {
+            numbers: f(self.lanes, self.numbers, other.numbers),
+            lanes: self.lanes,
+        }
+    }
+
+    /// The lane-wise minimum; the second operand where either is NaN.
+    #[inline(always)]
+    pub fn min(self, other: Self) -> Self {
+        self.with(other, I::min64)
+    }
+
+    /// The lane-wise maximum; the second operand where either is NaN.
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        self.with(other, I::max64)
+    }
+
+    /// The quotient, and 0 where the divisor is 0.
+    #[inline(always)]
+    pub fn quotient(self, divisor: Self) -> Self {
+        self.with(divisor, I::quotient64)
+    }
+
+    /// The reciprocal, and 0 where the number is 0.
+    #[inline(always)]
+    pub fn inverse(self) -> Self {
+        Self::splat(self.lanes, 1.0).quotient(self)
+    }
+
+    /// The numbers clamped to [0, 1].
+    #[inline(always)]
+    pub fn unit(self) -> Self {
+        self.min(Self::splat(self.lanes, 1.0))
+            .max(Self::splat(self.lanes, 0.0))
+    }
+
+    /// The last three lanes, then the first lane of the next four.
+    #[inline(always)]
+    pub fn following(self, next: Self) -> Self {
+        self.with(next, I::following64)
+    }
+
+    /// The bit mask of the lanes that are less than another's.
+    #[inline(always)]
+    pub fn less(self, other: Self) -> u32 {
+        self.lanes.less64(self.numbers, other.numbers)
+    }
+
+    /// The bit mask of the lanes that are equal to another's.
+    #[inline(always)]
+    pub fn equal(self, other: Self) -> u32 {
+        self.lanes.equal64(self.numbers, other.numbers)
+    }
+
+    /// Where this is less than another the lanes of the first of two, and of the second elsewhere.
+    #[inline(always)]
+    pub fn chosen(self, other: Self, if_less: Self, otherwise: Self) -> Self {
+        let numbers = self.lanes.chosen64(
+            self.numbers,
+            other.numbers,
+            if_less.numbers,
+            otherwise.numbers,
+        );
+        Self {
+            numbers,
+            lanes: self.lanes,
+        }
+    }
+
+    /// The minimum over all lanes.
+    #[inline(always)]
+    pub fn least(self) -> f64 {
+        self.array().least()
+    }
+
+    /// The maximum over all lanes.
+    #[inline(always)]
+    pub fn greatest(self) -> f64 {
+        self.array().greatest()
+    }
+}
+
+impl<I: DoubleInstructions> Add for Doubles<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.with(other, I::add64)
+    }
+}
+
+impl<I: DoubleInstructions> Sub for Doubles<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.with(other, I::sub64)
+    }
+}
+
+impl<I: DoubleInstructions> Mul for Doubles<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.with(other, I::mul64)
+    }
+}
+
+impl<I: DoubleInstructions> Mul<f64> for Doubles<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        self * Self::splat(self.lanes, factor)
+    }
+}
