@@ -4,7 +4,7 @@
 
 use smallvec::SmallVec;
 
-use super::course::{Course, CourseState};
+use super::course::{Course, CourseBounds, CourseState};
 use super::motion_rates::ChainRates;
 use super::{JointKind, Link, Robot};
 use crate::pose::{Pose, Vec3, turned, turned_axes};
@@ -19,6 +19,19 @@ pub(super) enum Element {
     Turn { axis: Vec3, angle: Course },
     /// A shift along a unit axis.
     Shift { axis: Vec3, length: Course },
+    /// A turn about a unit axis through another point than the origin, which so moves on an arc.
+    Arc(Arc),
+}
+
+/// A turn at a constant rate in which the origin moves too.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    axis: Vec3,
+    /// In radians per unit of time, above 0.
+    rate: f64,
+    /// The velocity with which the origin starts, across the axis. The point that stays is this over the rate away: for slow turns so
+    /// far that poses computed from there would lose all digits.
+    across: Vec3,
 }
 
 /// A link's parent, and its pose in it.
@@ -174,6 +187,48 @@ impl MotionState {
         self.linear_acceleration +=
             2.0 * self.angular.cross(&velocity) + direction * length.acceleration;
     }
+
+    /// The origin's way is the integral of its velocity, `across` turned with the frame.
+    fn turn_on_arc(&mut self, arc: &Arc, t: f64) {
+        let Arc { axis, rate, across } = arc;
+        let angle = rate * t;
+        let (sin, cos) = angle.sin_cos();
+        let half = (0.5 * angle).sin();
+        let inwards = axis.cross(across);
+        let in_world = |v: Vec3| turned(&self.pose.rotation, &v);
+        let way = in_world((across * sin + inwards * (2.0 * half * half)) / *rate);
+        let velocity = in_world(across * cos + inwards * sin);
+        let acceleration = in_world((inwards * cos - across * sin) * *rate);
+        self.carry(&way);
+        self.linear += velocity;
+        self.linear_acceleration += 2.0 * self.angular.cross(&velocity) + acceleration;
+        self.turn(
+            axis,
+            &CourseState {
+                value: angle,
+                rate: *rate,
+                acceleration: 0.0,
+            },
+        );
+    }
+}
+
+impl Arc {
+    /// Of the way from the origin's place at time 0: at most the arc's length, and at most the circle's diameter.
+    fn way_bounds(&self) -> CourseBounds {
+        let (rate, speed) = (self.rate, self.across.norm());
+        CourseBounds {
+            farthest: speed * (2.0 / rate).min(1.0),
+            derivatives: [speed, speed * rate, speed * rate * rate],
+        }
+    }
+
+    fn angle_bounds(&self) -> CourseBounds {
+        CourseBounds {
+            farthest: self.rate,
+            derivatives: [self.rate, 0.0, 0.0],
+        }
+    }
 }
 
 impl LinkStates {
@@ -245,6 +300,7 @@ impl LinkMotions {
                 Element::Shift { axis, length } => {
                     state.shift(axis, &length.at(t, &self.controls, given));
                 }
+                Element::Arc(arc) => state.turn_on_arc(arc, t),
             }
         }
     }
@@ -278,6 +334,7 @@ impl LinkMotions {
             Element::Shift { axis, length } => {
                 rates.push_shift(axis, &length.bounds(&self.controls));
             }
+            Element::Arc(arc) => rates.push_arc(&arc.axis, &arc.way_bounds(), &arc.angle_bounds()),
         }
     }
 
@@ -302,22 +359,23 @@ impl LinkMotions {
     /// Adds what a twist makes of the last frame, in the frame that it moves.
     fn screw(&mut self, linear: &Vec3, angular: &Vec3) {
         let rate = angular.norm();
-        // Turned by so little in all, no point is farther off a straight line than rounding puts it; and the screw's axis would be so far
-        // away that bounds overflow.
+        // Turned by so little in all, no point is farther off a straight line than rounding puts it.
         if rate <= EPSILON {
             self.shift_at(Vec3::zeros(), *linear);
             return;
         }
         let axis = angular / rate;
-        // The screw's axis passes through this point.
-        let center = axis.cross(linear) / rate;
+        let along = axis.dot(linear);
+        let across = linear - axis * along;
         let from_zero = |rate: f64| Course::Line { start: 0.0, rate };
-        self.elements
-            .push(Element::Fixed(Pose::from_translation(center)));
-        self.turn(axis, from_zero(rate));
-        self.shift(axis, from_zero(axis.dot(linear)));
-        self.elements
-            .push(Element::Fixed(Pose::from_translation(-center)));
+        if along != 0.0 {
+            self.shift(axis, from_zero(along));
+        }
+        if across == Vec3::zeros() {
+            self.turn(axis, from_zero(rate));
+        } else {
+            self.elements.push(Element::Arc(Arc { axis, rate, across }));
+        }
     }
 
     /// The course of `multiplier * coordinate + offset`.

@@ -70,6 +70,8 @@ impl<'a> LinkTwists<'a> {
         for element in elements {
             match element {
                 Element::Fixed(fixed) => pose = pose.compose(fixed),
+                // No coordinate of a box turns so.
+                Element::Arc(_) => {}
                 Element::Turn { axis, angle } => {
                     let direction = turned(&pose.rotation, axis);
                     let Course::Range {

@@ -68,6 +68,14 @@ impl ChainRates {
         self.carry(axis, bounds.farthest, bounds.derivatives);
     }
 
+    /// Goes on behind a turn about a unit axis whose origin moves by bounds of its own, wherever it goes. What undoes the two is of the
+    /// same kind and has the same bounds.
+    pub(super) fn push_arc(&mut self, axis: &Vec3, way: &CourseBounds, angle: &CourseBounds) {
+        self.last = None;
+        self.carry(axis, way.farthest, way.derivatives);
+        self.push_turn(axis, angle);
+    }
+
     /// Moves the origin along `arm`, times a factor that is at most `length` and has derivatives of at most `derivatives`.
     fn carry(&mut self, arm: &Vec3, length: f64, derivatives: [f64; 3]) {
         let whole = arm.norm();
