@@ -1,5 +1,6 @@
 //! Robots: trees of links and the joints that move them (§4.1–4.3).
 
+mod arc;
 mod builder;
 mod coordinate;
 mod course;
@@ -12,6 +13,7 @@ mod link_motions;
 mod link_twists;
 mod motion_bound;
 mod motion_rates;
+mod motion_state;
 mod names;
 mod rates_from;
 #[allow(clippy::module_inception)]
@@ -26,9 +28,10 @@ pub use course::{MAX_DEGREE, bezier, bezier_speed};
 pub use custom_joint::{CustomJoint, MAX_COORDINATES, Speeds, Twist};
 pub use jacobian::{Column, RobotState};
 pub use joint::{Joint, JointKind};
-pub use link_motions::{CoordinateCourses, LinkMotions, LinkStates, MotionState};
+pub use link_motions::{CoordinateCourses, LinkMotions, LinkStates};
 pub use link_twists::{LinkTwists, RelativeTwist, RelativeTwists};
 pub use motion_rates::{ChainRates, MotionRates};
+pub use motion_state::MotionState;
 pub use rates_from::RatesFrom;
 pub use robot::{Link, Robot, check_configuration};
 pub use semantics::{
