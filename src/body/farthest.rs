@@ -51,15 +51,14 @@ impl Body {
                 continue;
             }
             let index = tree.index(node);
-            let children = tree.children(index);
             let first = open.len();
             let below = |lane: usize| -> (f64, NodeRef) {
                 let bound = extent_along(&tree.node(index).get(lane), direction);
                 // For the rounding of the point's coordinates.
                 let slack = 1e-14 * self.radius();
-                (bound * tree.scale() + slack, children.units[lane])
+                (bound * tree.scale() + slack, tree.child(index, lane))
             };
-            open.extend((0..children.count).map(below));
+            open.extend((0..tree.node(index).count as usize).map(below));
             // The farthest goes on top of the stack.
             open[first..].sort_by(|a, b| a.0.total_cmp(&b.0));
         }

@@ -121,14 +121,8 @@ impl<I: Instructions> Outline<'_, I> {
     #[inline(always)]
     pub fn corner_with(&self, direction: &[f64; 3], extreme: f64) -> usize {
         let extreme = self.splat(extreme);
-        self.first(|corners| along64(corners, direction).equal(extreme))
-    }
-
-    /// The first corner in the bit masks of the blocks; 0 if there is none.
-    #[inline(always)]
-    fn first(&self, mask: impl Fn(&DoubleTriple<I>) -> u32) -> usize {
         for block in 0..self.blocks.len() {
-            let lanes = mask(&self.block(block));
+            let lanes = along64(&self.block(block), direction).equal(extreme);
             if lanes != 0 {
                 return 4 * block + lanes.trailing_zeros() as usize;
             }
@@ -140,16 +134,17 @@ impl<I: Instructions> Outline<'_, I> {
     #[inline(always)]
     pub fn corner_near(&self, point: &Vec3) -> usize {
         let point = Doubles::point(self.lanes, &(*point).into());
-        let squares = |corners: &DoubleTriple<I>| {
-            let apart = sub64(corners, &point);
-            dot64(&apart, &apart)
-        };
-        let mut least = squares(&self.block(0));
-        for block in 1..self.blocks.len() {
-            least = least.min(squares(&self.block(block)));
+        let (mut best, mut least) = (0, f64::INFINITY);
+        for block in 0..self.blocks.len() {
+            let apart = sub64(&self.block(block), &point);
+            let squares = dot64(&apart, &apart);
+            let own = squares.least();
+            if own < least {
+                let lanes = squares.equal(self.splat(own));
+                (best, least) = (4 * block + lanes.trailing_zeros() as usize, own);
+            }
         }
-        let least = self.splat(least.least());
-        self.first(|corners| squares(corners).equal(least))
+        best
     }
 
     /// Whether the foot of a point lies inside the polygon.

@@ -176,6 +176,18 @@ impl Instructions for Avx2 {
     }
 
     #[inline(always)]
+    fn numbered(self, values: &[u32; 8], kept: u32, first: u32) -> [u32; 8] {
+        // SAFETY: eight numbers are read, and the processor has the instructions.
+        unsafe {
+            let lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+            let numbers = _mm256_add_epi32(_mm256_set1_epi32(first as i32), lanes);
+            let values = _mm256_loadu_si256(values.as_ptr().cast());
+            let values = _mm256_and_si256(values, _mm256_set1_epi32(kept as i32));
+            std::mem::transmute::<__m256i, [u32; 8]>(_mm256_or_si256(values, numbers))
+        }
+    }
+
+    #[inline(always)]
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
         let order = &LANES_OF[(lanes & 255) as usize];
         // SAFETY: eight bytes and eight numbers are read, and the processor has the instructions.

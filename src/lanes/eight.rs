@@ -46,6 +46,8 @@ pub trait Instructions: DoubleInstructions {
     fn at_most(self, a: Self::Numbers, limit: f32) -> u32;
     /// The lanes of a bit mask; infinity in all others.
     fn only(self, a: Self::Numbers, lanes: u32) -> Self::Numbers;
+    /// The bits of each value that are set in `kept`, with the numbers from `first` on in the others.
+    fn numbered(self, values: &[u32; 8], kept: u32, first: u32) -> [u32; 8];
     /// Compacts the values of the lanes in a bit mask to the front; what follows them is meaningless.
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8];
 

@@ -143,6 +143,15 @@ impl Instructions for Plain {
     }
 
     #[inline(always)]
+    fn numbered(self, values: &[u32; 8], kept: u32, first: u32) -> [u32; 8] {
+        let mut result = *values;
+        for (value, number) in result.iter_mut().zip(first..) {
+            *value = *value & kept | number;
+        }
+        result
+    }
+
+    #[inline(always)]
     fn gathered(self, values: &[u32; 8], lanes: u32) -> [u32; 8] {
         let order = &LANES_OF[(lanes & 255) as usize];
         order.map(|lane| values[usize::from(lane & 7)])

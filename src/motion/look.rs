@@ -490,7 +490,7 @@ impl<P: Piece> Look<'_, '_, P> {
         let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
         let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
         let other_size = length(&one.half);
-        let children = tree.children(index);
+        let children = tree.children(lanes, index);
         let mut left = 0u8;
         while near != 0 {
             let lane = near.trailing_zeros() as usize & 7;

@@ -63,7 +63,7 @@ impl Work for Descent<'_> {
             let index = self.tree.index(unit);
             let eight = self.tree.node(index).boxes(lanes, 1.0);
             let bounds = bounds(lanes, &eight, &self.one);
-            let children = self.tree.children(index);
+            let children = self.tree.children(lanes, index);
             seen.boxes += children.count as u64;
             let mut near = lanes.at_most(bounds, self.cutoff) & ((1 << children.count) - 1);
             while near != 0 {

@@ -303,7 +303,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
         let node = tree.node(index);
         let one = self.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, other));
         let eight = node.boxes(lanes, self.unit(opened));
-        let children = tree.children(index);
+        let children = tree.children(lanes, index);
         let among = (1 << children.count) - 1;
         let is_aimed = self.visits.state.direction != Vec3::zeros();
         let direction = &self.directions[opened];

@@ -112,9 +112,9 @@ pub fn boxes_bound_their_primitives(body: &Body) {
                 }
             }
         } else {
-            let children = tree.children(tree.index(node));
-            let units = children.units[..children.count].iter();
-            below.extend(units.map(|&child| (child, above.clone())));
+            let index = tree.index(node);
+            let lanes = 0..tree.node(index).count as usize;
+            below.extend(lanes.map(|lane| (tree.child(index, lane), above.clone())));
         }
     }
 }

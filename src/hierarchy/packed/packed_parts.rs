@@ -106,9 +106,9 @@ impl PackedPart<'_> {
         if root.is_leaf() {
             return points.extend(self.corners(root, motion).1);
         }
-        let children = self.tree.children(self.tree.index(root));
-        for &child in &children.units[..children.count] {
-            points.extend(self.corners(child, motion).1);
+        let index = self.tree.index(root);
+        for lane in 0..self.tree.node(index).count as usize {
+            points.extend(self.corners(self.tree.child(index, lane), motion).1);
         }
     }
 }

@@ -297,14 +297,11 @@ impl PackedTree {
 
     /// The children of a node as node refs, as by [`PackedTree::child`].
     #[inline(always)]
-    pub fn children(&self, index: usize) -> Children {
+    pub fn children<I: Instructions>(&self, lanes: I, index: usize) -> Children {
         let node = &self.nodes[index];
-        let mut units = [NodeRef(0); 8];
-        for ((lane, unit), child) in units.iter_mut().enumerate().zip(&node.children) {
-            *unit = NodeRef((child & LEAF) | (index as u32) << 3 | lane as u32);
-        }
+        let numbers = lanes.numbered(&node.children, LEAF, (index as u32) << 3);
         Children {
-            units,
+            units: numbers.map(NodeRef),
             count: node.count as usize,
         }
     }
