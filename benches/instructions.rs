@@ -25,7 +25,17 @@ fn main() {
         let place = arguments.iter().position(|a| a == name)?;
         arguments.get(place + 1).cloned()
     };
-    let cases = cases(true, 0);
+    let cases: Vec<Case> = cases(true, 0)
+        .into_iter()
+        .flat_map(|case| {
+            let name = format!("{} in triangles", case.name);
+            let in_triangles = Case {
+                name,
+                ..case.in_triangles()
+            };
+            [case, in_triangles]
+        })
+        .collect();
     if let (Some(name), Some(mode)) = (value("--case"), value("--mode")) {
         let case = cases.iter().find(|case| case.name == name);
         let case = case.expect("--case names a case");

@@ -134,13 +134,17 @@ pub fn sharper_bounds<I: Instructions>(
     one: &PackedBox,
     wanted: &BoundRefinement,
 ) -> Lanes8<I> {
+    let mut known = lanes.splat(f32::NEG_INFINITY);
+    if let Some(direction) = wanted.direction {
+        known = gaps_along(lanes, eight, one, direction);
+        if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
+            return known;
+        }
+    }
     let [first, second] = &sides(lanes, eight, one);
     let largest = [first.largest(lanes), second.largest(lanes)];
     let upright = lanes.splat(AXIS_FACTOR);
-    let mut known = lanes.mul(lanes.max(largest[0], largest[1]), upright);
-    if let Some(direction) = wanted.direction {
-        known = lanes.max(known, gaps_along(lanes, eight, one, direction));
-    }
+    known = lanes.max(known, lanes.mul(lanes.max(largest[0], largest[1]), upright));
     if lanes.at_most(known, wanted.cutoff) & wanted.among == 0 {
         return known;
     }
