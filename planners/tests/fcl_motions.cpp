@@ -1,9 +1,9 @@
 // Motions as cstk_motion proves them, judged by samples of FCL:
 //
-//     fcl_motions [--puma FOLDER] [--panda FOLDER] [--motions N] [--samples N]
+//     fcl_motions [--puma FOLDER] [--panda FOLDER] [--motions N] [--samples N] [--from NAME]
 //
 // So many random motions in each workcell, from configurations that are free. What is proved free, whole or before a first contact,
-// meets nothing at any sample. A campaign: --motions 300 --samples 10000.
+// meets nothing at any sample. A campaign: --motions 300 --samples 10000; --from goes on with a workcell and those after it.
 #include "built_in.hpp"
 #include "check.hpp"
 #include "fcl_cell.hpp"
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,8 @@ void judge(const Problem &problem, std::size_t motions, std::size_t samples) {
 
 int main(int count, char **arguments) {
     try {
-        std::map<std::string, std::string> given = {{"--puma", ""}, {"--panda", ""}, {"--motions", "40"}, {"--samples", "200"}};
+        std::map<std::string, std::string> given = {{"--puma", ""}, {"--panda", ""}, {"--motions", "40"},
+                                                    {"--samples", "200"}, {"--from", ""}};
         for (int i = 1; i + 1 < count; i += 2) {
             given[arguments[i]] = arguments[i + 1];
         }
@@ -88,8 +90,16 @@ int main(int count, char **arguments) {
                 all.push_back(panda.problems(scene, 1).front());
             }
         }
+        bool has_begun = given["--from"].empty();
         for (const Problem &problem : all) {
+            has_begun = has_begun || problem.name == given["--from"];
+            if (!has_begun) {
+                continue;
+            }
             judge(problem, std::stoul(given["--motions"]), std::stoul(given["--samples"]));
+        }
+        if (!has_begun) {
+            throw std::runtime_error("no workcell is called " + given["--from"]);
         }
         return 0;
     } catch (const std::exception &error) {
