@@ -92,7 +92,7 @@ int main(int count, char **arguments) {
         }
         bool has_begun = given["--from"].empty();
         for (const Problem &problem : all) {
-            has_begun = has_begun || problem.name == given["--from"];
+            has_begun = has_begun || problem.scene == given["--from"];
             if (!has_begun) {
                 continue;
             }

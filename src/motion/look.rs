@@ -10,7 +10,7 @@ use super::piece::Piece;
 use super::set_tree::Known;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
-use crate::pair::{Scratch, SweptLeaves, swept_gaps};
+use crate::pair::{GapsWanted, Scratch, SweptLeaves, swept_gaps};
 
 /// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the piece, others
 /// are opened. Larger values open boxes that a smaller piece would part; smaller ones look at the same boxes again. On the arms of
@@ -367,6 +367,10 @@ impl<P: Piece> Look<'_, '_, P> {
             over.twists.as_ref(),
             over.extension,
             over.bends,
+            GapsWanted {
+                cutoff: over.cutoff,
+                among: u32::from(bundle.lanes),
+            },
         );
         self.scratch
             .meter_mut()
@@ -478,6 +482,10 @@ impl<P: Piece> Look<'_, '_, P> {
             over.twists[opened].as_ref(),
             over.extension,
             bends,
+            GapsWanted {
+                cutoff: over.cutoff,
+                among: u32::from(group.lanes),
+            },
         );
         self.scratch
             .meter_mut()

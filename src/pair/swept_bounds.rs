@@ -50,8 +50,18 @@ pub fn sum_factor(twists: usize) -> f64 {
     1.0 + twists.saturating_sub(1) as f64 / 16.0
 }
 
+/// Which gaps are of interest.
+#[derive(Clone, Copy, Debug)]
+pub struct GapsWanted {
+    /// Larger ones need not be known better.
+    pub cutoff: f32,
+    /// The bit mask of the lanes that hold boxes.
+    pub among: u32,
+}
+
 /// The largest gap along the axes of the eight and of the one, which has the twists, or of which the eight have the opposite. `bends`
-/// are what the acceleration may take off: along axes that rest with the eight, and with the one.
+/// are what the acceleration may take off: along axes that rest with the eight, and with the one. Where the axes of the eight part all
+/// boxes by more than the cutoff, those of the one are not tried.
 #[inline(always)]
 pub fn swept_gaps<I: Instructions>(
     lanes: I,
@@ -60,6 +70,7 @@ pub fn swept_gaps<I: Instructions>(
     twists: &[Twist32],
     extension: Extension,
     bends: [f32; 2],
+    wanted: GapsWanted,
 ) -> SweptGaps<I> {
     let [x, y, z] = splat(lanes, &one.center);
     let center = &eight.center;
@@ -97,13 +108,7 @@ pub fn swept_gaps<I: Instructions>(
         lanes.dot(&axes[1], &apart),
         lanes.dot(&axes[2], &apart),
     ];
-    let places_of_one = [
-        lanes.along(&apart, first),
-        lanes.along(&apart, second),
-        lanes.along(&apart, third),
-    ];
     let mut of_one = [lanes.splat(bends[0]); 3];
-    let mut of_eight = [lanes.splat(bends[1]); 3];
     for twist in twists {
         let turn = cross3(&twist.angular, &one.center);
         let velocity = each3(|k| twist.linear[k] + turn[k]);
@@ -119,21 +124,6 @@ pub fn swept_gaps<I: Instructions>(
                 of_one[k] = lanes.add(of_one[k], lanes.abs(lanes.along(&axes[k], side)));
             }
         }
-        for (j, axis) in one.axes.iter().enumerate() {
-            let arm = cross3(axis, &twist.angular);
-            let [ax, ay, az] = splat(lanes, &arm);
-            let origin = lanes.splat(dot(axis, &twist.linear));
-            let first = lanes.mul_add(center[0], ax, origin);
-            let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-            let nearer = nearer(lanes, at_center, places_of_one[j], extension);
-            let moved = lanes.add(nearer, of_eight[j]);
-            let turned = [
-                lanes.along(&axes[0], &arm),
-                lanes.along(&axes[1], &arm),
-                lanes.along(&axes[2], &arm),
-            ];
-            of_eight[j] = extent_along(lanes, &turned, &eight.half, moved);
-        }
     }
     for k in 0..3 {
         let gap = lanes.sub(
@@ -142,13 +132,39 @@ pub fn swept_gaps<I: Instructions>(
         );
         gaps.offer(lanes, gap, of_one[k], extension);
     }
-    for j in 0..3 {
-        let along = [products[0][j], products[1][j], products[2][j]];
-        let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-        let gap = lanes.sub(lanes.abs(places_of_one[j]), extent);
-        gaps.offer(lanes, gap, of_eight[j], extension);
-    }
     let upright = lanes.splat(AXIS_FACTOR);
+    let GapsWanted { cutoff, among } = wanted;
+    if lanes.at_most(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
+        let places_of_one = [
+            lanes.along(&apart, first),
+            lanes.along(&apart, second),
+            lanes.along(&apart, third),
+        ];
+        let mut of_eight = [lanes.splat(bends[1]); 3];
+        for twist in twists {
+            for (j, axis) in one.axes.iter().enumerate() {
+                let arm = cross3(axis, &twist.angular);
+                let [ax, ay, az] = splat(lanes, &arm);
+                let origin = lanes.splat(dot(axis, &twist.linear));
+                let first = lanes.mul_add(center[0], ax, origin);
+                let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
+                let nearer = nearer(lanes, at_center, places_of_one[j], extension);
+                let moved = lanes.add(nearer, of_eight[j]);
+                let turned = [
+                    lanes.along(&axes[0], &arm),
+                    lanes.along(&axes[1], &arm),
+                    lanes.along(&axes[2], &arm),
+                ];
+                of_eight[j] = extent_along(lanes, &turned, &eight.half, moved);
+            }
+        }
+        for j in 0..3 {
+            let along = [products[0][j], products[1][j], products[2][j]];
+            let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
+            let gap = lanes.sub(lanes.abs(places_of_one[j]), extent);
+            gaps.offer(lanes, gap, of_eight[j], extension);
+        }
+    }
     SweptGaps {
         still: lanes.mul(gaps.still, upright),
         swept: lanes.mul(gaps.swept, upright),
