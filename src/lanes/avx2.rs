@@ -165,6 +165,12 @@ impl Instructions for Avx2 {
     }
 
     #[inline(always)]
+    fn not_above(self, a: __m256, limit: f32) -> u32 {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NGT_UQ>(a, _mm256_set1_ps(limit))) as u32 }
+    }
+
+    #[inline(always)]
     fn only(self, a: __m256, lanes: u32) -> __m256 {
         // SAFETY: the processor has the instructions.
         unsafe {

@@ -44,6 +44,8 @@ pub trait Instructions: DoubleInstructions {
     fn swapped(self, a: Self::Numbers) -> Self::Numbers;
     /// The bit mask of the lanes that are at most a limit.
     fn at_most(self, a: Self::Numbers, limit: f32) -> u32;
+    /// The bit mask of the lanes that are not above a limit: those that are at most as large, and what is no number.
+    fn not_above(self, a: Self::Numbers, limit: f32) -> u32;
     /// The lanes of a bit mask; infinity in all others.
     fn only(self, a: Self::Numbers, lanes: u32) -> Self::Numbers;
     /// The bits of each value that are set in `kept`, with the numbers from `first` on in the others.

@@ -132,6 +132,15 @@ impl Instructions for Plain {
     }
 
     #[inline(always)]
+    fn not_above(self, a: [f32; 8], limit: f32) -> u32 {
+        let mut above = 0;
+        for (lane, value) in a.into_iter().enumerate() {
+            above |= u32::from(value > limit) << lane;
+        }
+        above ^ 255
+    }
+
+    #[inline(always)]
     fn only(self, a: [f32; 8], lanes: u32) -> [f32; 8] {
         let mut result = a;
         for (lane, value) in result.iter_mut().enumerate() {

@@ -375,7 +375,7 @@ impl<P: Piece> Look<'_, '_, P> {
         self.scratch
             .meter_mut()
             .count_nodes(u64::from(bundle.lanes.count_ones()));
-        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(bundle.lanes);
+        let mut near = lanes.not_above(gaps.swept, over.cutoff) & u32::from(bundle.lanes);
         if near == 0 {
             return;
         }
@@ -491,7 +491,7 @@ impl<P: Piece> Look<'_, '_, P> {
             .meter_mut()
             .count_nodes(u64::from(group.lanes.count_ones()));
         self.pair.count(group.pair, 1);
-        let mut near = lanes.at_most(gaps.swept, over.cutoff) & u32::from(group.lanes);
+        let mut near = lanes.not_above(gaps.swept, over.cutoff) & u32::from(group.lanes);
         if near == 0 {
             return;
         }

@@ -134,7 +134,7 @@ pub fn swept_gaps<I: Instructions>(
     }
     let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
-    if lanes.at_most(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
+    if lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
         let places_of_one = [
             lanes.along(&apart, first),
             lanes.along(&apart, second),
@@ -191,7 +191,8 @@ impl<I: Instructions> SweptGaps<I> {
     fn offer(&mut self, lanes: I, gap: Lanes8<I>, moved: Lanes8<I>, extension: Extension) {
         let moved = match extension {
             Extension::BothWays => moved,
-            Extension::OneWay => lanes.max(moved, lanes.splat(0.0)),
+            // What is no number stays so.
+            Extension::OneWay => lanes.max(lanes.splat(0.0), moved),
         };
         self.still = lanes.max(self.still, gap);
         self.swept = lanes.max(self.swept, lanes.sub(gap, moved));

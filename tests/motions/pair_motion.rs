@@ -147,3 +147,33 @@ fn what_rests_or_starts_inside_is_told_at_once() {
     let refused = context.pair_motion(&passes, &rests(&room), &options);
     assert_eq!(refused.unwrap_err().kind, ErrorKind::NotFinite);
 }
+
+/// Displacements beyond single precision hide nothing: what passes through a body is not free of it, however far it goes.
+#[test]
+fn no_way_is_too_long_to_meet_something() {
+    let body = cuboid([2.0; 3]).body;
+    let context = &mut QueryContext::new();
+    for exponent in 36..=48 {
+        let far = 10f64.powi(exponent);
+        for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+            let ends = [-far, far].map(|x| Pose::from_translation(axis * x));
+            let at = Pose::from_translation(axis * 5.0);
+            let moving = PairMotion {
+                body: &body,
+                poses: [&ends[0], &ends[1]],
+            };
+            let resting = PairMotion {
+                body: &body,
+                poses: [&at, &at],
+            };
+            for any_contact in [false, true] {
+                let options = MotionOptions {
+                    any_contact,
+                    ..MotionOptions::default()
+                };
+                let found = context.pair_motion(&moving, &resting, &options).unwrap();
+                assert_ne!(found.outcome, MotionOutcome::Free, "{axis:?} {far:e}");
+            }
+        }
+    }
+}
