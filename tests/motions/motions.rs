@@ -416,6 +416,49 @@ fn bad_input_is_refused_and_what_starts_inside_says_so() {
     }
 }
 
+/// What moves farther than single precision holds is not free of what lies on its way, of one object or of several, nor is a link of
+/// the link before it.
+#[test]
+fn no_way_is_too_long_for_links() {
+    let cube = cuboid([2.0; 3]).body;
+    for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+        let base = LinkDefinition {
+            body: Some(cube.clone()),
+            ..link(None, JointKind::Prismatic, axis)
+        };
+        let finger = LinkDefinition {
+            at: Pose::from_translation(axis * 5.0),
+            body: Some(cube.clone()),
+            ..link(Some(0), JointKind::Prismatic, axis)
+        };
+        let space = space(vec![robot(3, vec![base, finger])]);
+        let places = [5.0, 9.0, 13.0, -7.0].map(|x| Pose::from_translation(axis * x));
+        let itself =
+            CObject::induced_links(space.clone(), &[[0, 1]], InducedOptions::default()).unwrap();
+        let mut sets = vec![itself];
+        for count in [1, 2, 4] {
+            let objects: Vec<_> = places[..count].iter().map(|at| (&cube, *at)).collect();
+            let (environment, _) = environment(&objects);
+            sets.push(against(&space, &environment));
+        }
+        let context = &mut QueryContext::new();
+        for exponent in 36..=48 {
+            let far = 10f64.powi(exponent);
+            for set in &sets {
+                for any_contact in [false, true] {
+                    let options = MotionOptions {
+                        any_contact,
+                        ..MotionOptions::default()
+                    };
+                    let found = context.motion(set, &[0.0, -far], &[0.0, far], &options);
+                    let outcome = found.unwrap().outcome;
+                    assert_ne!(outcome, MotionOutcome::Free, "{axis:?} {far:e}");
+                }
+            }
+        }
+    }
+}
+
 /// A body that hardly turns on its way, by any small angle, is not free of what lies on it; nor is an arm on it that reaches into itself.
 #[test]
 fn turns_of_any_smallness_hide_nothing() {
