@@ -2,7 +2,7 @@
 
 use super::closest::Closest;
 use super::outline::{MAX_CORNERS, Outline, Side};
-use crate::lanes::{DoubleTriple, Doubles, F64x4, Instructions, cross64, dot64, each3, sub64};
+use crate::lanes::{DoubleTriple, Doubles, F64x4, Instructions, at64, cross64, dot64, sub64};
 use crate::pose::Vec3;
 use crate::tolerance;
 
@@ -27,11 +27,8 @@ impl NearestEdges {
         let ((start, edge), (starts, along)) = (a.edge(i), b.edges(block));
         let inverse_square = dot64(&edge, &edge).inverse();
         let (s, t, _) = edge_places(&start, &edge, inverse_square, &starts, &along);
-        let [x, y, z] = each3(|k| {
-            let on_a = start[k] + edge[k] * s;
-            (on_a - (starts[k] + along[k] * t)).array().0[lane]
-        });
-        Vec3::new(x, y, z)
+        let [x, y, z] = sub64(&at64(&start, &edge, s), &at64(&starts, &along, t));
+        Vec3::new(x.array().0[lane], y.array().0[lane], z.array().0[lane])
     }
 
     /// The nearest pair: A's edge, then the block and the lane of B's edge.
@@ -179,6 +176,7 @@ fn edge_places<I: Instructions>(
     // The nearest point of the other edge for s, then the nearest point of this edge for that.
     let t = (b * s.unit() - f).quotient(e).unit();
     let s = ((b * t + c) * inverse_square).unit();
-    let apart = each3(|k| between[k] + dq[k] * t - dp[k] * s);
+    let [x, y, z] = at64(&between, dq, t);
+    let apart = [x - dp[0] * s, y - dp[1] * s, z - dp[2] * s];
     (s, t, dot64(&apart, &apart))
 }

@@ -1,7 +1,7 @@
 //! The outline of a flat polygon, four corners at a time.
 
 use crate::lanes::{
-    DoubleTriple, Doubles, Instructions, Points64, along64, cross64, dot64, each3, sub64,
+    DoubleTriple, Doubles, Instructions, Plain, Points64, along64, cross64, dot64, each3, sub64,
 };
 use crate::pose::{Pose, Vec3};
 use crate::primitive::Feature;
@@ -26,6 +26,18 @@ impl<I: Instructions> Outline<'_, I> {
     pub fn corner(&self, i: usize) -> Vec3 {
         let block = &self.blocks[i / 4];
         Vec3::new(block[0].0[i % 4], block[1].0[i % 4], block[2].0[i % 4])
+    }
+
+    /// The same for code that is not compiled for these instructions.
+    #[inline(always)]
+    pub fn plain(&self) -> Outline<'_, Plain> {
+        Outline {
+            lanes: Plain,
+            blocks: self.blocks,
+            corners: self.corners,
+            normal: self.normal,
+            offset: self.offset,
+        }
     }
 
     /// Four corners.
@@ -63,9 +75,9 @@ impl<I: Instructions> Outline<'_, I> {
     #[inline(always)]
     pub fn edge(&self, i: usize) -> (DoubleTriple<I>, DoubleTriple<I>) {
         let next = if i + 1 == self.corners { 0 } else { i + 1 };
-        let corner = |i: usize| Doubles::point(self.lanes, &self.corner(i).into());
-        let start = corner(i);
-        (start, sub64(&corner(next), &start))
+        let start = Doubles::point(self.lanes, &self.corner(i).into());
+        let end = Doubles::point(self.lanes, &self.corner(next).into());
+        (start, sub64(&end, &start))
     }
 
     /// The next corner of each corner of a block.
@@ -77,7 +89,11 @@ impl<I: Instructions> Outline<'_, I> {
             0
         };
         let (corners, next) = (self.block(block), self.block(next));
-        each3(|k| corners[k].following(next[k]))
+        [
+            corners[0].following(next[0]),
+            corners[1].following(next[1]),
+            corners[2].following(next[2]),
+        ]
     }
 
     /// The corners of a block, and the edge vector from each to the next. Edges in the padding have length 0.
@@ -168,10 +184,12 @@ impl<I: Instructions> Outline<'_, I> {
         let normal = Doubles::point(self.lanes, &self.normal.into());
         for (block, starts) in self.blocks.iter().enumerate() {
             let (_, along) = self.edges(block);
-            let inwards = cross64(&normal, &along).map(Doubles::array);
+            let [x, y, z] = cross64(&normal, &along);
+            let inwards = [x.array(), y.array(), z.array()];
             for lane in 0..(self.corners - 4 * block).min(4) {
-                let start = each3(|k| self.splat(starts[k].0[lane]));
-                let inward = each3(|k| self.splat(inwards[k].0[lane]));
+                let corner = |from: &Points64| each3(|k| from[k].0[lane]);
+                let start = Doubles::point(self.lanes, &corner(starts));
+                let inward = Doubles::point(self.lanes, &corner(&inwards));
                 least = least.min(dot64(&sub64(points, &start), &inward));
             }
         }

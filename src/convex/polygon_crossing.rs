@@ -1,7 +1,7 @@
 //! Whether two polygons cross.
 
 use super::outline::Outline;
-use crate::lanes::{Instructions, along64, each3, sub64};
+use crate::lanes::{Instructions, along64, at64, sub64};
 use crate::tolerance;
 
 /// Whether an edge of B passes through A; `None` where the answer is within rounding.
@@ -20,7 +20,7 @@ fn pierces<I: Instructions>(
         let to = along64(&ends, &normal) - a.splat(a.offset);
         let at = from.quotient(from - to).unit();
         let along = sub64(&ends, &starts);
-        let point = each3(|k| starts[k] + along[k] * at);
+        let point = at64(&starts, &along, at);
         let inside = a.innermost(&point);
         let (low, high) = (from.min(to), from.max(to));
         let (plus, minus) = (a.splat(rounding), a.splat(-rounding));

@@ -4,7 +4,7 @@ use super::closest::Closest;
 use super::nearest_edges::{NearestEdges, nearest_edges};
 use super::outline::{Outline, Side};
 use super::polygon_crossing::cross;
-use crate::lanes::Instructions;
+use crate::lanes::{Instructions, Plain};
 use crate::pose::Vec3;
 use crate::primitive::Feature;
 use crate::tolerance;
@@ -153,7 +153,7 @@ fn nearest<I: Instructions>(
     let edges = nearest_edges(a, b, sides, size);
     let by_edges = (edges.distance(), NearestFeatures::Edges(edges));
     if sides.iter().any(|side| side.gap.abs() < rounding) {
-        nearest_corner(a, b, by_edges)
+        nearest_corner(&a.plain(), &b.plain(), by_edges)
     } else {
         by_edges
     }
@@ -161,9 +161,9 @@ fn nearest<I: Instructions>(
 
 /// The nearer of the nearest edges and of the corners over the other's inside, for polygons that neither plane separates.
 #[inline(never)]
-fn nearest_corner<I: Instructions>(
-    a: &Outline<I>,
-    b: &Outline<I>,
+fn nearest_corner(
+    a: &Outline<Plain>,
+    b: &Outline<Plain>,
     by_edges: (f64, NearestFeatures),
 ) -> (f64, NearestFeatures) {
     let (mut distance, mut found) = by_edges;
@@ -190,7 +190,7 @@ fn nearest_corner<I: Instructions>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{F64x4, Plain, Points64, Work, each3, with_widest};
+    use crate::lanes::{F64x4, Points64, Work, each3, with_widest};
 
     /// A regular polygon about a point, turned about two axes.
     struct Polygon {

@@ -4,7 +4,6 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::F64x4;
-use super::each3;
 use super::four::Points64;
 
 /// The operations of an instruction set on four doubles. None fuses a product and a sum, so every instruction set gives the same
@@ -73,13 +72,23 @@ impl<I: DoubleInstructions> Doubles<I> {
 
     #[inline(always)]
     pub fn points(lanes: I, points: &Points64) -> DoubleTriple<I> {
-        each3(|k| Self::load(lanes, &points[k]))
+        let [x, y, z] = points;
+        [
+            Self::load(lanes, x),
+            Self::load(lanes, y),
+            Self::load(lanes, z),
+        ]
     }
 
     /// One point in all lanes.
     #[inline(always)]
     pub fn point(lanes: I, point: &[f64; 3]) -> DoubleTriple<I> {
-        each3(|k| Self::splat(lanes, point[k]))
+        let [x, y, z] = *point;
+        [
+            Self::splat(lanes, x),
+            Self::splat(lanes, y),
+            Self::splat(lanes, z),
+        ]
     }
 
     #[inline(always)]
@@ -87,10 +96,11 @@ impl<I: DoubleInstructions> Doubles<I> {
         self.lanes.array64(self.numbers)
     }
 
+    /// The same instructions' other numbers.
     #[inline(always)]
-    fn with(self, other: Self, f: impl Fn(I, I::Numbers64, I::Numbers64) -> I::Numbers64) -> Self {
+    fn of(self, numbers: I::Numbers64) -> Self {
         Self {
-            numbers: f(self.lanes, self.numbers, other.numbers),
+            numbers,
             lanes: self.lanes,
         }
     }
@@ -98,19 +108,19 @@ impl<I: DoubleInstructions> Doubles<I> {
     /// The lane-wise minimum; the second operand where either is NaN.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
-        self.with(other, I::min64)
+        self.of(self.lanes.min64(self.numbers, other.numbers))
     }
 
     /// The lane-wise maximum; the second operand where either is NaN.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        self.with(other, I::max64)
+        self.of(self.lanes.max64(self.numbers, other.numbers))
     }
 
     /// The quotient, and 0 where the divisor is 0.
     #[inline(always)]
     pub fn quotient(self, divisor: Self) -> Self {
-        self.with(divisor, I::quotient64)
+        self.of(self.lanes.quotient64(self.numbers, divisor.numbers))
     }
 
     /// The reciprocal, and 0 where the number is 0.
@@ -129,7 +139,7 @@ impl<I: DoubleInstructions> Doubles<I> {
     /// The last three lanes, then the first lane of the next four.
     #[inline(always)]
     pub fn following(self, next: Self) -> Self {
-        self.with(next, I::following64)
+        self.of(self.lanes.following64(self.numbers, next.numbers))
     }
 
     /// The bit mask of the lanes that are less than another's.
@@ -147,16 +157,12 @@ impl<I: DoubleInstructions> Doubles<I> {
     /// Where this is less than another the lanes of the first of two, and of the second elsewhere.
     #[inline(always)]
     pub fn chosen(self, other: Self, if_less: Self, otherwise: Self) -> Self {
-        let numbers = self.lanes.chosen64(
+        self.of(self.lanes.chosen64(
             self.numbers,
             other.numbers,
             if_less.numbers,
             otherwise.numbers,
-        );
-        Self {
-            numbers,
-            lanes: self.lanes,
-        }
+        ))
     }
 
     /// The minimum over all lanes.
@@ -176,7 +182,7 @@ impl<I: DoubleInstructions> Add for Doubles<I> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        self.with(other, I::add64)
+        self.of(self.lanes.add64(self.numbers, other.numbers))
     }
 }
 
@@ -184,7 +190,7 @@ impl<I: DoubleInstructions> Sub for Doubles<I> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self.with(other, I::sub64)
+        self.of(self.lanes.sub64(self.numbers, other.numbers))
     }
 }
 
@@ -192,7 +198,7 @@ impl<I: DoubleInstructions> Mul for Doubles<I> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.with(other, I::mul64)
+        self.of(self.lanes.mul64(self.numbers, other.numbers))
     }
 }
 

@@ -197,6 +197,16 @@ pub fn sub64<N: FourNumbers>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+/// The points at parameters of lines.
+#[inline(always)]
+pub fn at64<N: FourNumbers>(starts: &[N; 3], along: &[N; 3], parameters: N) -> [N; 3] {
+    [
+        starts[0] + along[0] * parameters,
+        starts[1] + along[1] * parameters,
+        starts[2] + along[2] * parameters,
+    ]
+}
+
 #[inline(always)]
 pub fn splat64(point: &[f64; 3]) -> Points64 {
     each3(|k| F64x4::splat(point[k]))

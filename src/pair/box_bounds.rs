@@ -118,7 +118,7 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
 
 /// Options of [`sharper_bounds`]: how bounds are sharpened, and for which boxes.
 pub struct BoundRefinement<'a> {
-    /// A unit vector from the eight boxes to the one, tried as a separating direction.
+    /// A unit vector from the eight boxes to the one, tried first as a separating direction.
     pub direction: Option<&'a [f32; 3]>,
     /// Bounds above this are not sharpened further.
     pub cutoff: f32,
@@ -126,7 +126,8 @@ pub struct BoundRefinement<'a> {
     pub among: u32,
 }
 
-/// The same lower bounds as `bounds`, sharpened unless the plain ones are all above the cutoff.
+/// Lower bounds as of `bounds`, and sharper ones unless those are all above the cutoff already; where the gaps along the direction are,
+/// these alone.
 #[inline(always)]
 pub fn sharper_bounds<I: Instructions>(
     lanes: I,

@@ -68,10 +68,11 @@ impl ChainRates {
         self.carry(axis, bounds.farthest, bounds.derivatives);
     }
 
-    /// Goes on behind a turn about a unit axis whose origin moves by bounds of its own, wherever it goes. What undoes the two is of the
-    /// same kind and has the same bounds.
+    /// Goes on behind a turn about a unit axis in which the frame's origin moves too, by a way with bounds of its own in whatever
+    /// direction. What undoes the two is of the same kind and has the same bounds.
     pub(super) fn push_arc(&mut self, axis: &Vec3, way: &CourseBounds, angle: &CourseBounds) {
         self.last = None;
+        // Where no axis is known the arm counts by its length alone, which is 1.
         self.carry(axis, way.farthest, way.derivatives);
         self.push_turn(axis, angle);
     }
