@@ -18,6 +18,7 @@ mod pair_motion;
 mod path;
 mod path_clearance;
 mod random_scenes;
+mod region_growth;
 mod regions;
 mod shortcut;
 mod show_path;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
 use cstk::error::ErrorKind;
-use cstk::motion::{GrowthOptions, RegionAnswer, RegionOptions, RegionOutcome, SideStop};
+use cstk::motion::{RegionAnswer, RegionOptions, RegionOutcome};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{Coordinate, JointKind, LinkDefinition};
@@ -19,13 +19,13 @@ use helpers::shapes::cuboid;
 use crate::compound::{arm, compound};
 use crate::random_scenes::scene;
 
-fn class(context: &mut QueryContext, cobject: &CObject, q: &[f64]) -> Class {
+pub fn class(context: &mut QueryContext, cobject: &CObject, q: &[f64]) -> Class {
     let at = Configuration::Coordinates(q);
     context.classify(cobject, at).unwrap()
 }
 
 /// A configuration of a box: in each coordinate one of the ends, where bounds are tightest, or anything between.
-fn sample(random: &mut Random, [low, high]: [&[f64]; 2]) -> Vec<f64> {
+pub fn sample(random: &mut Random, [low, high]: [&[f64]; 2]) -> Vec<f64> {
     let ends = low.iter().zip(high);
     ends.map(|(&low, &high)| match random.below(3) {
         0 => low,
@@ -90,7 +90,7 @@ fn random_box(random: &mut Random, space: &Space) -> [Vec<f64>; 2] {
 
 /// The number of boxes and of samples in each: `CSTK_REGIONS=10000 cargo test --release --test motions regions -- --nocapture` runs a
 /// campaign with 10,000 samples each.
-fn amount(quick: usize) -> (usize, usize) {
+pub fn amount(quick: usize) -> (usize, usize) {
     let campaign = std::env::var("CSTK_REGIONS").ok();
     campaign.map_or((quick, 100), |count| (count.parse().unwrap(), 10_000))
 }
@@ -162,7 +162,7 @@ fn outcome(cobject: &CObject, low: &[f64], high: &[f64]) -> RegionOutcome {
 }
 
 /// A slider of a unit cube along x.
-fn slider() -> Arc<Space> {
+pub fn slider() -> Arc<Space> {
     space(vec![robot(
         3,
         vec![LinkDefinition {
@@ -423,111 +423,6 @@ fn boxes_of_large_angles_are_proved_with_their_rounding() {
     assert!(free > 20, "{free}");
 }
 
-/// Grown boxes hold their configuration, are free at every sample, and what stops a side is a contact just beyond it.
-#[test]
-fn grown_boxes_are_free_and_stopped_by_contacts() {
-    let (count, samples) = amount(60);
-    let count = count.min(1000);
-    let mut random = Random::new(317);
-    let context = &mut QueryContext::new();
-    let mut grown_boxes = 0;
-    let mut contacts = 0;
-    for round in 0..count {
-        let cobject = scene(&mut random);
-        let space = cobject.space().clone();
-        let v: Vec<f64> = (0..space.nv()).map(|_| random.within(-2.0, 2.0)).collect();
-        let q = space.step(&space.neutral(), &v);
-        let options = GrowthOptions {
-            max_boxes: 50,
-            ..GrowthOptions::default()
-        };
-        if class(context, &cobject, &q) == Class::Inside {
-            let error = context.grow_region(&cobject, &q, None, &options);
-            assert!(error.unwrap_err().message.contains("inside"));
-            continue;
-        }
-        let weights: Vec<f64> = (0..space.nv())
-            .map(|_| [0.0, 0.5, 1.0, 2.0][random.below(4)])
-            .collect();
-        let grown = context
-            .grow_region(&cobject, &q, Some(&weights), &options)
-            .unwrap();
-        grown_boxes += 1;
-        let ends = [&grown.low[..], &grown.high[..]];
-        for (c, x) in q.iter().enumerate() {
-            assert!(ends[0][c] <= *x && *x <= ends[1][c], "round {round}");
-        }
-        for _ in 0..samples {
-            let q = sample(&mut random, ends);
-            let found = class(context, &cobject, &q);
-            assert_ne!(found, Class::Inside, "round {round}: {q:?} of {grown:?}");
-        }
-        assert_eq!(grown.sides.len(), 2 * space.nv());
-        for (number, side) in grown.sides.iter().enumerate() {
-            let weight = weights[number / 2];
-            if weight == 0.0 {
-                assert_eq!(side.stop, SideStop::Fixed);
-            }
-            if side.stop == SideStop::Contact {
-                contacts += 1;
-                let at = side.configuration.as_ref().unwrap();
-                assert_eq!(class(context, &cobject, at), Class::Inside);
-                assert_eq!(side.distance.as_ref().unwrap().lower, 0.0);
-                // No farther beyond the box than the tolerance allows.
-                let beyond = (0..q.len()).map(|c| (ends[0][c] - at[c]).max(at[c] - ends[1][c]));
-                let farthest = beyond.fold(0.0, f64::max);
-                assert!(
-                    farthest <= 2.0 * options.tolerance * weight + 1e-12,
-                    "round {round}: {farthest} beyond"
-                );
-            }
-        }
-        let again = QueryContext::new().grow_region(&cobject, &q, Some(&weights), &options);
-        let again = again.unwrap();
-        assert_eq!([&again.low, &again.high], [&grown.low, &grown.high]);
-    }
-    println!("{grown_boxes} boxes, {contacts} sides in contact");
-    assert!(grown_boxes > count / 3 && contacts > grown_boxes / 5);
-}
-
-/// A cube between two walls: its way is as long as the gap, up to the tolerance.
-#[test]
-fn a_box_grows_to_the_walls_and_to_the_range() {
-    let space = slider();
-    let wall = cuboid([1.0; 3]).body;
-    let at = |x: f64| Pose::from_translation(Vec3::new(x, 0.0, 0.0));
-    let (walls, ids) = environment(&[(&wall, at(-2.0)), (&wall, at(3.0))]);
-    let set = against(&space, &walls);
-    let context = &mut QueryContext::new();
-    for tolerance in [0.1, 1e-3, 1e-6] {
-        let options = GrowthOptions {
-            tolerance,
-            ..GrowthOptions::default()
-        };
-        let grown = context.grow_region(&set, &[0.3], None, &options).unwrap();
-        // Inside from -3 to -1 and from 2 to 4.
-        assert!(grown.low[0] > -1.0 && grown.low[0] < -1.0 + 2.0 * tolerance);
-        assert!(grown.high[0] < 2.0 && grown.high[0] > 2.0 - 2.0 * tolerance);
-        for (side, id) in grown.sides.iter().zip(&ids) {
-            assert_eq!(side.stop, SideStop::Contact);
-            let witness = side.distance.as_ref().unwrap().witness.unwrap();
-            assert_eq!(witness.s_side, cstk::query::SSide::Object(*id));
-        }
-    }
-    let options = GrowthOptions {
-        max_side: 0.5,
-        ..GrowthOptions::default()
-    };
-    let grown = context.grow_region(&set, &[0.0], None, &options).unwrap();
-    assert_eq!([grown.low[0], grown.high[0]], [-0.5, 0.5]);
-    assert!(
-        grown
-            .sides
-            .iter()
-            .all(|side| side.stop == SideStop::MaxSide)
-    );
-}
-
 /// A base that drives a hair's breadth above a floor is free in one look, wherever it drives; one that may tip is not.
 #[test]
 fn a_base_over_a_floor_is_proved_by_its_motion_along_the_normal() {
@@ -604,4 +499,21 @@ fn joints_that_share_a_coordinate_move_together() {
     }
     println!("free, inside, mixed, undecided: {outcomes:?}");
     assert!(outcomes[0] > 60, "{outcomes:?}");
+}
+
+/// A box wider than single precision holds is not free of what it contains.
+#[test]
+fn no_box_is_too_wide_to_meet_something() {
+    let space = slider();
+    let wall = cuboid([1.0; 3]).body;
+    let places = [5.0, 9.0, -7.0].map(|x| Pose::from_translation(Vec3::new(x, 0.0, 0.0)));
+    for count in 1..=places.len() {
+        let objects: Vec<_> = places[..count].iter().map(|at| (&wall, *at)).collect();
+        let set = against(&space, &environment(&objects).0);
+        for exponent in 36..=48 {
+            let far = 10f64.powi(exponent);
+            let found = outcome(&set, &[-far], &[far]);
+            assert_ne!(found, RegionOutcome::Free, "{count} {far:e}");
+        }
+    }
 }
