@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::lanes::{F64x4, Instructions, Work, along64, each3, with_widest};
+use crate::lanes::{Doubles, F64x4, Instructions, Work, along64, each3, with_widest};
 use crate::tolerance;
 
 /// A point, vector or direction; points and lengths in the caller's unit.
@@ -49,7 +49,7 @@ impl Pose {
     pub fn from_row_major(values: &[f64; 12]) -> Result<Self> {
         let given = Self::as_given(values);
         // Fast path: almost all poses need no correction.
-        if are_poses([values]) {
+        if with_widest(IsPose(values)) {
             return Ok(given);
         }
         given.corrected(values)
@@ -70,7 +70,7 @@ impl Pose {
 
     /// The same without a check.
     #[inline(always)]
-    pub(crate) fn as_given(values: &[f64; 12]) -> Self {
+    fn as_given(values: &[f64; 12]) -> Self {
         let v = values;
         Self {
             rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),
@@ -215,49 +215,39 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Mat3 {
     )
 }
 
-/// Whether each 12 numbers are a pose, up to rounding: orthonormal columns, right-handed, and no coordinate too large. A
-/// branch-free test that may reject a few valid poses; these take the slow path.
+/// Whether 12 numbers are a pose, up to rounding: orthonormal columns, right-handed, and no coordinate too large. A branch-free
+/// test that may reject a few valid poses; these take the slow path. For code that is compiled for an instruction set.
 #[inline(always)]
-pub(crate) fn are_poses<const N: usize>(rows: [&[f64; 12]; N]) -> bool {
-    with_widest(ArePoses(rows))
+pub(crate) fn is_pose<I: Instructions>(lanes: I, values: &[f64; 12]) -> bool {
+    let [x, y, z] = [
+        values.row(lanes, 0),
+        values.row(lanes, 1),
+        values.row(lanes, 2),
+    ];
+    let [u, v, w] = [x.rolled(), y.rolled(), z.rolled()];
+    let squares = x * x + y * y + z * z;
+    let products = x * u + y * v + z * w;
+    let off = (squares - Doubles::splat(lanes, 1.0)).abs() + products.abs();
+    let far = x.abs() + y.abs() + z.abs();
+    let most = F64x4([
+        ROTATION_ROUNDING,
+        ROTATION_ROUNDING,
+        ROTATION_ROUNDING,
+        tolerance::LARGEST_COORDINATE,
+    ]);
+    let [a, b, c, _] = ((x * v - y * u) * w.rolled()).array().0;
+    let is_right_handed = a + b + c > 0.0;
+    off.ending(far).less(Doubles::load(lanes, &most)) == 0b1111 && is_right_handed
 }
 
-struct ArePoses<'a, const N: usize>([&'a [f64; 12]; N]);
+struct IsPose<'a>(&'a [f64; 12]);
 
-impl<const N: usize> Work for ArePoses<'_, N> {
+impl Work for IsPose<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> bool {
-        // A loop, for `Iterator::fold` is not always inlined.
-        let mut all = true;
-        for values in self.0 {
-            all &= Self::is_pose(values);
-        }
-        all
-    }
-}
-
-impl<const N: usize> ArePoses<'_, N> {
-    #[inline(always)]
-    fn is_pose(values: &[f64; 12]) -> bool {
-        let (rows, _) = values.as_chunks::<4>();
-        let rows = [rows[0], rows[1], rows[2]];
-        let [x, y, z] = rows.map(F64x4);
-        let [u, v, w] = rows.map(|[a, b, c, d]| F64x4([b, c, a, d]));
-        let squares = x * x + y * y + z * z;
-        let products = x * u + y * v + z * w;
-        let off = (squares - F64x4::splat(1.0)).abs() + products.abs();
-        let across = x * v - y * u;
-        let z = rows[2];
-        let determinant = across.0[0] * z[2] + across.0[1] * z[0] + across.0[2] * z[1];
-        let far = rows[0][3].abs() + rows[1][3].abs() + rows[2][3].abs();
-        let is_small = |k: usize| off.0[k] <= ROTATION_ROUNDING;
-        is_small(0)
-            & is_small(1)
-            & is_small(2)
-            & (determinant > 0.0)
-            & (far <= tolerance::LARGEST_COORDINATE)
+    fn run<I: Instructions>(self, lanes: I) -> bool {
+        is_pose(lanes, self.0)
     }
 }
 
@@ -272,10 +262,10 @@ impl Work for ReadPoses<'_> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Result<()> {
+    fn run<I: Instructions>(self, lanes: I) -> Result<()> {
         for (i, values) in self.given.iter().enumerate() {
             let pose = Pose::as_given(values);
-            if ArePoses::<1>::is_pose(values) {
+            if is_pose(lanes, values) {
                 self.poses.push(pose);
             } else {
                 let corrected = pose.corrected(values);
@@ -313,6 +303,67 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
     Ok(r)
 }
 
+/// A pose as its rows `[R | t]`, however it is stored.
+pub trait Rows {
+    /// An entry of a row; that of the fourth column is the translation's.
+    fn entry(&self, row: usize, column: usize) -> f64;
+
+    /// A row in a register.
+    fn row<I: Instructions>(&self, lanes: I, row: usize) -> Doubles<I>;
+}
+
+impl Rows for Pose {
+    #[inline(always)]
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        match column {
+            3 => self.translation[row],
+            _ => self.rotation[(row, column)],
+        }
+    }
+
+    #[inline(always)]
+    fn row<I: Instructions>(&self, lanes: I, row: usize) -> Doubles<I> {
+        let (r, t) = (&self.rotation, &self.translation);
+        Doubles::four(lanes, &[r[(row, 0)], r[(row, 1)], r[(row, 2)], t[row]])
+    }
+}
+
+/// A pose as callers give it, row-major.
+impl Rows for [f64; 12] {
+    #[inline(always)]
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        self[4 * row + column]
+    }
+
+    #[inline(always)]
+    fn row<I: Instructions>(&self, lanes: I, row: usize) -> Doubles<I> {
+        let (rows, _) = self.as_chunks::<4>();
+        Doubles::four(lanes, &rows[row])
+    }
+}
+
+/// A pose whose origin is at a point of its frame.
+#[inline(always)]
+pub(crate) fn centered(pose: &impl Rows, center: &Vec3) -> Pose {
+    let entry = |i: usize, j: usize| pose.entry(i, j);
+    let rotation = Mat3::new(
+        entry(0, 0),
+        entry(0, 1),
+        entry(0, 2),
+        entry(1, 0),
+        entry(1, 1),
+        entry(1, 2),
+        entry(2, 0),
+        entry(2, 1),
+        entry(2, 2),
+    );
+    let origin = Vec3::new(entry(0, 3), entry(1, 3), entry(2, 3));
+    Pose {
+        rotation,
+        translation: turned(&rotation, center) + origin,
+    }
+}
+
 /// The pose of B's frame centred at `center_b`, in A's frame centred at `center_a`.
 ///
 /// The difference of the centres in the world is summed in double-double arithmetic: bodies far from the world's origin, or
@@ -325,46 +376,77 @@ pub fn relative_centered(a: &Pose, center_a: &Vec3, b: &Pose, center_b: &Vec3) -
     })
 }
 
-struct Relative<'a> {
-    poses: [&'a Pose; 2],
+/// The same of poses that are stored in any way, within code that is compiled for an instruction set.
+#[inline(always)]
+pub(crate) fn relative_of<I: Instructions, P: Rows>(
+    lanes: I,
+    poses: [&P; 2],
+    centers: [&Vec3; 2],
+) -> Pose {
+    Relative { poses, centers }.run(lanes)
+}
+
+struct Relative<'a, P> {
+    poses: [&'a P; 2],
     centers: [&'a Vec3; 2],
 }
 
-impl Work for Relative<'_> {
+impl<P: Rows> Relative<'_, P> {
+    /// From the centre of A to that of B, in the world.
+    #[inline(always)]
+    fn apart<I: Instructions>(&self, lanes: I) -> [f64; 3] {
+        let [a, b] = self.poses;
+        let [is_a_centered, is_b_centered] = self.centers.map(|center| *center == Vec3::zeros());
+        // Fast path for centres at the bodies' origins, as of most single shapes: to the last bit what the sum below would be.
+        if is_a_centered && is_b_centered {
+            let (at_a, at_b) = (column(lanes, a, 3), column(lanes, b, 3));
+            let [x, y, z, _] = (at_b - at_a).array().0;
+            return [x, y, z];
+        }
+        let mut sum = TwoFold::new(lanes, column(lanes, b, 3));
+        sum.add(column(lanes, a, 3) * -1.0);
+        if !is_b_centered {
+            for j in 0..3 {
+                sum.add_product(column(lanes, b, j), self.centers[1][j]);
+            }
+        }
+        if !is_a_centered {
+            for j in 0..3 {
+                sum.add_product(column(lanes, a, j), -self.centers[0][j]);
+            }
+        }
+        let [x, y, z, _] = sum.value().array().0;
+        [x, y, z]
+    }
+}
+
+impl<P: Rows> Work for Relative<'_, P> {
     type Output = Pose;
 
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Pose {
         let [a, b] = self.poses;
-        let column = |pose: &Pose, j: usize| column64(&pose.rotation, j);
-        let mut sum = TwoFold::new(lanes_of(&b.translation));
-        sum.add(-lanes_of(&a.translation));
-        // Fast path for centres at the bodies' origins, as of most single shapes.
-        if *self.centers[1] != Vec3::zeros() {
-            for j in 0..3 {
-                sum.add_product(lanes, column(b, j), self.centers[1][j]);
-            }
-        }
-        if *self.centers[0] != Vec3::zeros() {
-            for j in 0..3 {
-                sum.add_product(lanes, column(a, j), -self.centers[0][j]);
-            }
-        }
-        let apart = sum.value().0;
-        // The axes of B and the vector between the centres, both rotated into A's frame.
-        let in_world = each3(|k| {
-            let r = &b.rotation;
-            F64x4([r[(k, 0)], r[(k, 1)], r[(k, 2)], apart[k]])
-        });
-        let [x, y, z] = each3(|i| {
-            let axis = each3(|k| a.rotation[(k, i)]);
-            along64(&in_world, &axis).0
-        });
+        let apart = self.apart(lanes);
+        // The transpose of A's rotation turns the axes of B and the vector between the centres into A's frame. The fourth lanes
+        // mean nothing.
+        let rows = [a.row(lanes, 0), a.row(lanes, 1), a.row(lanes, 2)];
+        let x = along64(&rows, &[b.entry(0, 0), b.entry(1, 0), b.entry(2, 0)]);
+        let y = along64(&rows, &[b.entry(0, 1), b.entry(1, 1), b.entry(2, 1)]);
+        let z = along64(&rows, &[b.entry(0, 2), b.entry(1, 2), b.entry(2, 2)]);
+        let t = along64(&rows, &apart);
+        let ([x, y, z], t) = ([x.array().0, y.array().0, z.array().0], t.array().0);
         Pose {
-            rotation: Mat3::new(x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]),
-            translation: Vec3::new(x[3], y[3], z[3]),
+            rotation: Mat3::new(x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]),
+            translation: Vec3::new(t[0], t[1], t[2]),
         }
     }
+}
+
+/// A column of a pose in a register, and 0.
+#[inline(always)]
+fn column<I: Instructions>(lanes: I, pose: &impl Rows, j: usize) -> Doubles<I> {
+    let entries = [pose.entry(0, j), pose.entry(1, j), pose.entry(2, j), 0.0];
+    Doubles::four(lanes, &entries)
 }
 
 /// matrix * v, written out: nalgebra's general product takes several times as long.
@@ -425,22 +507,22 @@ fn of_columns([x, y, z]: [F64x4; 3]) -> Mat3 {
 }
 
 /// Double-double sums, after Dekker (1971) and Knuth's TwoSum.
-struct TwoFold {
-    high: F64x4,
-    low: F64x4,
+struct TwoFold<I: Instructions> {
+    high: Doubles<I>,
+    low: Doubles<I>,
 }
 
-impl TwoFold {
+impl<I: Instructions> TwoFold<I> {
     #[inline(always)]
-    fn new(value: F64x4) -> Self {
+    fn new(lanes: I, value: Doubles<I>) -> Self {
         Self {
             high: value,
-            low: F64x4::splat(0.0),
+            low: Doubles::splat(lanes, 0.0),
         }
     }
 
     #[inline(always)]
-    fn add(&mut self, x: F64x4) {
+    fn add(&mut self, x: Doubles<I>) {
         let sum = self.high + x;
         let part = sum - self.high;
         self.low = self.low + ((self.high - (sum - part)) + (x - part));
@@ -448,15 +530,14 @@ impl TwoFold {
     }
 
     #[inline(always)]
-    fn add_product<I: Instructions>(&mut self, lanes: I, x: F64x4, y: f64) {
-        let y = F64x4::splat(y);
+    fn add_product(&mut self, x: Doubles<I>, y: f64) {
         let product = x * y;
         self.add(product);
-        self.low = self.low + lanes.product_error(x, y, product);
+        self.low = self.low + x.product_error(x.splatted(y), product);
     }
 
     #[inline(always)]
-    fn value(&self) -> F64x4 {
+    fn value(&self) -> Doubles<I> {
         self.high + self.low
     }
 }
@@ -464,6 +545,7 @@ impl TwoFold {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::Plain;
 
     #[test]
     fn quaternions_turn_as_axes_do() {
@@ -519,6 +601,56 @@ mod tests {
         };
         let relative = relative_centered(&a, &center, &b, &center);
         assert!((relative.translation.norm() - 1e-6).abs() < 1e-20);
+    }
+
+    /// Numbers that have nothing to do with each other, from -1 to 1.
+    fn numbers(seed: &mut u64) -> impl FnMut() -> f64 {
+        move || {
+            *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1);
+            (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    #[test]
+    fn every_instruction_set_sees_the_same_poses() {
+        let mut seed = 9;
+        let mut next = numbers(&mut seed);
+        let (mut accepted, mut rejected) = (0, 0);
+        for case in 0..4000 {
+            let mut pose = || {
+                let axis = Vec3::new(next(), next(), next()).normalize();
+                let far = [1.0, 1e3, 1e9][case % 3];
+                Pose {
+                    rotation: rotation_about(&axis, 3.0 * next()),
+                    translation: Vec3::new(next(), next(), next()) * far,
+                }
+            };
+            let poses = [pose(), pose()];
+            let mut rows = poses.map(|pose| pose.to_row_major());
+            let centers = [0.0, 1.0].map(|far| Vec3::new(next(), next(), next()) * far);
+            let centers = [&centers[case % 2], &centers[case / 2 % 2]];
+            let plain = Relative {
+                poses: [&poses[0], &poses[1]],
+                centers,
+            }
+            .run(Plain);
+            let widest = relative_centered(&poses[0], centers[0], &poses[1], centers[1]);
+            let of_rows = with_widest(Relative {
+                poses: [&rows[0], &rows[1]],
+                centers,
+            });
+            assert_eq!((plain, plain), (widest, of_rows), "{case}");
+            // Some spoilt by little, some by much, some by what is no number.
+            let spoilt = [0.0, 1e-15, 1e-8, 1.0, f64::NAN, f64::INFINITY][case % 6];
+            rows[0][case / 6 % 12] += spoilt;
+            let is_one = is_pose(Plain, &rows[0]);
+            assert_eq!(is_one, with_widest(IsPose(&rows[0])), "{case}");
+            assert!(!is_one || Pose::from_row_major(&rows[0]).is_ok());
+            rejected += usize::from(!is_one && spoilt == 0.0);
+            accepted += usize::from(is_one);
+        }
+        // What is off by a few roundings may be rejected: it takes the slow path.
+        assert!(accepted > 1000 && rejected < 40, "{accepted} {rejected}");
     }
 
     #[test]

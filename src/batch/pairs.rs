@@ -5,8 +5,7 @@ use super::job::{BatchJob, BatchSummary, ItemAnswer};
 use super::slots::Slots;
 use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result};
-use crate::pose::Pose;
-use crate::query::{Distance, QueryContext, check_threshold};
+use crate::query::{Distance, GivenPair, QueryContext, check_threshold};
 
 /// A thread is begun for so many pairs of poses.
 const PER_THREAD: usize = 32;
@@ -20,13 +19,13 @@ pub struct PosePairs<'a> {
     pub poses: [&'a [[f64; 12]]; 2],
 }
 
-impl PosePairs<'_> {
-    fn at(&self, item: usize) -> Result<[Pose; 2]> {
-        let pose = |side: usize, name: &str| {
-            let pose = Pose::from_row_major(&self.poses[side][item]);
-            pose.map_err(|error| error.within(name))
-        };
-        Ok([pose(0, "pose_a")?, pose(1, "pose_b")?])
+impl<'a> PosePairs<'a> {
+    fn at(&self, item: usize) -> GivenPair<'a> {
+        let [a, b] = self.poses;
+        GivenPair {
+            bodies: self.bodies,
+            poses: [&a[item], &b[item]],
+        }
     }
 
     fn checked_count(&self) -> Result<usize> {
@@ -51,10 +50,8 @@ impl Batch {
         put: impl Fn(&mut S, usize, ItemAnswer<bool>) + Sync,
     ) -> Result<BatchSummary> {
         check_threshold(threshold, "threshold")?;
-        let [a, b] = pairs.bodies;
         let ask = |context: &mut QueryContext, item| {
-            let [at_a, at_b] = &pairs.at(item)?;
-            let is_within = context.bodies_within((a, at_a), (b, at_b), threshold)?;
+            let is_within = context.given_within(&pairs.at(item), threshold)?;
             Ok((is_within, is_within))
         };
         self.answer_each(job, pairs.checked_count()?, PER_THREAD, ask, put)
@@ -69,12 +66,12 @@ impl Batch {
         put: impl Fn(&mut S, usize, ItemAnswer<Distance>) + Sync,
     ) -> Result<BatchSummary> {
         check_threshold(max_distance, "max_distance")?;
-        let [a, b] = pairs.bodies;
         let ask = |context: &mut QueryContext, item| {
-            let [at_a, at_b] = &pairs.at(item)?;
-            let distance = context.bodies_distance((a, at_a), (b, at_b), max_distance)?;
-            let is_hit = distance.distance == 0.0;
-            Ok((distance, is_hit))
+            let with_hit = |distance: Distance| {
+                let is_hit = distance.distance == 0.0;
+                (distance, is_hit)
+            };
+            context.take_given_distance(&pairs.at(item), max_distance, with_hit)
         };
         self.answer_each(job, pairs.checked_count()?, PER_THREAD, ask, put)
     }

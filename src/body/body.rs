@@ -115,6 +115,9 @@ impl Body {
     pub(super) fn with_stated_deviation(mut self, stated_deviation: f64) -> Self {
         self.stated_deviation = stated_deviation;
         self.flat_deviation = stated_deviation;
+        if stated_deviation != 0.0 {
+            self.only_round = None;
+        }
         self
     }
 
@@ -251,20 +254,25 @@ impl Body {
     }
 
     /// The index of its packed primitive, if the tree is a single leaf.
+    #[inline(always)]
     pub fn only_place(&self) -> Option<u32> {
         let root = self.packed.root();
-        root.is_leaf().then(|| self.packed.place(root))
+        if !root.is_leaf() {
+            return None;
+        }
+        Some(self.packed.place(root))
     }
 
-    /// The sphere or capsule that is its only primitive.
+    /// The sphere or capsule that is its only primitive, if it stands for nothing but that.
     #[inline(always)]
     pub fn only_round(&self) -> Option<&Round> {
         self.only_round.as_ref()
     }
 
     /// Whether it is a single leaf that stands for nothing but itself, and no boundary of a solid.
+    #[inline(always)]
     pub fn is_single(&self) -> bool {
-        self.only_place().is_some() && self.solid.is_none() && self.stated_deviation == 0.0
+        self.packed.root().is_leaf() && self.solid.is_none() && self.stated_deviation == 0.0
     }
 
     /// The solid that its polygons bound, if a spatial body was declared solid and has any.

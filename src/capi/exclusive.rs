@@ -7,6 +7,7 @@ use crate::error::{Error, ErrorKind};
 
 /// Runs an action with exclusive access to the object; [`ErrorKind::Busy`] if another call has it. `mend` repairs an object
 /// that a panic may have left half changed.
+#[inline(always)]
 pub fn exclusively<T>(
     object: &Mutex<T>,
     name: &str,
@@ -21,8 +22,11 @@ pub fn exclusively<T>(
             object.clear_poison();
             action(&mut inner)
         }
-        Err(TryLockError::WouldBlock) => {
-            Err(Error::new(ErrorKind::Busy, format!("{name} is in use by another call")).into())
-        }
+        Err(TryLockError::WouldBlock) => Err(busy(name)),
     }
+}
+
+#[cold]
+fn busy(name: &str) -> Failure {
+    Error::new(ErrorKind::Busy, format!("{name} is in use by another call")).into()
 }

@@ -101,22 +101,6 @@ pub unsafe fn pose(values: *const f64, argument: &str) -> Result<Pose, Failure> 
     Ok(Pose::from_row_major(values).map_err(|e| e.within(argument))?)
 }
 
-/// Replaces two given poses, of which one needs it, by the nearest ones. In place: a result of this size would be copied on its
-/// way out.
-#[cold]
-#[inline(never)]
-pub fn correct_poses(
-    poses: &mut [Pose; 2],
-    rows: [&[f64; 12]; 2],
-    arguments: [&str; 2],
-) -> Result<(), Failure> {
-    for side in 0..2 {
-        let corrected = Pose::from_row_major(rows[side]);
-        poses[side] = corrected.map_err(|e| e.within(arguments[side]))?;
-    }
-    Ok(())
-}
-
 /// Exactly N numbers.
 #[inline(always)]
 pub unsafe fn array<'a, const N: usize>(

@@ -11,7 +11,7 @@
 
 use super::boundary::{Failure, guard};
 use super::handle;
-use super::input::{Output, array, correct_poses};
+use super::input::{Output, array};
 use super::query::{State, cstk_query, with_borrowed_query, with_query};
 use crate::body::Body;
 use crate::capi::at_configuration::answers::{
@@ -19,10 +19,7 @@ use crate::capi::at_configuration::answers::{
 };
 use crate::capi::body::body::cstk_body;
 use crate::capi::status::status::cstk_status;
-use crate::pose::{Pose, are_poses};
-use crate::query::Distance;
-
-type Placement<'a> = (&'a Body, &'a Pose);
+use crate::query::{Distance, GivenPair};
 
 /// Checks the arguments that all pair queries share, and runs one.
 unsafe fn run<T>(
@@ -32,21 +29,17 @@ unsafe fn run<T>(
     body_b: *const cstk_body,
     pose_b: *const f64,
     out: *mut T,
-    action: impl FnOnce(&mut State, Placement, Placement, Output<T>) -> Result<(), Failure>,
+    action: impl FnOnce(&mut State, &GivenPair, Output<T>) -> Result<(), Failure>,
 ) -> cstk_status {
     guard(|| {
         let a = handle::borrowed::<Body>(body_a, "body_a")?;
         let b = handle::borrowed::<Body>(body_b, "body_b")?;
         let answer = |state: &mut State| {
             let out = Output::checked(out, "out")?;
-            let names = ["pose_a", "pose_b"];
             // SAFETY: the header states the lengths.
-            let rows = unsafe { [array(pose_a, names[0])?, array(pose_b, names[1])?] };
-            let mut poses = [Pose::as_given(rows[0]), Pose::as_given(rows[1])];
-            if !are_poses(rows) {
-                correct_poses(&mut poses, rows, names)?;
-            }
-            action(state, (a, &poses[0]), (b, &poses[1]), out)
+            let poses = unsafe { [array(pose_a, "pose_a")?, array(pose_b, "pose_b")?] };
+            let bodies = [a, b];
+            action(state, &GivenPair { bodies, poses }, out)
         };
         if a.has_functions() || b.has_functions() {
             // Callbacks may release the bodies during the call.
@@ -80,11 +73,11 @@ pub unsafe extern "C" fn cstk_pair_distance(
             body_b,
             pose_b,
             out,
-            |state, a, b, out| {
+            |state, pair, out| {
                 let write = |distance: Distance| out.write((&distance).into());
                 Ok(state
                     .context
-                    .take_pair_distance(a, b, max_distance, write)?)
+                    .take_given_distance(pair, max_distance, write)?)
             },
         )
     }
@@ -111,8 +104,8 @@ pub unsafe extern "C" fn cstk_pair_within(
             body_b,
             pose_b,
             out,
-            |state, a, b, out| {
-                out.write(state.context.pair_within(a, b, threshold)?);
+            |state, pair, out| {
+                out.write(state.context.given_within(pair, threshold)?);
                 Ok(())
             },
         )
@@ -142,7 +135,9 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
             body_b,
             pose_b,
             out,
-            |state, a, b, out| {
+            |state, pair, out| {
+                let poses = pair.read_poses()?;
+                let [a, b] = pair.at(&poses);
                 let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
                 out.write(state.keep(list));
                 Ok(())
@@ -177,7 +172,9 @@ pub unsafe extern "C" fn cstk_pair_penetration(
             body_b,
             pose_b,
             out,
-            |state, a, b, out| {
+            |state, pair, out| {
+                let poses = pair.read_poses()?;
+                let [a, b] = pair.at(&poses);
                 let list = state.context.pair_penetration(a, b, max_count)?;
                 out.write(state.keep_penetrations(&list));
                 Ok(())

@@ -87,6 +87,17 @@ pub(super) fn start<T>(items: &[T]) -> *const T {
 }
 
 impl State {
+    /// After a panic: drops caches and scratch memory, which may be inconsistent. The settings stay.
+    #[cold]
+    #[inline(never)]
+    fn renew(&mut self) {
+        let renewed = self.context.renewed();
+        *self = Self {
+            context: renewed,
+            ..Self::default()
+        };
+    }
+
     /// Stores a list, and returns a view of its array.
     pub fn keep_penetrations(&mut self, list: &PenetrationList) -> cstk_penetration_list {
         refill(&mut self.penetrations, &list.penetrations);
@@ -156,6 +167,7 @@ pub(super) fn with_query(
 }
 
 /// The same for an action that runs no callbacks.
+#[inline(always)]
 pub(super) fn with_borrowed_query(
     query: *mut cstk_query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
@@ -163,19 +175,12 @@ pub(super) fn with_borrowed_query(
     exclusively_with(handle::borrowed::<Query>(query, "query")?, action)
 }
 
+#[inline(always)]
 fn exclusively_with(
     query: &Query,
     action: impl FnOnce(&mut State) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    // After a panic caches and scratch memory are dropped: they may be inconsistent. The settings stay.
-    let renew = |state: &mut State| {
-        let renewed = state.context.renewed();
-        *state = State {
-            context: renewed,
-            ..State::default()
-        };
-    };
-    exclusively(&query.0, "the query context", renew, action)
+    exclusively(&query.0, "the query context", State::renew, action)
 }
 
 /// Creates a query context.

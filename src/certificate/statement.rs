@@ -185,7 +185,7 @@ impl<'a> Builder<'a> {
     }
 
     fn sides(&mut self, target: &Target<'a>) -> Result<[Carried<'a>; 2]> {
-        let (r_link, r_object, s_side) = target.parties();
+        let (r_link, r_object, s_side) = target.ids();
         let (_, s_link) = target.links();
         let [(a, _), (b, s_pose)] = target.sides;
         let held = |id: u64| self.scene.held().iter().find(|held| held.object.id == id);

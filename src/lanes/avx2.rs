@@ -215,9 +215,9 @@ impl DoubleInstructions for Avx2 {
     }
 
     #[inline(always)]
-    fn load64(self, values: &F64x4) -> __m256d {
+    fn load64(self, values: &[f64; 4]) -> __m256d {
         // SAFETY: four numbers are read, and the processor has the instruction.
-        unsafe { _mm256_loadu_pd(values.0.as_ptr()) }
+        unsafe { _mm256_loadu_pd(values.as_ptr()) }
     }
 
     #[inline(always)]
@@ -263,6 +263,24 @@ impl DoubleInstructions for Avx2 {
     fn max64(self, a: __m256d, b: __m256d) -> __m256d {
         // SAFETY: the processor has the instruction.
         unsafe { _mm256_max_pd(a, b) }
+    }
+
+    #[inline(always)]
+    fn abs64(self, a: __m256d) -> __m256d {
+        // SAFETY: the processor has the instructions.
+        unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), a) }
+    }
+
+    #[inline(always)]
+    fn rolled64(self, a: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_permute4x64_pd::<0b11_00_10_01>(a) }
+    }
+
+    #[inline(always)]
+    fn ending64(self, a: __m256d, last: __m256d) -> __m256d {
+        // SAFETY: the processor has the instruction.
+        unsafe { _mm256_blend_pd::<0b1000>(a, last) }
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ pub trait DoubleInstructions: Copy {
     type Numbers64: Copy;
 
     fn splat64(self, value: f64) -> Self::Numbers64;
-    fn load64(self, values: &F64x4) -> Self::Numbers64;
+    fn load64(self, values: &[f64; 4]) -> Self::Numbers64;
     fn array64(self, a: Self::Numbers64) -> F64x4;
     fn add64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
     fn sub64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
@@ -24,8 +24,13 @@ pub trait DoubleInstructions: Copy {
     fn min64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
     /// The lane-wise maximum; the second operand where either is NaN.
     fn max64(self, a: Self::Numbers64, b: Self::Numbers64) -> Self::Numbers64;
+    fn abs64(self, a: Self::Numbers64) -> Self::Numbers64;
     /// The last three lanes, then the first lane of the next four.
     fn following64(self, a: Self::Numbers64, next: Self::Numbers64) -> Self::Numbers64;
+    /// The second lane, the third, the first, the fourth.
+    fn rolled64(self, a: Self::Numbers64) -> Self::Numbers64;
+    /// The first three lanes, then the last lane of another four.
+    fn ending64(self, a: Self::Numbers64, last: Self::Numbers64) -> Self::Numbers64;
     /// The bit mask of the lanes where one is less than the other.
     fn less64(self, a: Self::Numbers64, b: Self::Numbers64) -> u32;
     /// The bit mask of the lanes that are equal.
@@ -64,6 +69,11 @@ impl<I: DoubleInstructions> Doubles<I> {
 
     #[inline(always)]
     pub fn load(lanes: I, values: &F64x4) -> Self {
+        Self::four(lanes, &values.0)
+    }
+
+    #[inline(always)]
+    pub fn four(lanes: I, values: &[f64; 4]) -> Self {
         Self {
             numbers: lanes.load64(values),
             lanes,
@@ -89,6 +99,12 @@ impl<I: DoubleInstructions> Doubles<I> {
             Self::splat(lanes, y),
             Self::splat(lanes, z),
         ]
+    }
+
+    /// A number in all lanes, for the same instructions.
+    #[inline(always)]
+    pub fn splatted(self, value: f64) -> Self {
+        Self::splat(self.lanes, value)
     }
 
     #[inline(always)]
@@ -126,14 +142,38 @@ impl<I: DoubleInstructions> Doubles<I> {
     /// The reciprocal, and 0 where the number is 0.
     #[inline(always)]
     pub fn inverse(self) -> Self {
-        Self::splat(self.lanes, 1.0).quotient(self)
+        self.splatted(1.0).quotient(self)
     }
 
     /// The numbers clamped to [0, 1].
     #[inline(always)]
     pub fn unit(self) -> Self {
-        self.min(Self::splat(self.lanes, 1.0))
-            .max(Self::splat(self.lanes, 0.0))
+        self.min(self.splatted(1.0)).max(self.splatted(0.0))
+    }
+
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self.of(self.lanes.abs64(self.numbers))
+    }
+
+    /// The second lane, the third, the first, the fourth.
+    #[inline(always)]
+    pub fn rolled(self) -> Self {
+        self.of(self.lanes.rolled64(self.numbers))
+    }
+
+    /// The first three lanes, then the last lane of another four.
+    #[inline(always)]
+    pub fn ending(self, last: Self) -> Self {
+        self.of(self.lanes.ending64(self.numbers, last.numbers))
+    }
+
+    /// The rounding error of the product with another.
+    #[inline(always)]
+    pub fn product_error(self, other: Self, product: Self) -> Self {
+        let [x, y] = [self.array(), other.array()];
+        let error = self.lanes.product_error(x, y, product.array());
+        Self::load(self.lanes, &error)
     }
 
     /// The last three lanes, then the first lane of the next four.
@@ -206,6 +246,6 @@ impl<I: DoubleInstructions> Mul<f64> for Doubles<I> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        self * Self::splat(self.lanes, factor)
+        self * self.splatted(factor)
     }
 }

@@ -186,8 +186,8 @@ impl DoubleInstructions for Plain {
     }
 
     #[inline(always)]
-    fn load64(self, values: &F64x4) -> F64x4 {
-        *values
+    fn load64(self, values: &[f64; 4]) -> F64x4 {
+        F64x4(*values)
     }
 
     #[inline(always)]
@@ -223,6 +223,21 @@ impl DoubleInstructions for Plain {
     #[inline(always)]
     fn max64(self, a: F64x4, b: F64x4) -> F64x4 {
         a.max(b)
+    }
+
+    #[inline(always)]
+    fn abs64(self, a: F64x4) -> F64x4 {
+        a.abs()
+    }
+
+    #[inline(always)]
+    fn rolled64(self, F64x4([x, y, z, w]): F64x4) -> F64x4 {
+        F64x4([y, z, x, w])
+    }
+
+    #[inline(always)]
+    fn ending64(self, F64x4([x, y, z, _]): F64x4, last: F64x4) -> F64x4 {
+        F64x4([x, y, z, last.0[3]])
     }
 
     #[inline(always)]

@@ -180,7 +180,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         for (place, target) in found.iter().enumerate() {
             let shift = self.shift(scene, target);
             if may_meet(target.bound, threshold, shift) {
-                let (link, object, _) = target.parties();
+                let (link, object, _) = target.ids();
                 order.push((link, object, OrderedBound(target.bound), place));
             }
         }
@@ -405,7 +405,7 @@ impl<'a> Gathering<'a, '_> {
     /// Bounds the change of a pair's distance from the middle to any other time.
     fn shift(&mut self, scene: &'a Scene, target: &Target) -> f64 {
         let (r_link, s_link) = target.links();
-        let (_, r_object, _) = target.parties();
+        let (_, r_object, _) = target.ids();
         if s_link.is_some() || r_object != 0 {
             return self.share() * self.way.line.rate(scene, target);
         }

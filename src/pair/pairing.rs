@@ -13,12 +13,15 @@ use crate::error::Result;
 use crate::gjk::{DistanceLimits, Proved, Support};
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
-use crate::pose::{Pose, Vec3, relative_centered, turned, turned_back};
-use crate::primitive::{Form, SmoothKind};
+use crate::pose::{
+    Pose, Rows, Vec3, centered, relative_centered, relative_of, turned, turned_back,
+};
+use crate::primitive::{Form, Round, SmoothKind};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
 /// Bodies A (the r-side) and B (the s-side) in A's centred frame.
+#[derive(Clone, Copy)]
 pub struct Pairing<'a> {
     pub a: &'a Body,
     pub b: &'a Body,
@@ -82,15 +85,29 @@ impl<'a> Pairing<'a> {
     #[inline(always)]
     pub fn new(a: &'a Body, pose_a: &Pose, b: &'a Body, pose_b: &Pose) -> Self {
         let relative = relative_centered(pose_a, a.center(), pose_b, b.center());
+        Self::seen([a, b], pose_a, relative)
+    }
+
+    /// The same of poses that are stored in any way, within code that is compiled for an instruction set.
+    #[inline(always)]
+    pub(crate) fn of<I: Instructions, P: Rows>(
+        lanes: I,
+        bodies: [&'a Body; 2],
+        poses: [&P; 2],
+    ) -> Self {
+        let relative = relative_of(lanes, poses, bodies.map(Body::center));
+        Self::seen(bodies, poses[0], relative)
+    }
+
+    /// Two bodies, given the pose of B's centred frame in that of A.
+    #[inline(always)]
+    fn seen([a, b]: [&'a Body; 2], pose_a: &impl Rows, relative: Pose) -> Self {
         let size = a.radius().max(relative.translation.norm() + b.radius());
         Self {
             a,
             b,
             relative,
-            frame: Pose {
-                rotation: pose_a.rotation,
-                translation: pose_a.transform_point(a.center()),
-            },
+            frame: centered(pose_a, a.center()),
             precision: Precision {
                 size,
                 error: tolerance::DISTANCE_ERROR * size + a.deviation() + b.deviation(),
@@ -134,6 +151,12 @@ impl<'a> Pairing<'a> {
     /// The places of the two primitives, if each body has exactly one.
     pub fn only_places(&self) -> Option<[u32; 2]> {
         Some([self.a.only_place()?, self.b.only_place()?])
+    }
+
+    /// The spheres or capsules that the two bodies are, if they are nothing else.
+    #[inline(always)]
+    pub fn rounds(&self) -> Option<[&'a Round; 2]> {
+        Some([self.a.only_round()?, self.b.only_round()?])
     }
 
     /// Of a body with a single primitive, 0 for A and 1 for B, the point of the primitive's core that is nearest to the other body along

@@ -26,22 +26,27 @@ pub struct Rounds<'a> {
 }
 
 impl<'a> Rounds<'a> {
-    /// `None` if a body is more than a single sphere or capsule.
+    /// Of the spheres or capsules that are the only primitives of the pairing's bodies.
     #[inline(always)]
-    pub fn of(pairing: &'a Pairing<'a>) -> Option<Self> {
-        let rounds = [pairing.a.only_round()?, pairing.b.only_round()?];
-        let in_b = |end: &Vec3| pairing.relative.transform_point(end);
-        if !rounds[0].is_capsule && !rounds[1].is_capsule {
-            let points = [rounds[0].ends[0], in_b(&rounds[1].ends[0])];
-            return Some(Self::at(pairing, rounds, None, [0.0; 2], points));
+    pub fn new(pairing: &'a Pairing<'a>, rounds: [&'a Round; 2]) -> Self {
+        let ([a, b], to_a) = (rounds, &pairing.relative);
+        let (start_a, start_b) = (a.ends[0], to_a.transform_point(&b.ends[0]));
+        if are_spheres(rounds) {
+            return Self::at(pairing, rounds, None, [0.0; 2], [start_a, start_b]);
         }
         let axes = [
-            axis(rounds[0], |end| *end),
-            axis(rounds[1], |end| in_b(end)),
+            match a.is_capsule {
+                true => Segment::new((start_a, a.ends[1])),
+                false => Segment::point(start_a),
+            },
+            match b.is_capsule {
+                true => Segment::new((start_b, to_a.transform_point(&b.ends[1]))),
+                false => Segment::point(start_b),
+            },
         ];
         let (s, t) = closest_parameters(&axes[0], &axes[1]);
         let points = [axes[0].at(s), axes[1].at(t)];
-        Some(Self::at(pairing, rounds, Some(axes), [s, t], points))
+        Self::at(pairing, rounds, Some(axes), [s, t], points)
     }
 
     #[inline(always)]
@@ -185,13 +190,8 @@ impl<'a> Rounds<'a> {
     }
 }
 
-/// The axis of a sphere or capsule whose ends are moved.
+/// Whether both are spheres, whose distance takes no longer than a bound of it.
 #[inline(always)]
-fn axis(round: &Round, moved: impl Fn(&Vec3) -> Vec3) -> Segment {
-    let start = moved(&round.ends[0]);
-    if round.is_capsule {
-        Segment::new((start, moved(&round.ends[1])))
-    } else {
-        Segment::point(start)
-    }
+pub fn are_spheres([a, b]: [&Round; 2]) -> bool {
+    !a.is_capsule && !b.is_capsule
 }

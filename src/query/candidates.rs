@@ -166,11 +166,8 @@ impl<'s, 'm> Candidates<'s, 'm> {
             return Ok(targets);
         }
         targets.retain(|target| target.bound <= self.limit(&target.options));
-        targets.sort_unstable_by_key(|target| (target.parties(), target.term));
-        if targets
-            .windows(2)
-            .any(|two| two[0].parties() == two[1].parties())
-        {
+        targets.sort_unstable_by_key(|target| (target.ids(), target.term));
+        if targets.windows(2).any(|two| two[0].ids() == two[1].ids()) {
             targets = without_repeats(targets);
         }
         for (target, rank) in targets.iter_mut().zip(0..) {
@@ -190,7 +187,7 @@ fn without_repeats(targets: Vec<Target>) -> Vec<Target> {
         let same_ids = unique
             .iter_mut()
             .rev()
-            .take_while(|known| known.parties() == next.parties());
+            .take_while(|known| known.ids() == next.ids());
         let repeated = same_ids.into_iter().find(|known| {
             let sides = known.sides.iter().zip(&next.sides);
             let mut sides = sides

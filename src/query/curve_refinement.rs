@@ -486,7 +486,7 @@ impl<'a> Search<'_, 'a> {
             witness: Some(Witness {
                 contact_count: usize::from(contact.is_some()),
                 overlapping: contact.is_none() && distance == 0.0,
-                ..Witness::of(self.target, &hit, leaf)
+                ..Witness::of(&self.target.parties(), &hit, leaf)
             }),
             points,
             contact,

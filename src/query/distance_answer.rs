@@ -2,7 +2,7 @@
 
 use super::answer::{ContactRecord, Distance, DistanceKind, Witness};
 use super::distance::NearestHit;
-use super::target::Target;
+use super::target::{Parties, Target};
 use crate::cobject::{BoundedDistance, Leaf};
 use crate::convex::PrimitiveDistance;
 use crate::pair::{Hit, Pairing, PrimitiveScratch};
@@ -13,6 +13,10 @@ pub(super) struct NearestPair<'a> {
     pub hit: &'a Hit,
     pub points: [Vec3; 2],
     pub contact: Option<ContactRecord>,
+    /// What is subtracted from its distance (see `Target::margin`).
+    pub margin: f64,
+    /// How much of that are the bodies' stated deviations.
+    pub stated_deviation: f64,
 }
 
 impl Distance {
@@ -92,8 +96,10 @@ impl Distance {
             hit,
             points,
             contact,
+            margin: target.margin(),
+            stated_deviation: target.stated_deviation(),
         };
-        Self::of_pair(&found, lower, target, error, leaf)
+        Self::of_pair(&found, lower, &target.parties(), error, leaf)
     }
 
     /// The answer for a nearest pair with its witness points and contact.
@@ -101,7 +107,7 @@ impl Distance {
     pub(super) fn of_pair(
         found: &NearestPair,
         lower: f64,
-        target: &Target,
+        parties: &Parties,
         error: f64,
         leaf: Leaf,
     ) -> Self {
@@ -109,6 +115,8 @@ impl Distance {
             hit,
             points,
             contact,
+            margin,
+            stated_deviation,
         } = found;
         let upper_beside = |excess: f64| {
             // Sets that meet by their measured distance may be apart by twice the error: they count as meeting up to the
@@ -117,22 +125,21 @@ impl Distance {
             if hit.distance > 0.0 {
                 return hit.distance + error + excess;
             }
-            match hit.apart - target.margin() + error + excess {
+            match hit.apart - margin + error + excess {
                 beyond if beyond <= 0.0 => 0.0,
                 beyond => beyond.max(2.0 * error),
             }
         };
         // The distance is less the stated deviations already.
-        let stated = target.stated_deviation();
-        let upper = upper_beside(2.0 * stated);
-        let excess = match stated > 0.0 {
+        let upper = upper_beside(2.0 * stated_deviation);
+        let excess = match stated_deviation > 0.0 {
             true => upper - upper_beside(0.0),
             false => 0.0,
         };
         let witness = Witness {
             contact_count: usize::from(contact.is_some()),
             overlapping: contact.is_none() && hit.distance == 0.0,
-            ..Witness::of(target, hit, leaf)
+            ..Witness::of(parties, hit, leaf)
         };
         Self {
             kind: DistanceKind::Exact,

@@ -280,7 +280,7 @@ impl QueryContext {
         list.pairs.reserve(found.len());
         for pair in &found {
             let target = target(sets.sides().map(|side| &**side), pair);
-            let (_, a, b) = target.parties();
+            let (_, a, b) = target.ids();
             let meet = if with_distances {
                 let measured = self.target_distance(&target, f64::INFINITY)?;
                 let meet = measured.distance == 0.0;
@@ -488,7 +488,8 @@ impl QueryContext {
     fn target_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
         let [(a, _), (b, _)] = target.sides;
         if are_singles(a, b) {
-            return self.singles_distance(target, max_distance, |distance| distance);
+            let (pairing, parties) = (target.pairing(), target.parties());
+            return self.singles_distance(&pairing, &parties, max_distance, |distance| distance);
         }
         let targets = std::slice::from_ref(target);
         let found = self.nearest(targets, max_distance)?;

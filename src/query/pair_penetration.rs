@@ -51,10 +51,11 @@ impl Visitor for Deepest<'_> {
         }
         match self.pairing.world_penetration(primitives, meter) {
             Ok(penetration) => {
+                let parties = self.target.parties();
                 self.list.offer(PrimitivePenetration {
                     primitives,
-                    tags: self.target.tags(primitives),
-                    parts: self.target.parts(primitives),
+                    tags: parties.tags(primitives),
+                    parts: parties.parts(primitives),
                     penetration,
                 });
             }

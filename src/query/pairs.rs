@@ -4,11 +4,14 @@ use super::answer::{ContactRecord, Distance, WitnessList};
 use super::cache_key::CacheKey;
 use super::context::{QueryContext, check_threshold};
 use super::distance_answer::NearestPair;
-use super::target::{Placement, Target};
+use super::target::{Parties, Placement, Target};
 use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
-use crate::pair::{Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest};
+use crate::pair::{
+    Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest, are_spheres,
+};
+use crate::primitive::Round;
 
 /// Refuses bodies of different dimension, and planar bodies that leave the plane.
 #[inline(always)]
@@ -68,7 +71,7 @@ pub(super) fn are_singles(a: &Body, b: &Body) -> bool {
 #[inline(always)]
 fn singles_answer(
     nearest: SinglesNearest,
-    target: &Target,
+    parties: &Parties,
     error: f64,
     max_distance: f64,
 ) -> Distance {
@@ -85,8 +88,10 @@ fn singles_answer(
         hit: &hit,
         points,
         contact: contact.map(|contact| ContactRecord::new(contact, 0.0)),
+        margin: 0.0,
+        stated_deviation: 0.0,
     };
-    Distance::of_pair(&found, lower, target, error, Leaf::default())
+    Distance::of_pair(&found, lower, parties, error, Leaf::default())
 }
 
 impl QueryContext {
@@ -102,26 +107,6 @@ impl QueryContext {
         self.refining(|context| context.bodies_distance(a, b, max_distance))
     }
 
-    /// The same, handed to `take`: moving an answer of this size takes as long as measuring two spheres.
-    #[inline(always)]
-    pub fn take_pair_distance<T>(
-        &mut self,
-        a: Placement,
-        b: Placement,
-        max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
-    ) -> Result<T> {
-        check_threshold(max_distance, "max_distance")?;
-        self.scratch.meter_mut().start_call();
-        let target = target(a, b)?;
-        if are_singles(a.0, b.0) {
-            return self.singles_distance(&target, max_distance, take);
-        }
-        let distance =
-            self.refining(|context| context.searched_distance(&[target], max_distance))?;
-        Ok(take(distance))
-    }
-
     /// The same within a call, with a checked maximum.
     pub(crate) fn bodies_distance(
         &mut self,
@@ -131,7 +116,8 @@ impl QueryContext {
     ) -> Result<Distance> {
         let target = target(a, b)?;
         if are_singles(a.0, b.0) {
-            return self.singles_distance(&target, max_distance, |distance| distance);
+            let (pairing, parties) = (target.pairing(), target.parties());
+            return self.singles_distance(&pairing, &parties, max_distance, |distance| distance);
         }
         self.searched_distance(&[target], max_distance)
     }
@@ -147,30 +133,79 @@ impl QueryContext {
         Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
 
-    /// The same of bodies of one primitive each, which need no search; handed to `take`.
+    /// The same of bodies of one primitive each, which need no search. Handed to `take`: moving an answer of this size takes as
+    /// long as measuring two spheres.
     #[inline(always)]
     pub(super) fn singles_distance<T>(
         &mut self,
-        target: &Target,
+        pairing: &Pairing,
+        parties: &Parties,
+        max_distance: f64,
+        take: impl FnOnce(Distance) -> T,
+    ) -> Result<T> {
+        match pairing.rounds() {
+            Some(rounds) => self.rounds_distance(pairing, rounds, parties, max_distance, take),
+            None => self.measured_distance(pairing, parties, max_distance, take),
+        }
+    }
+
+    /// The same of a sphere or capsule each.
+    #[inline(always)]
+    pub(super) fn rounds_distance<T>(
+        &mut self,
+        pairing: &Pairing,
+        rounds: [&Round; 2],
+        parties: &Parties,
         max_distance: f64,
         take: impl FnOnce(Distance) -> T,
     ) -> Result<T> {
         self.count_body_pair()?;
-        let pairing = target.pairing();
+        if !are_spheres(rounds) && pairing.sphere_bound() > max_distance {
+            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
+        }
+        self.scratch.for_one_pair()?;
+        let error = pairing.precision.error;
+        // Not one branch's result or the other's: choosing would copy it.
+        if let Some(nearest) = Rounds::new(pairing, rounds).nearest() {
+            return Ok(take(singles_answer(nearest, parties, error, max_distance)));
+        }
+        Ok(take(self.close_distance(*pairing, *parties, max_distance)))
+    }
+
+    /// The same where their axes are too close together for closed forms. Given copies, so that callers may keep theirs in registers.
+    #[cold]
+    #[inline(never)]
+    fn close_distance(
+        &mut self,
+        pairing: Pairing,
+        parties: Parties,
+        max_distance: f64,
+    ) -> Distance {
+        let error = pairing.precision.error;
+        match Singles::new(&pairing, self.scratch.for_primitives()).nearest(max_distance) {
+            Some(nearest) => singles_answer(nearest, &parties, error, max_distance),
+            None => Distance::beyond(max_distance, f64::INFINITY),
+        }
+    }
+
+    /// The same of one primitive each, of any kind.
+    #[inline(always)]
+    pub(super) fn measured_distance<T>(
+        &mut self,
+        pairing: &Pairing,
+        parties: &Parties,
+        max_distance: f64,
+        take: impl FnOnce(Distance) -> T,
+    ) -> Result<T> {
+        self.count_body_pair()?;
         if pairing.sphere_bound() > max_distance {
             return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
         }
         let scratch = self.scratch.for_one_pair()?;
         let error = pairing.precision.error;
-        // Not one branch's result or the other's: choosing would copy it.
-        if let Some(rounds) = Rounds::of(&pairing)
-            && let Some(nearest) = rounds.nearest()
-        {
-            return Ok(take(singles_answer(nearest, target, error, max_distance)));
-        }
         Ok(take(
-            match Singles::new(&pairing, scratch).nearest(max_distance) {
-                Some(nearest) => singles_answer(nearest, target, error, max_distance),
+            match Singles::new(pairing, scratch).nearest(max_distance) {
+                Some(nearest) => singles_answer(nearest, parties, error, max_distance),
                 None => Distance::beyond(max_distance, f64::INFINITY),
             },
         ))
@@ -202,15 +237,37 @@ impl QueryContext {
     /// The same of bodies of one primitive each, which need no search.
     #[inline(always)]
     pub(super) fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
+        match pairing.rounds() {
+            Some(rounds) => self.rounds_within(pairing, rounds, threshold),
+            None => self.measured_within(pairing, threshold),
+        }
+    }
+
+    /// The same of a sphere or capsule each.
+    #[inline(always)]
+    pub(super) fn rounds_within(
+        &mut self,
+        pairing: &Pairing,
+        rounds: [&Round; 2],
+        threshold: f64,
+    ) -> Result<bool> {
+        self.count_body_pair()?;
+        if !are_spheres(rounds) && pairing.sphere_bound() > threshold {
+            return Ok(false);
+        }
+        self.scratch.for_one_pair()?;
+        Ok(Rounds::new(pairing, rounds).are_within(threshold))
+    }
+
+    /// The same of one primitive each, of any kind.
+    #[inline(always)]
+    pub(super) fn measured_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
         self.count_body_pair()?;
         if pairing.sphere_bound() > threshold {
             return Ok(false);
         }
         let scratch = self.scratch.for_one_pair()?;
-        Ok(match Rounds::of(pairing) {
-            Some(rounds) => rounds.are_within(threshold),
-            None => Singles::new(pairing, scratch).are_within(threshold),
-        })
+        Ok(Singles::new(pairing, scratch).are_within(threshold))
     }
 
     /// All primitive pairs at most `epsilon` apart, nearest first, at most `max_count` of them.

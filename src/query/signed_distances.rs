@@ -161,7 +161,7 @@ impl QueryContext {
         };
         let witness = Witness {
             distance: (hit.distance - margin).max(0.0),
-            ..Witness::of(target, &hit, leaf)
+            ..Witness::of(&target.parties(), &hit, leaf)
         };
         let state = scene.state().expect("the configuration is known");
         let error = target.pairing().precision.error;

@@ -28,10 +28,53 @@ pub(crate) struct Target<'a> {
     pub bound: f64,
 }
 
+/// Who the two sides of a body pair are, as witnesses tell it.
+#[derive(Clone, Copy)]
+pub(crate) struct Parties<'a> {
+    pub bodies: [&'a Body; 2],
+    pub r_link: usize,
+    /// The attached object that is the r-side, or 0.
+    pub r_object: u64,
+    /// The link that the s-object is attached to, if any.
+    pub s_carrier: Option<usize>,
+    pub s_side: SSide,
+    /// The user data of the two sides, or 0.
+    pub data: [usize; 2],
+}
+
+impl<'a> Parties<'a> {
+    /// Two bodies without a robot.
+    #[inline(always)]
+    pub fn of_bodies(bodies: [&'a Body; 2]) -> Self {
+        Self {
+            bodies,
+            r_link: 0,
+            r_object: 0,
+            s_carrier: None,
+            s_side: SSide::Object(0),
+            data: bodies.map(Body::data),
+        }
+    }
+
+    /// The tags of two primitives, one of each body.
+    #[inline(always)]
+    pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
+        let [a, b] = self.bodies;
+        [a.tag(on_a), b.tag(on_b)]
+    }
+
+    /// The parts of the bodies that two primitives belong to, one of each body.
+    #[inline(always)]
+    pub fn parts(&self, [on_a, on_b]: [u32; 2]) -> [Option<u32>; 2] {
+        let [a, b] = self.bodies;
+        [a.part_of(on_a), b.part_of(on_b)]
+    }
+}
+
 impl<'a> Target<'a> {
     /// The r-link, the attached object that is the r-side (or 0), and the s-side. All 0 for two bodies without a robot.
     #[inline(always)]
-    pub fn parties(&self) -> (usize, u64, SSide) {
+    pub fn ids(&self) -> (usize, u64, SSide) {
         match self.key {
             CacheKey::Candidate {
                 r_link,
@@ -45,25 +88,25 @@ impl<'a> Target<'a> {
 
     /// The link that moves the r-side, and the one that moves the s-side, if one does.
     pub fn links(&self) -> (usize, Option<usize>) {
-        let (r_link, _, s_side) = self.parties();
+        let (r_link, _, s_side) = self.ids();
         match s_side {
             SSide::Link(s) => (r_link, Some(s)),
             _ => (r_link, self.s_carrier),
         }
     }
 
-    /// The tags of two primitives, one of each body.
+    /// Who its two sides are.
     #[inline(always)]
-    pub fn tags(&self, [on_a, on_b]: [u32; 2]) -> [u64; 2] {
-        let [(a, _), (b, _)] = self.sides;
-        [a.tag(on_a), b.tag(on_b)]
-    }
-
-    /// The parts of the bodies that two primitives belong to, one of each body.
-    #[inline(always)]
-    pub fn parts(&self, [on_a, on_b]: [u32; 2]) -> [Option<u32>; 2] {
-        let [(a, _), (b, _)] = self.sides;
-        [a.part_of(on_a), b.part_of(on_b)]
+    pub fn parties(&self) -> Parties<'a> {
+        let (r_link, r_object, s_side) = self.ids();
+        Parties {
+            bodies: self.sides.map(|(body, _)| body),
+            r_link,
+            r_object,
+            s_carrier: self.s_carrier,
+            s_side,
+            data: self.data,
+        }
     }
 
     /// How far both bodies together may be from what they stand for.

@@ -6,7 +6,7 @@ use super::context::{QueryContext, check_threshold};
 use super::leaves::Leaves;
 use super::pure_answer::{PureAt, PureWitness};
 use super::scene::{Configuration, Group, Scene};
-use super::target::Target;
+use super::target::{Parties, Target};
 use crate::cobject::{CObject, Leaf, PureSet};
 use crate::error::Result;
 use crate::pair::{Collect, Hit, Pairing, PrimitiveScratch, WorldContact, traverse};
@@ -280,7 +280,7 @@ impl WitnessList {
             first_contact,
             contact_count,
             overlapping: contact_count == 0 && hit.distance == 0.0,
-            ..Witness::of(target, hit, leaf)
+            ..Witness::of(&target.parties(), hit, leaf)
         });
     }
 
@@ -324,18 +324,17 @@ impl WitnessList {
 impl Witness {
     /// A witness without contacts, which are added later.
     #[inline(always)]
-    pub(super) fn of(target: &Target, hit: &Hit, leaf: Leaf) -> Self {
-        let (r_link, r_object, s_side) = target.parties();
+    pub(super) fn of(parties: &Parties, hit: &Hit, leaf: Leaf) -> Self {
         Self {
             leaf,
-            r_link,
-            r_object,
-            s_carrier: target.s_carrier,
-            s_side,
+            r_link: parties.r_link,
+            r_object: parties.r_object,
+            s_carrier: parties.s_carrier,
+            s_side: parties.s_side,
             primitives: hit.key.primitives,
-            tags: target.tags(hit.key.primitives),
-            parts: target.parts(hit.key.primitives),
-            data: target.data,
+            tags: parties.tags(hit.key.primitives),
+            parts: parties.parts(hit.key.primitives),
+            data: parties.data,
             distance: hit.distance,
             first_contact: 0,
             contact_count: 0,
