@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::lanes::{Doubles, F64x4, Instructions, Work, along64, each3, with_widest};
+use crate::lanes::{Doubles, F64x4, Instructions, Plain, Work, along64, with_widest};
 use crate::tolerance;
 
 /// A point, vector or direction; points and lengths in the caller's unit.
@@ -141,10 +141,18 @@ impl Pose {
     /// The product self * child: the pose of the child's child in this pose's parent frame.
     #[inline(always)]
     pub fn compose(&self, child: &Pose) -> Pose {
-        let moved = turned64(&self.rotation, &child.translation) + lanes_of(&self.translation);
+        self.compose_with(Plain, child)
+    }
+
+    /// The same within code that is compiled for an instruction set.
+    #[inline(always)]
+    pub(crate) fn compose_with<I: Instructions>(&self, lanes: I, child: &Pose) -> Pose {
+        let axes = columns(lanes, &self.rotation);
+        let moved = along64(&axes, &of_vector(&child.translation));
+        let translation = moved + column(lanes, self, 3);
         Pose {
-            rotation: turned_axes(&self.rotation, &child.rotation),
-            translation: Vec3::new(moved.0[0], moved.0[1], moved.0[2]),
+            rotation: turned_columns(&axes, &child.rotation),
+            translation: vector(translation),
         }
     }
 
@@ -444,7 +452,7 @@ impl<P: Rows> Work for Relative<'_, P> {
 
 /// A column of a pose in a register, and 0.
 #[inline(always)]
-fn column<I: Instructions>(lanes: I, pose: &impl Rows, j: usize) -> Doubles<I> {
+pub(crate) fn column<I: Instructions>(lanes: I, pose: &impl Rows, j: usize) -> Doubles<I> {
     let entries = [pose.entry(0, j), pose.entry(1, j), pose.entry(2, j), 0.0];
     Doubles::four(lanes, &entries)
 }
@@ -466,10 +474,16 @@ pub fn turned_back(matrix: &Mat3, v: &Vec3) -> Vec3 {
 /// matrix * axes, a column at a time.
 #[inline(always)]
 pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
-    of_columns(each3(|j| {
-        let axis = Vec3::new(axes[(0, j)], axes[(1, j)], axes[(2, j)]);
-        turned64(matrix, &axis)
-    }))
+    turned_columns(&columns(Plain, matrix), axes)
+}
+
+/// The same of a matrix whose columns are in registers: to the last bit what [`turned`] has.
+#[inline(always)]
+fn turned_columns<I: Instructions>(matrix: &[Doubles<I>; 3], axes: &Mat3) -> Mat3 {
+    let x = along64(matrix, &[axes[(0, 0)], axes[(1, 0)], axes[(2, 0)]]);
+    let y = along64(matrix, &[axes[(0, 1)], axes[(1, 1)], axes[(2, 1)]]);
+    let z = along64(matrix, &[axes[(0, 2)], axes[(1, 2)], axes[(2, 2)]]);
+    of_columns([x.array(), y.array(), z.array()])
 }
 
 /// A rotation after a turn about one of its own axes, the case of most joints: only two columns change.
@@ -477,33 +491,40 @@ pub fn turned_axes(matrix: &Mat3, axes: &Mat3) -> Mat3 {
 fn turned_about_axis<const AXIS: usize>(rotation: &Mat3, angle: f64) -> Mat3 {
     let (sine, cosine) = angle.sin_cos();
     let [i, j] = [(AXIS + 1) % 3, (AXIS + 2) % 3];
-    let mut columns = each3(|k| column64(rotation, k));
+    let mut columns = columns(Plain, rotation).map(Doubles::array);
     let (x, y) = (columns[i], columns[j]);
     columns[i] = x * cosine + y * sine;
     columns[j] = y * cosine - x * sine;
     of_columns(columns)
 }
 
-/// matrix * v, as [`turned`] has it, to the last bit; the fourth lane is 0.
+/// The columns of a matrix in registers. The fourth lanes mean nothing.
 #[inline(always)]
-fn turned64(matrix: &Mat3, v: &Vec3) -> F64x4 {
-    along64(&each3(|k| column64(matrix, k)), &[v.x, v.y, v.z])
-}
-
-#[inline(always)]
-fn column64(matrix: &Mat3, k: usize) -> F64x4 {
-    F64x4([matrix[(0, k)], matrix[(1, k)], matrix[(2, k)], 0.0])
-}
-
-#[inline(always)]
-fn lanes_of(v: &Vec3) -> F64x4 {
-    F64x4([v.x, v.y, v.z, 0.0])
+pub(crate) fn columns<I: Instructions>(lanes: I, matrix: &Mat3) -> [Doubles<I>; 3] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = matrix.data.0;
+    [
+        Doubles::four(lanes, &[a, b, c, d]),
+        Doubles::four(lanes, &[d, e, f, g]),
+        Doubles::four(lanes, &[g, h, i, 0.0]),
+    ]
 }
 
 #[inline(always)]
 fn of_columns([x, y, z]: [F64x4; 3]) -> Mat3 {
     let ([x, y, z], [a, b, c]) = ([x.0, y.0, z.0], [0, 1, 2]);
     Mat3::new(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c])
+}
+
+/// The first three lanes of a register.
+#[inline(always)]
+pub(crate) fn vector<I: Instructions>(lanes: Doubles<I>) -> Vec3 {
+    let [x, y, z, _] = lanes.array().0;
+    Vec3::new(x, y, z)
+}
+
+#[inline(always)]
+fn of_vector(v: &Vec3) -> [f64; 3] {
+    [v.x, v.y, v.z]
 }
 
 /// Double-double sums, after Dekker (1971) and Knuth's TwoSum.
@@ -545,7 +566,6 @@ impl<I: Instructions> TwoFold<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::Plain;
 
     #[test]
     fn quaternions_turn_as_axes_do() {

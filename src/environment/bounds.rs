@@ -3,8 +3,8 @@
 use crate::body::Body;
 use crate::boxes::Extent;
 use crate::environment::box_tree::OrientedBox;
-use crate::lanes::{along64, each3};
-use crate::pose::{Pose, Vec3};
+use crate::lanes::{Instructions, along64};
+use crate::pose::{Pose, Vec3, column, columns, vector};
 use crate::tolerance;
 
 /// The bounding ball and the oriented bounding box of a body at a pose, in the world.
@@ -26,25 +26,27 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds of a body at a pose.
+    /// The bounds of a body at a pose, within code that is compiled for an instruction set.
     #[inline(always)]
-    pub fn of(body: &Body, pose: &Pose) -> Self {
+    pub fn of<I: Instructions>(lanes: I, body: &Body, pose: &Pose) -> Self {
         let whole = body.packed().whole();
-        let origin = pose.transform_point(body.center());
-        let turned = each3(|k| {
-            let row = each3(|j| pose.rotation[(k, j)]);
-            along64(&whole.frame, &row).0
-        });
-        let column = |i: usize| Vec3::new(turned[0][i], turned[1][i], turned[2][i]);
+        let to_world = columns(lanes, &pose.rotation);
+        let [x, y, z] = &whole.frame;
+        let axis_x = along64(&to_world, &[x.0[0], y.0[0], z.0[0]]);
+        let axis_y = along64(&to_world, &[x.0[1], y.0[1], z.0[1]]);
+        let to_box = along64(&to_world, &[x.0[2], y.0[2], z.0[2]]);
+        let to_ball = along64(&to_world, &[x.0[3], y.0[3], z.0[3]]);
+        let center = body.center();
+        let origin = along64(&to_world, &[center.x, center.y, center.z]) + column(lanes, pose, 3);
         Self {
-            center: origin + column(3),
+            center: vector(origin + to_ball),
             radius: whole.ball_radius,
-            box_center: origin + column(2),
-            axes: [column(0), column(1)],
+            box_center: vector(origin + to_box),
+            axes: [vector(axis_x), vector(axis_y)],
             half: whole.half,
             box_radius: whole.radius,
             deviation: body.deviation() + body.stated_deviation(),
-            largest_coordinate: l1_norm(body.center()) + l1_norm(&pose.translation) + body.radius(),
+            largest_coordinate: l1_norm(center) + l1_norm(&pose.translation) + body.radius(),
         }
     }
 

@@ -72,7 +72,8 @@ impl BoxFrame {
         PackedBox {
             axes: [x, y, cross3(&x, &y)],
             center: each3(|k| (center[k] * scale) as f32),
-            half: each3(|i| ((half[i] * scale) as f32).next_up()),
+            // Rounded up: the next number after x is at most x (1 + EPSILON). What is 0 here is so to within ROUNDING.
+            half: each3(|i| (half[i] * scale) as f32 * (1.0 + f32::EPSILON)),
         }
     }
 

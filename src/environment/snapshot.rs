@@ -203,7 +203,7 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) {
+    fn run<I: Instructions>(self, lanes: I) {
         let target = self.target;
         let mut changed = self.changed.iter().peekable();
         while let Some(mut run) = self.places.next_run(&mut changed) {
@@ -217,7 +217,7 @@ where
                         object.attachment = attachment.cloned().map(Arc::new);
                     }
                 }
-                place.bounds = Bounds::of(&object.body, &object.pose);
+                place.bounds = Bounds::of(lanes, &object.body, &object.pose);
             }
         }
     }

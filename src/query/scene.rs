@@ -200,17 +200,19 @@ impl Work for BoundAll<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) {
+    fn run<I: Instructions>(self, lanes: I) {
         let scene = self.scene;
         let poses = scene.poses();
         self.bounds.reserve(poses.len() + scene.held.len());
         for (link, pose) in poses.iter().enumerate() {
-            let body = scene.space.body(link);
-            self.bounds
-                .push(body.map_or_else(Bounds::default, |body| Bounds::of(body, pose)));
+            self.bounds.push(match scene.space.body(link) {
+                Some(body) => Bounds::of(lanes, body, pose),
+                None => Bounds::default(),
+            });
         }
         for held in &scene.held {
-            self.bounds.push(Bounds::of(&held.object.body, &held.pose));
+            let bounds = Bounds::of(lanes, &held.object.body, &held.pose);
+            self.bounds.push(bounds);
         }
     }
 }

@@ -28,14 +28,14 @@ impl Work for LinkPoses<'_> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Result<()> {
+    fn run<I: Instructions>(self, lanes: I) -> Result<()> {
         let Self { robot, q, poses } = self;
         let first = poses.len();
         poses.reserve(robot.links().len());
         for (index, link) in robot.links().iter().enumerate() {
             let at = match link.parent {
                 None => link.at,
-                Some(parent) => poses[first + parent].compose(&link.at),
+                Some(parent) => poses[first + parent].compose_with(lanes, &link.at),
             };
             let joint = &link.joint;
             poses.push(match joint.kind {
@@ -49,7 +49,7 @@ impl Work for LinkPoses<'_> {
                     });
                     let at_link =
                         |e: Error| e.within(format_args!("link {index} (\"{}\")", link.name));
-                    at.compose(&motion.map_err(at_link)?)
+                    at.compose_with(lanes, &motion.map_err(at_link)?)
                 }
             });
         }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use cstk::body::{Body, BodyBuilder};
 use cstk::environment::{Attachment, Bounds, Change, Environment, Named, NearScratch, Snapshot};
 use cstk::hierarchy::HierarchyOptions;
+use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::QueryContext;
 use cstk::space::Space;
@@ -118,7 +119,7 @@ fn check(state: &Snapshot, model: &Model, probe: &Body, random: &mut Random) {
             number: 0,
             body: probe,
             pose: &at,
-            bounds: &Bounds::of(probe, &at),
+            bounds: &Bounds::of(Plain, probe, &at),
         };
         state.tree().visit_near(
             [named].into_iter(),

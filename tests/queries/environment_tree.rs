@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use cstk::body::Body;
 use cstk::environment::{Bounds, Change, Environment, Named, NearScratch};
+use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
 
 use helpers::random::Random;
@@ -20,7 +21,7 @@ fn looked_at(environment: &Environment, body: &Body, at: &[Pose], limit: f64) ->
             number: 0,
             body,
             pose,
-            bounds: &Bounds::of(body, pose),
+            bounds: &Bounds::of(Plain, body, pose),
         };
         snapshot
             .tree()
