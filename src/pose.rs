@@ -70,7 +70,7 @@ impl Pose {
 
     /// The same without a check.
     #[inline(always)]
-    fn as_given(values: &[f64; 12]) -> Self {
+    pub(crate) fn as_given(values: &[f64; 12]) -> Self {
         let v = values;
         Self {
             rotation: Mat3::new(v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10]),

@@ -136,9 +136,8 @@ pub unsafe extern "C" fn cstk_pair_witnesses(
             pose_b,
             out,
             |state, pair, out| {
-                let poses = pair.read_poses()?;
-                let [a, b] = pair.at(&poses);
-                let list = state.context.pair_witnesses(a, b, epsilon, max_count)?;
+                let context = &mut state.context;
+                let list = pair.read(|a, b| context.pair_witnesses(a, b, epsilon, max_count))?;
                 out.write(state.keep(list));
                 Ok(())
             },
@@ -173,9 +172,8 @@ pub unsafe extern "C" fn cstk_pair_penetration(
             pose_b,
             out,
             |state, pair, out| {
-                let poses = pair.read_poses()?;
-                let [a, b] = pair.at(&poses);
-                let list = state.context.pair_penetration(a, b, max_count)?;
+                let context = &mut state.context;
+                let list = pair.read(|a, b| context.pair_penetration(a, b, max_count))?;
                 out.write(state.keep_penetrations(&list));
                 Ok(())
             },

@@ -22,26 +22,40 @@ pub struct GivenPair<'a> {
 }
 
 impl<'a> GivenPair<'a> {
-    /// The poses, replaced by the nearest ones where they are off by rounding. Errors name `pose_a` or `pose_b`.
-    pub fn read_poses(&self) -> Result<[Pose; 2]> {
-        let [a, b] = self.poses.map(Pose::from_row_major);
-        let named = |pose: Result<Pose>, name| pose.map_err(|e| e.within(name));
-        Ok([named(a, "pose_a")?, named(b, "pose_b")?])
-    }
-
-    /// The bodies at poses read from these.
-    pub fn at<'b>(&self, [a, b]: &'b [Pose; 2]) -> [Placement<'b>; 2]
-    where
-        'a: 'b,
-    {
-        [(self.bodies[0], a), (self.bodies[1], b)]
-    }
-
-    /// Whether the bodies are spatial and the poses need no correction.
+    /// Calls with the bodies at their poses, replaced by the nearest ones where they are off by rounding. Errors name `pose_a` or
+    /// `pose_b`.
     #[inline(always)]
-    fn is_plain<I: Instructions>(&self, lanes: I) -> bool {
-        let ([a, b], [p, q]) = (self.bodies, self.poses);
-        a.dimension() == 3 && b.dimension() == 3 && is_pose(lanes, p) & is_pose(lanes, q)
+    pub fn read<T>(&self, call: impl FnOnce(Placement, Placement) -> Result<T>) -> Result<T> {
+        // In place: a result of this size would be copied on its way out.
+        let mut poses = [Pose::as_given(self.poses[0]), Pose::as_given(self.poses[1])];
+        if !with_widest(ArePlain(self)) {
+            self.correct(&mut poses)?;
+        }
+        call((self.bodies[0], &poses[0]), (self.bodies[1], &poses[1]))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn correct(&self, poses: &mut [Pose; 2]) -> Result<()> {
+        for (side, name) in ["pose_a", "pose_b"].into_iter().enumerate() {
+            let corrected = Pose::from_row_major(self.poses[side]);
+            poses[side] = corrected.map_err(|e| e.within(name))?;
+        }
+        Ok(())
+    }
+
+    /// Whether the poses need no correction.
+    #[inline(always)]
+    fn are_plain<I: Instructions>(&self, lanes: I) -> bool {
+        let [p, q] = self.poses;
+        is_pose(lanes, p) & is_pose(lanes, q)
+    }
+
+    /// Whether the bodies are spatial ones of one primitive each, which need no search.
+    #[inline(always)]
+    fn are_singles(&self) -> bool {
+        let [a, b] = self.bodies;
+        a.dimension() == 3 && b.dimension() == 3 && (self.rounds().is_some() || are_singles(a, b))
     }
 
     /// The spheres or capsules that the bodies are, if they are nothing else.
@@ -69,6 +83,9 @@ impl QueryContext {
     ) -> Result<T> {
         check_threshold(max_distance, "max_distance")?;
         self.scratch.meter_mut().start_call();
+        if !pair.are_singles() {
+            return Ok(take(self.read_distance(pair, max_distance)?));
+        }
         with_widest(DistanceOf {
             context: self,
             pair,
@@ -82,6 +99,9 @@ impl QueryContext {
     pub fn given_within(&mut self, pair: &GivenPair, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         self.scratch.meter_mut().start_call();
+        if !pair.are_singles() {
+            return self.read_within(pair, threshold);
+        }
         with_widest(WithinOf {
             context: self,
             pair,
@@ -92,20 +112,28 @@ impl QueryContext {
     /// The distance within a call, from poses that are read first.
     #[inline(never)]
     fn read_distance(&mut self, pair: &GivenPair, max_distance: f64) -> Result<Distance> {
-        let poses = pair.read_poses()?;
-        let [a, b] = pair.at(&poses);
-        self.refining(|context| context.bodies_distance(a, b, max_distance))
+        pair.read(|a, b| self.refining(|context| context.bodies_distance(a, b, max_distance)))
     }
 
     /// The same for a threshold.
     #[inline(never)]
     fn read_within(&mut self, pair: &GivenPair, threshold: f64) -> Result<bool> {
-        let poses = pair.read_poses()?;
-        let [a, b] = pair.at(&poses);
-        self.refining(|context| context.bodies_within(a, b, threshold))
+        pair.read(|a, b| self.refining(|context| context.bodies_within(a, b, threshold)))
     }
 }
 
+struct ArePlain<'a>(&'a GivenPair<'a>);
+
+impl Work for ArePlain<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, lanes: I) -> bool {
+        self.0.are_plain(lanes)
+    }
+}
+
+/// The distance of single primitives.
 struct DistanceOf<'a, F> {
     context: &'a mut QueryContext,
     pair: &'a GivenPair<'a>,
@@ -119,22 +147,25 @@ impl<T, F: FnOnce(Distance) -> T> Work for DistanceOf<'_, F> {
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Result<T> {
         let (context, pair, most, take) = (self.context, self.pair, self.max_distance, self.take);
-        if pair.is_plain(lanes) {
-            let parties = Parties::of_bodies(pair.bodies);
-            // A pairing for each way: only that of the spheres and capsules stays in registers.
-            if let Some(rounds) = pair.rounds() {
+        if !pair.are_plain(lanes) {
+            return Ok(take(context.read_distance(pair, most)?));
+        }
+        let parties = Parties::of_bodies(pair.bodies);
+        // A pairing for each way: only that of the spheres and capsules stays in registers.
+        match pair.rounds() {
+            Some(rounds) => {
                 let pairing = pair.pairing(lanes);
-                return context.rounds_distance(&pairing, rounds, &parties, most, take);
+                context.rounds_distance(&pairing, rounds, &parties, most, take)
             }
-            if are_singles(pair.bodies[0], pair.bodies[1]) {
+            None => {
                 let pairing = pair.pairing(lanes);
-                return context.measured_distance(&pairing, &parties, most, take);
+                context.measured_distance(&pairing, &parties, most, take)
             }
         }
-        Ok(take(context.read_distance(pair, most)?))
     }
 }
 
+/// The same for a threshold.
 struct WithinOf<'a> {
     context: &'a mut QueryContext,
     pair: &'a GivenPair<'a>,
@@ -147,16 +178,18 @@ impl Work for WithinOf<'_> {
     #[inline(always)]
     fn run<I: Instructions>(self, lanes: I) -> Result<bool> {
         let (context, pair, threshold) = (self.context, self.pair, self.threshold);
-        if pair.is_plain(lanes) {
-            if let Some(rounds) = pair.rounds() {
+        if !pair.are_plain(lanes) {
+            return context.read_within(pair, threshold);
+        }
+        match pair.rounds() {
+            Some(rounds) => {
                 let pairing = pair.pairing(lanes);
-                return context.rounds_within(&pairing, rounds, threshold);
+                context.rounds_within(&pairing, rounds, threshold)
             }
-            if are_singles(pair.bodies[0], pair.bodies[1]) {
+            None => {
                 let pairing = pair.pairing(lanes);
-                return context.measured_within(&pairing, threshold);
+                context.measured_within(&pairing, threshold)
             }
         }
-        context.read_within(pair, threshold)
     }
 }
