@@ -312,7 +312,7 @@ fn nearest_rotation(given: Mat3) -> Result<Mat3> {
 }
 
 /// A pose as its rows `[R | t]`, however it is stored.
-pub trait Rows {
+pub(crate) trait Rows {
     /// An entry of a row; that of the fourth column is the translation's.
     fn entry(&self, row: usize, column: usize) -> f64;
 
@@ -408,7 +408,9 @@ impl<P: Rows> Relative<'_, P> {
         // Fast path for centres at the bodies' origins, as of most single shapes: to the last bit what the sum below would be.
         if is_a_centered && is_b_centered {
             let (at_a, at_b) = (column(lanes, a, 3), column(lanes, b, 3));
-            let [x, y, z, _] = (at_b - at_a).array().0;
+            // No -0, as no sum of the two has.
+            let apart = at_b - at_a + Doubles::splat(lanes, 0.0);
+            let [x, y, z, _] = apart.array().0;
             return [x, y, z];
         }
         let mut sum = TwoFold::new(lanes, column(lanes, b, 3));
@@ -621,6 +623,16 @@ mod tests {
         };
         let relative = relative_centered(&a, &center, &b, &center);
         assert!((relative.translation.norm() - 1e-6).abs() < 1e-20);
+    }
+
+    #[test]
+    fn centres_at_one_place_are_nothing_apart() {
+        let (a, mut b) = (Pose::identity(), Pose::identity());
+        b.translation = Vec3::new(-0.0, 0.0, -0.0);
+        let centers = [&Vec3::zeros(), &Vec3::zeros()];
+        let poses = [&a, &b];
+        let apart = Relative { poses, centers }.apart(Plain);
+        assert!(apart.iter().all(|x| *x == 0.0 && x.is_sign_positive()));
     }
 
     /// Numbers that have nothing to do with each other, from -1 to 1.

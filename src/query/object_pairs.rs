@@ -488,8 +488,7 @@ impl QueryContext {
     fn target_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
         let [(a, _), (b, _)] = target.sides;
         if are_singles(a, b) {
-            let (pairing, parties) = (target.pairing(), target.parties());
-            return self.singles_distance(&pairing, &parties, max_distance, |distance| distance);
+            return self.singles_distance(target, max_distance);
         }
         let targets = std::slice::from_ref(target);
         let found = self.nearest(targets, max_distance)?;

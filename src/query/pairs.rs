@@ -116,8 +116,7 @@ impl QueryContext {
     ) -> Result<Distance> {
         let target = target(a, b)?;
         if are_singles(a.0, b.0) {
-            let (pairing, parties) = (target.pairing(), target.parties());
-            return self.singles_distance(&pairing, &parties, max_distance, |distance| distance);
+            return self.singles_distance(&target, max_distance);
         }
         self.searched_distance(&[target], max_distance)
     }
@@ -133,23 +132,20 @@ impl QueryContext {
         Ok(Distance::from_found(&found, max_distance, leaf, scratch))
     }
 
-    /// The same of bodies of one primitive each, which need no search. Handed to `take`: moving an answer of this size takes as
-    /// long as measuring two spheres.
-    #[inline(always)]
-    pub(super) fn singles_distance<T>(
+    /// The same of bodies of one primitive each, which need no search.
+    pub(super) fn singles_distance(
         &mut self,
-        pairing: &Pairing,
-        parties: &Parties,
+        target: &Target,
         max_distance: f64,
-        take: impl FnOnce(Distance) -> T,
-    ) -> Result<T> {
+    ) -> Result<Distance> {
+        let (pairing, parties) = (&target.pairing(), &target.parties());
         match pairing.rounds() {
-            Some(rounds) => self.rounds_distance(pairing, rounds, parties, max_distance, take),
-            None => self.measured_distance(pairing, parties, max_distance, take),
+            Some(rounds) => self.rounds_distance(pairing, rounds, parties, max_distance, |d| d),
+            None => self.measured_distance(pairing, parties, max_distance, |d| d),
         }
     }
 
-    /// The same of a sphere or capsule each.
+    /// The same of a sphere or capsule each. Handed to `take`: moving an answer of this size takes as long as measuring two spheres.
     #[inline(always)]
     pub(super) fn rounds_distance<T>(
         &mut self,
