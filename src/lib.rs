@@ -43,8 +43,11 @@ mod whole_file;
 // The elements of URDF, SRDF and COLLADA files.
 mod xml;
 
-// Rigid poses, checked, composed, and subtracted in twice the digits.
+// Rigid poses, checked and composed.
 pub mod pose;
+
+// Where one body is, seen from another, in twice the digits.
+mod relative_pose;
 
 // The report's yaw, pitch, roll and their rates.
 pub mod euler;

@@ -8,8 +8,9 @@ use super::part::BodyPart;
 use super::solid::{Solid, Surfaces};
 use crate::error::{Error, Result};
 use crate::hierarchy::PartHierarchy;
-use crate::pose::{Pose, Vec3, relative_centered};
+use crate::pose::{Pose, Vec3};
 use crate::primitive::{PosedPrimitives, Primitives};
+use crate::relative_pose::relative_centered;
 use crate::tolerance;
 
 /// A body that was added to a builder.

@@ -13,10 +13,9 @@ use crate::error::Result;
 use crate::gjk::{DistanceLimits, Proved, Support};
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
-use crate::pose::{
-    Pose, Rows, Vec3, centered, relative_centered, relative_of, turned, turned_back,
-};
+use crate::pose::{Pose, Rows, Vec3, turned, turned_back};
 use crate::primitive::{Form, Round, SmoothKind};
+use crate::relative_pose::{centered, relative_centered, relative_of};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
 
