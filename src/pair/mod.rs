@@ -20,7 +20,7 @@ mod winding;
 pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gaps_to_point, sharper_bounds};
 pub use hit::{Hit, HitKey, Inner};
 pub use pairing::{Pairing, PrimitiveScratch, WorldContact};
-pub use rounds::{Rounds, are_spheres};
+pub use rounds::{Rounds, are_spheres, only_rounds};
 pub use shortlist::{Ranked, Shortlist};
 pub use singles::{Singles, SinglesNearest};
 pub use swept_bounds::{GapsWanted, SweptGaps, Twist32, sum_factor, swept_gaps};

@@ -14,7 +14,7 @@ use crate::gjk::{DistanceLimits, Proved, Support};
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64, Work, with_widest};
 use crate::pose::{Pose, Rows, Vec3, turned, turned_back};
-use crate::primitive::{Form, Round, SmoothKind};
+use crate::primitive::{Form, SmoothKind};
 use crate::relative_pose::{centered, relative_centered, relative_of};
 use crate::tolerance;
 use crate::work_meter::WorkMeter;
@@ -150,12 +150,6 @@ impl<'a> Pairing<'a> {
     /// The places of the two primitives, if each body has exactly one.
     pub fn only_places(&self) -> Option<[u32; 2]> {
         Some([self.a.only_place()?, self.b.only_place()?])
-    }
-
-    /// The spheres or capsules that the two bodies are, if they are nothing else.
-    #[inline(always)]
-    pub fn rounds(&self) -> Option<[&'a Round; 2]> {
-        Some([self.a.only_round()?, self.b.only_round()?])
     }
 
     /// Of a body with a single primitive, 0 for A and 1 for B, the point of the primitive's core that is nearest to the other body along

@@ -4,6 +4,7 @@
 use super::hit::Hit;
 use super::pairing::Pairing;
 use super::singles::{SinglesNearest, is_within};
+use crate::body::Body;
 use crate::convex::{Contact, Segment, closest_parameters, mode_of};
 use crate::pose::Vec3;
 use crate::primitive::{Feature, FeatureKind, Round};
@@ -188,6 +189,12 @@ impl<'a> Rounds<'a> {
         let way = way.fold(self.between, |way, along| way - along * along.dot(&way));
         way.try_normalize(0.0)
     }
+}
+
+/// The spheres or capsules that two bodies are, if they are nothing else.
+#[inline(always)]
+pub fn only_rounds([a, b]: [&Body; 2]) -> Option<[&Round; 2]> {
+    Some([a.only_round()?, b.only_round()?])
 }
 
 /// Whether both are spheres, whose distance takes no longer than a bound of it.

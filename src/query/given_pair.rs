@@ -8,9 +8,8 @@ use super::target::{Parties, Placement};
 use crate::body::Body;
 use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pair::Pairing;
+use crate::pair::{Pairing, only_rounds};
 use crate::pose::{Pose, is_pose};
-use crate::primitive::Round;
 
 /// Two bodies at poses as a caller gave them, not checked yet.
 #[derive(Clone, Copy)]
@@ -55,14 +54,9 @@ impl<'a> GivenPair<'a> {
     #[inline(always)]
     fn are_singles(&self) -> bool {
         let [a, b] = self.bodies;
-        a.dimension() == 3 && b.dimension() == 3 && (self.rounds().is_some() || are_singles(a, b))
-    }
-
-    /// The spheres or capsules that the bodies are, if they are nothing else.
-    #[inline(always)]
-    fn rounds(&self) -> Option<[&'a Round; 2]> {
-        let [a, b] = self.bodies;
-        Some([a.only_round()?, b.only_round()?])
+        a.dimension() == 3
+            && b.dimension() == 3
+            && (only_rounds(self.bodies).is_some() || are_singles(a, b))
     }
 
     /// Both in one frame, at poses that need no correction.
@@ -152,7 +146,7 @@ impl<T, F: FnOnce(Distance) -> T> Work for DistanceOf<'_, F> {
         }
         let parties = Parties::of_bodies(pair.bodies);
         // A pairing for each way: only that of the spheres and capsules stays in registers.
-        match pair.rounds() {
+        match only_rounds(pair.bodies) {
             Some(rounds) => {
                 let pairing = pair.pairing(lanes);
                 context.rounds_distance(&pairing, rounds, &parties, most, take)
@@ -181,7 +175,7 @@ impl Work for WithinOf<'_> {
         if !pair.are_plain(lanes) {
             return context.read_within(pair, threshold);
         }
-        match pair.rounds() {
+        match only_rounds(pair.bodies) {
             Some(rounds) => {
                 let pairing = pair.pairing(lanes);
                 context.rounds_within(&pairing, rounds, threshold)

@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
 use crate::pair::{
-    Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest, are_spheres,
+    Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest, are_spheres, only_rounds,
 };
 use crate::primitive::Round;
 
@@ -139,7 +139,7 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         let (pairing, parties) = (&target.pairing(), &target.parties());
-        match pairing.rounds() {
+        match only_rounds([pairing.a, pairing.b]) {
             Some(rounds) => self.rounds_distance(pairing, rounds, parties, max_distance, |d| d),
             None => self.measured_distance(pairing, parties, max_distance, |d| d),
         }
@@ -233,7 +233,7 @@ impl QueryContext {
     /// The same of bodies of one primitive each, which need no search.
     #[inline(always)]
     pub(super) fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
-        match pairing.rounds() {
+        match only_rounds([pairing.a, pairing.b]) {
             Some(rounds) => self.rounds_within(pairing, rounds, threshold),
             None => self.measured_within(pairing, threshold),
         }
