@@ -3,6 +3,8 @@
 mod balls;
 mod box_piece;
 mod carried;
+mod cell_axes;
+mod cell_proof;
 mod clearance;
 mod crowd;
 mod curve;
