@@ -6,7 +6,8 @@ use std::sync::{Arc, OnceLock};
 
 use foldhash::fast::RandomState;
 
-use super::cobject::{CObject, Content, Flat, Set};
+use super::cobject::{CObject, Content};
+use super::set::{Flat, Set};
 
 /// The operation of a compound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

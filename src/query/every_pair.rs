@@ -1,7 +1,7 @@
 //! All body pairs of an induced set, near or far: what the set asks about, by its definition and without any search.
 
 use super::answer::SSide;
-use super::body_pairs::{ObjectsTerm, RSide};
+use super::object_offers::{ObjectsTerm, RSide};
 use super::scene::Scene;
 use super::target::Target;
 use crate::cobject::{BodyPairs, Induced};

@@ -18,6 +18,7 @@ mod given_pair;
 mod leaves;
 mod link_boxes;
 mod nearest_gradient;
+mod object_offers;
 mod object_pairs;
 mod pair_depth;
 mod pair_penetration;
