@@ -267,3 +267,10 @@ const bad_options *bad_options_like(const void *good, size_t size) {
     bad[COPIES] = (bad_options){NULL, CSTK_OK};
     return bad;
 }
+
+int32_t never_called(double fraction, void *user) {
+    (void)fraction;
+    (void)user;
+    fprintf(stderr, "progress of a call that was refused\n");
+    exit(1);
+}

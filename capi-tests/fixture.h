@@ -109,6 +109,9 @@ const bad_options *bad_options_like(const void *good, size_t size);
     for (const bad_options *bad = bad_options_like(&(good), sizeof(good)); bad->status != CSTK_OK; \
          ++bad)
 
+/* A progress function for calls that are refused before they begin. */
+int32_t never_called(double fraction, void *user);
+
 extern const double not_finite[3];
 
 #define EACH_NOT_FINITE(i) for (int i = 0; i < 3; ++i)

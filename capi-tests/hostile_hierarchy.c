@@ -23,18 +23,11 @@ static cstk_body *make_squares(void) {
     return body;
 }
 
-static int32_t never(double fraction, void *user) {
-    (void)fraction;
-    (void)user;
-    fprintf(stderr, "progress of a build that was refused\n");
-    exit(1);
-}
-
 static void refuse_options(const fixture *f, const cstk_hierarchy_options *options,
                            cstk_status status, const char *field) {
     cstk_body *out;
     const int before = check_failures;
-    CHECK_REFUSED(out, cstk_body_build(f->body_builder, options, never, NULL, &out), status, field);
+    CHECK_REFUSED(out, cstk_body_build(f->body_builder, options, never_called, NULL, &out), status, field);
     if (check_failures > before) {
         fprintf(stderr, "  (%s)\n", field);
     }
@@ -181,7 +174,7 @@ static void old_caller(const fixture *f) {
     CHECK(same_trees(&trees[0], &trees[1]) && same_trees(&trees[2], &trees[3]));
     CHECK(!same_trees(&trees[0], &trees[2]));
     words[2] = 7;
-    CHECK_REFUSED(out, cstk_body_build(builder, old, never, NULL, &out), CSTK_ERROR_INVALID_ARGUMENT,
+    CHECK_REFUSED(out, cstk_body_build(builder, old, never_called, NULL, &out), CSTK_ERROR_INVALID_ARGUMENT,
                   "hull_vertex_limit");
     for (int i = 0; i < 4; ++i) {
         free_tree(&trees[i]);
@@ -213,7 +206,7 @@ static void options_elsewhere(const fixture *f) {
     memcpy(bytes + 1, &good, sizeof good);
     CHECK_REFUSED(out,
                   cstk_body_build(f->body_builder,
-                                  (const cstk_hierarchy_options *)(const void *)(bytes + 1), never,
+                                  (const cstk_hierarchy_options *)(const void *)(bytes + 1), never_called,
                                   NULL, &out),
                   CSTK_ERROR_INVALID_ARGUMENT, "options");
     CHECK_REFUSED(
