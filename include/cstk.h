@@ -4076,7 +4076,7 @@ typedef struct cstk_clear_pair_options {
   uint32_t size;
   uint32_t cookie;
   /**
-   * The most blocks of cells that are tried for a pair, at least 1. More prove more, and take longer. Default 10000.
+   * The most blocks of cells that are tried for a pair, at least 1. More prove more, and take longer. Default 20000.
    */
   uint64_t max_blocks;
 } cstk_clear_pair_options;

@@ -18,7 +18,7 @@ impl<'a> PairRates<'a> {
         Self {
             in_world: RatesFrom::new(motions, None),
             on_link: RatesFrom::new(motions, None),
-            of_bodies: Vec::new(),
+            of_bodies: vec![None; motions.len()],
         }
     }
 

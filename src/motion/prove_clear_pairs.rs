@@ -16,7 +16,7 @@ pub struct ClearPairOptions {
 
 impl Default for ClearPairOptions {
     fn default() -> Self {
-        Self { max_blocks: 10_000 }
+        Self { max_blocks: 20_000 }
     }
 }
 

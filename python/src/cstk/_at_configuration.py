@@ -169,7 +169,7 @@ class AtConfiguration(Handle):
         self, cobject: CObject, *, max_blocks: Optional[int] = None, progress: Optional[Progress] = None
     ) -> CObject:
         """A copy of a set of link pairs (CObject.induced_links) that knows by proof where its links are apart, so that classes and
-        motions need not look at them there. Takes up to some seconds, once for a robot; `max_blocks` (default 10000) a pair bounds it.
+        motions need not look at them there. Takes up to some seconds, once for a robot; `max_blocks` (default 20000) a pair bounds it.
         """
         given = options(
             "clear_pair_options", max_blocks=None if max_blocks is None else index("max_blocks", max_blocks, 64)

@@ -19,7 +19,7 @@ use crate::motion::ClearPairOptions;
 pub struct cstk_clear_pair_options {
     pub size: u32,
     pub cookie: u32,
-    /// The most blocks of cells that are tried for a pair, at least 1. More prove more, and take longer. Default 10000.
+    /// The most blocks of cells that are tried for a pair, at least 1. More prove more, and take longer. Default 20000.
     pub max_blocks: u64,
 }
 
