@@ -3,8 +3,6 @@
 mod balls;
 mod box_piece;
 mod carried;
-mod cell_axes;
-mod cell_proof;
 mod clearance;
 mod crowd;
 mod curve;
