@@ -17,8 +17,7 @@ cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
 
 echo "== Rust tests"
 CSTK_ALL_CASES=1 cargo test --locked --workspace --no-fail-fast
-# In the profile that it was built in just now.
-cargo run --quiet --locked --profile test --example generate_models -- --check
+cargo run --quiet --locked --example generate_models -- --check
 
 echo "== the installed library"
 installed=0

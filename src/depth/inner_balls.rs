@@ -8,8 +8,8 @@ use crate::body::{Body, BodyBuilder};
 use crate::convex::Precision;
 use crate::hierarchy::HierarchyOptions;
 use crate::pair::{
-    NearestPrimitives, Pairing, PrimitivePair, RayScratch, Scratch, Visitor, meets, traverse,
-    winding,
+    NearestPrimitives, Pairing, PrimitivePair, RayScratch, Scratch, Visitor, Wanted, meets,
+    traverse, winding,
 };
 use crate::pose::{Pose, Vec3};
 use crate::work_meter::WorkMeter;
@@ -46,10 +46,8 @@ struct Around {
 const MAX_AROUND: usize = 16;
 
 impl Visitor for Around {
-    const REFINES: bool = false;
-
-    fn bound(&self) -> f64 {
-        0.0
+    fn wanted(&self) -> Wanted {
+        Wanted::MEETING
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {

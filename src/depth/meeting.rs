@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::pair::{Pairing, PrimitivePair, Scratch, Visitor, meets, traverse};
+use crate::pair::{Pairing, PrimitivePair, Scratch, Visitor, Wanted, meets, traverse};
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
 
@@ -30,10 +30,8 @@ struct MeetingPairs<'a> {
 }
 
 impl Visitor for MeetingPairs<'_> {
-    const REFINES: bool = false;
-
-    fn bound(&self) -> f64 {
-        0.0
+    fn wanted(&self) -> Wanted {
+        Wanted::MEETING
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {

@@ -10,7 +10,7 @@ use super::near_primitives::NearPrimitives;
 use super::pairing::Pairing;
 use super::shortlist::Ranked;
 use super::traversal::{Scratch, traverse};
-use super::visitor::{PrimitivePair, Visitor};
+use super::visitor::{PrimitivePair, Visitor, Wanted};
 use super::winding::{RayScratch, winding};
 use crate::body::{Body, Piece, Solid};
 use crate::boxes::PackedBox;
@@ -212,10 +212,8 @@ struct BoundaryFilter<'a> {
 }
 
 impl Visitor for BoundaryFilter<'_> {
-    const REFINES: bool = false;
-
-    fn bound(&self) -> f64 {
-        0.0
+    fn wanted(&self) -> Wanted {
+        Wanted::MEETING
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {

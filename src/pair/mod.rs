@@ -26,6 +26,6 @@ pub use singles::{Singles, SinglesNearest};
 pub use swept_bounds::{GapsWanted, SweptGaps, Twist32, sum_factor, swept_gaps};
 pub use swept_leaves::{SweptLeaves, SweptLimits};
 pub use traversal::{Scratch, traverse, visit_pair};
-pub use visitor::{PrimitivePair, Visitor};
+pub use visitor::{PrimitivePair, Visitor, Wanted};
 pub use visitors::{Collect, NearestPrimitives, Within, meets};
 pub use winding::{RayScratch, Winding, winding};

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::pairing::{BeyondCutoff, MovedOutline, PairDistance, Pairing, PrimitiveScratch};
-use super::visitor::{PrimitivePair, Visitor};
+use super::visitor::{PrimitivePair, Visitor, Wanted};
 use crate::convex::{Beyond, Outline};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work};
@@ -34,19 +34,21 @@ pub(super) struct MovedPlane {
 }
 
 /// Shows the visitor primitive pairs of two bodies.
-pub(super) struct PairVisits<'a, V> {
+pub(super) struct PairVisits<'a> {
     pub(super) pairing: &'a Pairing<'a>,
     pub(super) buffer: &'a mut MovedOutline,
     pub(super) state: &'a mut State,
-    pub(super) visitor: &'a mut V,
+    visitor: &'a mut dyn Visitor,
+    /// What the visitor wants to see.
+    pub(super) wanted: Wanted,
 }
 
-impl<'a, V: Visitor> PairVisits<'a, V> {
+impl<'a> PairVisits<'a> {
     pub(super) fn new(
         pairing: &'a Pairing<'a>,
         buffer: &'a mut MovedOutline,
         state: &'a mut State,
-        visitor: &'a mut V,
+        visitor: &'a mut dyn Visitor,
     ) -> Self {
         state.direction = Vec3::zeros();
         state.direction_at = f64::INFINITY;
@@ -56,6 +58,7 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
             pairing,
             buffer,
             state,
+            wanted: visitor.wanted(),
             visitor,
         }
     }
@@ -69,7 +72,7 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
         places: [u32; 2],
         aims: bool,
     ) -> ControlFlow<()> {
-        let cutoff = self.visitor.bound() + self.pairing.slack();
+        let cutoff = self.wanted.bound + self.pairing.slack();
         self.state.meter.count_primitives(1);
         let moved = &mut self.state.moved;
         let outline = moved_outline(lanes, self.pairing, places[1], self.buffer, moved);
@@ -85,7 +88,7 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
         self.state.meter.done.primitive_distances += 1;
         let primitives = &mut self.state.primitives;
         let limits = DistanceLimits {
-            enough: self.visitor.enough(),
+            enough: self.wanted.enough,
             cutoff,
         };
         let direction = self.state.direction;
@@ -108,13 +111,6 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
                 return ControlFlow::Continue(());
             }
         };
-        show(
-            self.pairing,
-            places,
-            &apart,
-            self.visitor,
-            &mut self.state.meter,
-        )?;
         if aims && apart.distance < self.state.direction_at {
             self.state.direction_at = apart.distance;
             self.state.direction = if apart.distance > 0.0 {
@@ -131,16 +127,14 @@ impl<'a, V: Visitor> PairVisits<'a, V> {
                 Vec3::zeros()
             };
         }
-        ControlFlow::Continue(())
+        self.show(places, &apart)
     }
-}
 
-impl<V: Visitor> PairVisits<'_, V> {
     /// The same as `visit` for primitives of which at least one has no outline.
     pub(super) fn visit_without_outlines(&mut self, places: [u32; 2]) -> ControlFlow<()> {
         let limits = DistanceLimits {
-            enough: self.visitor.enough(),
-            cutoff: self.visitor.bound() + self.pairing.slack(),
+            enough: self.wanted.enough,
+            cutoff: self.wanted.bound + self.pairing.slack(),
         };
         self.state.meter.count_primitives(1);
         self.state.meter.done.primitive_distances += 1;
@@ -150,12 +144,22 @@ impl<V: Visitor> PairVisits<'_, V> {
             .pairing
             .measured_apart(places, &nowhere, limits, primitives)
         {
-            Ok(apart) => {
-                let meter = &mut self.state.meter;
-                show(self.pairing, places, &apart, self.visitor, meter)
-            }
+            Ok(apart) => self.show(places, &apart),
             Err(_) => ControlFlow::Continue(()),
         }
+    }
+
+    /// Visits a pair whose distance is known.
+    fn show(&mut self, places: [u32; 2], apart: &PairDistance) -> ControlFlow<()> {
+        let pair = self.pairing.primitive_pair(places, apart.distance);
+        let pair = PrimitivePair {
+            error: pair.error + apart.doubt,
+            measured: apart.measured.as_ref(),
+            ..pair
+        };
+        let visited = self.visitor.visit(&pair, &mut self.state.meter);
+        self.wanted = self.visitor.wanted();
+        visited
     }
 }
 
@@ -195,30 +199,12 @@ fn unit(across: &Vec3) -> Vec3 {
     across.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 
-/// Visits a pair whose distance is known.
-#[inline(always)]
-fn show(
-    pairing: &Pairing,
-    places: [u32; 2],
-    apart: &PairDistance,
-    visitor: &mut impl Visitor,
-    meter: &mut WorkMeter,
-) -> ControlFlow<()> {
-    let pair = pairing.primitive_pair(places, apart.distance);
-    let pair = PrimitivePair {
-        error: pair.error + apart.doubt,
-        measured: apart.measured.as_ref(),
-        ..pair
-    };
-    visitor.visit(&pair, meter)
-}
-
-pub(super) struct SinglePair<'a, V> {
-    pub(super) visits: PairVisits<'a, V>,
+pub(super) struct SinglePair<'a> {
+    pub(super) visits: PairVisits<'a>,
     pub(super) places: [u32; 2],
 }
 
-impl<V: Visitor> Work for SinglePair<'_, V> {
+impl Work for SinglePair<'_> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]

@@ -1,5 +1,5 @@
-//! The report's multi-use algorithm (Figure 2): one traversal of two trees for every query. The visitor gives the pruning bound
-//! and decides when to stop.
+//! The report's multi-use algorithm (Figure 2): one traversal of two trees for every query. The visitor says which pairs it wants
+//! and when to stop.
 
 use std::ops::ControlFlow;
 
@@ -81,7 +81,7 @@ pub fn visit_pair(
     pairing: &Pairing,
     places: [u32; 2],
     scratch: &mut Scratch,
-    visitor: &mut impl Visitor,
+    visitor: &mut dyn Visitor,
 ) -> ControlFlow<()> {
     let visits = PairVisits::new(pairing, &mut scratch.buffer, &mut scratch.state, visitor);
     with_widest(SinglePair { visits, places })
@@ -94,7 +94,7 @@ pub fn traverse(
     pairing: &Pairing,
     first: Option<[u32; 2]>,
     scratch: &mut Scratch,
-    visitor: &mut impl Visitor,
+    visitor: &mut dyn Visitor,
 ) -> ControlFlow<()> {
     let Scratch {
         stack,
@@ -116,13 +116,13 @@ pub fn traverse(
     })
 }
 
-struct Traversal<'a, V> {
-    visits: PairVisits<'a, V>,
+struct Traversal<'a> {
+    visits: PairVisits<'a>,
     first: Option<[u32; 2]>,
     stack: &'a mut PendingPairs,
 }
 
-impl<V: Visitor> Work for Traversal<'_, V> {
+impl Work for Traversal<'_> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]
@@ -142,8 +142,8 @@ const SHARP_FROM: f32 = 1e-4;
 
 /// The traversal of two trees. Lengths in single precision are in units of `scale`, the next power of two above the pair's
 /// size.
-struct Walk<'a, V> {
-    visits: PairVisits<'a, V>,
+struct Walk<'a> {
+    visits: PairVisits<'a>,
     trees: [&'a PackedTree; 2],
     /// From B's frame into A's, and from A's into B's.
     motions: [Motion32; 2],
@@ -165,9 +165,9 @@ struct Walk<'a, V> {
     stack: &'a mut PendingPairs,
 }
 
-impl<'a, V: Visitor> Walk<'a, V> {
+impl<'a> Walk<'a> {
     #[inline(always)]
-    fn new(visits: PairVisits<'a, V>, stack: &'a mut PendingPairs) -> Self {
+    fn new(visits: PairVisits<'a>, stack: &'a mut PendingPairs) -> Self {
         let pairing = visits.pairing;
         let [a, b] = [pairing.a.packed(), pairing.b.packed()];
         let size = pairing.precision.size;
@@ -209,10 +209,10 @@ impl<'a, V: Visitor> Walk<'a, V> {
                 continue;
             }
             if entry.is_of_leaves() {
-                let before = self.visits.visitor.bound();
+                let before = self.visits.wanted.bound;
                 self.visit_leaves(lanes, entry.a, entry.b)?;
                 // The neighbours of a nearer pair need not be the nearest: continue from the best waiting pair.
-                if self.visits.visitor.bound() < before {
+                if self.visits.wanted.bound < before {
                     self.stack.raise_nearest(lanes);
                 }
                 continue;
@@ -225,14 +225,14 @@ impl<'a, V: Visitor> Walk<'a, V> {
     /// The pruning cutoff in units of the pair: pairs with larger bounds are skipped.
     #[inline(always)]
     fn cutoff(&self) -> f32 {
-        (((self.visits.visitor.bound() + self.slack) * self.inverse_scale) as f32).next_up()
+        (((self.visits.wanted.bound + self.slack) * self.inverse_scale) as f32).next_up()
     }
 
     #[inline(always)]
     fn is_irrelevant(&self, a: NodeRef, b: NodeRef) -> bool {
         self.visits
-            .visitor
-            .irrelevant_from()
+            .wanted
+            .irrelevant_from
             .is_some_and(|from| from <= [self.trees[0].lowest(a), self.trees[1].lowest(b)])
     }
 
@@ -316,7 +316,7 @@ impl<'a, V: Visitor> Walk<'a, V> {
             }
         }
         // With a cutoff near 0, sharper bounds prune no more.
-        let bounds = if (V::REFINES || self.is_round) && cutoff > SHARP_FROM {
+        let bounds = if (self.visits.wanted.refines || self.is_round) && cutoff > SHARP_FROM {
             let wanted = BoundRefinement {
                 direction: is_aimed.then_some(direction),
                 cutoff,

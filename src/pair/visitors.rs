@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::hit::Hit;
 use super::shortlist::{Ranked, Shortlist};
-use super::visitor::{PrimitivePair, Visitor};
+use super::visitor::{PrimitivePair, Visitor, Wanted};
 use crate::convex::PrimitiveDistance;
 use crate::work_meter::WorkMeter;
 
@@ -54,6 +54,19 @@ impl NearestPrimitives {
         self.limit
     }
 
+    /// Primitive pairs from this one on, in order of ids, are not better than the best, however near they are.
+    pub fn irrelevant_from(&self) -> Option<[u32; 2]> {
+        self.best.as_ref()?.outranks_from(self.body_pair)
+    }
+
+    /// Once something meets, distances up to 0 need not be more accurate.
+    fn enough(&self) -> f64 {
+        match self.limit == 0.0 && self.margin == 0.0 {
+            true => 0.0,
+            false => f64::NEG_INFINITY,
+        }
+    }
+
     /// Keeps a hit if it is the best so far. `lower` is a lower bound of its distance.
     pub fn take(&mut self, hit: Hit, lower: f64, measured: Option<&PrimitiveDistance>) {
         // Every pair counts here, even beyond the current limit, so that the bound does not depend on the order of visits.
@@ -74,21 +87,13 @@ impl NearestPrimitives {
 }
 
 impl Visitor for NearestPrimitives {
-    const REFINES: bool = true;
-
-    fn bound(&self) -> f64 {
-        self.limit + self.margin
-    }
-
-    fn enough(&self) -> f64 {
-        match self.limit == 0.0 && self.margin == 0.0 {
-            true => 0.0,
-            false => f64::NEG_INFINITY,
+    fn wanted(&self) -> Wanted {
+        Wanted {
+            bound: self.limit + self.margin,
+            enough: self.enough(),
+            irrelevant_from: self.irrelevant_from(),
+            refines: true,
         }
-    }
-
-    fn irrelevant_from(&self) -> Option<[u32; 2]> {
-        self.best.as_ref()?.outranks_from(self.body_pair)
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
@@ -98,24 +103,23 @@ impl Visitor for NearestPrimitives {
     }
 }
 
-/// Whether some primitive pair is within a threshold; stops at the first. Sharper bounds (`REFINES`) pay where the threshold is
-/// above 0.
-pub struct Within<const REFINES: bool> {
+/// Whether some primitive pair is within a threshold; stops at the first.
+pub struct Within {
     pub margin: f64,
     pub threshold: f64,
     /// The places of the pair found.
     pub found: Option<[u32; 2]>,
 }
 
-impl<const REFINES: bool> Visitor for Within<REFINES> {
-    const REFINES: bool = REFINES;
-
-    fn bound(&self) -> f64 {
-        self.threshold + self.margin
-    }
-
-    fn enough(&self) -> f64 {
-        self.threshold + self.margin
+impl Visitor for Within {
+    fn wanted(&self) -> Wanted {
+        let bound = self.threshold + self.margin;
+        Wanted {
+            bound,
+            enough: bound,
+            irrelevant_from: None,
+            refines: bound > 0.0,
+        }
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
@@ -181,14 +185,14 @@ impl Collect {
 }
 
 impl Visitor for Collect {
-    const REFINES: bool = true;
-
-    fn bound(&self) -> f64 {
-        self.threshold + self.margin
-    }
-
-    fn irrelevant_from(&self) -> Option<[u32; 2]> {
-        self.list.last()?.outranks_from(self.body_pair)
+    fn wanted(&self) -> Wanted {
+        let last = self.list.last();
+        Wanted {
+            bound: self.threshold + self.margin,
+            enough: f64::NEG_INFINITY,
+            irrelevant_from: last.and_then(|last| last.outranks_from(self.body_pair)),
+            refines: true,
+        }
     }
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {

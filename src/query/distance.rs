@@ -12,7 +12,7 @@ use super::world::World;
 use crate::cobject::{CObject, Set};
 use crate::convex::PrimitiveDistance;
 use crate::error::Result;
-use crate::pair::{Hit, NearestPrimitives, Visitor, traverse, visit_pair};
+use crate::pair::{Hit, NearestPrimitives, traverse, visit_pair};
 
 /// The nearest primitive pair over all targets.
 pub(crate) struct NearestHit<'t, 'a> {

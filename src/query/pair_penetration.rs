@@ -9,7 +9,7 @@ use super::pairs::target;
 use super::target::{Placement, Target};
 use crate::body::Body;
 use crate::error::{Error, Result};
-use crate::pair::{Pairing, PrimitivePair, Ranked, Shortlist, Visitor, meets, traverse};
+use crate::pair::{Pairing, PrimitivePair, Ranked, Shortlist, Visitor, Wanted, meets, traverse};
 use crate::work_meter::WorkMeter;
 
 impl Ranked for PrimitivePenetration {
@@ -30,15 +30,19 @@ struct Deepest<'a> {
     failed: Option<([u32; 2], Error)>,
 }
 
-impl Visitor for Deepest<'_> {
-    const REFINES: bool = true;
-
-    fn bound(&self) -> f64 {
-        0.0
-    }
-
+impl Deepest<'_> {
+    /// Pairs from the first that failed on cannot change the result.
     fn irrelevant_from(&self) -> Option<[u32; 2]> {
         self.failed.as_ref().map(|(primitives, _)| *primitives)
+    }
+}
+
+impl Visitor for Deepest<'_> {
+    fn wanted(&self) -> Wanted {
+        Wanted {
+            irrelevant_from: self.irrelevant_from(),
+            ..Wanted::MEETING
+        }
     }
 
     fn visit(&mut self, pair: &PrimitivePair, meter: &mut WorkMeter) -> ControlFlow<()> {

@@ -155,7 +155,7 @@ impl QueryContext {
             if refines && (pairing.a.curved().is_some() || pairing.b.curved().is_some()) {
                 return;
             }
-            let mut visitor = Within::<false> {
+            let mut visitor = Within {
                 margin,
                 threshold,
                 found: None,
@@ -196,13 +196,7 @@ impl QueryContext {
             if is_one_inside {
                 return Ok(true);
             }
-            let margin = target.margin();
-            let found = if threshold + margin > 0.0 {
-                self.first_within::<true>(&pairing, target, threshold)?
-            } else {
-                self.first_within::<false>(&pairing, target, threshold)?
-            };
-            if let Some(places) = found {
+            if let Some(places) = self.first_within(&pairing, target, threshold)? {
                 if self.refines(std::slice::from_ref(target))
                     && !self.refined_within(target, threshold)?
                 {
@@ -216,13 +210,13 @@ impl QueryContext {
     }
 
     /// The places of the first primitive pair found within a threshold.
-    fn first_within<const REFINES: bool>(
+    fn first_within(
         &mut self,
         pairing: &Pairing,
         target: &Target,
         threshold: f64,
     ) -> Result<Option<[u32; 2]>> {
-        let mut visitor = Within::<REFINES> {
+        let mut visitor = Within {
             margin: target.margin(),
             threshold,
             found: None,
