@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::pairing::{BeyondCutoff, MovedOutline, PairDistance, Pairing, PrimitiveScratch};
+use super::pair_distance::{BeyondCutoff, PairDistance, PrimitiveScratch};
+use super::pairing::{MovedOutline, Pairing};
 use super::visitor::{PrimitivePair, Visitor, Wanted};
 use crate::convex::{Beyond, Outline};
 use crate::gjk::DistanceLimits;

@@ -1,7 +1,9 @@
 //! Two bodies of one primitive each: measured without a traversal.
 
 use super::hit::Hit;
-use super::pairing::{Pairing, PrimitiveScratch, WorldContact};
+use super::pair_contacts::WorldContact;
+use super::pair_distance::PrimitiveScratch;
+use super::pairing::Pairing;
 use crate::convex::{
     DistanceScratch, PlacedPrimitive, PrimitiveDistance, closed_distance, first_contact, measure,
     meeting_or_beyond,

@@ -1,7 +1,8 @@
 //! Two primitives over an interval of time, or a box of configurations: whether they stay apart, or meet at its middle.
 
 use super::Scratch;
-use super::pairing::{EMPTY, PairDistance, Pairing, PrimitiveScratch};
+use super::pair_distance::{PairDistance, PrimitiveScratch};
+use super::pairing::{EMPTY, Pairing};
 use crate::convex::{PlacedPrimitive, Sweep, first_contact, swept_gap};
 use crate::gjk::DistanceLimits;
 use crate::lanes::{Instructions, Work, with_widest};

@@ -7,8 +7,9 @@ use super::box_bounds::{
     BoundRefinement, Motion32, ROUNDING, bounds, gap_of_boxes, gaps_to_point, sharper_bounds,
 };
 use super::nearest_first::{Entry, PendingPairs};
+use super::pair_distance::PrimitiveScratch;
 use super::pair_visits::{PairVisits, SinglePair, State};
-use super::pairing::{EMPTY, MovedOutline, Pairing, PrimitiveScratch};
+use super::pairing::{EMPTY, MovedOutline, Pairing};
 use super::visitor::Visitor;
 use super::winding::RayScratch;
 use crate::boxes::{PackedBox, SIZE_STEPS};
