@@ -10,6 +10,7 @@ mod measure;
 mod ours;
 mod parry;
 mod peer;
+mod placement;
 mod poses;
 mod question;
 mod rows;

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::ours::Ours;
 use super::parry::Parry;
 use super::peer::Peer;
-use super::poses::PlacedPrimitive;
+use super::placement::Placement;
 use super::question::{Query, Question};
 use super::runner::Runner;
 use super::shape::Shape;
@@ -81,7 +81,7 @@ pub fn measured(
 
 fn our_pass(ours: &Ours, question: &Question) -> (f64, Vec<f64>) {
     let yes = |yes: bool| f64::from(u8::from(yes));
-    let answer = |at: &PlacedPrimitive, threshold: f64| match question.query {
+    let answer = |at: &Placement, threshold: f64| match question.query {
         Query::Distance => ours.distance(at),
         Query::Within(_) | Query::Collide => yes(ours.within(at, threshold)),
         Query::Contacts(most) => ours.witnesses(at, most) as f64,

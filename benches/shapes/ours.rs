@@ -12,7 +12,7 @@ use cstk::capi::query::{cstk_query, cstk_query_create, cstk_query_release};
 use cstk::capi::status::status::cstk_status;
 use cstk_scenes::Pose;
 
-use super::poses::PlacedPrimitive;
+use super::placement::Placement;
 use super::shape::{Kind, Shape};
 
 /// Two bodies and a context that all queries of a row share.
@@ -42,14 +42,14 @@ impl Ours {
         }
     }
 
-    pub fn distance(&self, at: &PlacedPrimitive) -> f64 {
+    pub fn distance(&self, at: &Placement) -> f64 {
         let [a, b] = self.bodies;
         let ([p, q], far) = (at.pointers(), f64::INFINITY);
         // SAFETY: handles of ours, and poses of 12 numbers.
         written(|out| unsafe { cstk_pair_distance(self.query, a, p, b, q, far, out) }).distance
     }
 
-    pub fn within(&self, at: &PlacedPrimitive, threshold: f64) -> bool {
+    pub fn within(&self, at: &Placement, threshold: f64) -> bool {
         let [a, b] = self.bodies;
         let [p, q] = at.pointers();
         // SAFETY: as above.
@@ -57,7 +57,7 @@ impl Ours {
     }
 
     /// How many pairs of primitives that meet are listed.
-    pub fn witnesses(&self, at: &PlacedPrimitive, most: usize) -> usize {
+    pub fn witnesses(&self, at: &Placement, most: usize) -> usize {
         let [a, b] = self.bodies;
         let [p, q] = at.pointers();
         // SAFETY: as above.

@@ -10,7 +10,7 @@ use parry3d_f64::shape::{
 };
 
 use super::case::Triangles;
-use super::poses::PlacedPrimitive;
+use super::placement::Placement;
 use super::question::{Query, Question};
 use super::shape::{Kind, Shape};
 
@@ -30,8 +30,7 @@ impl Parry {
             return None;
         }
         let ours = [0, 1].map(|i| &shapes[i]);
-        let place =
-            |placed: &PlacedPrimitive| [0, 1].map(|i| pose(&placed.poses[i]) * to_z(ours[i]));
+        let place = |placed: &Placement| [0, 1].map(|i| pose(&placed.poses[i]) * to_z(ours[i]));
         Some(Self {
             shapes: [shape(ours[0])?, shape(ours[1])?],
             poses: question.placed.iter().map(place).collect(),

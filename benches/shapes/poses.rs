@@ -5,25 +5,13 @@ use std::f64::consts::TAU;
 use cstk_scenes::{Point, Pose, Random};
 
 use super::ours::Ours;
+use super::placement::Placement;
 
 /// From a body's middle to its farthest point, at most.
 const REACH: f64 = 0.7;
 
 /// Nearer than this counts as touching when a body comes in.
 const TOUCH: f64 = 1e-9;
-
-/// The poses of both bodies in the world.
-#[derive(Clone, Copy)]
-#[repr(C)]
-pub struct PlacedPrimitive {
-    pub poses: [[f64; 12]; 2],
-}
-
-impl PlacedPrimitive {
-    pub fn pointers(&self) -> [*const f64; 2] {
-        [self.poses[0].as_ptr(), self.poses[1].as_ptr()]
-    }
-}
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Motion {
@@ -50,7 +38,7 @@ pub fn placements(
     gaps: [f64; 2],
     count: usize,
     seed: u64,
-) -> Vec<PlacedPrimitive> {
+) -> Vec<Placement> {
     let random = &mut Random::new(seed);
     let first = Approach::drawn(random, gaps);
     let axes = [random.direction(), random.direction()];
@@ -95,11 +83,11 @@ impl Approach {
         }
     }
 
-    fn placed(&self, ours: &Ours) -> PlacedPrimitive {
+    fn placed(&self, ours: &Ours) -> Placement {
         let at = |away: f64| {
             let offset = self.direction.map(|x| away * x);
             let relative = Pose::translation(offset).compose(&self.turn);
-            PlacedPrimitive {
+            Placement {
                 poses: [self.at.compose(&relative).0, self.at.0],
             }
         };

@@ -1,7 +1,7 @@
 //! What is asked of two bodies.
 
 use super::ours::Ours;
-use super::poses::PlacedPrimitive;
+use super::placement::Placement;
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Query {
@@ -27,18 +27,18 @@ impl Query {
 /// A query at all poses of a row.
 pub struct Question {
     pub query: Query,
-    pub placed: Vec<PlacedPrimitive>,
+    pub placed: Vec<Placement>,
     /// One for each pose: the thresholds of `Within`.
     pub thresholds: Vec<f64>,
 }
 
 impl Question {
-    pub fn new(query: Query, placed: Vec<PlacedPrimitive>, ours: &Ours) -> Self {
+    pub fn new(query: Query, placed: Vec<Placement>, ours: &Ours) -> Self {
         let part = match query {
             Query::Within(part) => part,
             _ => 0.0,
         };
-        let threshold = |at: &PlacedPrimitive| match part {
+        let threshold = |at: &Placement| match part {
             0.0 => 0.0,
             part => part * ours.distance(at),
         };

@@ -1,7 +1,8 @@
 //! Distances between meshes, for placing them.
 
-use crate::mesh::{Mesh, Point};
-use crate::motion::{Pose, cross, dot, minus, norm, plus, times, unit};
+use crate::mesh::Mesh;
+use crate::motion::Pose;
+use crate::point::{Point, cross, dot, minus, norm, plus, times, unit};
 
 type Triangle = [Point; 3];
 

@@ -2,8 +2,9 @@
 
 use crate::ball_tree::{BallTree, approach};
 use crate::bumpy_sphere::bumpy_sphere;
-use crate::mesh::{Mesh, Point};
-use crate::motion::{Pose, across, times};
+use crate::mesh::Mesh;
+use crate::motion::Pose;
+use crate::point::{Point, across, times};
 use crate::random::Random;
 use crate::scene::Scene;
 
@@ -145,7 +146,7 @@ impl Pair {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{minus, norm};
+    use crate::point::{minus, norm};
 
     #[test]
     fn fifty_poses_of_each_kind_in_mixed_order() {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::mesh::{Mesh, Point};
-use crate::motion::{dot, times};
+use crate::mesh::Mesh;
+use crate::point::{Point, dot, times};
 use crate::random::Random;
 
 /// A sphere about the origin with smooth bumps: one closed surface of `polygons` triangles of much the same size, one

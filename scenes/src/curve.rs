@@ -1,6 +1,6 @@
 //! Cubic curves for profiles and centre lines.
 
-use crate::motion::between;
+use crate::point::between;
 
 /// The `segments + 1` points at equal parameter steps on the cubic Bézier curve with these controls; exact at both
 /// ends.

@@ -2,8 +2,8 @@
 
 use crate::grid::snapped;
 use crate::loft::{Ends, loft};
-use crate::mesh::{Mesh, Point};
-use crate::motion::{across, plus, times};
+use crate::mesh::Mesh;
+use crate::point::{Point, across, plus, times};
 use crate::random::Random;
 
 /// Polygons of one screw.

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::curve::{rounded_on, straight_on};
 use crate::lathe::{circle, directions};
 use crate::loft::{Ends, loft};
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
+use crate::point::Point;
 
 /// Corners around gear, hole and spindle. The first corner of each points along x, so their flats are parallel.
 pub(crate) const SIDES: usize = 56;

@@ -1,6 +1,6 @@
 //! Coordinates on a binary grid, so that sums of them are exact.
 
-use crate::mesh::Point;
+use crate::point::Point;
 
 /// `p` with its coordinates rounded to even multiples of 2⁻⁴⁰.
 ///

@@ -3,8 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::lathe::{directions, lathe, ring};
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
 use crate::motion::Pose;
+use crate::point::Point;
 use crate::prism::prism;
 use crate::robot_base::scattered;
 use crate::tube::bar;

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::loft::{Ends, loft};
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
+use crate::point::Point;
 
 /// The directions (cos, sin) of the corners of a regular polygon, the first along x.
 pub(crate) fn directions(sides: usize) -> Vec<[f64; 2]> {

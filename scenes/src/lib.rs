@@ -35,6 +35,7 @@ mod gear;
 
 mod motor;
 mod plate;
+mod point;
 
 mod bumpy_sphere;
 mod stalagmite;
@@ -66,11 +67,12 @@ pub use free_lamp::{free_lamp, free_lamp_seeded};
 pub use gear::gear;
 pub use gear_plate_motor::{gear_plate_motor, gear_plate_motor_seeded};
 pub use lamp::{lamp, lamps};
-pub use mesh::{Mesh, Point};
+pub use mesh::Mesh;
 pub use motion::Pose;
 pub use motor::motor;
 pub use nested_shells::nested_shells;
 pub use plate::plate;
+pub use point::Point;
 pub use puma_arm::{ArmScene, puma_coherent, puma_random};
 pub use random::Random;
 pub use robot_base::{robot_base, robot_bases};

@@ -1,6 +1,7 @@
 //! Surfaces spanned between rings of points.
 
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
+use crate::point::Point;
 
 /// What happens at the first and the last ring of a loft.
 #[derive(Clone, Copy, PartialEq)]

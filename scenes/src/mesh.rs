@@ -3,9 +3,7 @@
 use std::fmt::Write;
 
 use crate::motion::Pose;
-
-/// A point or vector: x, y, z.
-pub type Point = [f64; 3];
+use crate::point::Point;
 
 /// A set of convex planar faces, each counter-clockwise seen from outside.
 ///

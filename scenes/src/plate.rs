@@ -3,8 +3,9 @@
 use crate::gear::{CLEARANCE, SIDES, TIP, corner_radius};
 use crate::lathe::{directions, lathe};
 use crate::loft::{Ends, loft};
-use crate::mesh::{Mesh, Point};
-use crate::motion::{Pose, between};
+use crate::mesh::Mesh;
+use crate::motion::Pose;
+use crate::point::{Point, between};
 
 /// The thickness of the plate.
 pub(crate) const THICKNESS: f64 = 0.05;

@@ -3,8 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::lathe::lathe;
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
 use crate::motion::Pose;
+use crate::point::Point;
 use crate::prism::cuboid;
 use crate::random::Random;
 
@@ -151,7 +152,7 @@ fn rock() -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{dot, minus, norm};
+    use crate::point::{dot, minus, norm};
 
     fn near(a: Point, b: Point) -> bool {
         norm(minus(a, b)) < 1e-14

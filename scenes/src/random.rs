@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::mesh::Point;
 use crate::motion::Pose;
+use crate::point::Point;
 
 /// The splitmix64 generator: the same seed gives the same numbers everywhere.
 pub struct Random(u64);

@@ -1,7 +1,8 @@
 //! Moving scenes.
 
-use crate::mesh::{Mesh, Point};
+use crate::mesh::Mesh;
 use crate::motion::Pose;
+use crate::point::Point;
 use crate::random::Random;
 
 /// A body that moves among obstacles that do not.

@@ -1,8 +1,8 @@
 //! A box of uncooked spaghetti.
 
 use crate::grid::snapped;
-use crate::mesh::{Mesh, Point};
-use crate::motion::{across, minus, plus, times, unit};
+use crate::mesh::Mesh;
+use crate::point::{Point, across, minus, plus, times, unit};
 use crate::random::Random;
 
 /// Straight square rods that cross the unit box along x, slightly askew: `polygons / 6` of them, rounded up, each of

@@ -2,8 +2,8 @@
 
 use crate::curve::bezier;
 use crate::lathe::lathe;
-use crate::mesh::{Mesh, Point};
-use crate::motion::between;
+use crate::mesh::Mesh;
+use crate::point::{Point, between};
 use crate::tube::tube;
 
 /// A teapot, 1920 polygons: body and lid of revolution, a bent spout along x and a handle opposite.

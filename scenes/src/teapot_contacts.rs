@@ -2,8 +2,9 @@
 
 use crate::curve::straight_on;
 use crate::lathe::{lathe, sphere, torus};
-use crate::mesh::{Mesh, Point};
-use crate::motion::{Pose, plus, stop_and_go};
+use crate::mesh::Mesh;
+use crate::motion::{Pose, stop_and_go};
+use crate::point::{Point, plus};
 use crate::robot_base::robot_base;
 use crate::scene::{Changes, Scene};
 use crate::teapot::teapot;

@@ -2,8 +2,8 @@
 
 use crate::lathe::directions;
 use crate::loft::{Ends, loft};
-use crate::mesh::{Mesh, Point};
-use crate::motion::{across, dot, minus, plus, times, unit};
+use crate::mesh::Mesh;
+use crate::point::{Point, across, dot, minus, plus, times, unit};
 
 /// The closed tube of `sides` flat sides along `path`, with a radius for each of its points; planar ends.
 ///

@@ -2,22 +2,10 @@
 
 use std::path::Path;
 
+use super::cloud::Cloud;
 use super::pcd::parse_pcd;
 use crate::body::mesh_file::{parse_ply, read_mesh_bytes};
 use crate::error::{Error, ErrorKind, Result};
-use crate::pose::Vec3;
-
-/// The most points of a file. The hierarchy of so many takes some 7 GB.
-pub const MAX_CLOUD_POINTS: u64 = 1 << 26;
-
-/// The points of a file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cloud {
-    /// In the order of the file.
-    pub points: Vec<Vec3>,
-    /// The number of points that the file marks as not measured.
-    pub left_out: u64,
-}
 
 /// The formats of point clouds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,12 @@
 //! Reads PCD files: ASCII, binary, and binary compressed as the Point Cloud Library writes it. No crate is used: the one
 //! that reads all three asks for memory on the header's word, and brings regular expressions along.
 
-use super::cloud_file::{Cloud, MAX_CLOUD_POINTS};
+use super::cloud::{Cloud, MAX_CLOUD_POINTS};
 use super::lzf::decompress;
 use crate::body::MAX_MESH_FILE_BYTES;
 use crate::body::mesh_file::number_in;
 use crate::body::number_type::{ByteOrder, NumberType};
-use crate::error::{Error, ErrorKind, Result, require_coordinates};
-use crate::pose::Vec3;
+use crate::error::{Error, ErrorKind, Result};
 
 /// The longest header that is read. Headers have some 11 lines.
 const MAX_HEADER_BYTES: usize = 1 << 16;
@@ -223,18 +222,6 @@ impl Header {
             added.map_err(|e| e.within(format_args!("point {point}")))?;
         }
         Ok(cloud)
-    }
-}
-
-impl Cloud {
-    fn add(&mut self, xyz: [f64; 3]) -> Result<()> {
-        if xyz.iter().any(|c| c.is_nan()) {
-            self.left_out += 1;
-            return Ok(());
-        }
-        require_coordinates(&xyz, "coordinate")?;
-        self.points.push(Vec3::from(xyz));
-        Ok(())
     }
 }
 
