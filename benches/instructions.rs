@@ -25,8 +25,11 @@ fn main() {
         let place = arguments.iter().position(|a| a == name)?;
         arguments.get(place + 1).cloned()
     };
+    // The report's scenes; larger ones take callgrind too long.
+    let is_small = |case: &Case| case.polygons().iter().sum::<usize>() < 20_000;
     let cases: Vec<Case> = cases(true, 0)
         .into_iter()
+        .filter(is_small)
         .flat_map(|case| {
             let name = format!("{} in triangles", case.name);
             let in_triangles = Case {
@@ -49,9 +52,7 @@ fn main() {
     }
     let mut csv = String::from("scene,mode,instructions_per_query\n");
     println!("| row | instructions a query |\n| --- | --- |");
-    // The report's scenes; larger ones take callgrind too long.
-    let is_small = |case: &&Case| case.polygons().iter().sum::<usize>() < 20_000;
-    for case in cases.iter().filter(is_small) {
+    for case in &cases {
         for &mode in &case.modes {
             let count = count(&case.name, &mode.name()) / case.poses.len() as u64;
             println!("| {} {} | {count} |", case.name, mode.name());

@@ -9,6 +9,9 @@
 // Every length and angle below which the library does not distinguish, each with its reason.
 pub mod tolerance;
 
+// Lengths and products that are 0 only where all they are made of is.
+mod nonzero;
+
 // What can go wrong: a kind and a message that names the culprit.
 pub mod error;
 

@@ -15,6 +15,7 @@ use crate::body::Body;
 use crate::boxes::Extent;
 use crate::cobject::{PureSet, PureShape, SpaceState};
 use crate::error::Result;
+use crate::nonzero::{length, product};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{BlockKind, Coordinate};
 use crate::tolerance::{EPSILON, LARGEST_COORDINATE};
@@ -198,13 +199,13 @@ impl<'a> Measure<'a> {
         if is_least_at_ends && pure.shape.is_open() {
             rounding = 0.0;
         }
-        let speed = self.course.v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let speed = length(&self.course.v);
         let time = part.times[1] - part.times[0];
         Ok(Measured {
             gap: gap - rounding,
             displacement: match is_least_at_ends {
                 true => 0.0,
-                false => 0.5 * pure.scale() * speed * time * (1.0 + 1e-9),
+                false => product(0.5 * pure.scale(), product(speed, time)) * (1.0 + 1e-9),
             },
             rounding,
         })

@@ -1,6 +1,7 @@
 //! Motion bounds of pure sets: how much a distance can fall along a segment of C-space.
 
 use super::{PureSet, PureShape};
+use crate::nonzero::{length, product};
 use crate::robot::{Block, BlockKind, Coordinate};
 use crate::space::Space;
 
@@ -66,12 +67,12 @@ impl PureSet {
             }
             PureShape::Box { low, high } => {
                 let is_bounded = |c: usize| low[c].is_finite() || high[c].is_finite();
-                self.scale() * box_bound(space, is_bounded, v)
+                product(self.scale(), box_bound(space, is_bounded, v))
             }
             PureShape::HalfSpace { normal, .. } => {
-                self.scale() * half_space_bound(space, normal, v)
+                product(self.scale(), half_space_bound(space, normal, v))
             }
-            PureShape::Ball { .. } => self.scale() * norm(v),
+            PureShape::Ball { .. } => product(self.scale(), length(v)),
         }
     }
 }
@@ -106,7 +107,7 @@ fn placements(space: &Space) -> impl Iterator<Item = &Block> {
 
 /// The length of the motion in the coordinates that the box bounds.
 fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f64 {
-    let mut square = 0.0;
+    let mut whole = 0.0;
     for block in space.blocks() {
         let count = match block.kind {
             BlockKind::Line => 1,
@@ -114,32 +115,30 @@ fn box_bound(space: &Space, is_bounded: impl Fn(usize) -> bool, v: &[f64]) -> f6
             BlockKind::Placement => 3,
         };
         if (block.coordinate..block.coordinate + count).any(&is_bounded) {
-            let shift = norm(&v[block.velocity..block.velocity + count]);
-            square += shift * shift;
+            whole = length(&[whole, length(&v[block.velocity..block.velocity + count])]);
         }
     }
-    square.sqrt()
+    whole
 }
 
 /// Bounds how much the distance falls. Single coordinates change it at a constant rate, counted with its sign; positions of
 /// free joints by at most the product of the lengths.
 fn half_space_bound(space: &Space, normal: &[f64], v: &[f64]) -> f64 {
     let (mut bound, mut size) = (0.0, 0.0);
+    let whole = length(normal);
     for block in space.blocks() {
         let (c, k) = (block.coordinate, block.velocity);
         let falls = match block.kind {
-            BlockKind::Line => -normal[c] * v[k],
+            BlockKind::Line => product(-normal[c] / whole, v[k]),
             BlockKind::Rotation => 0.0,
-            BlockKind::Placement => norm(&normal[c..c + 3]) * norm(&v[k..k + 3]),
+            BlockKind::Placement => {
+                product(length(&normal[c..c + 3]) / whole, length(&v[k..k + 3]))
+            }
         };
         bound += falls;
         size += falls.abs();
     }
     // Slack for the rounding of terms that cancel.
     let rounding = space.nv() as f64 * f64::EPSILON * size;
-    (bound + rounding).max(0.0) / norm(normal)
-}
-
-fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+    (bound + rounding).max(0.0)
 }

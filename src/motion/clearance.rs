@@ -174,13 +174,13 @@ impl QueryContext {
         let v = &checked_difference(cobject.space(), q0, q1)?;
         cobject.space().check_velocity(v, "velocity")?;
         let world = &self.look(cobject);
-        let way = &Way::straight(LinearMotion {
+        let line = LinearMotion {
             world,
             cobject,
             q: q0,
             v,
-        });
-        self.clearance_on(way, options)
+        };
+        self.clearance_on(&Way::straight_to(line, q1), options)
     }
 
     /// The same on a way, with options that were checked for its set.

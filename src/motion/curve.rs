@@ -104,6 +104,7 @@ impl QueryContext {
         };
         let way = &Way {
             line,
+            end: None,
             kind: WayKind::Curve { controls: points },
         };
         self.motion_on(way, options)

@@ -29,6 +29,7 @@ impl QueryContext {
         };
         let way = &Way {
             line,
+            end: None,
             kind: WayKind::Stated(motion),
         };
         self.motion_on(way, options)

@@ -297,7 +297,14 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let limit = threshold + target.options.margin;
         let leaf = self.leaves.len() as u32;
         let line = &self.way.line;
-        let speed = || line.rate(scene, target);
+        let speed = || {
+            let rounding = &self.way.rounding();
+            let off_the_way = LinearMotion {
+                v: rounding,
+                ..*line
+            };
+            [line.rate(scene, target), off_the_way.rate(scene, target)]
+        };
         let pair = MovingPair::new(a, b, limit, leaf, &mut self.rates, speed);
         let mut pair = pair.ok_or_else(|| unstated_speeds(term))?;
         if let Some(start) = self.start {

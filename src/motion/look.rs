@@ -497,7 +497,8 @@ impl<P: Piece> Look<'_, '_, P> {
         }
         let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
         let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
-        let other_size = length(&one.half);
+        let radii = [over.core_radii[opened], over.core_radii[1 - opened]];
+        let other_size = length(&one.half) + radii[1];
         let children = tree.children(lanes, index);
         let mut left = 0u8;
         while near != 0 {
@@ -505,7 +506,7 @@ impl<P: Piece> Look<'_, '_, P> {
             near &= near - 1;
             let (mut units, mut sizes) = (
                 [children.units[lane], group.other],
-                [halves[lane], other_size],
+                [halves[lane] + radii[0], other_size],
             );
             if opened == 1 {
                 units.swap(0, 1);
@@ -534,7 +535,7 @@ struct Meeting {
     pair: u32,
     /// Of A and of B.
     units: [NodeRef; 2],
-    /// Half the boxes' diagonals.
+    /// Half the diagonals of the boxes, with what they leave out around cores.
     sizes: [f32; 2],
     /// What the motion takes off their gap.
     taken_off: f32,

@@ -108,8 +108,16 @@ impl QueryContext {
         q1: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        let v = checked_difference(cobject.space(), q0, q1)?;
-        self.motion_along(cobject, q0, &v, options)
+        let v = &checked_difference(cobject.space(), q0, q1)?;
+        cobject.space().check_velocity(v, "velocity")?;
+        let world = &self.begin_motion(cobject, options)?;
+        let line = LinearMotion {
+            world,
+            cobject,
+            q: q0,
+            v,
+        };
+        self.sampled_or_proved(&Way::straight_to(line, q1), options)
     }
 
     /// The same in a given world, with checked options.
@@ -128,7 +136,7 @@ impl QueryContext {
             q: q0,
             v,
         };
-        self.sampled_or_proved(&Way::straight(line), options)
+        self.sampled_or_proved(&Way::straight_to(line, q1), options)
     }
 
     /// The same from q with velocity v for a unit of time.

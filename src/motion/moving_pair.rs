@@ -33,8 +33,13 @@ pub(super) struct MovingPair<'a> {
 enum Bounds {
     /// The derivatives of A's centre as B sees it.
     Derivatives(MotionRates),
-    /// No point of A moves faster than this as B sees it; no velocities are known.
-    Speed(f64),
+    /// No velocities are known.
+    Speed {
+        /// No point of A moves faster than this as B sees it.
+        speed: f64,
+        /// What the rounding of coordinates may move it.
+        rounding: f64,
+    },
 }
 
 /// Intervals through which bodies may turn by more than this, in radians to either side, are halved before boxes are looked at.
@@ -42,18 +47,24 @@ pub(super) const MAX_TURN: f64 = 1.0;
 
 impl<'a> MovingPair<'a> {
     /// `threshold` comes with the margin of the pair's set. `speed` gives the largest speed of A's points as B sees it where the
-    /// derivatives are unknown; the pair is `None` where that is infinite.
+    /// derivatives are unknown, and how far the rounding of coordinates moves them; the pair is `None` where these are infinite.
     pub fn new(
         a: Carried<'a, usize>,
         b: Carried<'a, Option<usize>>,
         threshold: f64,
         leaf: u32,
         rates: &mut PairRates,
-        speed: impl FnOnce() -> f64,
+        speed: impl FnOnce() -> [f64; 2],
     ) -> Option<Self> {
         let bounds = match rates.between(&a, &b) {
             Some(rates) => Bounds::Derivatives(rates),
-            None => Bounds::Speed(Some(speed()).filter(|speed| speed.is_finite())?),
+            None => {
+                let [speed, rounding] = speed();
+                if !(speed + rounding).is_finite() {
+                    return None;
+                }
+                Bounds::Speed { speed, rounding }
+            }
         };
         let stated_deviation = a.body.stated_deviation() + b.body.stated_deviation();
         Some(Self {
@@ -83,7 +94,7 @@ impl<'a> MovingPair<'a> {
     pub fn rests(&self) -> bool {
         match &self.bounds {
             Bounds::Derivatives(rates) => rates.turn[0] == 0.0 && rates.origin[0] == 0.0,
-            Bounds::Speed(speed) => *speed == 0.0,
+            Bounds::Speed { speed, .. } => *speed == 0.0,
         }
     }
 
@@ -91,7 +102,7 @@ impl<'a> MovingPair<'a> {
     pub fn speed(&self) -> f64 {
         match &self.bounds {
             Bounds::Derivatives(rates) => rates.turn[0] * self.a.body.radius() + rates.origin[0],
-            Bounds::Speed(speed) => *speed,
+            Bounds::Speed { speed, .. } => *speed,
         }
     }
 
@@ -117,7 +128,7 @@ impl<'a> MovingPair<'a> {
     }
 
     pub fn needs_poses(&self) -> bool {
-        matches!(self.bounds, Bounds::Speed(_))
+        matches!(self.bounds, Bounds::Speed { .. })
     }
 
     /// The pair over an interval.
@@ -145,7 +156,7 @@ impl<'a> MovingPair<'a> {
                     return PairOver::TooLong;
                 }
             }
-            Bounds::Speed(speed) => {
+            Bounds::Speed { speed, .. } => {
                 let (relative, rates) = self.relative(kinematics);
                 let error = self.kinematics_error(&rates);
                 let apart = &relative.center.apart;
@@ -221,12 +232,18 @@ impl<'a> MovingPair<'a> {
             )
         });
         // Displacements are lengths like others: what they are rounded to, gaps lose too.
-        let (mut moved_at_size, mut displacement) = (0.0, bends[1]);
+        let (mut moved_at_size, mut displacement, mut turn) = (0.0, bends[1], 0.0);
         for by in sweep_twists.as_ref() {
             let (linear, angular) = (by.linear.norm(), by.angular.norm());
             moved_at_size += linear + angular * size;
             displacement += linear + angular * radius;
+            turn += angular;
         }
+        // Boxes hold the cores of B, the ball around a point of which grows to first order as A sees it: along a unit direction n it
+        // reaches |n + n x w| times its radius, at most the square root of 1 + |w|^2 times. The core itself is too far away for the
+        // bend, which holds of the points near A.
+        let growth = turn * turn / (1.0 + turn.hypot(1.0)) * (1.0 + 1e-9);
+        let box_bends = [bends[0] + growth * tree_b.core_radius(), bends[1]];
         moved_at_size *= sum_factor(sweep_twists.as_ref().len());
         let larger = 1.0 + moved_at_size / size;
         let slack = (pairing.slack() + moved.kinematics_error) * larger;
@@ -238,13 +255,14 @@ impl<'a> MovingPair<'a> {
                 Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
             ],
             twists: [in_a, in_b],
-            bends: bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
+            bends: box_bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
             cutoff: (((self.threshold + lowered) * inverse) as f32).next_up(),
             limits: SweptLimits {
                 threshold: self.threshold,
                 slack,
                 displacement,
             },
+            core_radii: [tree_a, tree_b].map(|tree| (tree.core_radius() * inverse) as f32),
             sweep_twists,
             extension: moved.extension,
             sweep_bends: bends,
@@ -260,7 +278,11 @@ impl<'a> MovingPair<'a> {
     }
 
     pub fn kinematics_error(&self, rates: &MotionRates) -> f64 {
-        kinematics_error(rates, self.a.body.radius())
+        let of_coordinates = match self.bounds {
+            Bounds::Derivatives(_) => 0.0,
+            Bounds::Speed { rounding, .. } => rounding,
+        };
+        kinematics_error(rates, self.a.body.radius()) + of_coordinates
     }
 
     /// As [`Sweep::bends`], with more than the rounding of their sums.
@@ -269,7 +291,7 @@ impl<'a> MovingPair<'a> {
             Bounds::Derivatives(_) => self
                 .accelerations(relative, rates, reach)
                 .map(|x| 0.5 * reach * reach * x * (1.0 + 1e-9)),
-            Bounds::Speed(speed) => [reach * speed * (1.0 + 1e-9); 2],
+            Bounds::Speed { speed, .. } => [reach * speed * (1.0 + 1e-9); 2],
         }
     }
 
@@ -277,7 +299,7 @@ impl<'a> MovingPair<'a> {
     fn relative(&self, kinematics: &mut Kinematics) -> (Relative, MotionRates) {
         match self.bounds {
             Bounds::Derivatives(rates) => (kinematics.relative(&self.a, &self.b), rates),
-            Bounds::Speed(_) => {
+            Bounds::Speed { .. } => {
                 let relative = kinematics.still(&self.a, &self.b);
                 let places = relative.poses.iter().map(|pose| pose.translation.norm());
                 let rates = MotionRates {

@@ -8,8 +8,10 @@ use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
 use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
+use crate::nonzero::{length, product};
 use crate::query::{PureAt, Scene};
-use crate::robot::BlockKind;
+use crate::robot::{BlockKind, Coordinate};
+use crate::space::Space;
 
 /// More than the rounding of products of rates and times.
 const RATE_SLACK: f64 = 1.0 + 1e-9;
@@ -27,6 +29,8 @@ pub(super) struct MovingPure {
 struct MovingPart {
     set: PureSet,
     rate: f64,
+    /// What the rounding of configurations on the way may change.
+    rounding: f64,
     /// Intervals before this time need no proof.
     followed_from: f64,
 }
@@ -129,6 +133,7 @@ impl MovingPart {
             ));
         }
         Ok(Self {
+            rounding: rounding(way, &set),
             set,
             rate,
             followed_from,
@@ -155,7 +160,7 @@ impl MovingPart {
             return Ok(Known::Free);
         }
         let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
-        Ok(if lower - threshold > along {
+        Ok(if lower - threshold > along + self.rounding {
             Known::Free
         } else {
             Known::Nothing
@@ -201,10 +206,11 @@ impl MovingPart {
 
     /// Bounds how much the signed distance changes from the middle of a piece on.
     fn change(&self, moment: &Moment) -> f64 {
-        match moment.extent {
-            Extent::Time { span, .. } => self.rate * span.reach() * RATE_SLACK,
-            Extent::Box(_) => rate(moment.way, &self.set) * RATE_SLACK,
-        }
+        let (change, rounding) = match moment.extent {
+            Extent::Time { span, .. } => (product(self.rate, span.reach()), self.rounding),
+            Extent::Box(_) => (rate(moment.way, &self.set), rounding(moment.way, &self.set)),
+        };
+        change * RATE_SLACK + rounding
     }
 
     fn at<'a>(&'a self, moment: &Moment<'a>, complement: bool) -> PureAt<'a> {
@@ -253,7 +259,7 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
         // Between configurations in range, coordinates that move alone are in range.
         let is_in_range = |q: &[f64]| space.beyond_limits(q).is_none();
         let stays = match way.kind {
-            WayKind::Line => is_in_range(way.line.q) && is_in_range(&way.line.at(1.0)),
+            WayKind::Line => is_in_range(way.line.q) && way.at(1.0).is_ok_and(|q| is_in_range(&q)),
             WayKind::Curve { controls } => controls.chunks_exact(way.line.q.len()).all(is_in_range),
             WayKind::Stated(motion) => motion.farthest().iter().all(|q| is_in_range(q)),
             WayKind::Box { low, high } => is_in_range(low) && is_in_range(high),
@@ -273,27 +279,61 @@ fn parts_of(way: &Way, set: &PureSet, is_whole: bool) -> Vec<PureSet> {
 fn rate(way: &Way, set: &PureSet) -> f64 {
     let space = way.line.cobject.space();
     let (q, v) = (way.line.q, way.line.v);
-    let speed = || v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let speed = || product(set.scale(), length(v));
     match &set.shape {
         // Distances in the metric of C-space change no faster than the configuration.
-        PureShape::Predicate(predicate) if predicate.measures() => set.scale() * speed(),
-        PureShape::BeyondLimits => set.scale() * speed(),
+        PureShape::Predicate(predicate) if predicate.measures() => speed(),
+        PureShape::BeyondLimits => speed(),
         PureShape::HalfSpace { .. } if matches!(way.kind, WayKind::Line) => {
             let back: Vec<f64> = v.iter().map(|rate| -rate).collect();
             let falls = |v: &[f64]| set.motion_bound(space, q, v);
             falls(v).max(falls(&back))
         }
         PureShape::HalfSpace { normal, .. } if matches!(way.kind, WayKind::Box { .. }) => {
-            let mut falling = v.to_vec();
+            set.motion_bound(space, q, &falling(space, normal, v))
+        }
+        PureShape::HalfSpace { .. } => speed(),
+        _ => set.motion_bound(space, q, v),
+    }
+}
+
+/// The velocity of these sizes that leads straightest into a half-space.
+fn falling(space: &Space, normal: &[f64], v: &[f64]) -> Vec<f64> {
+    let mut falling = v.to_vec();
+    for block in space.blocks() {
+        if block.kind == BlockKind::Line {
+            let k = block.velocity;
+            falling[k] = v[k].copysign(-normal[block.coordinate]);
+        }
+    }
+    falling
+}
+
+/// Bounds how much the rounding of configurations on the way changes the signed distance.
+fn rounding(way: &Way, set: &PureSet) -> f64 {
+    let space = way.line.cobject.space();
+    let mut v = way.rounding();
+    match &set.shape {
+        PureShape::Predicate(_) => product(set.scale(), length(&v)),
+        PureShape::BeyondLimits => {
             for block in space.blocks() {
-                if block.kind == BlockKind::Line {
-                    let k = block.velocity;
-                    falling[k] = v[k].copysign(-normal[block.coordinate]);
+                let own = block.coordinate..block.coordinate + block.kind.nq();
+                if !own.clone().any(|c| has_range(&space.coordinates()[c])) {
+                    v[block.velocity..block.velocity + block.kind.nv()].fill(0.0);
                 }
             }
-            set.motion_bound(space, q, &falling)
+            product(set.scale(), length(&v))
         }
-        PureShape::HalfSpace { .. } => set.scale() * speed(),
-        _ => set.motion_bound(space, q, v),
+        PureShape::HalfSpace { normal, .. } => {
+            set.motion_bound(space, way.line.q, &falling(space, normal, &v))
+        }
+        _ => set.motion_bound(space, way.line.q, &v),
+    }
+}
+
+fn has_range(coordinate: &Coordinate) -> bool {
+    match coordinate {
+        Coordinate::Interval { lower, upper } => lower.is_finite() || upper.is_finite(),
+        _ => false,
     }
 }

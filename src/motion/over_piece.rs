@@ -77,6 +77,8 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
     pub extension: Extension,
     /// As [`Sweep::bends`], in units of the pair.
     pub bends: [f32; 2],
+    /// What the cores' boxes leave out around them, of A and of B, in units of the pair.
+    pub core_radii: [f32; 2],
     /// In A's frame.
     pub sweep_twists: L::Of<SweepTwist>,
     pub sweep_bends: [f64; 2],

@@ -81,7 +81,9 @@ impl QueryContext {
             pose: None,
             number: 1,
         };
-        let pair = MovingPair::new(first, second, options.threshold, 0, rates, || f64::INFINITY);
+        let pair = MovingPair::new(first, second, options.threshold, 0, rates, || {
+            [f64::INFINITY; 2]
+        });
         let pair = pair.filter(|pair| !pair.rests());
         // A body inside another does not meet its surface.
         let has_solid = pair.as_ref().is_none_or(MovingPair::has_solid);

@@ -70,12 +70,13 @@ impl Path<'_> {
         let end = self.point(if rests { segment } else { segment + 1 });
         let v = &space.difference(q, end);
         let answer = space.check_velocity(v, "velocity").and_then(|()| {
-            query(&Way::straight(LinearMotion {
+            let line = LinearMotion {
                 world,
                 cobject,
                 q,
                 v,
-            }))
+            };
+            query(&Way::straight_to(line, end))
         });
         answer.map_err(|error| error.within(format_args!("segment {segment}")))
     }

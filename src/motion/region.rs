@@ -135,6 +135,7 @@ impl QueryContext {
                 q,
                 v: half,
             },
+            end: None,
             kind: WayKind::Box {
                 low: &region.low,
                 high: &region.high,

@@ -221,6 +221,7 @@ impl Work for Prover<'_, '_, '_> {
                     q: &q,
                     v: &half,
                 },
+                end: None,
                 kind: WayKind::Box {
                     low: &region.low,
                     high: &region.high,

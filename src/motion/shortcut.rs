@@ -266,12 +266,13 @@ impl QueryContext {
             return Ok(true);
         }
         let v = &cobject.space().difference(from, to);
-        let way = Way::straight(LinearMotion {
+        let line = LinearMotion {
             world,
             cobject,
             q: from,
             v,
-        });
+        };
+        let way = Way::straight_to(line, to);
         let answer = self.sampled_or_proved(&way, options)?;
         if answer.outcome == MotionOutcome::Undecided {
             self.scratch.meter().check()?;

@@ -309,12 +309,13 @@ impl QueryContext {
     ) -> Result<Option<[f64; 2]>> {
         let &Walk { world, cobject, .. } = walk;
         let v = &cobject.space().difference(&walk.q, to);
-        let way = Way::straight(LinearMotion {
+        let line = LinearMotion {
             world,
             cobject,
             q: &walk.q,
             v,
-        });
+        };
+        let way = Way::straight_to(line, to);
         let answer = self.motion_on(&way, options)?;
         Ok((answer.outcome != MotionOutcome::Free).then_some(answer.times))
     }

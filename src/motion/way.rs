@@ -9,11 +9,15 @@ use crate::cobject::{Around, ClearCells};
 use crate::error::Result;
 use crate::pose::Pose;
 use crate::query::Scene;
-use crate::robot::{LinkMotions, bezier};
+use crate::robot::{BlockKind, LinkMotions, bezier};
 use crate::tolerance::EPSILON;
 
 /// Added to times: more than a configuration is rounded where its motion starts, or goes, far from it.
 const TIME_SLACK: f64 = 64.0 * EPSILON;
+
+/// The rounding of a coordinate on its way, relative to where it starts and how far it goes: of the difference of both ends, of its part, and
+/// of their sum.
+const COORDINATE_ERROR: f64 = 8.0 * EPSILON;
 
 /// A motion, or the motions in a box, in one state of the world.
 #[derive(Clone, Copy)]
@@ -23,6 +27,8 @@ pub(super) struct Way<'a> {
     /// of its velocities hold for all.
     pub line: LinearMotion<'a>,
     pub kind: WayKind<'a>,
+    /// Where a straight motion is asked to end: q and v sum up to it but for their rounding.
+    pub end: Option<&'a [f64]>,
 }
 
 #[derive(Clone, Copy)]
@@ -47,13 +53,27 @@ impl<'a> Way<'a> {
         Self {
             line,
             kind: WayKind::Line,
+            end: None,
+        }
+    }
+
+    /// The straight motion to a configuration, whose difference from the start is the velocity.
+    pub fn straight_to(line: LinearMotion<'a>, end: &'a [f64]) -> Self {
+        Self {
+            end: Some(end),
+            ..Self::straight(line)
         }
     }
 
     /// The configuration at a time; of a box the one in its middle.
     pub fn at(&self, t: f64) -> Result<Vec<f64>> {
         Ok(match self.kind {
-            WayKind::Line => self.line.at(t),
+            WayKind::Line => match self.end {
+                Some(end) if t == 1.0 => {
+                    self.line.cobject.space().interpolate(self.line.q, end, 1.0)
+                }
+                _ => self.line.at(t),
+            },
             WayKind::Stated(motion) => motion.at(t)?.q,
             WayKind::Curve { controls } => {
                 let nq = self.line.q.len();
@@ -111,6 +131,28 @@ impl<'a> Way<'a> {
             half: &half,
             is_line: matches!(self.kind, WayKind::Line),
         }))
+    }
+
+    /// Bounds how far roundings put configurations off the way, where it moves them: a velocity for a unit of time, of any signs.
+    pub fn rounding(&self) -> Vec<f64> {
+        let (q, v) = (self.line.q, self.line.v);
+        let mut rounding = vec![0.0; v.len()];
+        for block in self.line.cobject.space().blocks() {
+            let (c, k) = (block.coordinate, block.velocity);
+            // Quaternions are of length 1.
+            let lines = match block.kind {
+                BlockKind::Line => 1,
+                BlockKind::Rotation => 0,
+                BlockKind::Placement => 3,
+            };
+            for i in 0..block.kind.nv() {
+                let size = if i < lines { q[c + i].abs() } else { 1.0 };
+                if v[k + i] != 0.0 {
+                    rounding[k + i] = COORDINATE_ERROR * (size + v[k + i].abs());
+                }
+            }
+        }
+        rounding
     }
 
     /// The world at a configuration.

@@ -20,6 +20,7 @@ impl Arc {
         let (rate, speed) = (self.rate, self.across.norm());
         CourseBounds {
             farthest: speed * (2.0 / rate).min(1.0),
+            summed: speed,
             derivatives: [speed, speed * rate, speed * rate * rate],
         }
     }
@@ -27,6 +28,7 @@ impl Arc {
     pub fn angle_bounds(&self) -> CourseBounds {
         CourseBounds {
             farthest: self.rate,
+            summed: self.rate,
             derivatives: [self.rate, 0.0, 0.0],
         }
     }

@@ -8,9 +8,10 @@ pub const MAX_DEGREE: usize = 16;
 /// A coordinate as a function of time, from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Course {
-    /// `start + rate t`.
-    Line { start: f64, rate: f64 },
-    /// A Bezier curve, by the place and the number of its control points in a list.
+    /// `start + rate t`. `summed` is the largest size of what these are sums of.
+    Line { start: f64, rate: f64, summed: f64 },
+    /// A Bezier curve, by the place and the number of its control points in a list; before them stands the largest size of what
+    /// they are sums of.
     Curve { first: u32, count: u32 },
     /// `multiplier x + offset` of a coordinate x that a function gives, with its bounds from this place on in a list.
     Given {
@@ -24,6 +25,8 @@ pub(super) enum Course {
         center: f64,
         rate: f64,
         velocity: u32,
+        /// As that of a line.
+        summed: f64,
     },
 }
 
@@ -38,24 +41,45 @@ pub struct CourseState {
     pub acceleration: f64,
 }
 
-/// The bound of a third derivative of which nothing is stated: above what the others say, and far from overflow in products.
-const UNSTATED: f64 = 1e100;
+/// The bound of a third derivative of which nothing is stated: above what any other bound may be, though an infinite one times 0
+/// would be no number.
+const UNSTATED: f64 = f64::MAX;
 
 /// Bounds from time 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CourseBounds {
     /// Of the absolute value.
     pub farthest: f64,
+    /// Of what the value is a sum of: its rounding is relative to this.
+    pub summed: f64,
     /// Of the first three derivatives' absolute values.
     pub derivatives: [f64; 3],
 }
 
+impl CourseBounds {
+    /// Of what is 1 at all times.
+    pub const ONE: Self = Self {
+        farthest: 1.0,
+        summed: 1.0,
+        derivatives: [0.0; 3],
+    };
+}
+
 impl Course {
+    /// From 0 on at a constant rate.
+    pub fn from_zero(rate: f64) -> Self {
+        Self::Line {
+            start: 0.0,
+            rate,
+            summed: rate.abs(),
+        }
+    }
+
     /// The value and its derivatives at time t, at which a function gives these coordinates; of a range what is at its centre.
     #[inline]
     pub fn at(&self, t: f64, controls: &[f64], given: &[CourseState]) -> CourseState {
         match *self {
-            Self::Line { start, rate } => CourseState {
+            Self::Line { start, rate, .. } => CourseState {
                 value: start + rate * t,
                 rate,
                 acceleration: 0.0,
@@ -88,8 +112,13 @@ impl Course {
     /// The value is a mean of the control points, and each derivative one of multiples of their differences.
     pub fn bounds(&self, controls: &[f64]) -> CourseBounds {
         match *self {
-            Self::Line { start, rate } => CourseBounds {
+            Self::Line {
+                start,
+                rate,
+                summed,
+            } => CourseBounds {
                 farthest: start.abs().max((start + rate).abs()),
+                summed,
                 derivatives: [rate.abs(), 0.0, 0.0],
             },
             Self::Curve { first, count } => {
@@ -103,20 +132,28 @@ impl Course {
                 });
                 CourseBounds {
                     farthest,
+                    summed: controls[first - 1],
                     derivatives,
                 }
             }
             Self::Given { bounds, .. } => {
-                let [farthest, rate, acceleration] =
-                    [0, 1, 2].map(|k| controls[bounds as usize + k]);
+                let [farthest, summed, rate, acceleration] =
+                    [0, 1, 2, 3].map(|k| controls[bounds as usize + k]);
                 CourseBounds {
                     farthest,
+                    summed,
                     derivatives: [rate, acceleration, UNSTATED],
                 }
             }
             // The way from the centre to any value in the range.
-            Self::Range { center, rate, .. } => CourseBounds {
+            Self::Range {
+                center,
+                rate,
+                summed,
+                ..
+            } => CourseBounds {
                 farthest: center.abs() + rate.abs(),
+                summed,
                 derivatives: [rate.abs(), 0.0, 0.0],
             },
         }

@@ -217,7 +217,7 @@ impl LinkMotions {
             .push(Element::Fixed(Pose::from_translation(start)));
         let rate = velocity.norm();
         if rate > 0.0 {
-            self.shift(velocity / rate, Course::Line { start: 0.0, rate });
+            self.shift(velocity / rate, Course::from_zero(rate));
         }
     }
 
@@ -232,12 +232,11 @@ impl LinkMotions {
         let axis = angular / rate;
         let along = axis.dot(linear);
         let across = linear - axis * along;
-        let from_zero = |rate: f64| Course::Line { start: 0.0, rate };
         if along != 0.0 {
-            self.shift(axis, from_zero(along));
+            self.shift(axis, Course::from_zero(along));
         }
         if across == Vec3::zeros() {
-            self.turn(axis, from_zero(rate));
+            self.turn(axis, Course::from_zero(rate));
         } else {
             self.elements.push(Element::Arc(Arc { axis, rate, across }));
         }
@@ -251,10 +250,13 @@ impl LinkMotions {
             multiplier,
             offset,
         } = at;
+        // What multiples of coordinates and the offset cancel is rounded nevertheless.
+        let summed = |x: f64| multiplier.abs() * x + offset.abs();
         match courses {
             CoordinateCourses::Line { q, v } => Course::Line {
                 start: multiplier * q[coordinate] + offset,
                 rate: multiplier * v[velocity],
+                summed: summed(q[coordinate].abs() + v[velocity].abs()),
             },
             CoordinateCourses::Curve {
                 controls,
@@ -262,6 +264,8 @@ impl LinkMotions {
                 first,
             } => {
                 let own = controls.iter().skip(first + coordinate).step_by(*nq);
+                let farthest = own.clone().fold(0.0, |most: f64, x| most.max(x.abs()));
+                self.controls.push(summed(farthest));
                 let begin = self.controls.len();
                 self.controls.extend(own.map(|x| multiplier * x + offset));
                 Course::Curve {
@@ -280,6 +284,7 @@ impl LinkMotions {
                 let start = multiplier * q[own] + offset;
                 self.controls.extend([
                     start.abs() + rate,
+                    summed(q[own].abs() + max_rates[own]),
                     rate,
                     multiplier.abs() * max_accelerations[own],
                 ]);
@@ -294,6 +299,7 @@ impl LinkMotions {
                 center: multiplier * q[coordinate] + offset,
                 rate: multiplier * half[velocity],
                 velocity: (first + velocity) as u32,
+                summed: summed(q[coordinate].abs() + half[velocity].abs()),
             },
         }
     }

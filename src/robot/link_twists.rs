@@ -78,6 +78,7 @@ impl<'a> LinkTwists<'a> {
                         center,
                         rate,
                         velocity,
+                        ..
                     } = *angle
                     else {
                         continue;
@@ -98,6 +99,7 @@ impl<'a> LinkTwists<'a> {
                         center,
                         rate,
                         velocity,
+                        ..
                     } = *length
                     else {
                         continue;

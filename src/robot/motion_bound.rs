@@ -2,6 +2,7 @@
 //! and the same along one direction.
 
 use super::{JointKind, Link, Robot, RobotState};
+use crate::nonzero::{length, product};
 use crate::pose::Vec3;
 
 /// What one joint contributes to the motion of a point set that it carries.
@@ -145,14 +146,13 @@ impl Robot {
             let joint = &here.joint;
             let own_q = &q[joint.coordinate..joint.coordinate + joint.kind.nq()];
             let own_v = &v[joint.velocity..joint.velocity + joint.kind.nv()];
-            let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
             // How far the link's origin moves, how far the link turns, and how far the origin starts from the joint's
             // frame.
             let (shift, turn, away) = match &joint.kind {
                 JointKind::Fixed => (0.0, 0.0, 0.0),
-                JointKind::Revolute => (0.0, (joint.multiplier * own_v[0]).abs(), 0.0),
+                JointKind::Revolute => (0.0, product(joint.multiplier, own_v[0]).abs(), 0.0),
                 JointKind::Prismatic => (
-                    (joint.multiplier * own_v[0]).abs(),
+                    product(joint.multiplier, own_v[0]).abs(),
                     0.0,
                     (joint.multiplier * own_q[0] + joint.offset).abs(),
                 ),

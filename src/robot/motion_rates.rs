@@ -34,7 +34,7 @@ pub struct ChainRates {
 impl ChainRates {
     /// Goes on to a frame that is fixed to the last one.
     pub fn push_fixed(&mut self, pose: &Pose) {
-        self.carry(&pose.translation, 1.0, [0.0; 3]);
+        self.carry(&pose.translation, &CourseBounds::ONE);
         if let Some((axis, _)) = &mut self.last {
             *axis = turned_back(&pose.rotation, axis);
         }
@@ -43,7 +43,7 @@ impl ChainRates {
     /// The bounds at a point that is fixed to the last frame, instead of its origin.
     pub fn at(&self, point: &Vec3) -> MotionRates {
         let mut chain = *self;
-        chain.carry(point, 1.0, [0.0; 3]);
+        chain.carry(point, &CourseBounds::ONE);
         chain.rates
     }
 
@@ -60,12 +60,12 @@ impl ChainRates {
         }
         let [s1, s2, s3] = self.angles;
         self.rates.turn = [s1, s1 * s1 + s2, s1 * s1 * s1 + 3.0 * s1 * s2 + s3];
-        self.rates.angle = self.rates.angle.max(bounds.farthest);
+        self.rates.angle = self.rates.angle.max(bounds.summed);
     }
 
     /// Goes on behind a shift along a unit axis.
     pub(super) fn push_shift(&mut self, axis: &Vec3, bounds: &CourseBounds) {
-        self.carry(axis, bounds.farthest, bounds.derivatives);
+        self.carry(axis, bounds);
     }
 
     /// Goes on behind a turn about a unit axis in which the frame's origin moves too, by a way with bounds of its own in whatever
@@ -73,17 +73,19 @@ impl ChainRates {
     pub(super) fn push_arc(&mut self, axis: &Vec3, way: &CourseBounds, angle: &CourseBounds) {
         self.last = None;
         // Where no axis is known the arm counts by its length alone, which is 1.
-        self.carry(axis, way.farthest, way.derivatives);
+        self.carry(axis, way);
         self.push_turn(axis, angle);
     }
 
-    /// Moves the origin along `arm`, times a factor that is at most `length` and has derivatives of at most `derivatives`.
-    fn carry(&mut self, arm: &Vec3, length: f64, derivatives: [f64; 3]) {
+    /// Moves the origin along `arm`, times a factor within bounds.
+    #[inline(always)]
+    fn carry(&mut self, arm: &Vec3, factor: &CourseBounds) {
         let whole = arm.norm();
         if whole == 0.0 {
             return;
         }
-        self.rates.size += whole * length;
+        let length = factor.farthest;
+        self.rates.size += whole * factor.summed;
         let parts = match self.last {
             // Along the last turn's axis only the turns before it count.
             Some((axis, before)) => [
@@ -92,8 +94,9 @@ impl ChainRates {
             ],
             None => [(whole, self.rates.turn), (0.0, [0.0; 3])],
         };
-        let [l1, l2, l3] = derivatives;
-        for (part, [t1, t2, t3]) in parts {
+        let [l1, l2, l3] = factor.derivatives;
+        // Of what is not there no bound counts, not even an infinite one.
+        for (part, [t1, t2, t3]) in parts.into_iter().filter(|(part, _)| *part > 0.0) {
             let derivatives = [
                 t1 * length + l1,
                 t2 * length + 2.0 * t1 * l1 + l2,

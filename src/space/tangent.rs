@@ -66,8 +66,9 @@ impl Space {
     fn write_difference(&self, q0: &[f64], q1: &[f64], v: &mut [f64]) {
         self.write_displacement(q0, q1, v);
         for block in self.blocks() {
-            if self.coordinates()[block.coordinate] == Coordinate::Circle {
-                v[block.velocity] = shorter_way(v[block.velocity]);
+            let c = block.coordinate;
+            if self.coordinates()[c] == Coordinate::Circle {
+                v[block.velocity] = shorter_way(within_turns(q1[c]) - within_turns(q0[c]));
             }
         }
     }
@@ -245,6 +246,19 @@ type Velocity = SmallVec<[f64; 16]>;
 /// Sums of squares between these have lost nothing to the range of numbers.
 const SMALL_SQUARES: f64 = 1e-280;
 const LARGE_SQUARES: f64 = 1e300;
+
+/// An angle, or the same direction within half a turn where the angle is large: there multiples of a rounded turn would be off by more
+/// than the angle is rounded.
+fn within_turns(angle: f64) -> f64 {
+    if angle.abs() <= LARGE_ANGLE {
+        return angle;
+    }
+    let (sine, cosine) = angle.sin_cos();
+    sine.atan2(cosine)
+}
+
+/// Ten turns are off by 1e-15.
+const LARGE_ANGLE: f64 = 10.0 * TAU;
 
 /// The same angle within [-pi, pi).
 pub fn shorter_way(angle: f64) -> f64 {

@@ -20,6 +20,8 @@ mod path_clearance;
 mod random_scenes;
 mod region_growth;
 mod regions;
+mod round_bodies;
+mod roundings;
 mod shortcut;
 mod show_path;
 mod slide;
