@@ -196,6 +196,13 @@ static void sizes_in_between(const fixture *f) {
         CHECK_REFUSED(out, cstk_body_build(f->body_builder, &options, NULL, NULL, &out),
                       CSTK_ERROR_NOT_INITIALISED, "options");
     }
+    /* The size of something larger would have what stands behind the options overwritten. */
+    cstk_hierarchy_options options;
+    CHECK_REFUSED(options, cstk_hierarchy_options_default(&options, now + 129), CSTK_ERROR_WRONG_SIZE,
+                  "sizeof(cstk_hierarchy_options)");
+    cstk_motion_options motion;
+    CHECK_REFUSED(motion, cstk_motion_options_default(&motion, sizeof(cstk_link_def)),
+                  CSTK_ERROR_WRONG_SIZE, "sizeof(cstk_motion_options)");
     fixture_unchanged(f);
 }
 

@@ -3058,7 +3058,10 @@ cstk_status cstk_octree_remove(cstk_octree *octree);
  * @code
      cstk_cobject *obstacles, *limits, *forbidden;
      check(cstk_cobject_induced(space, NULL, 0, environment, NULL, 0, NULL, &obstacles));
-     check(cstk_cobject_beyond_limits(space, NULL, &limits));
+     cstk_pure_options in_lengths;
+     check(cstk_pure_options_default(&in_lengths, sizeof in_lengths));
+     in_lengths.scale = 1.0; // so that distances from the limits compare with those of links
+     check(cstk_cobject_beyond_limits(space, &in_lengths, &limits));
      const cstk_cobject *parts[2] = {obstacles, limits};
      check(cstk_cobject_union(parts, 2, &forbidden));
  * @endcode
@@ -4783,7 +4786,7 @@ cstk_status cstk_signed_distances(cstk_query *query,
  * @code
      cstk_motion_result found;
      double contact[6];
-     check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
+     check(cstk_motion(query, cobject, q0, q1, nq, NULL, contact, &found));
      if (found.outcome == CSTK_MOTION_HIT) {
          printf("contact at %g of the way\n", found.times[1]);
      }
@@ -4791,7 +4794,7 @@ cstk_status cstk_signed_distances(cstk_query *query,
      cstk_clearance_result clearance;
      check(cstk_clearance_options_default(&options, sizeof options));
      options.tolerance = 1e-3;
-     check(cstk_motion_clearance(query, cobject, q, q, nq, &options, NULL, &clearance));
+     check(cstk_motion_clearance(query, cobject, q0, q1, nq, &options, NULL, &clearance));
      printf("never nearer than %g\n", clearance.lower);
  * @endcode
  * @{
@@ -5323,9 +5326,9 @@ cstk_status cstk_path_shortcut(cstk_query *query,
  * @code
      cstk_certificate *certificate;
      cstk_motion_result found;
-     check(cstk_motion_certificate(query, cobject, q, q, nq, NULL, NULL, &found, &certificate));
+     check(cstk_motion_certificate(query, cobject, q0, q1, nq, NULL, NULL, &found, &certificate));
      if (certificate != NULL) {
-         check(cstk_certificate_verify(certificate, cobject, q, q, nq, 0));
+         check(cstk_certificate_verify(certificate, cobject, q0, q1, nq, 0));
          check(cstk_certificate_save(certificate, "edge.certificate"));
      }
      check(cstk_certificate_release(certificate));
@@ -5744,7 +5747,7 @@ cstk_status cstk_region_grow(cstk_query *query,
      cstk_slide_to_result led;
      check(cstk_slide_to_options_default(&way, sizeof way));
      way.step = 0.02;
-     check(cstk_slide_to(query, cobject, q, q, q, nq, NULL, 0, &options, &way, NULL, NULL, &led));
+     check(cstk_slide_to(query, cobject, q0, q1, q1, nq, NULL, 0, &options, &way, NULL, NULL, &led));
      printf("%zu configurations\n", led.path.count);
  * @endcode
  * @{

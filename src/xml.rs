@@ -55,6 +55,24 @@ pub fn fault(node: Node, kind: ErrorKind, message: impl std::fmt::Display) -> Er
     Error::new(kind, format!("{}: {message}", place(node)))
 }
 
+/// Refuses an element with what is left of macros that were not expanded.
+pub fn require_expanded(node: Node) -> Result<()> {
+    if node
+        .tag_name()
+        .namespace()
+        .is_some_and(|name| name.contains("xacro"))
+    {
+        let message = "a raw xacro macro: expand the macros first";
+        return Err(fault(node, ErrorKind::Parse, message));
+    }
+    if let Some(raw) = node.attributes().find(|name| name.value().contains("${")) {
+        let (name, value) = (raw.name(), raw.value());
+        let message = format!("{name} \"{value}\" is raw xacro: expand the macros first");
+        return Err(fault(node, ErrorKind::Parse, message));
+    }
+    Ok(())
+}
+
 /// The children of this name, whatever their namespace.
 pub fn children<'a, 'i>(node: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
     let elements = node.children().filter(Node::is_element);

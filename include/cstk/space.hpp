@@ -112,7 +112,7 @@ public:
         return out;
     }
 
-    /// One pose for every link, as Query's _at functions take them.
+    /// One pose for every link, as Query's _at_link_poses functions take them.
     std::vector<Pose> link_poses(Span<double> q) const {
         std::vector<Pose> out(link_count());
         check(cstk_space_link_poses(get(), q.data(), q.size(), out.data()->data()));

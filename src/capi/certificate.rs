@@ -9,9 +9,9 @@
 //! ```c
 //! cstk_certificate *certificate;
 //! cstk_motion_result found;
-//! check(cstk_motion_certificate(query, cobject, q, q, nq, NULL, NULL, &found, &certificate));
+//! check(cstk_motion_certificate(query, cobject, q0, q1, nq, NULL, NULL, &found, &certificate));
 //! if (certificate != NULL) {
-//!     check(cstk_certificate_verify(certificate, cobject, q, q, nq, 0));
+//!     check(cstk_certificate_verify(certificate, cobject, q0, q1, nq, 0));
 //!     check(cstk_certificate_save(certificate, "edge.certificate"));
 //! }
 //! check(cstk_certificate_release(certificate));

@@ -260,12 +260,13 @@ pub unsafe trait OptionsStruct: Copy {
     fn defaults() -> Self;
 }
 
-/// The largest size accepted; larger ones are taken for damage.
-const LARGEST_OPTIONS: usize = 1 << 16;
+/// Later versions of a structure are larger by at most this. Sizes above are taken for those of something else.
+const MOST_GROWTH: usize = 128;
 
 /// Whether a version of the structure has this size: an earlier, the current or a later one.
 fn is_version<T: OptionsStruct>(size: usize) -> bool {
-    T::EARLIER_SIZES.contains(&size) || (size_of::<T>()..=LARGEST_OPTIONS).contains(&size)
+    let largest = size_of::<T>() + MOST_GROWTH;
+    T::EARLIER_SIZES.contains(&size) || (size_of::<T>()..=largest).contains(&size)
 }
 
 /// Writes the defaults into the caller's structure, which is `size` bytes long.
@@ -274,7 +275,11 @@ pub unsafe fn write_defaults<T: OptionsStruct>(out: *mut T, size: usize) -> Resu
     if !is_version::<T>(size) {
         return Err(Failure::new(
             cstk_status::CSTK_ERROR_WRONG_SIZE,
-            format!("size is {size}; pass sizeof({})", T::NAME),
+            format!(
+                "size is {size}; pass sizeof({}), which is {}",
+                T::NAME,
+                size_of::<T>()
+            ),
         ));
     }
     let defaults = T::defaults();

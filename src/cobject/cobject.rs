@@ -416,7 +416,7 @@ impl CObject {
             Metric::Mixed(pure) => Err(Error::new(
                 ErrorKind::Unsupported,
                 format!(
-                    "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths; give it one (scale)"
+                    "C-object {pure} is a pure set without a scale: its units of C-space cannot be compared with lengths; give it one when it is made (the option scale of pure sets)"
                 ),
             )),
             _ => Ok(()),

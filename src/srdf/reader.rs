@@ -11,7 +11,7 @@ use crate::robot::{
     EndEffector, RobotBuilder, SemanticName, Semantics, VirtualJoint, VirtualJointKind,
 };
 use crate::whole_file::{read_whole, text_of};
-use crate::xml::{children, fault, parse, required};
+use crate::xml::{children, fault, parse, require_expanded, required};
 
 /// How to read an SRDF file.
 #[derive(Clone, Debug, Default)]
@@ -115,17 +115,9 @@ fn require_srdf(root: Node) -> Result<()> {
             return Err(fault(node, ErrorKind::Parse, message));
         }
     }
-    for node in elements()
-        .filter(is_read)
-        .flat_map(|node| node.descendants())
-    {
-        if let Some(raw) = node.attributes().find(|name| name.value().contains("${")) {
-            let (name, value) = (raw.name(), raw.value());
-            let message = format!("{name} \"{value}\" is raw xacro: expand the macros first");
-            return Err(fault(node, ErrorKind::Parse, message));
-        }
-    }
-    Ok(())
+    let read = elements().filter(is_read);
+    read.flat_map(|node| node.descendants())
+        .try_for_each(require_expanded)
 }
 
 fn require_count(root: Node, name: &str, max: usize) -> Result<()> {

@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use crate::error::{ErrorKind, Result};
 use crate::pose::{Pose, Vec3, rotation_about};
-use crate::xml::{child, children, fault, numbers, required, required_child};
+use crate::xml::{child, children, fault, numbers, require_expanded, required, required_child};
 
 /// Limits the links and the joints of a file. The largest humanoids have some hundred links; generated chains have
 /// thousands.
@@ -92,6 +92,15 @@ impl<'a, 'i> Model<'a, 'i> {
             if count > MAX_LINKS {
                 let message = format!("it has {count} {name}s; at most {MAX_LINKS} are possible");
                 return Err(fault(root, ErrorKind::Unsupported, message));
+            }
+        }
+        // What a macro would have added is not there; elements that are not read, such as those of a simulator, may hold anything.
+        let is_known = |node: &Node| ["link", "joint"].contains(&node.tag_name().name());
+        for element in root.children().filter(Node::is_element) {
+            if is_known(&element) {
+                element.descendants().try_for_each(require_expanded)?;
+            } else if element.tag_name().namespace().is_some() {
+                require_expanded(element)?;
             }
         }
         let links: Vec<_> = children(root, "link")

@@ -8,7 +8,7 @@ use cstk::error::Result;
 use cstk::motion::{MotionOptions, MotionOutcome, RegionOptions, RegionOutcome};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext};
-use cstk::robot::{Coordinate, CustomJoint, JointKind, Speeds, LinkDefinition, Twist};
+use cstk::robot::{Coordinate, CustomJoint, JointKind, LinkDefinition, Speeds, Twist};
 use cstk::space::{Space, WorldBox};
 
 use helpers::pure::pure;

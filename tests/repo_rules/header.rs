@@ -32,7 +32,8 @@ const GIVEN: &str = "\
 void check(cstk_status status);
 void example(cstk_body_builder *body_builder, cstk_body *body, cstk_robot_builder *robot_builder,
              cstk_robot *robot, cstk_space *space, cstk_environment *environment,
-             cstk_cobject *cobject, cstk_query *query, double *q, size_t nq, const double *step,
+             cstk_cobject *cobject, cstk_query *query, double *q, const double *q0,
+             const double *q1, size_t nq, const double *step,
              size_t nv, const double pose_a[12], const double pose_b[12]);
 ";
 

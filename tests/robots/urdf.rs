@@ -265,6 +265,16 @@ fn faults_are_named_with_line_and_element() {
             InvalidArgument,
             vec!["\"a\"", "<sphere>", "radius"],
         ),
+        (
+            "<link name=\"${prefix}a\"/>".into(),
+            Parse,
+            vec!["line 2", "<link>", "${prefix}", "raw xacro"],
+        ),
+        (
+            "<link name=\"a\"/>\n<x:arm xmlns:x=\"http://www.ros.org/wiki/xacro\"/>".into(),
+            Parse,
+            vec!["line 3", "<arm>", "raw xacro"],
+        ),
         (shape("<cone/>"), Unsupported, vec!["\"a\"", "<cone>"]),
         (shape(""), Parse, vec!["\"a\"", "<geometry>"]),
         (

@@ -6,7 +6,10 @@
 //! ```c
 //! cstk_cobject *obstacles, *limits, *forbidden;
 //! check(cstk_cobject_induced(space, NULL, 0, environment, NULL, 0, NULL, &obstacles));
-//! check(cstk_cobject_beyond_limits(space, NULL, &limits));
+//! cstk_pure_options in_lengths;
+//! check(cstk_pure_options_default(&in_lengths, sizeof in_lengths));
+//! in_lengths.scale = 1.0; // so that distances from the limits compare with those of links
+//! check(cstk_cobject_beyond_limits(space, &in_lengths, &limits));
 //! const cstk_cobject *parts[2] = {obstacles, limits};
 //! check(cstk_cobject_union(parts, 2, &forbidden));
 //! ```

@@ -8,7 +8,7 @@
 //! ```c
 //! cstk_motion_result found;
 //! double contact[6];
-//! check(cstk_motion(query, cobject, q, q, nq, NULL, contact, &found));
+//! check(cstk_motion(query, cobject, q0, q1, nq, NULL, contact, &found));
 //! if (found.outcome == CSTK_MOTION_HIT) {
 //!     printf("contact at %g of the way\n", found.times[1]);
 //! }
@@ -16,7 +16,7 @@
 //! cstk_clearance_result clearance;
 //! check(cstk_clearance_options_default(&options, sizeof options));
 //! options.tolerance = 1e-3;
-//! check(cstk_motion_clearance(query, cobject, q, q, nq, &options, NULL, &clearance));
+//! check(cstk_motion_clearance(query, cobject, q0, q1, nq, &options, NULL, &clearance));
 //! printf("never nearer than %g\n", clearance.lower);
 //! ```
 

@@ -13,7 +13,7 @@
 //! cstk_slide_to_result led;
 //! check(cstk_slide_to_options_default(&way, sizeof way));
 //! way.step = 0.02;
-//! check(cstk_slide_to(query, cobject, q, q, q, nq, NULL, 0, &options, &way, NULL, NULL, &led));
+//! check(cstk_slide_to(query, cobject, q0, q1, q1, nq, NULL, 0, &options, &way, NULL, NULL, &led));
 //! printf("%zu configurations\n", led.path.count);
 //! ```
 
