@@ -55,7 +55,8 @@
  * time and answers CSTK_ERROR_BUSY to another. Make one per thread.
  *
  * OPTIONS. Structures with size and cookie are written by their _default function before fields are set; others are
- * refused with CSTK_ERROR_NOT_INITIALISED. Where a parameter is called options, NULL stands for the defaults.
+ * refused with CSTK_ERROR_NOT_INITIALISED. The size passed to it is that of the structure itself, as your header has it: so many
+ * bytes are written. Where a parameter is called options, NULL stands for the defaults.
  *
  * UNITS AND FRAMES. Lengths are in the caller's unit, angles in radians. A pose is 12 doubles, row-major [R | t], from
  * child to parent frame: x_parent = R x_child + t. R may be off orthonormal by 1e-6; the nearest rotation is then used.
@@ -1539,8 +1540,8 @@ typedef struct cstk_custom_joint {
   cstk_destroy_fn destroy;
   /**
    * Upper bounds of the speed of the link's origin and of its angular speed (radians), per unit rate of any one
-   * coordinate, at all coordinates. Negative, the default, means unknown: slides that move this joint are then refused,
-   * since their motion cannot be proved free.
+   * coordinate, at all coordinates. Negative, the default, means unknown: motions, regions and slides that move this joint
+   * are then refused, since nothing can be proved about them.
    */
   double linear_speed;
   double angular_speed;
@@ -5133,8 +5134,8 @@ cstk_status cstk_motion(cstk_query *query,
 
 /**
  * Proves that a path keeps clear of a C-object, or finds its first contact: cstk_motion for each of its segments in turn, all in
- * the state that the environments are in at the call. `points` has count * nq doubles, one configuration after the other; `count`
- * is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
+ * the state that the environments are in at the call. `points` has point_count * nq doubles, one configuration after the other;
+ * `point_count` is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
  * defaults; their tolerance is of each segment's time. `progress` may be NULL; it is called before each segment, and `user` is
  * passed to it. `reached` may be NULL, or receives the configuration at motion.times[1] of the segment, `nq` doubles.
  *
@@ -5149,7 +5150,7 @@ cstk_status cstk_motion(cstk_query *query,
 cstk_status cstk_motion_path(cstk_query *query,
                              const cstk_cobject *cobject,
                              const double *points,
-                             size_t count,
+                             size_t point_count,
                              size_t nq,
                              const cstk_motion_options *options,
                              cstk_progress_fn progress,

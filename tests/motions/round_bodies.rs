@@ -103,3 +103,31 @@ fn a_small_ball_that_turns_does_not_end_inside_a_large_one_unseen() {
         assert_ne!(outcome, RegionOutcome::Free, "{:e}", scene.depth);
     }
 }
+
+/// The boxes of a ball's hierarchy hold its centre alone: what its size is must not be told by them.
+#[test]
+fn a_ball_that_turns_costs_no_more_the_smaller_it_is() {
+    let context = &mut QueryContext::new();
+    for exponent in 1..=9 {
+        let radius = 10f64.powi(-exponent);
+        let ball = built(|b| b.add_sphere(&Vec3::zeros(), radius, 0).unwrap());
+        let large = built(|b| b.add_sphere(&Vec3::zeros(), 1.58, 0).unwrap());
+        let links = vec![LinkDefinition {
+            body: Some(ball),
+            ..link(None, JointKind::FreeEuler, Vec3::z())
+        }];
+        let towards = Vec3::new(1.0, 1.0, 1.0).normalize();
+        let pose = Pose::from_translation(towards * (1.58 + 0.0097 + 2.0 * radius));
+        let (environment, _) = environment(&[(&large, pose)]);
+        let cell = against(&space(vec![robot(3, links)]), &environment);
+        let (from, to) = (
+            [0.0, 0.0, 0.0, 1.0, -2.0, -1.0],
+            [radius, 0.0, 0.0, -1.4, -0.9, 0.36],
+        );
+        context.reset_statistics();
+        let answer = context.motion(&cell, &from, &to, &MotionOptions::default());
+        assert_eq!(answer.unwrap().outcome, MotionOutcome::Free);
+        let looked_at = context.statistics().node_pairs;
+        assert!(looked_at < 100, "radius {radius:e}: {looked_at} pairs of boxes");
+    }
+}

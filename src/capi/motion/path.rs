@@ -39,8 +39,8 @@ pub struct cstk_path_result {
 }
 
 /// Proves that a path keeps clear of a C-object, or finds its first contact: cstk_motion for each of its segments in turn, all in
-/// the state that the environments are in at the call. `points` has count * nq doubles, one configuration after the other; `count`
-/// is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
+/// the state that the environments are in at the call. `points` has point_count * nq doubles, one configuration after the other;
+/// `point_count` is at least 1, and a single point is a segment that rests. `options` are those of cstk_motion, and may be NULL for the
 /// defaults; their tolerance is of each segment's time. `progress` may be NULL; it is called before each segment, and `user` is
 /// passed to it. `reached` may be NULL, or receives the configuration at motion.times[1] of the segment, `nq` doubles.
 ///
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn cstk_motion_path(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
     points: *const f64,
-    count: usize,
+    point_count: usize,
     nq: usize,
     options: *const cstk_motion_options,
     progress: cstk_progress_fn,
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn cstk_motion_path(
         with_query(query, |state| {
             let cobject = handle::share::<CObject>(cobject, "cobject")?;
             let out = Output::checked(out, "out")?;
-            let numbers = size(&cobject, count, nq)?;
+            let numbers = size(&cobject, point_count, nq)?;
             // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
             let (points, options) = unsafe {
                 (

@@ -46,8 +46,8 @@ pub struct cstk_custom_joint {
     /// the link's joint; not called if adding the link fails.
     pub destroy: cstk_destroy_fn,
     /// Upper bounds of the speed of the link's origin and of its angular speed (radians), per unit rate of any one
-    /// coordinate, at all coordinates. Negative, the default, means unknown: slides that move this joint are then refused,
-    /// since their motion cannot be proved free.
+    /// coordinate, at all coordinates. Negative, the default, means unknown: motions, regions and slides that move this joint
+    /// are then refused, since nothing can be proved about them.
     pub linear_speed: f64,
     pub angular_speed: f64,
 }
