@@ -128,6 +128,9 @@ fn a_ball_that_turns_costs_no_more_the_smaller_it_is() {
         let answer = context.motion(&cell, &from, &to, &MotionOptions::default());
         assert_eq!(answer.unwrap().outcome, MotionOutcome::Free);
         let looked_at = context.statistics().node_pairs;
-        assert!(looked_at < 100, "radius {radius:e}: {looked_at} pairs of boxes");
+        assert!(
+            looked_at < 100,
+            "radius {radius:e}: {looked_at} pairs of boxes"
+        );
     }
 }
