@@ -341,3 +341,54 @@ fn quaternions_rest_while_others_move() {
     assert_eq!(ask(0.0).unwrap().outcome, MotionOutcome::Free);
     assert_eq!(ask(1.0).unwrap_err().kind, ErrorKind::Unsupported);
 }
+
+/// A coordinate that is multiplied by 1e50 swings back and forth with accelerations of 1e50, and through an obstacle between times at
+/// which it is far from there: of its third derivative nothing is known, however large the second is.
+#[test]
+fn the_largest_accelerations_hide_nothing() {
+    let period = 1.0 / 8.0;
+    let step = period / 4.0;
+    let acceleration = 0.999e50;
+    let start = 0.5 * acceleration * step * step;
+    // From rest at the start, back at full acceleration and away again.
+    let swing = |t: f64| {
+        let s = t.rem_euclid(period);
+        let far = acceleration * step * step;
+        let [x, v, a] = if s < step {
+            [
+                -0.5 * acceleration * s * s,
+                -acceleration * s,
+                -acceleration,
+            ]
+        } else if s < 3.0 * step {
+            let e = s - 2.0 * step;
+            [
+                0.5 * acceleration * e * e - far,
+                acceleration * e,
+                acceleration,
+            ]
+        } else {
+            let e = period - s;
+            [-0.5 * acceleration * e * e, acceleration * e, -acceleration]
+        };
+        [start + x, v, a]
+    };
+    let slab = cuboid([2e49; 3]).body;
+    let links = vec![LinkDefinition {
+        body: Some(slab.clone()),
+        multiplier: 1e50,
+        ..link(None, JointKind::Prismatic, Vec3::x())
+    }];
+    let space = space(vec![robot(3, links)]);
+    let set = against(&space, &environment(&[(&slab, Pose::identity())]).0);
+    let context = &mut QueryContext::new();
+    assert_eq!(class(context, &set, &[0.0]), Class::Inside);
+    let bounds = &MotionBounds {
+        max_rates: &[1.0001 * acceleration * step],
+        max_accelerations: &[1e50],
+    };
+    let options = &MotionOptions::default();
+    let answer = context.motion_on_function(&set, &Coordinate(swing), bounds, options);
+    let outcome = answer.map(|answer| answer.outcome);
+    assert!(!matches!(outcome, Ok(MotionOutcome::Free)), "{outcome:?}");
+}
