@@ -1,21 +1,20 @@
 //! Lengths and products that are 0 only where all they are made of is: by them one tells what rests.
 
-/// The length of a vector.
+/// Sums of squares between these have lost nothing to the range of numbers.
+pub const PLAIN_SQUARES: std::ops::Range<f64> = 1e-280..1e300;
+
+/// The length of a vector; its squares may underflow or overflow.
 pub fn length(v: &[f64]) -> f64 {
-    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    // Squares of smaller components underflow.
-    if length > 1e-140 {
-        return length;
+    let squares: f64 = v.iter().map(|x| x * x).sum();
+    if PLAIN_SQUARES.contains(&squares) {
+        return squares.sqrt();
     }
-    let most = v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    if most == 0.0 {
-        return 0.0;
+    let largest = v.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if largest == 0.0 || largest.is_infinite() {
+        return largest;
     }
-    most * v
-        .iter()
-        .map(|x| (x / most) * (x / most))
-        .sum::<f64>()
-        .sqrt()
+    let scaled: f64 = v.iter().map(|x| (x / largest).powi(2)).sum();
+    largest * scaled.sqrt()
 }
 
 /// The product of two numbers.

@@ -261,11 +261,11 @@ pub unsafe trait OptionsStruct: Copy {
 }
 
 /// Later versions of a structure are larger by at most this. Sizes above are taken for those of something else.
-const MOST_GROWTH: usize = 128;
+const MAX_GROWTH: usize = 128;
 
 /// Whether a version of the structure has this size: an earlier, the current or a later one.
 fn is_version<T: OptionsStruct>(size: usize) -> bool {
-    let largest = size_of::<T>() + MOST_GROWTH;
+    let largest = size_of::<T>() + MAX_GROWTH;
     T::EARLIER_SIZES.contains(&size) || (size_of::<T>()..=largest).contains(&size)
 }
 

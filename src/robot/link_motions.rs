@@ -9,6 +9,7 @@ use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
 use super::motion_state::MotionState;
 use super::{JointKind, Link, Robot};
+use crate::nonzero::length;
 use crate::pose::{Pose, Vec3};
 use crate::tolerance::EPSILON;
 
@@ -215,7 +216,7 @@ impl LinkMotions {
     fn shift_at(&mut self, start: Vec3, velocity: Vec3) {
         self.elements
             .push(Element::Fixed(Pose::from_translation(start)));
-        let rate = velocity.norm();
+        let rate = length(velocity.as_slice());
         if rate > 0.0 {
             self.shift(velocity / rate, Course::from_zero(rate));
         }

@@ -10,6 +10,7 @@ use smallvec::SmallVec;
 use super::Space;
 use super::rigid_step::{Placement, entries, rotation, turn_between};
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
+use crate::nonzero::{PLAIN_SQUARES, length};
 use crate::pose::Vec3;
 use crate::robot::{BlockKind, Coordinate};
 
@@ -68,7 +69,7 @@ impl Space {
         for block in self.blocks() {
             let c = block.coordinate;
             if self.coordinates()[c] == Coordinate::Circle {
-                v[block.velocity] = shorter_way(within_turns(q1[c]) - within_turns(q0[c]));
+                v[block.velocity] = way_round(q0[c], q1[c]);
             }
         }
     }
@@ -182,7 +183,7 @@ impl Space {
         if weights.is_none() && self.blocks().len() == self.nq() {
             // Lines and circles alone: other blocks have several coordinates.
             let squares = self.squares_of_lines(q0, q1);
-            if (SMALL_SQUARES..LARGE_SQUARES).contains(&squares) {
+            if PLAIN_SQUARES.contains(&squares) {
                 return squares.sqrt();
             }
         }
@@ -193,29 +194,22 @@ impl Space {
                 *x *= weight;
             }
         }
-        let squares: f64 = v.iter().map(|x| x * x).sum();
-        if (SMALL_SQUARES..LARGE_SQUARES).contains(&squares) {
-            return squares.sqrt();
-        }
-        // Scaled: squares of large entries would overflow, those of small ones vanish.
-        let largest = v.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-        if largest == 0.0 {
-            return 0.0;
-        }
-        largest * v.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
+        length(&v)
     }
 
     /// The sum of the squares of the difference, in a space of lines and circles.
     #[inline]
     fn squares_of_lines(&self, q0: &[f64], q1: &[f64]) -> f64 {
-        let ways = q0.iter().zip(q1).map(|(from, to)| to - from);
-        let squares = ways.zip(self.coordinates()).map(|(way, coordinate)| {
-            let way = match coordinate {
-                Coordinate::Circle => shorter_way(way),
-                _ => way,
-            };
-            way * way
-        });
+        let ends = q0.iter().zip(q1);
+        let squares = ends
+            .zip(self.coordinates())
+            .map(|((from, to), coordinate)| {
+                let way = match coordinate {
+                    Coordinate::Circle => way_round(*from, *to),
+                    _ => to - from,
+                };
+                way * way
+            });
         squares.sum()
     }
 
@@ -243,12 +237,15 @@ impl Space {
 /// A velocity, in memory of its own for most robots.
 type Velocity = SmallVec<[f64; 16]>;
 
-/// Sums of squares between these have lost nothing to the range of numbers.
-const SMALL_SQUARES: f64 = 1e-280;
-const LARGE_SQUARES: f64 = 1e300;
+/// The shorter way round a circle.
+#[inline]
+fn way_round(from: f64, to: f64) -> f64 {
+    shorter_way(within_turns(to) - within_turns(from))
+}
 
 /// An angle, or the same direction within half a turn where the angle is large: there multiples of a rounded turn would be off by more
 /// than the angle is rounded.
+#[inline]
 fn within_turns(angle: f64) -> f64 {
     if angle.abs() <= LARGE_ANGLE {
         return angle;

@@ -244,6 +244,8 @@ fn motions_end_where_large_angles_point() {
         for lead in [1.0, 2.0, 3.0, 5.0, 7.0] {
             let end = lead * 10f64.powi(exponent);
             let v = space.difference(&[0.0], &[end]);
+            let distance = space.distance(&[0.0], &[end], None);
+            assert_eq!(distance, v[0].abs(), "{end:e}");
             let off = (v[0].sin() - end.sin()).abs() + (v[0].cos() - end.cos()).abs();
             assert!(
                 off < 1e-15 && v[0].abs() <= TAU / 2.0,
