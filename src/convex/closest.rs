@@ -176,11 +176,11 @@ pub fn closest_features(
         depth: 0.0,
     };
     if crossings {
-        if let Some((point, edge, face)) = crossing(a, features_a, b, features_b) {
-            return Closest::meeting_at(point, [Feature::edge(edge), Feature::face(face)]);
+        if let Some(found) = crossing(a, features_a, b, features_b) {
+            return found;
         }
-        if let Some((point, edge, face)) = crossing(b, features_b, a, features_a) {
-            return Closest::meeting_at(point, [Feature::face(face), Feature::edge(edge)]);
+        if let Some(found) = crossing(b, features_b, a, features_a) {
+            return found.swapped();
         }
     }
     for (segment_a, ends_a, edge_a) in features_a.segments(a) {
@@ -236,13 +236,13 @@ fn vertices_over_faces(
     }
 }
 
-/// The first edge of A that passes through a face of B: the point, the edge and the face.
+/// Where the first edge of A that does passes through a face of B.
 fn crossing(
     a: &PlacedPrimitive,
     features_a: &FeatureSet,
     b: &PlacedPrimitive,
     features_b: &FeatureSet,
-) -> Option<(Vec3, u32, u32)> {
+) -> Option<Closest> {
     for &f in &features_b.faces {
         let origin = b.vertex(b.shape.faces[f as usize].vertices[0]);
         let normal = b.normal(f as usize);
@@ -252,12 +252,35 @@ fn crossing(
             if (hp > 0.0 && hq < 0.0) || (hp < 0.0 && hq > 0.0) {
                 let point = p + (q - p) * (hp / (hp - hq));
                 if b.over_face(f as usize, &point).1 {
-                    return Some((point, e, f));
+                    return Some(Closest {
+                        depth: crossing_depth(b, f as usize, &point, &(q - p), [hp, hq]),
+                        ..Closest::meeting_at(point, [Feature::edge(e), Feature::face(f)])
+                    });
                 }
             }
         }
     }
     None
+}
+
+/// A lower bound, but for rounding, of the depth by which an edge along `way` overlaps a face that it passes through at `point`; its ends
+/// are at `heights`.
+///
+/// To part the two, one of them moves until 0 is no longer inside the set of the differences of their points. That set is a prism whose
+/// caps are at the heights. Its sides hold the edge's direction and pass 0 at the foot's distance from the face's edges, shortened by at
+/// most the sine of the angle at which the edge meets the plane.
+fn crossing_depth(
+    placed: &PlacedPrimitive,
+    face: usize,
+    point: &Vec3,
+    way: &Vec3,
+    heights: [f64; 2],
+) -> f64 {
+    let [hp, hq] = heights.map(f64::abs);
+    let sine = (hp + hq) / way.norm();
+    hp.min(hq)
+        .min(sine * placed.depth_in_face(face, point))
+        .max(0.0)
 }
 
 /// A segment with its direction.
@@ -368,6 +391,7 @@ fn closest_of_lines(p: &Segment, q: &Segment) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::primitive::convex_polygon;
 
     #[test]
     fn nearly_parallel_segments_keep_their_digits() {
@@ -378,5 +402,79 @@ mod tests {
             let (s, t) = closest_parameters(&p, &q);
             assert!(((p.at(s) - q.at(t)).norm() - 1e-3).abs() < 1e-17, "{angle}");
         }
+    }
+
+    struct Random(u64);
+
+    impl Random {
+        fn vector(&mut self) -> Vec3 {
+            Vec3::from([0; 3].map(|_| {
+                self.0 = self
+                    .0
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+            }))
+        }
+    }
+
+    type Triangle = [Vec3; 3];
+
+    /// Whether an edge of one triangle passes through the other, by the signs of volumes.
+    fn cross(a: &Triangle, b: &Triangle) -> bool {
+        let volume = |p: &Vec3, q: &Vec3, r: &Vec3, s: &Vec3| (q - p).cross(&(r - p)).dot(&(s - p));
+        let passes = |[p, q]: [&Vec3; 2], [x, y, z]: &Triangle| {
+            let sides = [(x, y), (y, z), (z, x)].map(|(from, to)| volume(p, q, from, to) > 0.0);
+            volume(x, y, z, p) * volume(x, y, z, q) < 0.0
+                && sides[1..].iter().all(|s| *s == sides[0])
+        };
+        let edges = [[0, 1], [1, 2], [2, 0]];
+        edges.into_iter().any(|edge| passes(edge.map(|i| &a[i]), b))
+            || edges.into_iter().any(|edge| passes(edge.map(|i| &b[i]), a))
+    }
+
+    /// Triangles that cross by a depth still do after any shorter move; and some such moves, made a little longer, part them.
+    #[test]
+    fn crossing_triangles_overlap_by_their_depth() {
+        let mut random = Random(3);
+        let (mut crossings, mut tight) = (0, 0);
+        for round in 0..20_000 {
+            let triangle = |random: &mut Random| [0; 3].map(|_| random.vector());
+            let a = triangle(&mut random);
+            let mut b = triangle(&mut random);
+            // Half of them nearly part along the edge from the first corner.
+            if round % 2 == 0 {
+                b[0] = a[0] * 0.3 + a[1] * 0.3 + a[2] * 0.4 + (b[0] - b[1]) * 1e-3;
+            }
+            let shapes = [a, b].map(|corners| convex_polygon(&corners));
+            let [Ok(shape_a), Ok(shape_b)] = &shapes else {
+                continue;
+            };
+            let placed = [shape_a, shape_b].map(|shape| PlacedPrimitive::at_home(shape, None));
+            let mut sets = [FeatureSet::default(), FeatureSet::default()];
+            sets[0].set_all(&placed[0]);
+            sets[1].set_all(&placed[1]);
+            let found = closest_features(&placed[0], &sets[0], &placed[1], &sets[1], true);
+            assert_eq!(found.distance == 0.0, cross(&a, &b), "{a:?} {b:?}");
+            if found.distance > 0.0 {
+                continue;
+            }
+            crossings += 1;
+            let normals = placed.each_ref().map(|placed| placed.normal(0));
+            let ways = [random.vector(), random.vector(), normals[0], normals[1]];
+            for way in ways.into_iter().flat_map(|way| [way, -way]) {
+                let way = way.normalize();
+                let moved = |depth: f64| b.map(|corner| corner + way * depth);
+                assert!(
+                    cross(&a, &moved(0.999 * found.depth)),
+                    "{found:?} {a:?} {b:?}"
+                );
+                tight += usize::from(!cross(&a, &moved(1.001 * found.depth)));
+            }
+        }
+        assert!(
+            crossings > 2000 && tight > crossings / 4,
+            "{crossings} {tight}"
+        );
     }
 }

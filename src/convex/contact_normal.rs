@@ -202,16 +202,9 @@ fn depth_below(placed: &PlacedPrimitive, point: &Vec3, planar: bool) -> f64 {
     }
     if planar {
         // The outline runs counter-clockwise around the one face's normal.
-        let along_outline = |f: usize| {
-            let ring = &placed.shape.faces[f].vertices;
-            let normal = placed.normal(f);
-            (0..ring.len()).map(move |i| {
-                let a = placed.vertex(ring[i]);
-                let along = placed.vertex(ring[(i + 1) % ring.len()]) - a;
-                normal.cross(&along).normalize().dot(&(point - a))
-            })
-        };
-        return faces.flat_map(along_outline).fold(f64::INFINITY, f64::min);
+        return faces
+            .map(|f| placed.depth_in_face(f, point))
+            .fold(f64::INFINITY, f64::min);
     }
     if !placed.shape.is_solid() {
         return 0.0;

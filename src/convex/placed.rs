@@ -255,6 +255,18 @@ impl<'a> PlacedPrimitive<'a> {
         (height, inside)
     }
 
+    /// How far a point of a face's plane is from the lines of the face's edges, at least; negative outside.
+    pub fn depth_in_face(&self, face: usize, point: &Vec3) -> f64 {
+        let normal = &self.normal(face);
+        let ring = &self.shape.faces[face].vertices;
+        let depths = (0..ring.len()).map(|i| {
+            let a = self.vertex(ring[i]);
+            let along = self.vertex(ring[(i + 1) % ring.len()]) - a;
+            normal.cross(&along).normalize().dot(&(point - a))
+        });
+        depths.fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether a solid contains the point.
     pub fn contains(&self, point: &Vec3) -> bool {
         self.shape.is_solid()

@@ -65,7 +65,7 @@ fn closest_by_features(
         let start = a.middle() - b.middle();
         return bounded_closest(a, b, start, pair, limits, scratch);
     }
-    if plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
+    if limits.cutoff < f64::INFINITY && plane_gap(a, b).max(plane_gap(b, a)) > limits.cutoff {
         return Err(Beyond::SOMEHOW);
     }
     Ok(all_features(a, b, scratch))

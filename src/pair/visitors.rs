@@ -189,7 +189,11 @@ impl Visitor for Collect {
         let last = self.list.last();
         Wanted {
             bound: self.threshold + self.margin,
-            enough: f64::NEG_INFINITY,
+            // Where only pairs that meet are listed, all of them are at distance 0.
+            enough: match self.threshold + self.margin == 0.0 {
+                true => 0.0,
+                false => f64::NEG_INFINITY,
+            },
             irrelevant_from: last.and_then(|last| last.outranks_from(self.body_pair)),
             refines: true,
         }
