@@ -95,7 +95,7 @@ std::vector<double> rest_of(const cstk::Space &space) { return space.clamp(space
 std::vector<std::string> meeting(const cstk::Space &space, const std::vector<std::array<std::uint32_t, 2>> &pairs,
                                  const std::vector<double> &q) {
     std::vector<std::string> found;
-    const cstk::Query query;
+    cstk::Query query;
     for (const auto &pair : pairs) {
         const cstk::CObject set = cstk::CObject::induced_links(space, {pair});
         if (query.classify(set, q) == CSTK_CLASS_INSIDE) {

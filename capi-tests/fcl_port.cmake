@@ -1,9 +1,12 @@
-# cstk/fcl.hpp: programs written for FCL, built with it and with FCL 0.7, where that is installed, and their answers compared.
+# cstk/eigen.hpp, and cstk/fcl.hpp: programs written for FCL, built with it and with FCL 0.7, where that is installed, and their answers compared.
 find_package(Eigen3 3.3 CONFIG QUIET)
 if(NOT TARGET Eigen3::Eigen)
-  message(WARNING "Eigen not found: the tests of cstk/fcl.hpp are left out")
+  message(WARNING "Eigen not found: the tests of cstk/eigen.hpp and cstk/fcl.hpp are left out")
   return()
 endif()
+add_program(eigen eigen.cpp)
+target_link_libraries(eigen PRIVATE Eigen3::Eigen)
+
 find_package(fcl 0.7 CONFIG QUIET)
 set(port ${CMAKE_CURRENT_LIST_DIR}/fcl_port)
 

@@ -2,10 +2,10 @@
  *
  * Lists are cut at max_count (4096 where it is not given); look at `truncated`.
  *
- * Every class holds one reference; copying shares the object (another reference), as in C. Functions throw cstk::Error
- * where the C call returns a status other than CSTK_OK. What a call does, its units, frames and thread safety are said
- * in cstk.h at the function of the same name. Answers are the C structures; lists belong to the Query until its next
- * call.
+ * Every class holds one reference; copying shares the object (another reference), as in C, but for Query, which is moved. Functions
+ * throw cstk::Error where the C call returns a status other than CSTK_OK. What a call does, its units, frames and thread
+ * safety are said in cstk.h at the function of the same name. Answers are the C structures; lists belong to the Query until
+ * its next call, and cstk/lists.hpp has views of them. cstk/eigen.hpp, not included here, takes and gives poses of Eigen.
  */
 #ifndef CSTK_HPP
 #define CSTK_HPP
@@ -17,6 +17,7 @@
 /* Each includes only those above it. */
 #include <cstk/error.hpp>
 #include <cstk/span.hpp>
+#include <cstk/lists.hpp>
 #include <cstk/detail.hpp>
 #include <cstk/progress.hpp>
 #include <cstk/pose.hpp>

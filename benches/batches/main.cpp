@@ -69,7 +69,7 @@ bool same(const Answers &a, const Answers &b) {
 /// One row; whether all ways agree.
 bool show(const Cell &cell, const std::string &where, const Question &question, const std::vector<double> &q, std::size_t count,
           std::size_t passes) {
-    const cstk::Query query;
+    cstk::Query query;
     const cstk::Batch one, two;
     Way ways[] = {{[&] { return question.one_by_one(query, q, count); }},
                   {[&] { return question.batch(one, 1, q, count); }},

@@ -15,7 +15,7 @@ cstk::Span<double> item(const std::vector<double> &q, std::size_t nq, std::size_
 
 Question classes(const cstk::CObject &contact, std::size_t nq) {
     return {"class", 1,
-            [=](const cstk::Query &query, const std::vector<double> &q, std::size_t count) {
+            [=](cstk::Query &query, const std::vector<double> &q, std::size_t count) {
                 Answers answers(count);
                 for (std::size_t i = 0; i < count; ++i) {
                     answers[i] = query.classify(contact, item(q, nq, i));
@@ -31,7 +31,7 @@ Question classes(const cstk::CObject &contact, std::size_t nq) {
 
 Question distances(const cstk::CObject &contact, std::size_t nq) {
     return {"distance", 4,
-            [=](const cstk::Query &query, const std::vector<double> &q, std::size_t count) {
+            [=](cstk::Query &query, const std::vector<double> &q, std::size_t count) {
                 Answers answers(count);
                 for (std::size_t i = 0; i < count; ++i) {
                     answers[i] = query.distance(contact, item(q, nq, i)).distance;
@@ -52,7 +52,7 @@ Question distances(const cstk::CObject &contact, std::size_t nq) {
 /// One by one: the distance, then the gradient of what lies no farther.
 Question gradients(const cstk::CObject &contact, std::size_t nq, std::size_t nv) {
     return {"distance and gradient", 4,
-            [=](const cstk::Query &query, const std::vector<double> &q, std::size_t count) {
+            [=](cstk::Query &query, const std::vector<double> &q, std::size_t count) {
                 Answers answers(count);
                 query.set_contacts(CSTK_CONTACTS_NEAREST);
                 for (std::size_t i = 0; i < count; ++i) {
@@ -80,7 +80,7 @@ Question motions(const cstk::CObject &contact, std::size_t nq) {
     cstk_motion_options any = cstk::motion_options();
     any.any_contact = 1;
     return {"motion to the next", 40,
-            [=](const cstk::Query &query, const std::vector<double> &q, std::size_t count) {
+            [=](cstk::Query &query, const std::vector<double> &q, std::size_t count) {
                 Answers answers(count - 1);
                 for (std::size_t i = 0; i + 1 < count; ++i) {
                     const cstk_motion_result found = query.motion(contact, item(q, nq, i), item(q, nq, i + 1), any);

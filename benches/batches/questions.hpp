@@ -15,7 +15,7 @@ struct Question {
     std::string name;
     /// How many of the configurations are asked: some questions take longer.
     std::size_t share;
-    std::function<Answers(const cstk::Query &query, const std::vector<double> &q, std::size_t count)> one_by_one;
+    std::function<Answers(cstk::Query &query, const std::vector<double> &q, std::size_t count)> one_by_one;
     std::function<Answers(const cstk::Batch &batch, std::uint32_t threads, const std::vector<double> &q, std::size_t count)> batch;
 };
 

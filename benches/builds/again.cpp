@@ -46,7 +46,7 @@ std::vector<cstk::Pose> places(int count) {
 /// The largest difference of distances to a small body at many places.
 double largest_difference(const cstk::Body &a, const cstk::Body &b) {
     const cstk::Body probe = cstk::BodyBuilder().add_sphere({0, 0, 0}, 0.1).build();
-    const cstk::Query query;
+    cstk::Query query;
     double largest = 0;
     for (int i = 0; i < 200; ++i) {
         const cstk::Pose at = cstk::translation(20 * std::sin(1.3 * i), 20 * std::cos(0.7 * i), std::sin(3.1 * i));

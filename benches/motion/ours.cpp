@@ -19,33 +19,33 @@ const double tolerance = 1e-6;
 const std::size_t max_checks = 5000;
 
 Variant proof(const std::string &name, const cstk::CObject &contact, bool any_contact) {
-    const cstk::Query query;
+    const auto query = std::make_shared<cstk::Query>();
     cstk_motion_options options = cstk::motion_options();
     options.tolerance = tolerance;
     options.any_contact = any_contact;
     const auto ask = [=](const Segment &segment) {
         const Ends &ends = segment.ends;
         cstk_motion_result found;
-        cstk::check(cstk_motion(query.get(), contact.get(), ends.q0.data(), ends.q1.data(),
+        cstk::check(cstk_motion(query->get(), contact.get(), ends.q0.data(), ends.q1.data(),
                                 ends.q0.size(), &options, nullptr, &found));
         const bool is_hit = found.outcome != CSTK_MOTION_FREE;
         return Verdict{is_hit, 0, is_hit ? std::optional(found.times[1]) : std::nullopt};
     };
     const auto work = [query] {
-        const cstk_query_statistics counted = query.statistics(true);
+        const cstk_query_statistics counted = query->statistics(true);
         return static_cast<std::size_t>(counted.node_pairs + counted.primitive_pairs);
     };
     return {"cstk", name, ask, work};
 }
 
 Variant sampling(const std::string &name, const Scene &scene, const cstk::CObject &contact, const Step &step) {
-    const cstk::Query query;
+    const auto query = std::make_shared<cstk::Query>();
     const auto q = std::make_shared<Numbers>();
     const auto ask = [=, &scene](const Segment &segment) {
         return sampled(scene.space, segment, step, *q, [&](const Numbers &at) {
             cstk_class found = CSTK_CLASS_OUTSIDE;
             cstk::check(
-                cstk_classify(query.get(), contact.get(), at.data(), at.size(), &found));
+                cstk_classify(query->get(), contact.get(), at.data(), at.size(), &found));
             return found == CSTK_CLASS_INSIDE;
         });
     };
@@ -95,11 +95,11 @@ class Parts {
     }
 
     /// Larger than `max_distance` where the distance is.
-    double distance(std::size_t part, double max_distance) const {
+    double distance(std::size_t part, double max_distance) {
         return query_.distance_at_link_poses(sets_[part].cobject, poses_, max_distance).distance;
     }
 
-    bool within(std::size_t part, double threshold) const {
+    bool within(std::size_t part, double threshold) {
         return query_.within_at_link_poses(sets_[part].cobject, poses_, threshold);
     }
 

@@ -27,7 +27,7 @@ Ends turned(Ends ends, double angle) {
 // a clearance of 0 until it reaches into the plate by about `depth`.
 Scene::Draw beside(double clearance) {
     return [=](const Scene &scene, double length, Random &random) -> std::optional<Ends> {
-        const cstk::Query query;
+        cstk::Query query;
         const cstk_motion_options options = cstk::motion_options(clearance);
         std::uint64_t state = random.next();
         const Numbers from = scene.space.sample(state), to = scene.space.sample(state);

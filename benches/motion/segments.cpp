@@ -56,7 +56,7 @@ class Judge {
     }
 
   private:
-    bool is_inside(const Numbers &q) const {
+    bool is_inside(const Numbers &q) {
         return query_.classify(scene_.contact, q) == CSTK_CLASS_INSIDE;
     }
 
@@ -75,7 +75,7 @@ std::string text_of(const Ends &ends) {
 Segments draw_segments(const Scene &scene, double length, const DrawOptions &options,
                        Random &random) {
     Segments made;
-    const cstk::Query query;
+    cstk::Query query;
     Judge judge(scene, options, made.faults);
     cstk_motion_options any = cstk::motion_options();
     any.any_contact = 1;

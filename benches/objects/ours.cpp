@@ -24,7 +24,7 @@ Ours::Ours(const cstk::Space &space, const Scene &scene)
     : ids_(environment_.apply(additions(scene))),
       cobject_(cstk::CObject::induced(space, environment_)) {}
 
-bool Ours::within(const LinkPoses &at, double threshold) const {
+bool Ours::within(const LinkPoses &at, double threshold) {
     return query_.within_at_link_poses(cobject_, at, threshold);
 }
 

@@ -11,7 +11,7 @@ class Ours {
   public:
     Ours(const cstk::Space &space, const Scene &scene);
 
-    bool within(const LinkPoses &at, double threshold) const;
+    bool within(const LinkPoses &at, double threshold);
 
     // The ways to answer are valid as long as this and the stations are. They ask the C functions,
     // by configurations.

@@ -59,7 +59,7 @@ Workplace::Workplace(std::uint64_t seed) : seed_(seed) {
     find_coherent(random);
 }
 
-Station Workplace::station(const std::array<double, 6> &q, const Ours &ours) const {
+Station Workplace::station(const std::array<double, 6> &q, Ours &ours) const {
     LinkPoses links = arm_.space.link_poses(q);
     const bool meets = ours.within(links, 0);
     return {q, std::move(links), meets};
@@ -67,7 +67,7 @@ Station Workplace::station(const std::array<double, 6> &q, const Ours &ours) con
 
 // Meeting objects and free of them in turn.
 void Workplace::find_random(Random &random) {
-    const Ours ours(arm_.space, near_);
+    Ours ours(arm_.space, near_);
     while (random_.size() < stations) {
         std::array<double, 6> q;
         for (double &angle : q) {
@@ -82,7 +82,7 @@ void Workplace::find_random(Random &random) {
 
 // The first of many ways that meets objects on 45 to 55 hundredths of it.
 void Workplace::find_coherent(Random &random) {
-    const Ours ours(arm_.space, near_);
+    Ours ours(arm_.space, near_);
     for (int tries = 0; tries < 10000; ++tries) {
         std::vector<Station> way = round_trip(ours, random);
         const auto meets = [](const Station &station) { return station.meets; };
@@ -95,7 +95,7 @@ void Workplace::find_coherent(Random &random) {
     throw std::runtime_error("no way that is half free: try another seed");
 }
 
-std::vector<Station> Workplace::round_trip(const Ours &ours, Random &random) const {
+std::vector<Station> Workplace::round_trip(Ours &ours, Random &random) const {
     double middle[6], swing[6], phase[6];
     for (int joint = 0; joint < 6; ++joint) {
         middle[joint] = random.uniform(-2, 2);

@@ -69,8 +69,8 @@ class Workplace {
                             Jump jump) const;
 
   private:
-    Station station(const std::array<double, 6> &q, const Ours &ours) const;
-    std::vector<Station> round_trip(const Ours &ours, models::Random &random) const;
+    Station station(const std::array<double, 6> &q, Ours &ours) const;
+    std::vector<Station> round_trip(Ours &ours, models::Random &random) const;
     void find_random(models::Random &random);
     void find_coherent(models::Random &random);
 

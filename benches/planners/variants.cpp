@@ -76,7 +76,7 @@ Run run_of(const std::vector<problems::Configuration> &path, double time, std::s
 }
 
 Run by_ours(const Task &task) {
-    static const cstk::Query query;
+    static cstk::Query query;
     const problems::Workcell &cell = *task.problem.workcell;
     rrt_connect::Options options;
     options.range = task.problem.range;

@@ -11,7 +11,7 @@ const std::size_t steps_a_walk = 40;
 // The length of a step in C-space: radians for the UR5, and the Panda's fingers hardly count.
 const double step_length = 0.05;
 
-std::vector<double> free_start(const Cell &cell, const cstk::Query &query,
+std::vector<double> free_start(const Cell &cell, cstk::Query &query,
                                const cstk::CObject &all, std::uint64_t &random) {
     for (;;) {
         std::vector<double> q = cell.space.sample(random);
@@ -60,7 +60,7 @@ double Steps::quantile(double share) const {
 
 Walks walk(const Cell &cell, const Shells &shells, std::size_t walks, std::uint64_t seed) {
     using Clock = std::chrono::steady_clock;
-    const cstk::Query query;
+    cstk::Query query;
     const cstk::CObject all =
         cstk::CObject::union_of({cell.obstacles, cell.itself.with_shell(shells.links)});
     const cstk_slide_options options = cstk::slide_options(shells.obstacles);

@@ -12,7 +12,7 @@ int main(int argc, char **argv) {
         return 1;
     }
     const cstk::Body body = cstk::BodyBuilder().add_polyhedron(cube).build();
-    const cstk::Query query;
+    cstk::Query query;
     const cstk_distance_result d =
         query.pair_distance(body, cstk::identity(), body, cstk::translation(3, 0, 0));
     return std::fabs(d.distance - 2.0) < 1e-12 ? 0 : 1;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-void batches(const cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
+void batches(cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
                     const std::vector<double> &q) {
     const auto stop = [](double) { return false; };
     const std::vector<double> far = {q[0] + 100, q[1]};
@@ -32,7 +32,7 @@ void batches(const cstk::Query &query, const cstk::CObject &obstacles, const cst
     const auto classes = batch.classify(obstacles, spoilt, 3, cstk::batch_options(1, true));
     REQUIRE(classes.done.failed == 1 && classes.statuses[0] == CSTK_ERROR_NOT_FINITE);
     REQUIRE(classes.first_failure.find("item 0") == 0);
-    REQUIRE(status_of([&] { batch.classify(obstacles, points, 3, cstk::batch_options(), stop); }) ==
+    REQUIRE(status_of([&] { return batch.classify(obstacles, points, 3, cstk::batch_options(), stop); }) ==
             CSTK_ERROR_CANCELLED);
     REQUIRE(batch.statistics(true).primitive_pairs > 0);
     const std::vector<double> none;

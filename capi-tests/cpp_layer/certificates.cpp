@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-void certificates(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
+void certificates(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
     std::vector<double> reached;
     const std::vector<double> far = {q[0] + 100, q[1]};
     cstk_motion_result result;
@@ -14,7 +14,7 @@ void certificates(const cstk::Query &query, const cstk::CObject &obstacles, cons
     const std::vector<double> near = {q[0] + 0.25, q[1]};
     cstk::Certificate proof = query.motion_certificate(obstacles, q, near);
     proof.verify(obstacles, q, near);
-    REQUIRE(status_of([&] { proof.verify(obstacles, q, q); }) == CSTK_ERROR_NOT_PROVED);
+    REQUIRE(status_of([&] { return proof.verify(obstacles, q, q); }) == CSTK_ERROR_NOT_PROVED);
     proof.save("cpp_layer.certificate");
     proof = cstk::Certificate::load("cpp_layer.certificate");
     REQUIRE(std::remove("cpp_layer.certificate") == 0);

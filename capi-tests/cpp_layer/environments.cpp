@@ -13,7 +13,7 @@ void scenes() {
     const std::vector<std::uint64_t> ids = environment.load_scene_text(text, options);
     REQUIRE(ids.size() == 1 && environment.object_pose(ids[0])[3] == 1);
     REQUIRE(std::string(static_cast<const char *>(environment.object(ids[0]).data)) == "ball");
-    REQUIRE(status_of([&] { environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { return environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
 }
 
 /* A robot with an object in its hand, over a floor. */

@@ -43,7 +43,7 @@ cstk::Robot make_robot(int &calls) {
     joint.user = &calls;
     cstk::Link wrist;
     wrist.joint = CSTK_JOINT_CUSTOM;
-    REQUIRE(status_of([&] { builder.add_link(wrist); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { return builder.add_link(wrist); }) == CSTK_ERROR_NULL_ARGUMENT);
     wrist.custom = &joint;
     REQUIRE(builder.add_link(wrist) == 3);
     return builder.build();

@@ -6,7 +6,7 @@
 #include <vector>
 
 /* A cube on a rail that meets another 2.5 ahead of q. */
-void motions(const cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
+void motions(cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
              const std::vector<double> &q) {
     bool passed = false;
     std::vector<double> reached;
@@ -29,7 +29,7 @@ void motions(const cstk::Query &query, const cstk::CObject &obstacles, const cst
     const cstk_motion_result spline =
         query.motion_spline(obstacles, 1, knots, line, 2, options, &reached);
     REQUIRE(spline.outcome == CSTK_MOTION_HIT && std::fabs(reached[0] - 3) < 1e-3);
-    REQUIRE(is_invalid([&] { query.motion_curve(obstacles, {1, 2, 3}, 2); }));
+    REQUIRE(is_invalid([&] { return query.motion_curve(obstacles, {1, 2, 3}, 2); }));
     /* There and back by 5: at 3 after t with 5 sin(pi t) = 2.5. */
     const double pi = std::acos(-1.0);
     const auto swing = [&](double t, double *at, double *rates, double *accelerations) {
@@ -43,12 +43,12 @@ void motions(const cstk::Query &query, const cstk::CObject &obstacles, const cst
     const cstk_motion_result swung =
         query.motion_function(obstacles, swing, rates, accelerations, options, &reached);
     REQUIRE(swung.outcome == CSTK_MOTION_HIT && std::fabs(swung.times[1] - 1.0 / 6) < 1e-5);
-    REQUIRE(status_of([&] { query.motion_function(obstacles, swing, slow, accelerations); }) ==
+    REQUIRE(status_of([&] { return query.motion_function(obstacles, swing, slow, accelerations); }) ==
             CSTK_ERROR_INVALID_ARGUMENT);
     passed = false;
     try {
-        query.motion_function(obstacles, [](double, double *, double *, double *) { throw 7; }, rates,
-                              accelerations);
+        static_cast<void>(query.motion_function(
+            obstacles, [](double, double *, double *, double *) { throw 7; }, rates, accelerations));
     } catch (int thrown) {
         passed = thrown == 7;
     }

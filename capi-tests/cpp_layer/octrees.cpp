@@ -22,7 +22,7 @@ void octrees() {
     REQUIRE(world.object_count() == 2);
     octree.remove();
     REQUIRE(world.object_count() == 0 && octree.cell_count() == 2);
-    REQUIRE(status_of([&] { octree.move(cstk::identity()); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([] { cstk::Octree::load("/nowhere.bt"); }) == CSTK_ERROR_IO);
-    REQUIRE(status_of([] { cstk::BodyBuilder().add_cloud_file("/nowhere.pcd", 0.1); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { return octree.move(cstk::identity()); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([] { return cstk::Octree::load("/nowhere.bt"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([] { return cstk::BodyBuilder().add_cloud_file("/nowhere.pcd", 0.1); }) == CSTK_ERROR_IO);
 }

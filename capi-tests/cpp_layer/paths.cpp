@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-void paths(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
+void paths(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
     std::vector<double> reached;
     const std::vector<double> far = {q[0] + 100, q[1]};
     const std::vector<double> near = {q[0] + 0.25, q[1]};
@@ -18,7 +18,7 @@ void paths(const cstk::Query &query, const cstk::CObject &obstacles, const std::
     REQUIRE(query.classify(obstacles, reached) == CSTK_CLASS_INSIDE);
     const auto stop = [](double) { return false; };
     REQUIRE(status_of([&] {
-                query.motion_path(obstacles, points, 3, cstk::motion_options(), stop);
+                return query.motion_path(obstacles, points, 3, cstk::motion_options(), stop);
             }) == CSTK_ERROR_CANCELLED);
     const std::vector<double> still = {q[0], q[1], q[0], q[1]};
     const cstk_clearance_result nearest =
@@ -27,15 +27,15 @@ void paths(const cstk::Query &query, const cstk::CObject &obstacles, const std::
         query.path_clearance(obstacles, still, 2, cstk::clearance_options(1e-6), {}, &reached);
     REQUIRE(along.segment == 0 && reached == q && along.clearance.upper == nearest.upper);
     REQUIRE(status_of([&] {
-                query.path_clearance(obstacles, still, 2, cstk::clearance_options(1e-6), stop);
+                return query.path_clearance(obstacles, still, 2, cstk::clearance_options(1e-6), stop);
             }) == CSTK_ERROR_CANCELLED);
     const std::vector<double> detour = {q[0], q[1], q[0], q[1] + 3, near[0], near[1]};
     const cstk_shortcut_result shorter = query.path_shortcut(obstacles, detour, 3);
     REQUIRE(shorter.outcome == CSTK_SHORTCUT_DONE && shorter.path.count == 2 && shorter.cuts == 1);
-    REQUIRE(shorter.path.nq == 2 && shorter.path.points[2] == near[0]);
+    REQUIRE(shorter.path.nq == 2 && cstk::configurations_of(shorter.path)[1] == near);
     REQUIRE(std::fabs(shorter.length_after - 0.25) < 1e-12);
     const auto none = cstk::shortcut_options(0);
     REQUIRE(query.path_shortcut(obstacles, points, 3, none).outcome == CSTK_SHORTCUT_NOT_FREE);
-    REQUIRE(status_of([&] { query.path_shortcut(obstacles, detour, 3, none, stop); }) ==
+    REQUIRE(status_of([&] { return query.path_shortcut(obstacles, detour, 3, none, stop); }) ==
             CSTK_ERROR_CANCELLED);
 }

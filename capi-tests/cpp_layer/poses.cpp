@@ -23,9 +23,9 @@ void poses() {
              std::array<double, 7>{1, 2, 3, 0, 0, 0, 1}));
     cstk::Pose sheared = cstk::identity();
     sheared[1] = 0.5;
-    REQUIRE(status_of([&] { cstk::pose_inverse(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
-    REQUIRE(status_of([&] { cstk::pose_to_quaternion(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
-    REQUIRE(status_of([&] { cstk::transform_point(sheared, point); }) == CSTK_ERROR_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { return cstk::pose_inverse(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { return cstk::pose_to_quaternion(sheared); }) == CSTK_ERROR_NOT_A_ROTATION);
+    REQUIRE(status_of([&] { return cstk::transform_point(sheared, point); }) == CSTK_ERROR_NOT_A_ROTATION);
 }
 
 void euler_angles() {
@@ -50,7 +50,7 @@ void euler_angles() {
         REQUIRE(std::fabs(basic[i] - back[i]) < 1e-13);
     }
     const std::array<double, 3> singular = {0, std::acos(0.0), 0};
-    REQUIRE(status_of([&] { cstk::euler_rates_inverse(singular); }) == CSTK_ERROR_DEGENERATE);
-    REQUIRE(status_of([&] { cstk::jacobian_to_euler(singular, basic); }) == CSTK_ERROR_DEGENERATE);
-    REQUIRE(is_invalid([&] { cstk::jacobian_to_euler(angles, {1, 2, 3}); }));
+    REQUIRE(status_of([&] { return cstk::euler_rates_inverse(singular); }) == CSTK_ERROR_DEGENERATE);
+    REQUIRE(status_of([&] { return cstk::jacobian_to_euler(singular, basic); }) == CSTK_ERROR_DEGENERATE);
+    REQUIRE(is_invalid([&] { return cstk::jacobian_to_euler(angles, {1, 2, 3}); }));
 }

@@ -19,7 +19,7 @@ void predicates(const cstk::Space &space) {
     cstk::Query query;
     int calls = 0;
     cstk_predicate plain = cstk::predicate();
-    REQUIRE(status_of([&] { cstk::CObject::predicate(space, plain); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::CObject::predicate(space, plain); }) == CSTK_ERROR_NULL_ARGUMENT);
     plain.classify = beyond_three;
     plain.user = &calls;
     plain.destroy = count;
@@ -30,7 +30,7 @@ void predicates(const cstk::Space &space) {
 
     const auto kept = std::make_shared<double>(3);
     cstk::Predicate functions;
-    REQUIRE(status_of([&] { cstk::CObject::predicate(space, functions); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::CObject::predicate(space, functions); }) == CSTK_ERROR_NULL_ARGUMENT);
     functions.classify = [kept](cstk::Span<double> q) {
         if (q.data()[1] == 1) {
             throw std::domain_error("mine");
@@ -51,12 +51,12 @@ void predicates(const cstk::Space &space) {
     REQUIRE(query.distance(set, {1, 0}).distance == 4);
     REQUIRE(query.distance(set.complement(), {4, 0}).distance == 2);
     REQUIRE(query.gradients(set, {1, 0}, 5).gradients[0] == -2);
-    REQUIRE(status_of([&] { query.gradients(set, {1, 2}, 5); }) == CSTK_ERROR_CALLBACK_FAILED);
-    REQUIRE(status_of([&] { query.classify(set, {1, 1}); }) == CSTK_ERROR_CALLBACK_FAILED);
+    REQUIRE(status_of([&] { return query.gradients(set, {1, 2}, 5); }) == CSTK_ERROR_CALLBACK_FAILED);
+    REQUIRE(status_of([&] { return query.classify(set, {1, 1}); }) == CSTK_ERROR_CALLBACK_FAILED);
     REQUIRE(status_of([&] {
                 cstk::Predicate refused;
                 refused.classify = [kept](cstk::Span<double>) { return CSTK_CLASS_OUTSIDE; };
-                cstk::CObject::predicate(space, refused, cstk::pure_options(-1));
+                return cstk::CObject::predicate(space, refused, cstk::pure_options(-1));
             }) == CSTK_ERROR_INVALID_ARGUMENT);
     by_class = cstk::CObject();
     REQUIRE(kept.use_count() > 1);

@@ -11,10 +11,25 @@ static void pictures(const cstk::CObject &all, const std::vector<double> &q) {
     std::vector<double> both = q;
     both.insert(both.end(), q.begin(), q.end());
     all.show_path(both, 2, 1, file);
-    REQUIRE(status_of([&] { all.show_path(both, 2, 0, file); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return all.show_path(both, 2, 0, file); }) == CSTK_ERROR_INVALID_ARGUMENT);
     all.show(q, file);
     REQUIRE(std::remove(file) == 0);
-    REQUIRE(status_of([&] { all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { return all.show(q, "/nowhere/x.glb"); }) == CSTK_ERROR_IO);
+}
+
+static void views(const cstk_witness_list &list) {
+    std::size_t contacts = 0;
+    for (const cstk_witness &witness : cstk::witnesses_of(list)) {
+        for (const cstk_contact &contact : cstk::contacts_of(list, witness)) {
+            REQUIRE(&contact == &cstk::contacts_of(list)[contacts]);
+            const cstk::Span<double> gradient = cstk::gradient_of(list, contact);
+            REQUIRE(gradient.size() == 2 && &gradient[0] == list.gradients + 2 * contacts);
+            ++contacts;
+        }
+    }
+    REQUIRE(contacts == list.contact_count);
+    REQUIRE(cstk::contacts_of(list, cstk_witness{}).empty());
+    REQUIRE(cstk::gradient_of(cstk_witness_list{}, cstk_contact{}).empty());
 }
 
 void queries() {
@@ -52,7 +67,7 @@ void queries() {
     environment.move(id, cstk::translation(4, 0, 0));
     REQUIRE(environment.object_count() == 1 && environment.version() == 2);
     REQUIRE(environment.object_pose(id) == cstk::translation(4, 0, 0));
-    REQUIRE(status_of([&] { before.remove(id); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] { return before.remove(id); }) == CSTK_ERROR_UNSUPPORTED);
 
     cstk::CObject obstacles = cstk::CObject::induced(space, environment, cstk::induced_options(3));
     cstk::CObject self = cstk::CObject::induced_links(space, {{0, 1}});
@@ -68,8 +83,10 @@ void queries() {
     REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
     const cstk_witness_list list = query.gradients(obstacles, q, 2.6);
     REQUIRE(list.contact_count == 4 && list.nv == 2 && list.gradients[0] == -1.0);
+    views(list);
     const cstk_pseudo_normal_result everything = query.pseudo_normal(all, q, 2.6);
     REQUIRE(everything.point_class == CSTK_CLASS_CONTACT && everything.list.witness_count == 2);
+    REQUIRE(cstk::leaves_of(query.explain(all, q)).size() == 2);
     query.set_contacts(CSTK_CONTACTS_NONE);
     REQUIRE(query.witnesses(all, q, 2.6).contact_count == 0);
     query.set_contacts(CSTK_CONTACTS_ALL);
@@ -90,16 +107,16 @@ void queries() {
     REQUIRE(query.statistics(true).primitive_pairs > 0);
     REQUIRE(query.statistics().primitive_pairs == 0);
     query.set_limit(1);
-    REQUIRE(status_of([&] { query.witnesses(all, q, 2.6); }) == CSTK_ERROR_LIMIT);
+    REQUIRE(status_of([&] { return query.witnesses(all, q, 2.6); }) == CSTK_ERROR_LIMIT);
     query.set_limit(0);
     query.set_refinement(1e-6);
-    REQUIRE(status_of([&] { query.set_refinement(0); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return query.set_refinement(0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     REQUIRE(query.witnesses(all, q, 2.6).witness_count == 2);
     const cstk_query_statistics done = query.statistics(true);
     REQUIRE(done.primitive_distances <= done.primitive_pairs);
 
     REQUIRE(query.signed_distances(all, q, 2.6).count > 0);
-    REQUIRE(status_of([&] { query.signed_distances(all, q, -1.0); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return query.signed_distances(all, q, -1.0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     pairs(query, body);
     object_pairs(query, body);
     pictures(all, q);

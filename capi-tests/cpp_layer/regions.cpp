@@ -3,7 +3,7 @@
 
 #include <vector>
 
-void regions(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
+void regions(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
     const std::vector<double> low = {-1, -1}, high = {2.9, 1}, beyond = {3.5, 1};
     REQUIRE(query.region_classify(obstacles, low, high).outcome == CSTK_REGION_FREE);
     std::vector<double> inside, outside;

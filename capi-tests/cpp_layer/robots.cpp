@@ -14,9 +14,9 @@ void robots() {
     REQUIRE(info.joint == CSTK_JOINT_PRISMATIC && info.parent == -1 && info.coordinate == 0);
     REQUIRE(info.multiplier == -1 && info.offset == 0.5);
     REQUIRE(robot.link_info(3).joint == CSTK_JOINT_CUSTOM && robot.link_info(3).velocity == 7);
-    REQUIRE(status_of([&] { robot.find_joint("none"); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.link_info(4); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.link_name(4); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { robot.joint_name(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return robot.find_joint("none"); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return robot.link_info(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return robot.link_name(4); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return robot.joint_name(4); }) == CSTK_ERROR_NOT_FOUND);
     REQUIRE(calls == 0);
 }

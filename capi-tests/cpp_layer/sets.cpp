@@ -32,17 +32,17 @@ static void pure_sets(const cstk::Space &space) {
     REQUIRE(query.classify(ball.complement(), q) == CSTK_CLASS_INSIDE);
     REQUIRE(query.classify(ball.complement(), {0, 0}) == CSTK_CLASS_OUTSIDE);
 
-    REQUIRE(is_invalid([&] { cstk::CObject::box(space, {1, 2}, {1}); }));
-    REQUIRE(status_of([&] { cstk::CObject::box(space, {1}, {2}); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_ERROR_DEGENERATE);
-    REQUIRE(status_of([&] { cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(is_invalid([&] { return cstk::CObject::box(space, {1, 2}, {1}); }));
+    REQUIRE(status_of([&] { return cstk::CObject::box(space, {1}, {2}); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_ERROR_DEGENERATE);
+    REQUIRE(status_of([&] { return cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const cstk_pure_options bad = cstk::pure_options(-1);
-    REQUIRE(status_of([&] { cstk::CObject::beyond_limits(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
-    REQUIRE(status_of([&] { cstk::CObject::beyond_world(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject::intersection_of({}); }) == CSTK_ERROR_EMPTY);
-    REQUIRE(status_of([] { cstk::CObject::union_of({}); }) == CSTK_ERROR_EMPTY);
-    REQUIRE(status_of([] { cstk::CObject().complement(); }) == CSTK_ERROR_NULL_ARGUMENT);
-    REQUIRE(status_of([&] { cstk::CObject::difference(box, cstk::CObject()); }) ==
+    REQUIRE(status_of([&] { return cstk::CObject::beyond_limits(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::CObject::beyond_world(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([] { return cstk::CObject::intersection_of({}); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([] { return cstk::CObject::union_of({}); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([] { return cstk::CObject().complement(); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::CObject::difference(box, cstk::CObject()); }) ==
             CSTK_ERROR_NULL_ARGUMENT);
 }
 
@@ -66,19 +66,19 @@ static void explanations(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(why.list.witnesses[0].cobject_data == &destroyed);
     REQUIRE(why.list.witnesses[0].s_object == id);
     REQUIRE(query.explain(all, {1.5, 0}, 0).list.truncated);
-    REQUIRE(status_of([&] { query.explain(all, {1.5}); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { query.distance(all, {1.5, 0}); }) == CSTK_ERROR_UNSUPPORTED);
-    REQUIRE(status_of([&] { query.prove_clear_pairs(obstacle); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] { return query.explain(all, {1.5}); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return query.distance(all, {1.5, 0}); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] { return query.prove_clear_pairs(obstacle); }) == CSTK_ERROR_UNSUPPORTED);
     REQUIRE(obstacle.with_shell(0.1).data() == &destroyed);
     REQUIRE(query.classify(obstacle.with_known(cstk::CObject::ball(space, {1.5, 0}, 0.1), CSTK_CLASS_OUTSIDE),
                            {1.5, 0}) == CSTK_CLASS_OUTSIDE);
-    REQUIRE(status_of([&] { obstacle.with_known(obstacle, CSTK_CLASS_OUTSIDE); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([&] { return obstacle.with_known(obstacle, CSTK_CLASS_OUTSIDE); }) == CSTK_ERROR_UNSUPPORTED);
     REQUIRE(obstacle.with_shell(0.1).number() != obstacle.number());
-    REQUIRE(status_of([&] { all.with_shell(0.1); }) == CSTK_ERROR_UNSUPPORTED);
-    REQUIRE(status_of([] { cstk::CObject().with_shell(0.1); }) == CSTK_ERROR_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().with_data(nullptr); }) == CSTK_ERROR_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().data(); }) == CSTK_ERROR_NULL_ARGUMENT);
-    REQUIRE(status_of([] { cstk::CObject().number(); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([&] { return all.with_shell(0.1); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(status_of([] { return cstk::CObject().with_shell(0.1); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { return cstk::CObject().with_data(nullptr); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { return cstk::CObject().data(); }) == CSTK_ERROR_NULL_ARGUMENT);
+    REQUIRE(status_of([] { return cstk::CObject().number(); }) == CSTK_ERROR_NULL_ARGUMENT);
     const cstk::CObject alone = obstacle;
     obstacle = cstk::CObject();
     REQUIRE(destroyed == 0);

@@ -30,13 +30,13 @@ void steps() {
     const auto spring = cstk::spring_step(list, 0.2);
     REQUIRE(spring && std::fabs((*spring)[0]) < 1e-9 && std::fabs((*spring)[1] - 0.1) < 1e-9);
     REQUIRE(!cstk::spring_step(list, 0.05));
-    REQUIRE(status_of([&] { cstk::slide_step(list, {1}, 0.2); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { cstk::spring_step(list, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::slide_step(list, {1}, 0.2); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return cstk::spring_step(list, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
     const cstk_witness_list without = query.witnesses(obstacle, {0, 0}, 0.5);
-    REQUIRE(status_of([&] { cstk::spring_step(without, 0.2); }) == CSTK_ERROR_INVALID_ARGUMENT);
+    REQUIRE(status_of([&] { return cstk::spring_step(without, 0.2); }) == CSTK_ERROR_INVALID_ARGUMENT);
 }
 
-void slides(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
+void slides(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q) {
     std::vector<double> moving = q;
     const cstk_slide_result moved =
         query.slide(obstacles, moving, std::vector<double>{0.1, 0}, cstk::slide_options(0.5));
@@ -51,7 +51,7 @@ void slides(const cstk::Query &query, const cstk::CObject &obstacles, const std:
     REQUIRE(led.outcome == CSTK_SLIDE_TO_ARRIVED && led.path.count == 2 && led.remaining == 0);
     const cstk_slide_to_result held = query.slide_to(obstacles, q, far, far, slide, steps, {1, 2});
     REQUIRE(held.outcome != CSTK_SLIDE_TO_ARRIVED && held.remaining > 0);
-    REQUIRE(is_invalid([&] { query.slide_to(obstacles, q, {1}, slide, steps); }));
-    REQUIRE(status_of([&] { query.slide_to(obstacles, q, far, far, slide, steps, {}, stop); }) ==
+    REQUIRE(is_invalid([&] { return query.slide_to(obstacles, q, {1}, slide, steps); }));
+    REQUIRE(status_of([&] { return query.slide_to(obstacles, q, far, far, slide, steps, {}, stop); }) ==
             CSTK_ERROR_CANCELLED);
 }

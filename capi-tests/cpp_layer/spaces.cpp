@@ -23,8 +23,8 @@ void spaces() {
     REQUIRE(space.range(8).kind == CSTK_RANGE_CIRCLE);
     const cstk_space_offset offset = space.offset(1);
     REQUIRE(offset.link == 4 && offset.coordinate == 9 && offset.velocity == 8);
-    REQUIRE(status_of([&] { space.range(18); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { space.offset(2); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return space.range(18); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return space.offset(2); }) == CSTK_ERROR_NOT_FOUND);
 
     std::vector<double> q = space.neutral();
     REQUIRE(q.size() == 18 && q[7] == 1 && q[16] == 1 && q[0] == 0);
@@ -58,18 +58,18 @@ void spaces() {
     REQUIRE(space.wrap(q)[8] > 5 && space.wrap(q)[0] == 7);
 
     const std::vector<double> shorter(17);
-    REQUIRE(is_invalid([&] { space.difference(q, shorter); }));
-    REQUIRE(is_invalid([&] { space.interpolate(shorter, q, 0.5); }));
-    REQUIRE(is_invalid([&] { space.distance(q, shorter); }));
-    REQUIRE(is_invalid([&] { space.distance(q, q, shorter); }));
-    REQUIRE(is_invalid([&] { space.distances(q, shorter); }));
-    REQUIRE(is_invalid([&] { space.distances(q, q, shorter); }));
-    REQUIRE(status_of([&] { space.step(q, q); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.clamp(shorter); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.wrap(shorter); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.link_poses(shorter); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.within_limits(shorter); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.within_world(shorter); }) == CSTK_ERROR_WRONG_SIZE);
-    REQUIRE(status_of([&] { space.jacobian(q, 8, {0, 0, 0}); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { cstk::Space(robot).sample(state); }) == CSTK_ERROR_UNSUPPORTED);
+    REQUIRE(is_invalid([&] { return space.difference(q, shorter); }));
+    REQUIRE(is_invalid([&] { return space.interpolate(shorter, q, 0.5); }));
+    REQUIRE(is_invalid([&] { return space.distance(q, shorter); }));
+    REQUIRE(is_invalid([&] { return space.distance(q, q, shorter); }));
+    REQUIRE(is_invalid([&] { return space.distances(q, shorter); }));
+    REQUIRE(is_invalid([&] { return space.distances(q, q, shorter); }));
+    REQUIRE(status_of([&] { return space.step(q, q); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.clamp(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.wrap(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.link_poses(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.within_limits(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.within_world(shorter); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(status_of([&] { return space.jacobian(q, 8, {0, 0, 0}); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return cstk::Space(robot).sample(state); }) == CSTK_ERROR_UNSUPPORTED);
 }

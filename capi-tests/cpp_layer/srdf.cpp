@@ -31,9 +31,9 @@ void srdf() {
     REQUIRE(frozen.nq() == 1 && frozen.from_whole(q)[0] == 0.5 && frozen.to_whole({0.75})[0] == 0.25);
     const cstk::Robot again = frozen;
     REQUIRE(again.to_whole({0.75}) == (std::vector<double>{0.25, 0.75}));
-    REQUIRE(status_of([&] { robot.to_whole(q); }) == CSTK_ERROR_EMPTY);
+    REQUIRE(status_of([&] { return robot.to_whole(q); }) == CSTK_ERROR_EMPTY);
     const auto pairs = cstk::Space(frozen).enabled_pairs();
     REQUIRE(pairs.size() == 2 && pairs[0][1] == 2 && pairs[1][0] == 1);
-    REQUIRE(status_of([&] { robot.find_state("", "s"); }) == CSTK_ERROR_NOT_FOUND);
-    REQUIRE(status_of([&] { builder.load_srdf("/nowhere.srdf"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { return robot.find_state("", "s"); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return builder.load_srdf("/nowhere.srdf"); }) == CSTK_ERROR_IO);
 }

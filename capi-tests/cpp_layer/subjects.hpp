@@ -25,16 +25,16 @@ void predicates(const cstk::Space &space);
 void worlds(const cstk::Space &space, const cstk::Body &body);
 
 /* At the scene of queries(). */
-void pairs(const cstk::Query &query, const cstk::Body &body);
-void object_pairs(const cstk::Query &query, const cstk::Body &body);
-void motions(const cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
+void pairs(cstk::Query &query, const cstk::Body &body);
+void object_pairs(cstk::Query &query, const cstk::Body &body);
+void motions(cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
              const std::vector<double> &q);
-void certificates(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
-void paths(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
-void regions(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
-void slides(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
-void batches(const cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
+void certificates(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
+void paths(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
+void regions(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
+void slides(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
+void batches(cstk::Query &query, const cstk::CObject &obstacles, const cstk::Body &body,
              const std::vector<double> &q);
-void maps(const cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
+void maps(cstk::Query &query, const cstk::CObject &obstacles, const std::vector<double> &q);
 
 #endif

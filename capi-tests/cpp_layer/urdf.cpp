@@ -23,7 +23,7 @@ void urdf() {
     REQUIRE(robot.find_link("b_a") == 1 && robot.nq() == 7 && robot.nv() == 6);
     REQUIRE(robot.body(1).statistics().primitive_count == 1);
     REQUIRE(std::remove(file) == 0);
-    REQUIRE(status_of([&] { builder.load_urdf(file); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([&] { return builder.load_urdf(file); }) == CSTK_ERROR_IO);
     cstk::RobotBuilder described;
     REQUIRE(described.load_urdf_text("<robot><link name='a'/></robot>") == 0);
     REQUIRE(described.urdf_report().link_count == 1);

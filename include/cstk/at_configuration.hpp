@@ -18,13 +18,13 @@
 
 namespace cstk {
 
-inline cstk_link_pair_options link_pair_options() {
+[[nodiscard]] inline cstk_link_pair_options link_pair_options() {
     cstk_link_pair_options options;
     check(cstk_link_pair_options_default(&options, sizeof options));
     return options;
 }
 
-inline cstk_clear_pair_options clear_pair_options() {
+[[nodiscard]] inline cstk_clear_pair_options clear_pair_options() {
     cstk_clear_pair_options options;
     check(cstk_clear_pair_options_default(&options, sizeof options));
     return options;
@@ -35,43 +35,43 @@ namespace detail {
 /// What Query answers at one configuration.
 template <typename Query> class ConfigurationQueries {
 public:
-    cstk_class classify(const CObject &cobject, Span<double> q) const {
+    [[nodiscard]] cstk_class classify(const CObject &cobject, Span<double> q) {
         cstk_class out = CSTK_CLASS_OUTSIDE;
         check(cstk_classify(query_of(*this), cobject.get(), q.data(), q.size(), &out));
         return out;
     }
 
-    bool within(const CObject &cobject, Span<double> q, double threshold) const {
+    [[nodiscard]] bool within(const CObject &cobject, Span<double> q, double threshold) {
         bool out = false;
         check(cstk_within(query_of(*this), cobject.get(), q.data(), q.size(), threshold, &out));
         return out;
     }
 
-    cstk_distance_result
+    [[nodiscard]] cstk_distance_result
     distance(const CObject &cobject, Span<double> q,
-             double max_distance = std::numeric_limits<double>::infinity()) const {
+             double max_distance = std::numeric_limits<double>::infinity()) {
         cstk_distance_result out;
         check(cstk_distance(query_of(*this), cobject.get(), q.data(), q.size(), max_distance, &out));
         return out;
     }
 
-    cstk_witness_list witnesses(const CObject &cobject, Span<double> q, double epsilon,
-                                std::size_t max_count = 4096) const {
+    [[nodiscard]] cstk_witness_list witnesses(const CObject &cobject, Span<double> q, double epsilon,
+                                std::size_t max_count = 4096) {
         cstk_witness_list out;
         check(cstk_witnesses(query_of(*this), cobject.get(), q.data(), q.size(), epsilon, max_count, &out));
         return out;
     }
 
-    cstk_witness_list gradients(const CObject &cobject, Span<double> q, double epsilon,
-                                std::size_t max_count = 4096) const {
+    [[nodiscard]] cstk_witness_list gradients(const CObject &cobject, Span<double> q, double epsilon,
+                                std::size_t max_count = 4096) {
         cstk_witness_list out;
         check(cstk_gradients(query_of(*this), cobject.get(), q.data(), q.size(), epsilon, max_count, &out));
         return out;
     }
 
-    cstk_pseudo_normal_result pseudo_normal(const CObject &cobject, Span<double> q,
+    [[nodiscard]] cstk_pseudo_normal_result pseudo_normal(const CObject &cobject, Span<double> q,
                                             double max_shell, std::size_t max_count = 4096,
-                                            bool normalize = false) const {
+                                            bool normalize = false) {
         cstk_pseudo_normal_result out;
         check(cstk_pseudo_normal(query_of(*this), cobject.get(), q.data(), q.size(), max_shell, max_count,
                                  normalize, &out));
@@ -79,9 +79,9 @@ public:
     }
 
     /// Which pairs of links to test for self-collision, for CObject::induced_links().
-    std::vector<std::array<std::uint32_t, 2>>
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 2>>
     find_link_pairs(const Space &space,
-               const cstk_link_pair_options &options = link_pair_options()) const {
+               const cstk_link_pair_options &options = link_pair_options()) {
         cstk_link_pair_list list;
         check(cstk_find_link_pairs(query_of(*this), space.get(), &options, nullptr, nullptr, &list));
         std::vector<std::array<std::uint32_t, 2>> pairs(list.tested_count);
@@ -92,45 +92,45 @@ public:
     }
 
     /// A copy of a set of link pairs that knows by proof where its links are apart.
-    CObject prove_clear_pairs(const CObject &cobject,
+    [[nodiscard]] CObject prove_clear_pairs(const CObject &cobject,
                               const cstk_clear_pair_options &options = clear_pair_options(),
-                              cstk_clear_pair_summary *summary = nullptr) const {
+                              cstk_clear_pair_summary *summary = nullptr) {
         cstk_cobject *out = nullptr;
         check(cstk_prove_clear_pairs(query_of(*this), cobject.get(), &options, nullptr, nullptr, summary, &out));
         return CObject(out);
     }
 
     /// The class, and which leaves and pairs made it.
-    cstk_explanation explain(const CObject &cobject, Span<double> q,
-                             std::size_t max_count = 4096) const {
+    [[nodiscard]] cstk_explanation explain(const CObject &cobject, Span<double> q,
+                             std::size_t max_count = 4096) {
         cstk_explanation out;
         check(cstk_explain(query_of(*this), cobject.get(), q.data(), q.size(), max_count, &out));
         return out;
     }
 
     /// The same queries at given link poses: 12 doubles for every link of the space.
-    cstk_class classify_at_link_poses(const CObject &cobject, Span<Pose> links) const {
+    [[nodiscard]] cstk_class classify_at_link_poses(const CObject &cobject, Span<Pose> links) {
         cstk_class out = CSTK_CLASS_OUTSIDE;
         check(cstk_classify_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), &out));
         return out;
     }
 
-    bool within_at_link_poses(const CObject &cobject, Span<Pose> links, double threshold) const {
+    [[nodiscard]] bool within_at_link_poses(const CObject &cobject, Span<Pose> links, double threshold) {
         bool out = false;
         check(cstk_within_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), threshold, &out));
         return out;
     }
 
-    cstk_distance_result
+    [[nodiscard]] cstk_distance_result
     distance_at_link_poses(const CObject &cobject, Span<Pose> links,
-                double max_distance = std::numeric_limits<double>::infinity()) const {
+                double max_distance = std::numeric_limits<double>::infinity()) {
         cstk_distance_result out;
         check(cstk_distance_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), max_distance, &out));
         return out;
     }
 
-    cstk_witness_list witnesses_at_link_poses(const CObject &cobject, Span<Pose> links, double epsilon,
-                                   std::size_t max_count = 4096) const {
+    [[nodiscard]] cstk_witness_list witnesses_at_link_poses(const CObject &cobject, Span<Pose> links, double epsilon,
+                                   std::size_t max_count = 4096) {
         cstk_witness_list out;
         check(cstk_witnesses_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), epsilon, max_count,
                                 &out));

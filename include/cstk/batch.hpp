@@ -23,7 +23,7 @@
 namespace cstk {
 
 /// Options of batches; no threads stands for as many as the machine runs at once.
-inline cstk_batch_options batch_options(std::uint32_t threads = 0, bool stop_at_hit = false) {
+[[nodiscard]] inline cstk_batch_options batch_options(std::uint32_t threads = 0, bool stop_at_hit = false) {
     cstk_batch_options options;
     check(cstk_batch_options_default(&options, sizeof options));
     options.threads = threads;
@@ -56,7 +56,7 @@ class Batch : public Handle<cstk_batch, cstk_batch_retain, cstk_batch_release> {
 public:
     Batch() : Handle(create()) {}
 
-    BatchAnswers<cstk_class> classify(const CObject &cobject, Span<double> q, std::size_t count,
+    [[nodiscard]] BatchAnswers<cstk_class> classify(const CObject &cobject, Span<double> q, std::size_t count,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
         if (count == 0 && q.size() == 0) {
@@ -71,7 +71,7 @@ public:
     }
 
     /// 1 for each configuration that is within the threshold, or 0.
-    BatchAnswers<std::uint8_t> within(const CObject &cobject, Span<double> q, std::size_t count,
+    [[nodiscard]] BatchAnswers<std::uint8_t> within(const CObject &cobject, Span<double> q, std::size_t count,
                                       double threshold,
                                       const cstk_batch_options &options = batch_options(),
                                       Progress progress = {}) const {
@@ -87,7 +87,7 @@ public:
     }
 
     /// Gradients are computed where `nv`, the number of the space's velocities, is given.
-    BatchDistances distance(const CObject &cobject, Span<double> q, std::size_t count,
+    [[nodiscard]] BatchDistances distance(const CObject &cobject, Span<double> q, std::size_t count,
                             double max_distance = std::numeric_limits<double>::infinity(),
                             std::size_t nv = 0, const cstk_batch_options &options = batch_options(),
                             Progress progress = {}) const {
@@ -105,7 +105,7 @@ public:
     }
 
     /// Number i goes from the i-th configuration of q0 to the i-th of q1.
-    BatchMotions motion(const CObject &cobject, Span<double> q0, Span<double> q1, std::size_t count,
+    [[nodiscard]] BatchMotions motion(const CObject &cobject, Span<double> q0, Span<double> q1, std::size_t count,
                         const cstk_motion_options &motions = motion_options(),
                         const cstk_batch_options &options = batch_options(),
                         Progress progress = {}) const {
@@ -123,7 +123,7 @@ public:
     }
 
     /// 1 for each pair of poses at which the bodies are within the threshold, or 0.
-    BatchAnswers<std::uint8_t> pair_within(const Body &a, Span<Pose> poses_a, const Body &b,
+    [[nodiscard]] BatchAnswers<std::uint8_t> pair_within(const Body &a, Span<Pose> poses_a, const Body &b,
                                            Span<Pose> poses_b, double threshold,
                                            const cstk_batch_options &options = batch_options(),
                                            Progress progress = {}) const {
@@ -135,7 +135,7 @@ public:
         });
     }
 
-    BatchAnswers<cstk_distance_result>
+    [[nodiscard]] BatchAnswers<cstk_distance_result>
     pair_distance(const Body &a, Span<Pose> poses_a, const Body &b, Span<Pose> poses_b,
                   double max_distance = std::numeric_limits<double>::infinity(),
                   const cstk_batch_options &options = batch_options(), Progress progress = {}) const {

@@ -24,7 +24,7 @@ public:
     using Handle::Handle;
 
     /// A body that save() wrote.
-    static Body load(const std::string &file) {
+    [[nodiscard]] static Body load(const std::string &file) {
         cstk_body *out = nullptr;
         check(cstk_body_load(file.c_str(), &out));
         return Body(out);
@@ -36,40 +36,40 @@ public:
     using Vector = std::array<double, 3>;
 
     /// Bodies of one primitive; BodyBuilder's methods say what each is. Defined in body_builder.hpp.
-    static Body polygon(Span<double> xyz, std::uint32_t dimension = 3, std::uint64_t tag = 0);
-    static Body polyhedron(Span<double> xyz, std::uint64_t tag = 0);
-    static Body sphere(double radius, const Vector &center = {0, 0, 0}, std::uint32_t dimension = 3, std::uint64_t tag = 0);
-    static Body capsule(const Vector &a, const Vector &b, double radius, std::uint32_t dimension = 3, std::uint64_t tag = 0);
-    static Body box(const Vector &half_extents, const Pose &pose = identity(), std::uint64_t tag = 0);
-    static Body cylinder(double radius, double half_length, const Pose &pose = identity(), std::uint64_t tag = 0);
-    static Body cone(double radius, double height, const Pose &pose = identity(), std::uint64_t tag = 0);
-    static Body ellipsoid(const Vector &semi_axes, const Pose &pose = identity(), std::uint64_t tag = 0);
+    [[nodiscard]] static Body polygon(Span<double> xyz, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    [[nodiscard]] static Body polyhedron(Span<double> xyz, std::uint64_t tag = 0);
+    [[nodiscard]] static Body sphere(double radius, const Vector &center = {0, 0, 0}, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    [[nodiscard]] static Body capsule(const Vector &a, const Vector &b, double radius, std::uint32_t dimension = 3, std::uint64_t tag = 0);
+    [[nodiscard]] static Body box(const Vector &half_extents, const Pose &pose = identity(), std::uint64_t tag = 0);
+    [[nodiscard]] static Body cylinder(double radius, double half_length, const Pose &pose = identity(), std::uint64_t tag = 0);
+    [[nodiscard]] static Body cone(double radius, double height, const Pose &pose = identity(), std::uint64_t tag = 0);
+    [[nodiscard]] static Body ellipsoid(const Vector &semi_axes, const Pose &pose = identity(), std::uint64_t tag = 0);
 
     /// Data that witnesses hand back; once for each body.
     void set_data(void *data, cstk_destroy_fn destroy = nullptr) const {
         check(cstk_body_set_data(get(), data, destroy));
     }
 
-    void *data() const {
+    [[nodiscard]] void *data() const {
         void *data = nullptr;
         check(cstk_body_get_data(get(), &data));
         return data;
     }
 
-    cstk_hierarchy_statistics hierarchy_statistics() const {
+    [[nodiscard]] cstk_hierarchy_statistics hierarchy_statistics() const {
         cstk_hierarchy_statistics out;
         check(cstk_body_get_hierarchy_statistics(get(), &out));
         return out;
     }
 
-    cstk_level_statistics level_statistics(std::uint32_t level) const {
+    [[nodiscard]] cstk_level_statistics level_statistics(std::uint32_t level) const {
         cstk_level_statistics out;
         check(cstk_body_get_level_statistics(get(), level, &out));
         return out;
     }
 
     /// The nodes of a level and the leaves above it.
-    std::vector<std::uint32_t> level_nodes(std::uint32_t level) const {
+    [[nodiscard]] std::vector<std::uint32_t> level_nodes(std::uint32_t level) const {
         std::size_t count = 0;
         check(cstk_body_get_level_nodes(get(), level, 0, nullptr, &count));
         std::vector<std::uint32_t> nodes(count);
@@ -78,7 +78,7 @@ public:
     }
 
     /// At most `max_count` nodes that cover the body.
-    std::vector<std::uint32_t> cover_nodes(std::size_t max_count) const {
+    [[nodiscard]] std::vector<std::uint32_t> cover_nodes(std::size_t max_count) const {
         cstk_body_statistics statistics = this->statistics();
         if (max_count > statistics.node_count) {
             max_count = static_cast<std::size_t>(statistics.node_count);
@@ -90,14 +90,14 @@ public:
         return nodes;
     }
 
-    cstk_hierarchy_node node(std::uint32_t node) const {
+    [[nodiscard]] cstk_hierarchy_node node(std::uint32_t node) const {
         cstk_hierarchy_node out;
         check(cstk_body_get_node(get(), node, &out));
         return out;
     }
 
     /// The corners of a node's wrapper, three doubles each.
-    std::vector<double> node_corners(std::uint32_t node) const {
+    [[nodiscard]] std::vector<double> node_corners(std::uint32_t node) const {
         std::size_t count = 0;
         check(cstk_body_get_node_corners(get(), node, 0, nullptr, &count));
         std::vector<double> xyz(3 * count);
@@ -105,7 +105,7 @@ public:
         return xyz;
     }
 
-    Mesh mesh_of_nodes(Span<std::uint32_t> nodes) const {
+    [[nodiscard]] Mesh mesh_of_nodes(Span<std::uint32_t> nodes) const {
         cstk_mesh *out = nullptr;
         check(cstk_mesh_create_from_nodes(get(), nodes.data(), nodes.size(), &out));
         return Mesh(out);
@@ -123,14 +123,14 @@ public:
     }
 
     /// What a primitive is, and how many features it has.
-    cstk_primitive primitive(std::uint32_t index) const {
+    [[nodiscard]] cstk_primitive primitive(std::uint32_t index) const {
         cstk_primitive out;
         check(cstk_body_get_primitive(get(), index, &out));
         return out;
     }
 
     /// The vertices of a feature, three doubles each.
-    std::vector<double> feature_vertices(std::uint32_t primitive, cstk_feature_kind kind,
+    [[nodiscard]] std::vector<double> feature_vertices(std::uint32_t primitive, cstk_feature_kind kind,
                                          std::uint32_t feature) const {
         std::size_t count = 0;
         check(cstk_body_get_feature_vertices(get(), primitive, kind, feature, 0, nullptr, &count));
@@ -140,14 +140,14 @@ public:
     }
 
     /// A body that was added to the builder of this one.
-    cstk_body_part part(std::uint32_t number) const {
+    [[nodiscard]] cstk_body_part part(std::uint32_t number) const {
         cstk_body_part out;
         check(cstk_body_get_part(get(), number, &out));
         return out;
     }
 
     /// The vertices of all primitives, three doubles each.
-    std::vector<double> vertices() const {
+    [[nodiscard]] std::vector<double> vertices() const {
         std::size_t count = 0;
         check(cstk_body_get_vertices(get(), 0, nullptr, &count));
         std::vector<double> xyz(3 * count);
@@ -156,7 +156,7 @@ public:
     }
 
     /// A body with other vertices, in the order of vertices(), and the same topology.
-    Body refit(Span<double> xyz) const {
+    [[nodiscard]] Body refit(Span<double> xyz) const {
         if (xyz.size() % 3 != 0) {
             throw std::invalid_argument("cstk: a point has three coordinates");
         }

@@ -189,13 +189,13 @@ public:
         return *this;
     }
 
-    Body build() const {
+    [[nodiscard]] Body build() const {
         cstk_body *out = nullptr;
         check(cstk_body_build(get(), nullptr, nullptr, nullptr, &out));
         return Body(out);
     }
 
-    Body build(const cstk_hierarchy_options &options, Progress progress = {}) const {
+    [[nodiscard]] Body build(const cstk_hierarchy_options &options, Progress progress = {}) const {
         detail::Report report{std::move(progress), nullptr};
         cstk_body *out = nullptr;
         report.check(cstk_body_build(get(), &options, report.function(), &report, &out));

@@ -23,7 +23,7 @@ public:
     using Handle::Handle;
 
     /// A certificate that save() wrote. It proves nothing before verify().
-    static Certificate load(const std::string &file) {
+    [[nodiscard]] static Certificate load(const std::string &file) {
         cstk_certificate *out = nullptr;
         check(cstk_certificate_load(file.c_str(), &out));
         return Certificate(out);
@@ -37,14 +37,14 @@ public:
         check(cstk_certificate_verify(get(), cobject.get(), q0.data(), q1.data(), nq, threshold));
     }
 
-    cstk_certificate_summary summary() const {
+    [[nodiscard]] cstk_certificate_summary summary() const {
         cstk_certificate_summary out;
         check(cstk_certificate_get_summary(get(), &out));
         return out;
     }
 
     /// The first and the last configuration of the motion.
-    std::pair<std::vector<double>, std::vector<double>> ends() const {
+    [[nodiscard]] std::pair<std::vector<double>, std::vector<double>> ends() const {
         const std::size_t nq = summary().nq;
         std::pair<std::vector<double>, std::vector<double>> out{std::vector<double>(nq),
                                                                 std::vector<double>(nq)};
@@ -52,14 +52,14 @@ public:
         return out;
     }
 
-    cstk_certificate_entry entry(std::size_t index) const {
+    [[nodiscard]] cstk_certificate_entry entry(std::size_t index) const {
         cstk_certificate_entry out;
         check(cstk_certificate_get_entry(get(), index, &out));
         return out;
     }
 
     /// The primitives of one side of an entry, 0 or 1.
-    std::vector<std::uint32_t> primitives(std::size_t index, std::uint32_t side) const {
+    [[nodiscard]] std::vector<std::uint32_t> primitives(std::size_t index, std::uint32_t side) const {
         std::size_t count = 0;
         check(cstk_certificate_get_primitives(get(), index, side, 0, nullptr, &count));
         std::vector<std::uint32_t> out(count);

@@ -20,7 +20,7 @@
 
 namespace cstk {
 
-inline cstk_induced_options induced_options(double contact_epsilon = 0, double margin = 0) {
+[[nodiscard]] inline cstk_induced_options induced_options(double contact_epsilon = 0, double margin = 0) {
     cstk_induced_options options;
     check(cstk_induced_options_default(&options, sizeof options));
     options.contact_epsilon = contact_epsilon;
@@ -28,7 +28,7 @@ inline cstk_induced_options induced_options(double contact_epsilon = 0, double m
     return options;
 }
 
-inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale = 0) {
+[[nodiscard]] inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale = 0) {
     cstk_pure_options options;
     check(cstk_pure_options_default(&options, sizeof options));
     options.contact_epsilon = contact_epsilon;
@@ -41,7 +41,7 @@ public:
     using Handle::Handle;
 
     /// No links: all that have a body. No ids: all objects of the environment.
-    static CObject induced(const Space &space, const Environment &environment,
+    [[nodiscard]] static CObject induced(const Space &space, const Environment &environment,
                            const cstk_induced_options &options = induced_options(),
                            Span<std::uint32_t> links = {}, Span<std::uint64_t> ids = {}) {
         cstk_cobject *out = nullptr;
@@ -50,7 +50,7 @@ public:
         return CObject(out);
     }
 
-    static CObject induced_links(const Space &space,
+    [[nodiscard]] static CObject induced_links(const Space &space,
                                  const std::vector<std::array<std::uint32_t, 2>> &pairs,
                                  const cstk_induced_options &options = induced_options()) {
         std::vector<std::uint32_t> flat;
@@ -62,41 +62,41 @@ public:
         return CObject(out);
     }
 
-    static CObject union_of(const std::vector<CObject> &parts) {
+    [[nodiscard]] static CObject union_of(const std::vector<CObject> &parts) {
         return combined(cstk_cobject_union, parts);
     }
 
-    static CObject intersection_of(const std::vector<CObject> &parts) {
+    [[nodiscard]] static CObject intersection_of(const std::vector<CObject> &parts) {
         return combined(cstk_cobject_intersection, parts);
     }
 
-    static CObject difference(const CObject &of, const CObject &without) {
+    [[nodiscard]] static CObject difference(const CObject &of, const CObject &without) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_difference(of.get(), without.get(), &out));
         return CObject(out);
     }
 
-    CObject complement() const {
+    [[nodiscard]] CObject complement() const {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_complement(get(), &out));
         return CObject(out);
     }
 
     /// Where a coordinate is beyond its range.
-    static CObject beyond_limits(const Space &space, const cstk_pure_options &options = pure_options()) {
+    [[nodiscard]] static CObject beyond_limits(const Space &space, const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_beyond_limits(space.get(), &options, &out));
         return CObject(out);
     }
 
     /// Where a link's origin is outside the world box.
-    static CObject beyond_world(const Space &space, const cstk_pure_options &options = pure_options()) {
+    [[nodiscard]] static CObject beyond_world(const Space &space, const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_beyond_world(space.get(), &options, &out));
         return CObject(out);
     }
 
-    static CObject box(const Space &space, Span<double> low, Span<double> high,
+    [[nodiscard]] static CObject box(const Space &space, Span<double> low, Span<double> high,
                        const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_box(space.get(), low.data(), high.data(), detail::same_size(low, high),
@@ -105,7 +105,7 @@ public:
     }
 
     /// Where normal . q <= offset.
-    static CObject halfspace(const Space &space, Span<double> normal, double offset,
+    [[nodiscard]] static CObject halfspace(const Space &space, Span<double> normal, double offset,
                              const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_halfspace(space.get(), normal.data(), normal.size(), offset, &options,
@@ -114,7 +114,7 @@ public:
     }
 
     /// Where a link's body reaches normal . x <= offset of the world; no links for all.
-    static CObject below_floor(const Space &space, const std::array<double, 3> &normal, double offset,
+    [[nodiscard]] static CObject below_floor(const Space &space, const std::array<double, 3> &normal, double offset,
                          Span<std::uint32_t> links = {},
                          const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
@@ -123,21 +123,21 @@ public:
         return CObject(out);
     }
 
-    static CObject ball(const Space &space, Span<double> center, double radius,
+    [[nodiscard]] static CObject ball(const Space &space, Span<double> center, double radius,
                         const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_ball(space.get(), center.data(), center.size(), radius, &options, &out));
         return CObject(out);
     }
 
-    static CObject predicate(const Space &space, const cstk_predicate &predicate,
+    [[nodiscard]] static CObject predicate(const Space &space, const cstk_predicate &predicate,
                              const cstk_pure_options &options = pure_options()) {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_predicate(space.get(), &predicate, &options, &out));
         return CObject(out);
     }
 
-    static CObject predicate(const Space &space, Predicate functions,
+    [[nodiscard]] static CObject predicate(const Space &space, Predicate functions,
                              const cstk_pure_options &options = pure_options()) {
         auto kept = std::make_unique<Predicate>(std::move(functions));
         cstk_predicate given = cstk::predicate();
@@ -155,34 +155,34 @@ public:
     }
 
     /// The same set, carrying data that answers hand back where it is a leaf.
-    CObject with_data(void *data, cstk_destroy_fn destroy = nullptr) const {
+    [[nodiscard]] CObject with_data(void *data, cstk_destroy_fn destroy = nullptr) const {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_with_data(get(), data, destroy, &out));
         return CObject(out);
     }
 
     /// The same induced or pure set with a shell of its own for slides.
-    CObject with_shell(double shell) const {
+    [[nodiscard]] CObject with_shell(double shell) const {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_with_shell(get(), shell, &out));
         return CObject(out);
     }
 
     /// The same set with what the caller knows of it: its class, outside or inside, in the interior of boxes, balls and polytopes.
-    CObject with_known(const CObject &within, cstk_class known) const {
+    [[nodiscard]] CObject with_known(const CObject &within, cstk_class known) const {
         cstk_cobject *out = nullptr;
         check(cstk_cobject_with_known(get(), within.get(), known, &out));
         return CObject(out);
     }
 
-    void *data() const {
+    [[nodiscard]] void *data() const {
         void *data = nullptr;
         check(cstk_cobject_get_data(get(), &data, nullptr));
         return data;
     }
 
     /// By which witnesses and explanations name it as a leaf.
-    std::uint64_t number() const {
+    [[nodiscard]] std::uint64_t number() const {
         std::uint64_t number = 0;
         check(cstk_cobject_get_data(get(), nullptr, &number));
         return number;

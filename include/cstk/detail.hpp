@@ -65,8 +65,8 @@ inline std::size_t parts_of(Span<double> points, std::size_t count) {
 }
 
 /* The context of the query of which `part` is one part. */
-template <template <typename> class Part, typename Query> cstk_query *query_of(const Part<Query> &part) {
-    return static_cast<const Query &>(part).get();
+template <template <typename> class Part, typename Query> cstk_query *query_of(Part<Query> &part) {
+    return static_cast<Query &>(part).get();
 }
 
 } // namespace detail

@@ -17,7 +17,7 @@
 
 namespace cstk {
 
-inline cstk_scene_options scene_options() {
+[[nodiscard]] inline cstk_scene_options scene_options() {
     cstk_scene_options options;
     check(cstk_scene_options_default(&options, sizeof options));
     return options;
@@ -72,7 +72,7 @@ public:
     }
 
     /// One change, for apply().
-    static cstk_environment_change change(cstk_change_kind kind, std::uint64_t id,
+    [[nodiscard]] static cstk_environment_change change(cstk_change_kind kind, std::uint64_t id,
                                           const cstk_body *body, const Pose &pose) {
         cstk_environment_change change;
         check(cstk_environment_change_default(&change, sizeof change));
@@ -85,26 +85,26 @@ public:
         return change;
     }
 
-    Environment snapshot() const {
+    [[nodiscard]] Environment snapshot() const {
         cstk_environment *out = nullptr;
         check(cstk_environment_snapshot(get(), &out));
         return Environment(out);
     }
 
-    std::size_t object_count() const {
+    [[nodiscard]] std::size_t object_count() const {
         std::size_t count = 0;
         check(cstk_environment_get_state(get(), &count, nullptr));
         return count;
     }
 
-    std::uint64_t version() const {
+    [[nodiscard]] std::uint64_t version() const {
         std::uint64_t version = 0;
         check(cstk_environment_get_state(get(), nullptr, &version));
         return version;
     }
 
     /// The ids of all objects, in the order in which they came.
-    std::vector<std::uint64_t> objects() const {
+    [[nodiscard]] std::vector<std::uint64_t> objects() const {
         std::vector<std::uint64_t> ids(object_count());
         std::size_t count = 0;
         check(cstk_environment_get_objects(get(), ids.size(), ids.data(), &count));
@@ -113,13 +113,13 @@ public:
         return ids;
     }
 
-    cstk_object_info object(std::uint64_t id) const {
+    [[nodiscard]] cstk_object_info object(std::uint64_t id) const {
         cstk_object_info out;
         check(cstk_environment_get_object_info(get(), id, &out));
         return out;
     }
 
-    Pose object_pose(std::uint64_t id) const {
+    [[nodiscard]] Pose object_pose(std::uint64_t id) const {
         Pose pose;
         check(cstk_environment_get_object_pose(get(), id, pose.data()));
         return pose;

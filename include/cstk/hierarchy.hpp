@@ -8,7 +8,7 @@
 namespace cstk {
 
 /// An options structure with its defaults; set its fields as in C.
-inline cstk_hierarchy_options hierarchy_options() {
+[[nodiscard]] inline cstk_hierarchy_options hierarchy_options() {
     cstk_hierarchy_options options;
     check(cstk_hierarchy_options_default(&options, sizeof options));
     return options;

@@ -17,7 +17,7 @@
 namespace cstk {
 
 /// Options of maps.
-inline cstk_map_options map_options(cstk_map_kind kind = CSTK_MAP_CLASSES, std::uint32_t threads = 0) {
+[[nodiscard]] inline cstk_map_options map_options(cstk_map_kind kind = CSTK_MAP_CLASSES, std::uint32_t threads = 0) {
     cstk_map_options options;
     check(cstk_map_options_default(&options, sizeof options));
     options.kind = kind;
@@ -26,7 +26,7 @@ inline cstk_map_options map_options(cstk_map_kind kind = CSTK_MAP_CLASSES, std::
 }
 
 /// An interval of a coordinate, cut into cells; the map is of `count` of them from `first` on, by default of all.
-inline cstk_map_axis map_axis(std::uint32_t coordinate, double low, double high, std::size_t cells, std::size_t first = 0,
+[[nodiscard]] inline cstk_map_axis map_axis(std::uint32_t coordinate, double low, double high, std::size_t cells, std::size_t first = 0,
                               std::size_t count = 0) {
     return {coordinate, 0, low, high, cells, first, count};
 }
@@ -37,7 +37,7 @@ public:
     using Handle::Handle;
 
     /// The coordinates without an axis are those of q.
-    static Map build(const CObject &cobject, Span<double> q, Span<cstk_map_axis> axes,
+    [[nodiscard]] static Map build(const CObject &cobject, Span<double> q, Span<cstk_map_axis> axes,
                      const cstk_map_options &options = map_options(), Progress progress = {}) {
         detail::Report report{std::move(progress), nullptr};
         cstk_map *out = nullptr;
@@ -47,7 +47,7 @@ public:
     }
 
     /// Its arrays are valid as long as the map.
-    cstk_map_view view() const {
+    [[nodiscard]] cstk_map_view view() const {
         cstk_map_view out;
         check(cstk_map_get_view(get(), &out));
         return out;

@@ -13,7 +13,7 @@ class Mesh : public Handle<cstk_mesh, cstk_mesh_retain, cstk_mesh_release> {
 public:
     using Handle::Handle;
 
-    cstk_mesh_view view() const {
+    [[nodiscard]] cstk_mesh_view view() const {
         cstk_mesh_view out;
         check(cstk_mesh_get_view(get(), &out));
         return out;

@@ -21,7 +21,7 @@
 namespace cstk {
 
 /// The default options of a motion.
-inline cstk_motion_options motion_options(double threshold = 0) {
+[[nodiscard]] inline cstk_motion_options motion_options(double threshold = 0) {
     cstk_motion_options options;
     check(cstk_motion_options_default(&options, sizeof options));
     options.threshold = threshold;
@@ -29,7 +29,7 @@ inline cstk_motion_options motion_options(double threshold = 0) {
 }
 
 /// The options of a clearance, whose bounds are to be within the tolerance.
-inline cstk_clearance_options clearance_options(double tolerance) {
+[[nodiscard]] inline cstk_clearance_options clearance_options(double tolerance) {
     cstk_clearance_options options;
     check(cstk_clearance_options_default(&options, sizeof options));
     options.tolerance = tolerance;
@@ -67,9 +67,9 @@ template <typename F> struct Motion {
 template <typename Query> class MotionQueries {
 public:
     /// Proves the motion from q0 to q1 free, or finds its first contact; `reached`, if given, receives the configuration there.
-    cstk_motion_result motion(const CObject &cobject, Span<double> q0, Span<double> q1,
+    [[nodiscard]] cstk_motion_result motion(const CObject &cobject, Span<double> q0, Span<double> q1,
                               const cstk_motion_options &options = motion_options(),
-                              std::vector<double> *reached = nullptr) const {
+                              std::vector<double> *reached = nullptr) {
         cstk_motion_result out;
         const std::size_t nq = detail::same_size(q0, q1);
         /* Planners ask for many motions and for few contacts: nothing is allocated for what is not wanted. */
@@ -83,10 +83,10 @@ public:
     }
 
     /// The same with a certificate, which is empty where the motion is not free; `result`, if given, receives how it ends.
-    Certificate motion_certificate(const CObject &cobject, Span<double> q0, Span<double> q1,
+    [[nodiscard]] Certificate motion_certificate(const CObject &cobject, Span<double> q0, Span<double> q1,
                                    const cstk_motion_options &options = motion_options(),
                                    cstk_motion_result *result = nullptr,
-                                   std::vector<double> *reached = nullptr) const {
+                                   std::vector<double> *reached = nullptr) {
         cstk_certificate *certificate = nullptr;
         cstk_motion_result out;
         std::vector<double> found(detail::same_size(q0, q1));
@@ -103,9 +103,9 @@ public:
     }
 
     /// The same on a Bezier curve: `points` holds `count` control points, one configuration after the other.
-    cstk_motion_result motion_curve(const CObject &cobject, Span<double> points, std::size_t count,
+    [[nodiscard]] cstk_motion_result motion_curve(const CObject &cobject, Span<double> points, std::size_t count,
                                     const cstk_motion_options &options = motion_options(),
-                                    std::vector<double> *reached = nullptr) const {
+                                    std::vector<double> *reached = nullptr) {
         cstk_motion_result out;
         std::vector<double> found(detail::parts_of(points, count));
         check(cstk_motion_curve(query_of(*this), cobject.get(), points.data(), count, found.size(), &options,
@@ -117,10 +117,10 @@ public:
     }
 
     /// The same on a B-spline with `count` control points and count + degree + 1 knots.
-    cstk_motion_result motion_spline(const CObject &cobject, std::size_t degree, Span<double> knots,
+    [[nodiscard]] cstk_motion_result motion_spline(const CObject &cobject, std::size_t degree, Span<double> knots,
                                      Span<double> points, std::size_t count,
                                      const cstk_motion_options &options = motion_options(),
-                                     std::vector<double> *reached = nullptr) const {
+                                     std::vector<double> *reached = nullptr) {
         cstk_motion_result out;
         std::vector<double> found(detail::parts_of(points, count));
         check(cstk_motion_spline(query_of(*this), cobject.get(), degree, knots.data(), knots.size(),
@@ -134,10 +134,10 @@ public:
     /// The same on a motion that `function` gives: function(t, q, rates, accelerations) writes the configuration at time t and the
     /// derivatives of its coordinates, each list as long as max_rates. The proof holds if the bounds do.
     template <typename F>
-    cstk_motion_result motion_function(const CObject &cobject, F &&function,
+    [[nodiscard]] cstk_motion_result motion_function(const CObject &cobject, F &&function,
                                        Span<double> max_rates, Span<double> max_accelerations,
                                        const cstk_motion_options &options = motion_options(),
-                                       std::vector<double> *reached = nullptr) const {
+                                       std::vector<double> *reached = nullptr) {
         cstk_motion_result out;
         const std::size_t nq = detail::same_size(max_rates, max_accelerations);
         std::vector<double> found(nq);
@@ -152,10 +152,10 @@ public:
     }
 
     /// The same of two bodies, each on a screw from its start to its end; `reached`, if given, receives both poses at the contact.
-    cstk_motion_result pair_motion(const Body &a, const Pose &start_a, const Pose &end_a,
+    [[nodiscard]] cstk_motion_result pair_motion(const Body &a, const Pose &start_a, const Pose &end_a,
                                    const Body &b, const Pose &start_b, const Pose &end_b,
                                    const cstk_motion_options &options = motion_options(),
-                                   std::pair<Pose, Pose> *reached = nullptr) const {
+                                   std::pair<Pose, Pose> *reached = nullptr) {
         cstk_motion_result out;
         double poses[24];
         check(cstk_pair_motion(query_of(*this), a.get(), start_a.data(), end_a.data(), b.get(), start_b.data(),
@@ -168,9 +168,9 @@ public:
     }
 
     /// The least distance along the motion from q0 to q1; `nearest`, if given, receives the configuration there.
-    cstk_clearance_result motion_clearance(const CObject &cobject, Span<double> q0, Span<double> q1,
+    [[nodiscard]] cstk_clearance_result motion_clearance(const CObject &cobject, Span<double> q0, Span<double> q1,
                                            const cstk_clearance_options &options,
-                                           std::vector<double> *nearest = nullptr) const {
+                                           std::vector<double> *nearest = nullptr) {
         cstk_clearance_result out;
         std::vector<double> found(detail::same_size(q0, q1));
         check(cstk_motion_clearance(query_of(*this), cobject.get(), q0.data(), q1.data(), q0.size(), &options,

@@ -15,7 +15,7 @@
 namespace cstk {
 
 /// The default options of cstk_environment_pairs and its companions.
-inline cstk_object_pair_options object_pair_options(bool with_distances = false) {
+[[nodiscard]] inline cstk_object_pair_options object_pair_options(bool with_distances = false) {
     cstk_object_pair_options options;
     check(cstk_object_pair_options_default(&options, sizeof options));
     options.with_distances = with_distances ? 1 : 0;
@@ -55,10 +55,10 @@ template <typename Query> class ObjectPairQueries {
 public:
     /// The pairs of objects at most `distance` apart, in order of ids: of an environment with another, or, where `other` is null,
     /// within it.
-    cstk_object_pair_list
+    [[nodiscard]] cstk_object_pair_list
     environment_pairs(const Environment &environment, const Environment *other, double distance,
                       std::size_t max_count = 4096,
-                      const cstk_object_pair_options &options = object_pair_options()) const {
+                      const cstk_object_pair_options &options = object_pair_options()) {
         cstk_object_pair_list out;
         check(cstk_environment_pairs(query_of(*this), environment.get(), other ? other->get() : nullptr, distance,
                                      max_count, &options, &out));
@@ -68,10 +68,10 @@ public:
     /// The same of the pairs for which `filter`, a function of the two ids and the two data, returns true. What it throws passes
     /// through.
     template <typename F>
-    cstk_object_pair_list filtered_pairs(const Environment &environment, const Environment *other,
+    [[nodiscard]] cstk_object_pair_list filtered_pairs(const Environment &environment, const Environment *other,
                                          double distance, F &&filter,
                                          std::size_t max_count = 4096,
-                                         bool with_distances = false) const {
+                                         bool with_distances = false) {
         cstk_object_pair_list out;
         detail::ObjectFilter<F> call{filter, nullptr};
         cstk_object_pair_options options = object_pair_options(with_distances);
@@ -83,8 +83,8 @@ public:
     }
 
     /// Whether any two objects are at most `threshold` apart.
-    bool environment_within(const Environment &environment, const Environment *other, double threshold,
-                            const cstk_object_pair_options &options = object_pair_options()) const {
+    [[nodiscard]] bool environment_within(const Environment &environment, const Environment *other, double threshold,
+                            const cstk_object_pair_options &options = object_pair_options()) {
         bool out = false;
         check(cstk_environment_within(query_of(*this), environment.get(), other ? other->get() : nullptr,
                                       threshold, &options, &out));
@@ -92,10 +92,10 @@ public:
     }
 
     /// The distance of the nearest two objects.
-    cstk_distance_result
+    [[nodiscard]] cstk_distance_result
     environment_distance(const Environment &environment, const Environment *other,
                          double max_distance = std::numeric_limits<double>::infinity(),
-                         const cstk_object_pair_options &options = object_pair_options()) const {
+                         const cstk_object_pair_options &options = object_pair_options()) {
         cstk_distance_result out;
         check(cstk_environment_distance(query_of(*this), environment.get(), other ? other->get() : nullptr,
                                         max_distance, &options, &out));
@@ -103,10 +103,10 @@ public:
     }
 
     /// All pairs of primitives of two objects at most `epsilon` apart, nearest first, and their contacts.
-    cstk_witness_list
+    [[nodiscard]] cstk_witness_list
     environment_witnesses(const Environment &environment, const Environment *other, double epsilon,
                           std::size_t max_count = 4096,
-                          const cstk_object_pair_options &options = object_pair_options()) const {
+                          const cstk_object_pair_options &options = object_pair_options()) {
         cstk_witness_list out;
         check(cstk_environment_witnesses(query_of(*this), environment.get(), other ? other->get() : nullptr,
                                          epsilon, max_count, &options, &out));

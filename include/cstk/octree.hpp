@@ -30,7 +30,7 @@ public:
     explicit Octree(double resolution) : Handle(create(resolution)) {}
 
     /// From an OctoMap file (.bt or .ot).
-    static Octree load(const std::string &file, double min_occupancy = 0.5) {
+    [[nodiscard]] static Octree load(const std::string &file, double min_occupancy = 0.5) {
         cstk_octree *out = nullptr;
         check(cstk_octree_load(file.c_str(), min_occupancy, &out));
         return Octree(out);
@@ -44,7 +44,7 @@ public:
     }
 
     /// Whether the cell around a point is occupied.
-    bool get_cell(const Body::Vector &point) const {
+    [[nodiscard]] bool get_cell(const Body::Vector &point) const {
         bool occupied = false;
         check(cstk_octree_get(get(), point.data(), 1, &occupied));
         return occupied;
@@ -53,27 +53,27 @@ public:
     /// Makes the cells occupied that are occupied in another octree.
     void insert(const Octree &other) { check(cstk_octree_insert(get(), other.get())); }
 
-    double resolution() const {
+    [[nodiscard]] double resolution() const {
         double out = 0;
         check(cstk_octree_get_state(get(), &out, nullptr, nullptr));
         return out;
     }
 
-    std::uint64_t cell_count() const {
+    [[nodiscard]] std::uint64_t cell_count() const {
         std::uint64_t out = 0;
         check(cstk_octree_get_state(get(), nullptr, &out, nullptr));
         return out;
     }
 
     /// How many s-objects it is in its environment.
-    std::size_t object_count() const {
+    [[nodiscard]] std::size_t object_count() const {
         std::size_t out = 0;
         check(cstk_octree_get_state(get(), nullptr, nullptr, &out));
         return out;
     }
 
     /// The occupied cells as cubes, as large as can be: lowest corner and edge, four doubles each.
-    std::vector<double> cubes() const {
+    [[nodiscard]] std::vector<double> cubes() const {
         std::size_t count = 0;
         check(cstk_octree_get_cubes(get(), 0, nullptr, &count));
         std::vector<double> cubes(4 * count);
@@ -82,7 +82,7 @@ public:
     }
 
     /// A body of the occupied cells, which does not change any more.
-    Body build_body(const cstk_hierarchy_options &options = hierarchy_options(), Progress progress = {}) const {
+    [[nodiscard]] Body build_body(const cstk_hierarchy_options &options = hierarchy_options(), Progress progress = {}) const {
         detail::Report report{std::move(progress), nullptr};
         cstk_body *out = nullptr;
         report.check(cstk_octree_build_body(get(), &options, report.function(), &report, &out));

@@ -17,7 +17,7 @@
 
 namespace cstk {
 
-inline cstk_shortcut_options shortcut_options(std::uint64_t attempts = 100, std::uint64_t seed = 0) {
+[[nodiscard]] inline cstk_shortcut_options shortcut_options(std::uint64_t attempts = 100, std::uint64_t seed = 0) {
     cstk_shortcut_options options;
     check(cstk_shortcut_options_default(&options, sizeof options));
     options.attempts = attempts;
@@ -32,10 +32,10 @@ template <typename Query> class PathQueries {
 public:
     /// Proves a path free, or finds its first contact: `points` holds `count` configurations, one after the other; `reached`, if given,
     /// receives the configuration at the contact.
-    cstk_path_result motion_path(const CObject &cobject, Span<double> points, std::size_t count,
+    [[nodiscard]] cstk_path_result motion_path(const CObject &cobject, Span<double> points, std::size_t count,
                                  const cstk_motion_options &options = motion_options(),
                                  Progress progress = {},
-                                 std::vector<double> *reached = nullptr) const {
+                                 std::vector<double> *reached = nullptr) {
         detail::Report report{std::move(progress), nullptr};
         cstk_path_result out;
         std::vector<double> found(detail::parts_of(points, count));
@@ -49,11 +49,11 @@ public:
 
     /// The least distance along a path: `points` holds `count` configurations, one after the other; `nearest`, if given, receives the
     /// configuration at the nearest place.
-    cstk_path_clearance_result path_clearance(const CObject &cobject, Span<double> points,
+    [[nodiscard]] cstk_path_clearance_result path_clearance(const CObject &cobject, Span<double> points,
                                               std::size_t count,
                                               const cstk_clearance_options &options,
                                               Progress progress = {},
-                                              std::vector<double> *nearest = nullptr) const {
+                                              std::vector<double> *nearest = nullptr) {
         detail::Report report{std::move(progress), nullptr};
         cstk_path_clearance_result out;
         std::vector<double> found(detail::parts_of(points, count));
@@ -66,10 +66,10 @@ public:
     }
 
     /// Makes a path shorter by motions that are proved free. The path of the answer belongs to this query until its next call.
-    cstk_shortcut_result path_shortcut(const CObject &cobject, Span<double> points,
+    [[nodiscard]] cstk_shortcut_result path_shortcut(const CObject &cobject, Span<double> points,
                                        std::size_t count,
                                        const cstk_shortcut_options &options = shortcut_options(),
-                                       Progress progress = {}) const {
+                                       Progress progress = {}) {
         detail::Report report{std::move(progress), nullptr};
         cstk_shortcut_result out;
         report.check(cstk_path_shortcut(query_of(*this), cobject.get(), points.data(), count,

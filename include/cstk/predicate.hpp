@@ -14,7 +14,7 @@
 namespace cstk {
 
 /// A set by C functions of yours. They must not throw.
-inline cstk_predicate predicate() {
+[[nodiscard]] inline cstk_predicate predicate() {
     cstk_predicate predicate;
     check(cstk_predicate_default(&predicate, sizeof predicate));
     return predicate;

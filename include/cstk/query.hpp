@@ -19,7 +19,8 @@
 
 namespace cstk {
 
-/// A query context; one per thread. Copies share the context.
+/// A query context; one per thread. A call changes it: the lists of the call before are gone. It can be moved, and is not copied: a
+/// copy would be the same context.
 class Query : public Handle<cstk_query, cstk_query_retain, cstk_query_release>,
               public detail::ConfigurationQueries<Query>,
               public detail::PairQueries<Query>,
@@ -31,28 +32,30 @@ class Query : public Handle<cstk_query, cstk_query_retain, cstk_query_release>,
               public detail::SlideQueries<Query> {
 public:
     Query() : Handle(create()) {}
+    Query(Query &&) noexcept = default;
+    Query &operator=(Query &&) noexcept = default;
 
     /// The version of an environment that the last query saw.
-    std::uint64_t version(const Environment &environment) const {
+    [[nodiscard]] std::uint64_t version(const Environment &environment) const {
         std::uint64_t out = 0;
         check(cstk_query_get_version(get(), environment.get(), &out));
         return out;
     }
 
     /// Which contacts come with the witnesses of lists from now on.
-    void set_contacts(cstk_contacts_listed listed) const {
+    void set_contacts(cstk_contacts_listed listed) {
         check(cstk_query_set_contacts(get(), listed));
     }
 
     /// Limits the work of each query from now on; 0 for no limit. A query that needs more fails with CSTK_ERROR_LIMIT.
-    void set_limit(std::uint64_t node_and_primitive_pairs) const {
+    void set_limit(std::uint64_t node_and_primitive_pairs) {
         check(cstk_query_set_limit(get(), node_and_primitive_pairs));
     }
 
     /// Refines curved surfaces until later answers are known to `gap`; infinity for never.
-    void set_refinement(double gap) const { check(cstk_query_set_refinement(get(), gap)); }
+    void set_refinement(double gap) { check(cstk_query_set_refinement(get(), gap)); }
 
-    cstk_query_statistics statistics(bool reset = false) const {
+    cstk_query_statistics statistics(bool reset = false) {
         cstk_query_statistics out;
         check(cstk_query_get_statistics(get(), reset, &out));
         return out;

@@ -14,14 +14,14 @@
 namespace cstk {
 
 /// The default options of cstk_region_classify.
-inline cstk_region_options region_options() {
+[[nodiscard]] inline cstk_region_options region_options() {
     cstk_region_options options;
     check(cstk_region_options_default(&options, sizeof options));
     return options;
 }
 
 /// The default options of cstk_region_grow.
-inline cstk_growth_options growth_options() {
+[[nodiscard]] inline cstk_growth_options growth_options() {
     cstk_growth_options options;
     check(cstk_growth_options_default(&options, sizeof options));
     return options;
@@ -41,10 +41,10 @@ template <typename Query> class RegionQueries {
 public:
     /// Proves that no configuration between low and high is inside, or that all are; `inside` and `outside`, if given, receive one of
     /// each where the result says that they are known.
-    cstk_region_result region_classify(const CObject &cobject, Span<double> low, Span<double> high,
+    [[nodiscard]] cstk_region_result region_classify(const CObject &cobject, Span<double> low, Span<double> high,
                                        const cstk_region_options &options = region_options(),
                                        std::vector<double> *inside = nullptr,
-                                       std::vector<double> *outside = nullptr) const {
+                                       std::vector<double> *outside = nullptr) {
         cstk_region_result out;
         std::vector<double> in(detail::same_size(low, high)), beside(low.size());
         check(cstk_region_classify(query_of(*this), cobject.get(), low.data(), high.data(), low.size(), &options,
@@ -59,8 +59,8 @@ public:
     }
 
     /// Grows a box around q that is proved free. `weights` has one entry for each of the space's `nv` velocities.
-    GrownRegion region_grow(const CObject &cobject, Span<double> q, Span<double> weights,
-                            const cstk_growth_options &options = growth_options()) const {
+    [[nodiscard]] GrownRegion region_grow(const CObject &cobject, Span<double> q, Span<double> weights,
+                            const cstk_growth_options &options = growth_options()) {
         GrownRegion grown;
         grown.low.resize(q.size());
         grown.high.resize(q.size());

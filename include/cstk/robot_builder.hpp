@@ -18,19 +18,19 @@
 namespace cstk {
 
 /// A joint by functions of yours. They must not throw.
-inline cstk_custom_joint custom_joint() {
+[[nodiscard]] inline cstk_custom_joint custom_joint() {
     cstk_custom_joint joint;
     check(cstk_custom_joint_default(&joint, sizeof joint));
     return joint;
 }
 
-inline cstk_urdf_options urdf_options() {
+[[nodiscard]] inline cstk_urdf_options urdf_options() {
     cstk_urdf_options options;
     check(cstk_urdf_options_default(&options, sizeof options));
     return options;
 }
 
-inline cstk_srdf_options srdf_options() {
+[[nodiscard]] inline cstk_srdf_options srdf_options() {
     cstk_srdf_options options;
     check(cstk_srdf_options_default(&options, sizeof options));
     return options;
@@ -103,7 +103,7 @@ public:
     }
 
     /// What became of the URDF file or text added last.
-    cstk_urdf_report urdf_report() const {
+    [[nodiscard]] cstk_urdf_report urdf_report() const {
         cstk_urdf_report report;
         check(cstk_robot_builder_get_urdf_report(get(), &report));
         return report;
@@ -119,7 +119,7 @@ public:
     }
 
     /// What became of the SRDF file or text added last.
-    cstk_srdf_report srdf_report() const {
+    [[nodiscard]] cstk_srdf_report srdf_report() const {
         cstk_srdf_report report;
         check(cstk_robot_builder_get_srdf_report(get(), &report));
         return report;
@@ -130,7 +130,7 @@ public:
         check(cstk_robot_builder_disable_pair(get(), r_link.c_str(), s_link.c_str()));
     }
 
-    Robot build() const {
+    [[nodiscard]] Robot build() const {
         cstk_robot *out = nullptr;
         check(cstk_robot_build(get(), &out));
         return Robot(out);

@@ -15,7 +15,7 @@
 
 namespace cstk {
 
-inline cstk_slide_options slide_options(double max_shell) {
+[[nodiscard]] inline cstk_slide_options slide_options(double max_shell) {
     cstk_slide_options options;
     check(cstk_slide_options_default(&options, sizeof options));
     options.max_shell = max_shell;
@@ -23,7 +23,7 @@ inline cstk_slide_options slide_options(double max_shell) {
 }
 
 /// For steps of this length, as Space::distance() measures.
-inline cstk_slide_to_options slide_to_options(double step) {
+[[nodiscard]] inline cstk_slide_to_options slide_to_options(double step) {
     cstk_slide_to_options options;
     check(cstk_slide_to_options_default(&options, sizeof options));
     options.step = step;
@@ -31,7 +31,7 @@ inline cstk_slide_to_options slide_to_options(double step) {
 }
 
 /// The step nearest to `step` that respects the contacts of a list with gradients; none where too little is left of it.
-inline std::optional<std::vector<double>> slide_step(const cstk_witness_list &list,
+[[nodiscard]] inline std::optional<std::vector<double>> slide_step(const cstk_witness_list &list,
                                                      Span<double> step, double desired_distance,
                                                      bool normalize = false) {
     std::vector<double> out(step.size());
@@ -42,7 +42,7 @@ inline std::optional<std::vector<double>> slide_step(const cstk_witness_list &li
 }
 
 /// The shortest step out to the desired distance; none where no contact is nearer, or none can be helped.
-inline std::optional<std::vector<double>> spring_step(const cstk_witness_list &list,
+[[nodiscard]] inline std::optional<std::vector<double>> spring_step(const cstk_witness_list &list,
                                                       double desired_distance) {
     std::vector<double> out(list.nv);
     bool found = false;
@@ -57,10 +57,10 @@ template <typename Query> class SlideQueries {
 public:
     /// Leads the robot from q to the box of configurations between `goal_low` and `goal_high`, straight or sliding, until it arrives or
     /// is stopped. Without weights each is 1. The path of the answer belongs to this query until its next call.
-    cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal_low,
+    [[nodiscard]] cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal_low,
                                   Span<double> goal_high, const cstk_slide_options &slide,
                                   const cstk_slide_to_options &options, Span<double> weights = {},
-                                  Progress progress = {}) const {
+                                  Progress progress = {}) {
         detail::Report report{std::move(progress), nullptr};
         cstk_slide_to_result out;
         detail::same_size(q, goal_low);
@@ -71,15 +71,15 @@ public:
     }
 
     /// The same to one configuration.
-    cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal,
+    [[nodiscard]] cstk_slide_to_result slide_to(const CObject &cobject, Span<double> q, Span<double> goal,
                                   const cstk_slide_options &slide,
-                                  const cstk_slide_to_options &options) const {
+                                  const cstk_slide_to_options &options) {
         return slide_to(cobject, q, goal, goal, slide, options);
     }
 
     /// Moves q by one sliding step; says how it ended.
     cstk_slide_result slide(const CObject &cobject, std::vector<double> &q, Span<double> step,
-                            const cstk_slide_options &options) const {
+                            const cstk_slide_options &options) {
         cstk_slide_result out;
         check(cstk_slide(query_of(*this), cobject.get(), q.data(), q.size(), step.data(), step.size(), &options,
                          q.data(), &out));

@@ -19,14 +19,14 @@
 
 namespace cstk {
 
-inline cstk_range circle() { return {CSTK_RANGE_CIRCLE, 0, 0, 0}; }
+[[nodiscard]] inline cstk_range circle() { return {CSTK_RANGE_CIRCLE, 0, 0, 0}; }
 
-inline cstk_range interval(double lower, double upper) {
+[[nodiscard]] inline cstk_range interval(double lower, double upper) {
     return {CSTK_RANGE_INTERVAL, 0, lower, upper};
 }
 
 /// What the joint says.
-inline cstk_range default_range() { return {CSTK_RANGE_DEFAULT, 0, 0, 0}; }
+[[nodiscard]] inline cstk_range default_range() { return {CSTK_RANGE_DEFAULT, 0, 0, 0}; }
 
 class Space : public Handle<cstk_space, cstk_space_retain, cstk_space_release> {
 public:
@@ -38,26 +38,26 @@ public:
         : Handle(create(robots, ranges, world_box)) {}
     explicit Space(const Robot &robot) : Space(std::vector<Robot>{robot}) {}
 
-    std::size_t nq() const {
+    [[nodiscard]] std::size_t nq() const {
         std::size_t nq = 0;
         check(cstk_space_get_size(get(), &nq, nullptr, nullptr));
         return nq;
     }
 
-    std::size_t nv() const {
+    [[nodiscard]] std::size_t nv() const {
         std::size_t nv = 0;
         check(cstk_space_get_size(get(), nullptr, &nv, nullptr));
         return nv;
     }
 
-    std::size_t link_count() const {
+    [[nodiscard]] std::size_t link_count() const {
         std::size_t count = 0;
         check(cstk_space_get_size(get(), nullptr, nullptr, &count));
         return count;
     }
 
     /// The name of a link, numbered through the space.
-    std::string link_name(std::uint32_t link) const {
+    [[nodiscard]] std::string link_name(std::uint32_t link) const {
         std::size_t length = 0;
         check(cstk_space_get_link_name(get(), link, nullptr, 0, &length));
         std::string out(length + 1, '\0');
@@ -67,7 +67,7 @@ public:
     }
 
     /// The pairs of links that SRDF files leave to be tested, for CObject::induced_links().
-    std::vector<std::array<std::uint32_t, 2>> enabled_pairs() const {
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> enabled_pairs() const {
         std::size_t count = 0;
         check(cstk_space_get_enabled_pairs(get(), 0, nullptr, &count));
         std::vector<std::uint32_t> flat(2 * count);
@@ -79,76 +79,76 @@ public:
         return out;
     }
 
-    bool contains(Span<double> q) const {
+    [[nodiscard]] bool contains(Span<double> q) const {
         bool out = false;
         check(cstk_space_contains(get(), q.data(), q.size(), &out));
         return out;
     }
 
     /// `coordinate` receives the first that is out of its range, or CSTK_NONE.
-    bool within_limits(Span<double> q, std::uint32_t *coordinate = nullptr) const {
+    [[nodiscard]] bool within_limits(Span<double> q, std::uint32_t *coordinate = nullptr) const {
         bool out = false;
         check(cstk_space_within_limits(get(), q.data(), q.size(), &out, coordinate));
         return out;
     }
 
     /// `link` receives the first that is outside the world box, or CSTK_NONE.
-    bool within_world(Span<double> q, std::uint32_t *link = nullptr) const {
+    [[nodiscard]] bool within_world(Span<double> q, std::uint32_t *link = nullptr) const {
         bool out = false;
         check(cstk_space_within_world(get(), q.data(), q.size(), &out, link));
         return out;
     }
 
-    cstk_range range(std::size_t coordinate) const {
+    [[nodiscard]] cstk_range range(std::size_t coordinate) const {
         cstk_range out;
         check(cstk_space_get_range(get(), coordinate, &out));
         return out;
     }
 
     /// Where the numbers of the `robot`-th robot begin.
-    cstk_space_offset offset(std::size_t robot) const {
+    [[nodiscard]] cstk_space_offset offset(std::size_t robot) const {
         cstk_space_offset out;
         check(cstk_space_get_offset(get(), robot, &out));
         return out;
     }
 
     /// One pose for every link, as Query's _at_link_poses functions take them.
-    std::vector<Pose> link_poses(Span<double> q) const {
+    [[nodiscard]] std::vector<Pose> link_poses(Span<double> q) const {
         std::vector<Pose> out(link_count());
         check(cstk_space_link_poses(get(), q.data(), q.size(), out.data()->data()));
         return out;
     }
 
     /// 6 rows of nv doubles.
-    std::vector<double> jacobian(Span<double> q, std::uint32_t link,
+    [[nodiscard]] std::vector<double> jacobian(Span<double> q, std::uint32_t link,
                                  const std::array<double, 3> &point) const {
         std::vector<double> out(6 * nv());
         check(cstk_space_jacobian(get(), q.data(), q.size(), link, point.data(), out.data()));
         return out;
     }
 
-    std::vector<double> neutral() const {
+    [[nodiscard]] std::vector<double> neutral() const {
         std::vector<double> out(nq());
         check(cstk_space_get_neutral(get(), out.data()));
         return out;
     }
 
     /// Where velocity `v` leads to from `q` in a unit of time.
-    std::vector<double> step(Span<double> q, Span<double> v) const {
+    [[nodiscard]] std::vector<double> step(Span<double> q, Span<double> v) const {
         std::vector<double> out(nq());
         check(cstk_space_step(get(), q.data(), q.size(), v.data(), v.size(), out.data()));
         return out;
     }
 
     /// The velocity that leads from `q0` to `q1` in a unit of time.
-    std::vector<double> difference(Span<double> q0, Span<double> q1) const {
+    [[nodiscard]] std::vector<double> difference(Span<double> q0, Span<double> q1) const {
         std::vector<double> out(nv());
         check(cstk_space_difference(get(), q0.data(), q1.data(), detail::same_size(q0, q1),
                                     out.data()));
         return out;
     }
 
-    std::vector<double> interpolate(Span<double> q0, Span<double> q1, double t) const {
+    [[nodiscard]] std::vector<double> interpolate(Span<double> q0, Span<double> q1, double t) const {
         std::vector<double> out(nq());
         check(cstk_space_interpolate(get(), q0.data(), q1.data(), detail::same_size(q0, q1), t,
                                      out.data()));
@@ -156,7 +156,7 @@ public:
     }
 
     /// No weights: 1 each.
-    double distance(Span<double> q0, Span<double> q1, Span<double> weights = {}) const {
+    [[nodiscard]] double distance(Span<double> q0, Span<double> q1, Span<double> weights = {}) const {
         if (weights.size() != 0 && weights.size() != nv()) {
             throw std::invalid_argument("cstk: there is one weight for each velocity");
         }
@@ -167,7 +167,7 @@ public:
     }
 
     /// From `q` to each of the configurations in `others`, one after the other.
-    std::vector<double> distances(Span<double> q, Span<double> others,
+    [[nodiscard]] std::vector<double> distances(Span<double> q, Span<double> others,
                                   Span<double> weights = {}) const {
         if (weights.size() != 0 && weights.size() != nv()) {
             throw std::invalid_argument("cstk: there is one weight for each velocity");
@@ -182,19 +182,19 @@ public:
     }
 
     /// Advances the state of the stream of random numbers.
-    std::vector<double> sample(std::uint64_t &state) const {
+    [[nodiscard]] std::vector<double> sample(std::uint64_t &state) const {
         std::vector<double> out(nq());
         check(cstk_space_sample(get(), &state, out.data()));
         return out;
     }
 
-    std::vector<double> clamp(Span<double> q) const {
+    [[nodiscard]] std::vector<double> clamp(Span<double> q) const {
         std::vector<double> out(nq());
         check(cstk_space_clamp(get(), q.data(), q.size(), out.data()));
         return out;
     }
 
-    std::vector<double> wrap(Span<double> q) const {
+    [[nodiscard]] std::vector<double> wrap(Span<double> q) const {
         std::vector<double> out(nq());
         check(cstk_space_wrap(get(), q.data(), q.size(), out.data()));
         return out;

@@ -31,6 +31,10 @@ public:
 
     const T *data() const noexcept { return data_; }
     std::size_t size() const noexcept { return size_; }
+    bool empty() const noexcept { return size_ == 0; }
+    const T &operator[](std::size_t index) const { return data_[index]; }
+    const T *begin() const noexcept { return data_; }
+    const T *end() const noexcept { return data_ + size_; }
 
 private:
     const T *data_ = nullptr;

@@ -61,7 +61,7 @@ template <class See> void for_motions(const Problem &problem, See see) {
 
 void motions_are_as_their_samples_say(const Problem &problem) {
     const problems::Workcell &cell = *problem.workcell;
-    const cstk::Query query;
+    cstk::Query query;
     std::size_t valid = 0;
     for_motions(problem, [&](const ob::SpaceInformation &information, const ob::State *from, const ob::State *to) {
         const auto &space = *information.getStateSpace()->as<cstk_ompl::StateSpace>();
@@ -90,7 +90,7 @@ void motions_are_as_their_samples_say(const Problem &problem) {
 
 void the_clearance_of_a_motion_is_the_least_distance_of_its_samples(const Problem &problem) {
     const problems::Workcell &cell = *problem.workcell;
-    const cstk::Query query;
+    cstk::Query query;
     const double tolerance = 1e-3;
     const auto setup = proved_setup(problem);
     const cstk_ompl::ClearanceObjective objective(setup->getSpaceInformation(), cell.contact, tolerance);
@@ -130,7 +130,7 @@ void rrt_connect_finds_a_free_path(const Problem &problem) {
     const auto setup = proved_setup(problem);
     setup->setPlanner(std::make_shared<ompl::geometric::RRTConnect>(setup->getSpaceInformation()));
     expect(setup->solve(60) == ob::PlannerStatus::EXACT_SOLUTION, problem.scene + " is solved");
-    const cstk::Query query;
+    cstk::Query query;
     expect(everywhere(cell.space, configurations(setup->getSolutionPath()), samples,
                       [&](const Configuration &q) { return query.classify(cell.contact, q) != CSTK_CLASS_INSIDE; }),
            "the path of " + problem.scene + " is free");

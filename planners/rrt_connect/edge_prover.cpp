@@ -2,7 +2,7 @@
 
 namespace rrt_connect {
 
-EdgeProver::EdgeProver(const cstk::Query &query, const cstk::CObject &contact)
+EdgeProver::EdgeProver(cstk::Query &query, const cstk::CObject &contact)
     : query_(query), contact_(contact), options_(cstk::motion_options()) {
     // Where a motion meets something first does not matter.
     options_.any_contact = 1;

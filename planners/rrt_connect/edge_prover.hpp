@@ -10,7 +10,7 @@ namespace rrt_connect {
 /// "Free" is proved by cstk_motion.
 class EdgeProver {
   public:
-    EdgeProver(const cstk::Query &query, const cstk::CObject &contact);
+    EdgeProver(cstk::Query &query, const cstk::CObject &contact);
 
     bool is_free(const Configuration &from, const Configuration &to);
     bool is_free(const Configuration &q) const;
@@ -19,7 +19,7 @@ class EdgeProver {
     std::size_t checks() const { return checks_; }
 
   private:
-    cstk::Query query_;
+    cstk::Query &query_;
     cstk::CObject contact_;
     cstk_motion_options options_;
     std::size_t checks_ = 0;

@@ -83,7 +83,7 @@ struct Solution {
     double shortened;
 };
 
-Solution solve(const Problem &problem, const Arguments &arguments, const cstk::Query &query) {
+Solution solve(const Problem &problem, const Arguments &arguments, cstk::Query &query) {
     const problems::Workcell &cell = *problem.workcell;
     rrt_connect::Options options;
     options.range = problem.range;
@@ -98,7 +98,7 @@ Solution solve(const Problem &problem, const Arguments &arguments, const cstk::Q
 }
 
 std::vector<Solution> solve_scene(const std::vector<Problem> &scene, const Arguments &arguments, std::ostream &csv) {
-    const cstk::Query query;
+    cstk::Query query;
     std::vector<Solution> solutions;
     for (const Problem &problem : scene) {
         const Solution found = solve(problem, arguments, query);

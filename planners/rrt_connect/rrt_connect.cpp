@@ -44,7 +44,7 @@ std::vector<Configuration> joined(const Tree &from_start, std::size_t start_side
 
 } // namespace
 
-Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
+Plan plan(cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
           const Configuration &goal, const Options &options) {
     EdgeProver edges(query, contact);
     if (!edges.is_free(start) || !edges.is_free(goal)) {

@@ -31,7 +31,7 @@ struct Plan {
 
 /// Looks for a path from start to goal outside of `contact`. There is none where one of the two is inside. Every coordinate of the
 /// space needs a bounded range, to be sampled from.
-Plan plan(const cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
+Plan plan(cstk::Query &query, const cstk::Space &space, const cstk::CObject &contact, const Configuration &start,
           const Configuration &goal, const Options &options = {});
 
 } // namespace rrt_connect

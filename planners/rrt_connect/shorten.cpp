@@ -10,7 +10,7 @@ double length(const cstk::Space &space, const std::vector<Configuration> &path) 
     return sum;
 }
 
-std::vector<Configuration> shortened(const cstk::Query &query, const cstk::CObject &contact,
+std::vector<Configuration> shortened(cstk::Query &query, const cstk::CObject &contact,
                                      const std::vector<Configuration> &path, std::size_t tries, std::uint64_t seed) {
     if (path.empty()) {
         return {};
@@ -19,13 +19,8 @@ std::vector<Configuration> shortened(const cstk::Query &query, const cstk::CObje
     for (const Configuration &q : path) {
         points.insert(points.end(), q.begin(), q.end());
     }
-    const cstk_path found =
-        query.path_shortcut(contact, points, path.size(), cstk::shortcut_options(tries, seed)).path;
-    std::vector<Configuration> shorter;
-    for (std::size_t i = 0; i < found.count; ++i) {
-        shorter.emplace_back(found.points + i * found.nq, found.points + (i + 1) * found.nq);
-    }
-    return shorter;
+    return cstk::configurations_of(
+        query.path_shortcut(contact, points, path.size(), cstk::shortcut_options(tries, seed)).path);
 }
 
 } // namespace rrt_connect

@@ -12,7 +12,7 @@ const std::uint64_t MAX_SLIDES = 80;
 } // namespace
 
 LocalPlanner::LocalPlanner(const Problem &problem, const cstk::CObject &obstacles,
-                           const cstk::Query &query)
+                           cstk::Query &query)
     : obstacles_(obstacles), query_(query), slide_options_(cstk::slide_options(problem.slide.shell)),
       options_(cstk::slide_to_options(problem.slide.step)), any_contact_(cstk::motion_options()) {
     options_.max_steps = MAX_SLIDES;
@@ -33,7 +33,7 @@ std::optional<Path> LocalPlanner::reach(const Configuration &from, const Configu
     if (led.outcome != CSTK_SLIDE_TO_ARRIVED) {
         return std::nullopt;
     }
-    Path path = path_of(led.path);
+    Path path = cstk::configurations_of(led.path);
     /* The path begins with `from`; with one point `from` is in the box already. */
     if (path.size() > 1) {
         path.erase(path.begin());

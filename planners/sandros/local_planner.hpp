@@ -18,7 +18,7 @@ struct LocalWork {
 /// gives up. Every motion that it returns is proved free.
 class LocalPlanner {
   public:
-    LocalPlanner(const Problem &problem, const cstk::CObject &obstacles, const cstk::Query &query);
+    LocalPlanner(const Problem &problem, const cstk::CObject &obstacles, cstk::Query &query);
 
     /// The configurations after `from`, the last of them in the set; none if it was not reached.
     std::optional<Path> reach(const Configuration &from, const Grid &grid, const Cells &cells);
@@ -37,7 +37,7 @@ class LocalPlanner {
                               const Configuration &high);
 
     const cstk::CObject obstacles_;
-    const cstk::Query query_;
+    cstk::Query &query_;
     const cstk_slide_options slide_options_;
     cstk_slide_to_options options_;
     cstk_motion_options any_contact_;

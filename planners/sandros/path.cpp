@@ -11,7 +11,7 @@ const std::uint64_t SHORTCUTS = 300;
 
 /// The path without the corners whose neighbours are joined by a straight motion that is proved
 /// free. Each shortcut puts its two ends on the path: most of them are of no more use in the end.
-Path without_corners(Path path, const cstk::CObject &obstacles, const cstk::Query &query) {
+Path without_corners(Path path, const cstk::CObject &obstacles, cstk::Query &query) {
     cstk_motion_options options = cstk::motion_options();
     options.any_contact = 1;
     for (std::size_t before = 0; before != path.size();) {
@@ -38,17 +38,8 @@ std::vector<double> flat(const Path &path) {
     return points;
 }
 
-Path path_of(const cstk_path &given) {
-    Path path;
-    for (std::size_t i = 0; i < given.count; ++i) {
-        const double *q = given.points + i * given.nq;
-        path.emplace_back(q, q + given.nq);
-    }
-    return path;
-}
-
 bool is_free(const Problem &problem, const Path &path) {
-    const cstk::Query query;
+    cstk::Query query;
     const cstk_path_result found =
         query.motion_path(obstacles_of(problem), flat(path), path.size());
     return found.motion.outcome == CSTK_MOTION_FREE;
@@ -63,11 +54,11 @@ double length(const Problem &problem, const Path &path) {
 }
 
 Path shortened(const Problem &problem, const Path &path) {
-    const cstk::Query query;
+    cstk::Query query;
     const cstk::CObject obstacles = obstacles_of(problem);
     const cstk_shortcut_result found = query.path_shortcut(obstacles, flat(path), path.size(),
                                                            cstk::shortcut_options(SHORTCUTS));
-    return without_corners(path_of(found.path), obstacles, query);
+    return without_corners(cstk::configurations_of(found.path), obstacles, query);
 }
 
 } // namespace sandros

@@ -9,9 +9,6 @@ namespace sandros {
 /// One configuration after the other, as the library takes them.
 std::vector<double> flat(const Path &path);
 
-/// What the library hands back.
-Path path_of(const cstk_path &given);
-
 /// Every motion of the path is proved free.
 bool is_free(const Problem &problem, const Path &path);
 

@@ -26,7 +26,7 @@ Side other(Side side) { return side == START ? GOAL : START; }
 /// The search at one resolution.
 class Search {
   public:
-    Search(const Problem &problem, const Grid &grid, const cstk::Query &query)
+    Search(const Problem &problem, const Grid &grid, cstk::Query &query)
         : grid_(grid), obstacles_(obstacles_of_first_axes(problem)),
           local_(problem, obstacles_.back(), query),
           graph_(grid, obstacles_, SHELLS_OF_ROOM * problem.slide.shell, query) {
@@ -211,7 +211,7 @@ const char *name_of(Outcome outcome) {
 
 Plan plan(const Problem &problem, const PlanOptions &options) {
     Plan made = {Outcome::BAD_START_OR_GOAL, {}, {}};
-    const cstk::Query query;
+    cstk::Query query;
     const cstk::CObject obstacles = obstacles_of(problem);
     for (const Configuration *end : {&problem.start, &problem.goal}) {
         if (!problem.space.within_limits(*end) ||

@@ -25,7 +25,7 @@ template <typename List> auto find_neighbour(List &list, SubgoalId id) {
 } // namespace
 
 SubgoalGraph::SubgoalGraph(const Grid &grid, std::vector<cstk::CObject> obstacles, double clearance,
-                           const cstk::Query &query)
+                           cstk::Query &query)
     : grid_(grid), obstacles_(std::move(obstacles)), clearance_(clearance), query_(query),
       rest_(grid.axis_count(), 0.0), subgoals_(1) {}
 

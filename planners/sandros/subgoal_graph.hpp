@@ -49,7 +49,7 @@ class SubgoalGraph {
   public:
     /// Its one subgoal is the whole of C-space. `obstacles` are those of the first axes.
     SubgoalGraph(const Grid &grid, std::vector<cstk::CObject> obstacles, double clearance,
-                 const cstk::Query &query);
+                 cstk::Query &query);
 
     const Subgoal &operator[](SubgoalId id) const { return subgoals_[id]; }
     std::size_t size() const { return subgoals_.size(); }
@@ -85,7 +85,7 @@ class SubgoalGraph {
     const Grid &grid_;
     const std::vector<cstk::CObject> obstacles_;
     const double clearance_;
-    const cstk::Query query_;
+    cstk::Query &query_;
     /// For the coordinates that a subgoal leaves free: the links asked about do not depend on them.
     const Configuration rest_;
     std::vector<Subgoal> subgoals_;

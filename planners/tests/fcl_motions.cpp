@@ -28,7 +28,7 @@ struct Counts {
 };
 
 /// A free configuration and one so far from it, as Space::distance measures, or nearer.
-std::pair<Configuration, Configuration> random_motion(const problems::Workcell &cell, const cstk::Query &query, double length,
+std::pair<Configuration, Configuration> random_motion(const problems::Workcell &cell, cstk::Query &query, double length,
                                                       std::uint64_t &random) {
     Configuration from;
     do {
@@ -42,7 +42,7 @@ std::pair<Configuration, Configuration> random_motion(const problems::Workcell &
 void judge(const Problem &problem, std::size_t motions, std::size_t samples) {
     const problems::Workcell &cell = *problem.workcell;
     const FclCell fcl(cell, FclCell::exact_way());
-    const cstk::Query query;
+    cstk::Query query;
     std::uint64_t random = 7;
     Counts counts;
     for (std::size_t i = 0; i < motions; ++i) {

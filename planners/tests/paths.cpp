@@ -26,7 +26,7 @@ void judge(const Problem &problem, const std::vector<problems::Configuration> &p
     const problems::Workcell &cell = *problem.workcell;
     expect(path.size() >= 2, what + " is found");
     expect(path.front() == problem.start && path.back() == problem.goal, what + " leads from the start to the goal");
-    const cstk::Query query;
+    cstk::Query query;
     expect(everywhere(cell.space, path, samples,
                       [&](const problems::Configuration &q) {
                           return query.classify(cell.contact, q) != CSTK_CLASS_INSIDE && cell.space.within_limits(q);
@@ -42,7 +42,7 @@ void judge(const Problem &problem, const std::vector<problems::Configuration> &p
 void solve(const Problem &problem, std::uint64_t seed) {
     const problems::Workcell &cell = *problem.workcell;
     const std::string what = "the path of " + problem.scene + " " + problem.name + " with seed " + std::to_string(seed);
-    const cstk::Query query;
+    cstk::Query query;
     rrt_connect::Options options;
     options.range = problem.range;
     options.seed = seed;
@@ -59,7 +59,7 @@ void solve(const Problem &problem, std::uint64_t seed) {
 void what_cannot_be_reached_gets_no_path() {
     const Problem problem = problems::windows();
     const problems::Workcell &cell = *problem.workcell;
-    const cstk::Query query;
+    cstk::Query query;
     rrt_connect::Options options;
     options.max_samples = 100;
     problems::Configuration in_the_wall = problem.goal;

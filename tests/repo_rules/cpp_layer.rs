@@ -15,7 +15,8 @@ fn included(text: &str) -> Vec<&str> {
         .collect()
 }
 
-/// The headers of the layer with their names. FCL's calls (include/cstk/fcl.hpp) are a layer of their own above it.
+/// The headers of the layer with their names. FCL's calls (include/cstk/fcl.hpp) and Eigen's poses (include/cstk/eigen.hpp) stand above
+/// it.
 fn headers() -> Vec<(String, PathBuf)> {
     let files = std::fs::read_dir(root().join("include/cstk")).unwrap();
     files
@@ -27,7 +28,7 @@ fn headers() -> Vec<(String, PathBuf)> {
                 path,
             )
         })
-        .filter(|(name, _)| name != "fcl")
+        .filter(|(name, _)| !["fcl", "eigen"].contains(&&name[..]))
         .collect()
 }
 

@@ -129,8 +129,8 @@ template <typename S> Eigen::Isometry3d in_double(const Transform3<S> &transform
 inline Eigen::Vector3d point_of(const double *point) { return {point[0], point[1], point[2]}; }
 
 /// This thread's query context. Of parallel features one contact is computed, which is all that FCL's answers hold.
-inline const cstk::Query &query() {
-    thread_local const cstk::Query query = [] {
+inline cstk::Query &query() {
+    thread_local cstk::Query query = [] {
         cstk::Query made;
         made.set_contacts(CSTK_CONTACTS_NEAREST);
         return made;

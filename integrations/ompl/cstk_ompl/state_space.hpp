@@ -27,7 +27,7 @@ class StateSpace : public ompl::base::RealVectorStateSpace {
         : RealVectorStateSpace(static_cast<unsigned int>(space.nq())), space_(space), is_metric_(is_metric) {
         const double pi = std::acos(-1.0);
         std::uint64_t random = 0;
-        space.sample(random);
+        static_cast<void>(space.sample(random));
         setName("cstk" + getName());
         for (unsigned int i = 0; i < space.nq(); ++i) {
             const cstk_range range = space.range(i);

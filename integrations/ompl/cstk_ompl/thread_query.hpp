@@ -6,8 +6,8 @@
 namespace cstk_ompl {
 
 /// OMPL's parallel planners ask from several threads; a query context serves one of them.
-inline const cstk::Query &thread_query() {
-    static thread_local const cstk::Query query;
+inline cstk::Query &thread_query() {
+    static thread_local cstk::Query query;
     return query;
 }
 

@@ -62,7 +62,7 @@ class Lattice {
         : problem_(problem), obstacles_(obstacles_of(problem)) {}
 
     /// Floods the lattice from the cell of `from`.
-    bool connects(const Configuration &from, const Configuration &to) const {
+    bool connects(const Configuration &from, const Configuration &to) {
         const std::size_t goal = cell_of(to);
         if (!straight(from, middle(cell_of(from))) || !straight(to, middle(goal))) {
             return false;
@@ -126,17 +126,17 @@ class Lattice {
         return out;
     }
 
-    bool straight(const Configuration &a, const Configuration &b) const {
+    bool straight(const Configuration &a, const Configuration &b) {
         return query_.motion(obstacles_, a, b).outcome == CSTK_MOTION_FREE;
     }
 
     const Problem &problem_;
     const cstk::CObject obstacles_;
-    const cstk::Query query_;
+    cstk::Query query_;
 };
 
 Configuration random_free(const Problem &problem, Random &random) {
-    const cstk::Query query;
+    cstk::Query query;
     const cstk::CObject obstacles = obstacles_of(problem);
     for (;;) {
         const Configuration q = {random.uniform(-1, 1), random.uniform(-1, 1),
