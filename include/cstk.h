@@ -4938,7 +4938,7 @@ typedef struct cstk_motion_result {
   cstk_motion_outcome outcome;
   /**
    * `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless any_contact was set or
-   * lengths and units of C-space mix in the C-object.
+   * lengths and units of C-space mix in the C-object: cstk_explain at the configuration reached then names what decides.
    */
   bool has_distance;
   uint8_t reserved_bytes[3];

@@ -70,7 +70,7 @@ pub enum cstk_motion_outcome {
 pub struct cstk_motion_result {
     pub outcome: cstk_motion_outcome,
     /// `distance` holds the distance at times[1], with witness and contact: for hits and near motions, unless any_contact was set or
-    /// lengths and units of C-space mix in the C-object.
+    /// lengths and units of C-space mix in the C-object: cstk_explain at the configuration reached then names what decides.
     pub has_distance: bool,
     pub reserved_bytes: [u8; 3],
     /// See cstk_motion_outcome; 1 and 1 for a free motion.
