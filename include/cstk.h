@@ -38,25 +38,28 @@
  * polyhedron or ready-made shape of a body. The shell, or stand-off, is the distance within which contacts are considered.
  *
  * CALLS. Every call that can fail returns a cstk_status; inputs come first, outputs last, and outputs are written only on
- * CSTK_OK. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library
- * never prints, and ends the process in one case only: an allocation that fails (see MEMORY).
+ * CSTK_OK, but for a batch that is cancelled, whose statuses tell which answers are written. The length of an output array stands
+ * behind it. After a failure cstk_last_error_message() names the culprit. A failed call has changed nothing. The library never
+ * prints, and ends the process in one case only: an allocation that fails (see MEMORY).
  *
  * OWNERSHIP. _create, _build and _snapshot give one reference, _retain adds one, _release drops one; releasing NULL is a
  * no-op. Objects keep alive what they refer to, so parts may be released as soon as the whole is made. A handle that was
  * released for good, or that is of another kind, is answered with CSTK_ERROR_WRONG_HANDLE as far as that can be known; do not
- * rely on it. Bodies, robots, spaces and C-objects never change once made. Strings and arrays passed in are copied.
+ * rely on it. Bodies, robots, spaces and C-objects never change once made, but for the user data that a body may be given once.
+ * Strings and arrays passed in are copied.
  *
  * MEMORY. What a call holds is bounded by what it was given: arrays, files within their stated limits, max_count. Where an array
  * or a file of the caller's sets the size of one allocation, too little memory is answered with CSTK_ERROR_OUT_OF_MEMORY. Any
  * other allocation that fails ends the process (abort), as Rust's standard library has it; it does not unwind. Programs that
  * must survive that limit what they give. docs/robustness.md lists what is promised, each line with its test.
  *
- * THREADS. All objects may be shared by threads, but for query contexts: a cstk_query (and a builder) serves one call at a
- * time and answers CSTK_ERROR_BUSY to another. Make one per thread.
+ * THREADS. All objects may be shared by threads. Those that a call changes serve one at a time, and answer CSTK_ERROR_BUSY to
+ * another: a cstk_query, of which each thread makes its own, a cstk_batch, a cstk_octree and the builders.
  *
  * OPTIONS. Structures with size and cookie are written by their _default function before fields are set; others are
  * refused with CSTK_ERROR_NOT_INITIALISED. The size passed to it is that of the structure itself, as your header has it: so many
- * bytes are written. Where a parameter is called options, NULL stands for the defaults.
+ * bytes are written. Options may be NULL for the defaults, but for those that have a field without one: slide_options, the options
+ * of cstk_slide_to, and clearance_options.
  *
  * UNITS AND FRAMES. Lengths are in the caller's unit, angles in radians. A pose is 12 doubles, row-major [R | t], from
  * child to parent frame: x_parent = R x_child + t. R may be off orthonormal by 1e-6; the nearest rotation is then used.
@@ -3177,7 +3180,8 @@ typedef struct cstk_predicate {
    */
   uint32_t distance_is_bound;
   /**
-   * 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0.
+   * 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0: what it gives
+   * below 0 then counts as 0.
    */
   uint32_t knows_depth;
 } cstk_predicate;
@@ -5177,7 +5181,8 @@ cstk_status cstk_motion_curve(cstk_query *query,
 /**
  * The same on a B-spline of a degree from 1 to 16, with `count` control points, more than its degree, and `knot_count` knots that
  * never fall: count + degree + 1 of them. The parameter goes from the knot of number `degree` to that of number `count`; times of
- * the result go from 0 to 1 in proportion to it. What is before and behind is the caller's to leave out.
+ * the result go from 0 to 1 in proportion to it. What is before and behind is the caller's to leave out. A knot between the two
+ * stands there at most `degree` times: with more the curve may jump, which is CSTK_ERROR_INVALID_ARGUMENT.
  */
 cstk_status cstk_motion_spline(cstk_query *query,
                                const cstk_cobject *cobject,
@@ -5547,8 +5552,9 @@ enum cstk_region_outcome
    */
   CSTK_REGION_MIXED = 2,
   /**
-   * Neither was found with max_boxes parts, or within the limit of cstk_query_set_limit. (Where the class of a single
-   * configuration already needs more, the call ends with CSTK_ERROR_LIMIT.)
+   * Neither was found with max_boxes parts, or within the limit of cstk_query_set_limit, or some part is too small to be halved: within
+   * rounding of a contact, where more parts do not help. (Where the class of a single configuration already needs more, the call
+   * ends with CSTK_ERROR_LIMIT.)
    */
   CSTK_REGION_UNDECIDED = 3,
 };
@@ -5949,9 +5955,11 @@ cstk_status cstk_slide_options_default(cstk_slide_options *out, size_t size);
  * until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
  *
  * The proof is that of cstk_motion: each pair of primitives, and each link with a floor or the world box, is parted by
- * bounds over intervals of the way, so that a robot slides along what is only a rounding error away. Pairs that no joint of
+ * bounds over intervals of the way, so that a robot slides along what is only a rounding error away. The way is the straight one by
+ * the velocity that leads to `reached`, a part of `step` and what contacts turned it to: a step of more than half a turn about a circle
+ * goes all of it, where cstk_motion from q to `reached` would go the shorter way. Pairs that no joint of
  * the step moves relative to each other may touch. For a pair that touches at q and moves, the gradients of its contacts are
- * trusted for the first 1e-4 of max_shell (or of the smallest link's radius); from there on it must be apart, unless the
+ * trusted for the first 1e-4 of max_shell (or of the radius of the smallest body that a link carries); from there on it must be apart, unless the
  * whole motion is shorter, or a plane separates the two bodies and the motion goes along it. Of two bodies with more than
  * 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than the
  * nearest.

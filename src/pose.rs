@@ -98,8 +98,15 @@ impl Pose {
         }
         let [x, y, z, w] = xyzw;
         let quaternion = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
+        let mut rotation = quaternion.to_rotation_matrix().into_inner();
+        // A turn about an axis of the frame leaves that axis where it is: rounding would take it out of a planar world.
+        for (k, others) in [[y, z], [z, x], [x, y]].into_iter().enumerate() {
+            if others == [0.0; 2] {
+                rotation[(k, k)] = 1.0;
+            }
+        }
         Ok(Self {
-            rotation: quaternion.to_rotation_matrix().into_inner(),
+            rotation,
             translation,
         })
     }

@@ -8,7 +8,8 @@ pub const EPSILON: f64 = f64::EPSILON;
 ///
 /// A closed-form distance is a difference of points whose coordinates carry the rounding of one rigid transform (three products
 /// and three sums, each within EPSILON/2 of at most 3 L) and of one interpolation along a feature; that bounds the error by
-/// about 12 EPSILON L. The rest is [`CERTIFIED_GAP`]. Primitives whose vertices are off their faces' planes add that deviation
+/// about 12 EPSILON L. A distance that a certificate proves is at most [`CERTIFIED_GAP`] L, 16 EPSILON L, above a bound that is itself
+/// off by up to 14 EPSILON L (see [`SUPPORT_ERROR`]): 30 EPSILON L. Primitives whose vertices are off their faces' planes add that deviation
 /// (see `Convex::deviation`). A smaller gap cannot be distinguished from contact.
 pub const DISTANCE_ERROR: f64 = 32.0 * EPSILON;
 
@@ -28,7 +29,9 @@ pub const SUPPORT_ERROR: f64 = 16.0 * EPSILON;
 /// reports it in its answer.
 pub const SMOOTH_ERROR: f64 = 1e-11;
 
-/// The rounding error of a wrapper's bound, times L: one support evaluation along a unit vector.
+/// The rounding error of a wrapper's bound, times L: the gap of two boxes along a unit vector. The support of a box is the product of its
+/// centre with the vector, within 6 EPSILON L with the centre's transform, and three half axes times products within 3 EPSILON: 15
+/// EPSILON L for each of two, and the vector is off by 2 EPSILON as either sees it: 34 EPSILON L.
 pub const BOUND_ERROR: f64 = 64.0 * EPSILON;
 
 /// Features of a contact are parallel when their supporting vertices are level to within this times L. It is ten times the

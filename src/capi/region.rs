@@ -91,8 +91,9 @@ pub enum cstk_region_outcome {
     CSTK_REGION_INSIDE = 1,
     /// One configuration of the box is inside, and another is not.
     CSTK_REGION_MIXED = 2,
-    /// Neither was found with max_boxes parts, or within the limit of cstk_query_set_limit. (Where the class of a single
-    /// configuration already needs more, the call ends with CSTK_ERROR_LIMIT.)
+    /// Neither was found with max_boxes parts, or within the limit of cstk_query_set_limit, or some part is too small to be halved: within
+    /// rounding of a contact, where more parts do not help. (Where the class of a single configuration already needs more, the call
+    /// ends with CSTK_ERROR_LIMIT.)
     CSTK_REGION_UNDECIDED = 3,
 }
 

@@ -242,6 +242,16 @@ impl PureSet {
         }
     }
 
+    /// How far each coordinate is beyond its interval, at least; negative within it, or where it has none. Of limits and boxes; `None`
+    /// where the coordinates are not known.
+    pub fn beyond(&self, at: &SpaceState) -> Option<Vec<f64>> {
+        let mut beyond = vec![f64::NEG_INFINITY; at.space.nq()];
+        for (i, span) in self.spans(at.space, at.q?) {
+            beyond[i] = span.beyond - span.error;
+        }
+        Some(beyond)
+    }
+
     /// The signed distance of each coordinate from its interval, for limits and boxes; empty for other sets.
     pub(super) fn spans<'a>(
         &'a self,

@@ -62,8 +62,10 @@ pub struct Gjk {
     pub lower: f64,
     /// The unit direction from B to A that proves `lower`; zero if there is none.
     pub direction: Vec3,
-    /// The distance is at most this.
+    /// The least norm of a vector found. The distance is at most this but for rounding, which needle-like triangles magnify.
     pub upper: f64,
+    /// The distance is at most this: that of the closest points found. Infinite where the search ended beyond the cutoff.
+    pub attained: f64,
     /// The sets overlap by at least this depth: a tetrahedron of the difference contains the origin with this margin.
     pub overlap: f64,
     /// A point of both sets, where `overlap` is positive.
@@ -153,7 +155,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                 return found;
             }
             if found.upper <= 4.0 * tolerance::EPSILON * scale.sqrt() {
-                found.nearest = simplex.nearest(&v);
+                found.take_nearest(&simplex, &v);
                 return found;
             }
         }
@@ -198,7 +200,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                 }
             }
         }
-        found.nearest = simplex.nearest(&v);
+        found.take_nearest(&simplex, &v);
         found
     }
 }
@@ -211,6 +213,7 @@ impl Gjk {
             lower: 0.0,
             direction: Vec3::zeros(),
             upper: f64::INFINITY,
+            attained: f64::INFINITY,
             overlap: 0.0,
             common: Vec3::zeros(),
             near: None,
@@ -229,6 +232,16 @@ impl Gjk {
             self.near = Some([at.on_a; 2]);
         }
         self.upper = self.upper.min(off);
+        self.attained = if self.near.is_some() { 0.0 } else { off };
+    }
+
+    /// Takes the closest points that the search ends with.
+    #[inline(always)]
+    fn take_nearest(&mut self, simplex: &Simplex, foot: &Vec3) {
+        self.nearest = simplex.nearest(foot);
+        if let Some(nearest) = &self.nearest {
+            self.attained = nearest.difference.norm();
+        }
     }
 
     /// Takes the nearest points if they are within `enough`. On a needle-like triangle they may not be, although the foot is:
@@ -236,8 +249,10 @@ impl Gjk {
     #[inline(always)]
     fn take_near(&mut self, simplex: &Simplex, foot: &Vec3, enough: f64) -> bool {
         let nearest = simplex.combined(foot);
-        let is_near = nearest.difference.norm() <= enough;
+        let distance = nearest.difference.norm();
+        let is_near = distance <= enough;
         if is_near {
+            self.attained = distance;
             self.near = Some([nearest.on_a, nearest.on_a - nearest.difference]);
         }
         is_near

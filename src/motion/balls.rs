@@ -5,22 +5,11 @@ use super::kinematics::CenterMotion;
 use super::span::Span;
 use crate::body::Body;
 use crate::pose::Vec3;
-use crate::robot::MotionRates;
-use crate::tolerance::EPSILON;
-
-/// The rounding of kinematics, relative to the lengths that it adds up times 1 and the largest angle, whose own rounding turns
-/// them: some operations a joint, of some tens of joints.
-const KINEMATICS_ERROR: f64 = 256.0 * EPSILON;
 
 /// The balls around two bodies, which count as meeting up to some distance.
 pub(super) struct Balls<'a> {
     pub bodies: [&'a Body; 2],
     pub threshold: f64,
-}
-
-/// The rounding of the places of a body of this radius, whose centre moves with these rates.
-pub(super) fn kinematics_error(rates: &MotionRates, radius: f64) -> f64 {
-    KINEMATICS_ERROR * (rates.size + radius) * (1.0 + rates.angle)
 }
 
 impl Balls<'_> {

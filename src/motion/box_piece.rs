@@ -80,22 +80,19 @@ impl<'a> BoxPiece<'a> {
         ];
         let known = self.rates.between(a, b);
         let Some(rates) = known else {
-            let rates = MotionRates {
-                size: poses.iter().map(|pose| pose.translation.norm()).sum(),
-                ..MotionRates::default()
-            };
+            let rates = pair.rates_at(self.motions, |link| self.twists.pose(link));
             return PairInBox {
                 poses,
                 twists: RelativeTwists::new(),
                 second_order: SecondOrder::Farthest(self.farthest(a, b, self.way.line.v)),
-                kinematics_error: pair.kinematics_error(&rates),
+                kinematics_error: pair.kinematics_error(&rates, 1.0),
             };
         };
         let center = poses[0].transform_point(a.body.center());
         PairInBox {
             twists: self.twists.between(a.link, b.link, &center),
             poses,
-            kinematics_error: pair.kinematics_error(&rates),
+            kinematics_error: pair.kinematics_error(&rates, 1.0),
             second_order: SecondOrder::Rates(rates),
         }
     }

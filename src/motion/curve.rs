@@ -223,6 +223,22 @@ impl Spline<'_> {
                 i + 1
             )));
         }
+        // There the pieces before and behind need not join: a jump is no motion.
+        let inner = self.knots[self.degree]..self.knots[count];
+        let repeated = self.knots.windows(self.degree + 1);
+        let jump = repeated
+            .map(|same| (same[0], same[self.degree]))
+            .position(|(first, last)| {
+                first == last && first > inner.start && inner.contains(&first)
+            });
+        if let Some(i) = jump {
+            return Err(Error::invalid(format!(
+                "knots {i} to {} are equal: an inner knot of a spline of degree {} stands there at most {} times, or the spline jumps",
+                i + self.degree,
+                self.degree,
+                self.degree
+            )));
+        }
         Ok(())
     }
 }

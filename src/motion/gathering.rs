@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::ptr;
 
-use super::balls::{Balls, kinematics_error};
+use super::balls::Balls;
 use super::carried::Carried;
 use super::crowd::{Crowd, CrowdMemory};
 use super::interval_proof::MovingLeaf;
@@ -257,7 +257,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
             threshold: limit + stated_deviation,
         };
         let error = [(&a, &of_a), (&b, &of_b)]
-            .map(|(body, rates)| kinematics_error(rates, body.body.radius()));
+            .map(|(body, rates)| rates.rounding.of_places(body.body.radius(), 0.5));
         let bounds = [1, 2].map(|k| of_a.origin[k] + of_b.origin[k]);
         let center = middle.center_from_center(&a, &b);
         balls.stay_apart_over(&center, bounds, Span::Around(0.5), error[0] + error[1])
@@ -310,7 +310,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         if let Some(start) = self.start {
             pair.followed_from = start.pair_followed_from(term, target);
         }
-        let shift = self.share() * pair.speed();
+        let shift = self.share() * pair.speed() + pair.rounding_all_the_while();
         if pair.followed_from >= 1.0 || !may_meet(target.bound, threshold, shift) {
             return Ok(());
         }
@@ -401,12 +401,13 @@ impl<'a> Gathering<'a, '_> {
     fn shift_of_body(&mut self, body: &Carried<'a, usize>) -> Option<f64> {
         let rates = self.rates.of_body(body)?;
         let radius = body.body.radius();
+        let rounding = rates.rounding.of_places(radius, self.share());
         let by_speed = self.share() * (rates.turn[0] * radius + rates.origin[0]);
-        let Some(middle) = &mut self.middle else {
-            return Some(by_speed).filter(|shift| !shift.is_nan());
+        let shift = match &mut self.middle {
+            None => by_speed,
+            Some(middle) => by_speed.min(middle.shift(body, &rates, Span::Around(0.5))),
         };
-        let by_velocity = middle.shift(body, &rates, Span::Around(0.5));
-        Some(by_speed.min(by_velocity)).filter(|shift| !shift.is_nan())
+        Some(shift + rounding).filter(|shift| !shift.is_nan())
     }
 
     /// Bounds the change of a pair's distance from the middle to any other time.

@@ -21,7 +21,8 @@ use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::query::QueryContext;
 
-/// Intervals no longer than this, a part of the motion, are not halved: over them hardly anything moves by more than rounding.
+/// Intervals no longer than this, a part of the motion, are not halved: it is below the least tolerance, 1e-12, so that what is near is
+/// told over no longer time than was asked for.
 const SHORTEST_INTERVAL: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// The work on a pair that goes on in the halves of an interval, times the interval's length: see `PairLook`. By the motion benchmark
@@ -212,7 +213,7 @@ impl<'a> Prover<'a, '_, '_, '_> {
         });
         let mut contact: Option<f64> = None;
         let mut is_start_asked = false;
-        // Narrowed twice, primitives within rounding of each other would be followed in the smallest steps.
+        // Each contact is narrowed once: primitives that touch to within rounding would else be bisected down to the shortest interval.
         let mut narrowed: Option<(MeetingLeaves, f64)> = None;
         while let Some(interval) = todo.pop() {
             let [start, end] = interval.times;
@@ -454,6 +455,8 @@ impl MovingSet<'_> {
             if let MovingLeaf::Pure(pure) = leaf
                 && look.known[number] == Known::Nothing
             {
+                // A look at no geometry is work too, or nothing would end a proof beside a pure set.
+                look.scratch.meter_mut().count_nodes(1);
                 let moment = Moment {
                     way,
                     scene,

@@ -178,6 +178,18 @@ impl<'a> Kinematics<'a> {
         state.seen_at_rest(pose_of_b, center)
     }
 
+    /// How all links move.
+    pub fn motions(&self) -> &'a LinkMotions {
+        self.motions
+    }
+
+    /// A link's pose, once poses are needed.
+    pub fn pose_of_link(&self, link: usize) -> &Pose {
+        self.poses
+            .as_ref()
+            .map_or(&Pose::IDENTITY, |poses| &poses[link])
+    }
+
     /// Computes a body's state, unless that is done.
     fn place<L>(&mut self, number: usize, link: usize, carried: &Carried<L>) {
         if self.bodies.len() <= number {

@@ -6,6 +6,7 @@ use crate::environment::{Environment, SObject};
 use crate::error::Result;
 use crate::pose::Vec3;
 use crate::query::{Configuration, Placement, Scene, SceneMemory, Target, World};
+use crate::robot::Velocity;
 use crate::space::Space;
 
 /// The fraction of a distance that a bound may use; the rest covers rounding of kinematics and motion bounds.
@@ -90,7 +91,13 @@ impl<'a> LinearMotion<'a> {
     ) -> Option<f64> {
         let extent = extent(scene, link, carried);
         let space = self.cobject.space();
-        Some(space.directed_motion_bound(link, extent, direction, scene.state()?, self.v))
+        Some(space.directed_motion_bound(
+            link,
+            extent,
+            direction,
+            scene.state()?,
+            Velocity::Constant(self.v),
+        ))
     }
 
     /// Bounds the change of a pair's distance, by the relative motion of its bodies.

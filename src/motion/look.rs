@@ -58,8 +58,8 @@ pub(super) struct LeafLook {
     first: [usize; 3],
 }
 
-/// A pair that is looked at. Once something of it is left to the halves, all of it is looked at again: more than some work on the rest
-/// is left to them too.
+/// A body pair that is looked at. Once a pair of its nodes is left to the halves, the whole body pair is looked at again there; so the work
+/// on the rest of it is limited here.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PairLook {
     number: u32,

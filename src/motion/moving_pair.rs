@@ -1,6 +1,6 @@
 //! Two bodies, one of which moves as the other sees it, and what is known of them over an interval of the motion.
 
-use super::balls::{Balls, kinematics_error};
+use super::balls::Balls;
 use super::carried::Carried;
 use super::kinematics::{CenterMotion, Kinematics, Relative};
 use super::over_piece::{Displacement, Moved, OneTwist, OverPiece, PairOver, TwistLists};
@@ -12,7 +12,7 @@ use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned_back};
-use crate::robot::MotionRates;
+use crate::robot::{ChainRounding, LinkMotions, MotionRates};
 
 /// A body pair on a motion, from t = 0 to 1.
 pub(super) struct MovingPair<'a> {
@@ -39,6 +39,8 @@ enum Bounds {
         speed: f64,
         /// What the rounding of coordinates may move it.
         rounding: f64,
+        /// What the rounding of places comes from, but for the joints whose motion is not known.
+        chain: ChainRounding,
     },
 }
 
@@ -63,7 +65,11 @@ impl<'a> MovingPair<'a> {
                 if !(speed + rounding).is_finite() {
                     return None;
                 }
-                Bounds::Speed { speed, rounding }
+                Bounds::Speed {
+                    speed,
+                    rounding,
+                    chain: rates.rounding_of_known_joints(&a, &b),
+                }
             }
         };
         let stated_deviation = a.body.stated_deviation() + b.body.stated_deviation();
@@ -103,6 +109,17 @@ impl<'a> MovingPair<'a> {
         match &self.bounds {
             Bounds::Derivatives(rates) => rates.turn[0] * self.a.body.radius() + rates.origin[0],
             Bounds::Speed { speed, .. } => *speed,
+        }
+    }
+
+    /// What rounding may take off the gap of the two on the whole way, but for that of joints whose motion is not known.
+    pub fn rounding_all_the_while(&self) -> f64 {
+        let radius = self.a.body.radius();
+        match &self.bounds {
+            Bounds::Derivatives(rates) => rates.rounding.of_places(radius, 1.0),
+            Bounds::Speed {
+                rounding, chain, ..
+            } => rounding + chain.of_places(radius, 0.0),
         }
     }
 
@@ -148,7 +165,7 @@ impl<'a> MovingPair<'a> {
             Bounds::Derivatives(rates) => {
                 let center = kinematics.center(&self.a, &self.b);
                 let [_, p2, p3] = rates.origin;
-                let error = self.kinematics_error(&rates);
+                let error = self.kinematics_error(&rates, reach);
                 if self.balls().stay_apart_over(&center, [p2, p3], span, error) {
                     return PairOver::Apart;
                 }
@@ -158,7 +175,7 @@ impl<'a> MovingPair<'a> {
             }
             Bounds::Speed { speed, .. } => {
                 let (relative, rates) = self.relative(kinematics);
-                let error = self.kinematics_error(&rates);
+                let error = self.kinematics_error(&rates, reach);
                 let apart = &relative.center.apart;
                 if self.balls().stay_apart(apart, |_, _| reach * speed, error) {
                     return PairOver::Apart;
@@ -197,7 +214,7 @@ impl<'a> MovingPair<'a> {
             }],
             extension,
             bends: self.bends(relative, rates, span.reach()),
-            kinematics_error: self.kinematics_error(rates),
+            kinematics_error: self.kinematics_error(rates, span.reach()),
         }
     }
 
@@ -277,12 +294,29 @@ impl<'a> MovingPair<'a> {
         Pairing::new(a, pose_a, b, pose_b)
     }
 
-    pub fn kinematics_error(&self, rates: &MotionRates) -> f64 {
+    /// What rounding may take off the gap of the two in a time `reach` from where they are compared.
+    pub fn kinematics_error(&self, rates: &MotionRates, reach: f64) -> f64 {
         let of_coordinates = match self.bounds {
             Bounds::Derivatives(_) => 0.0,
             Bounds::Speed { rounding, .. } => rounding,
         };
-        kinematics_error(rates, self.a.body.radius()) + of_coordinates
+        rates.rounding.of_places(self.a.body.radius(), reach) + of_coordinates
+    }
+
+    /// The rates of a pair of whose motion no more than a speed is known: none, and what rounding comes from at these poses of links.
+    pub fn rates_at<'p>(
+        &self,
+        motions: &LinkMotions,
+        pose: impl Fn(usize) -> &'p Pose + Copy,
+    ) -> MotionRates {
+        let mut rates = MotionRates::default();
+        if let Bounds::Speed { chain, .. } = &self.bounds {
+            rates.rounding = *chain;
+            for link in std::iter::once(self.a.link).chain(self.b.link) {
+                rates.rounding.size += motions.lengths_of_unknown_joints(link, pose);
+            }
+        }
+        rates
     }
 
     /// As [`Sweep::bends`], with more than the rounding of their sums.
@@ -301,12 +335,8 @@ impl<'a> MovingPair<'a> {
             Bounds::Derivatives(rates) => (kinematics.relative(&self.a, &self.b), rates),
             Bounds::Speed { .. } => {
                 let relative = kinematics.still(&self.a, &self.b);
-                let places = relative.poses.iter().map(|pose| pose.translation.norm());
-                let rates = MotionRates {
-                    size: places.sum(),
-                    ..MotionRates::default()
-                };
-                (relative, rates)
+                let pose = |link: usize| kinematics.pose_of_link(link);
+                (relative, self.rates_at(kinematics.motions(), pose))
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::nonzero::{length, product};
 use crate::query::{PureAt, Scene};
-use crate::robot::{BlockKind, Coordinate};
+use crate::robot::{Block, BlockKind, Coordinate, Velocity};
 use crate::space::Space;
 
 /// More than the rounding of products of rates and times.
@@ -160,11 +160,45 @@ impl MovingPart {
             return Ok(Known::Free);
         }
         let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
-        Ok(if lower - threshold > along + self.rounding {
+        let stays_out = lower - threshold > along + self.rounding
+            || self
+                .beyond_box(moment)
+                .is_some_and(|beyond| beyond > threshold);
+        Ok(if stays_out {
             Known::Free
         } else {
             Known::Nothing
         })
+    }
+
+    /// A lower bound of the distance from a box all the while, by the motion of each coordinate alone: nothing is lost along a face. Where
+    /// all coordinates are lines.
+    fn beyond_box(&self, moment: &Moment) -> Option<f64> {
+        let PureShape::Box { .. } = &self.set.shape else {
+            return None;
+        };
+        let space = moment.scene.space();
+        let is_line = |block: &Block| block.kind == BlockKind::Line;
+        if !space.blocks().iter().all(is_line) {
+            return None;
+        }
+        let reach = match moment.extent {
+            Extent::Time { span, .. } => span.reach(),
+            Extent::Box(_) => 1.0,
+        };
+        let (v, rounding) = (moment.way.line.v, moment.way.rounding());
+        let beyond = self.set.beyond(&moment.scene.space_state())?;
+        let left: Vec<f64> = space
+            .blocks()
+            .iter()
+            .map(|block| {
+                let k = block.velocity;
+                let change = product(v[k].abs(), reach) * RATE_SLACK + rounding[k];
+                (beyond[block.coordinate] - change).max(0.0)
+            })
+            .collect();
+        // The sum of squares is off by a few roundings a coordinate.
+        Some(product(self.set.scale(), length(&left)) * (1.0 - 1e-9))
     }
 
     fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
@@ -185,10 +219,15 @@ impl MovingPart {
         }
         let stays = match self.set.measure(&moment.scene.space_state())? {
             Some(measure) if !measure.is_bound => {
-                let highest = measure.signed + measure.excess + measure.error + change;
-                // Predicates decide about contact themselves.
+                // Predicates decide about contact themselves, and those that do not know how deep they are say nothing below 0.
                 let is_predicate = matches!(self.set.shape, PureShape::Predicate(_));
-                let epsilon = if is_predicate {
+                let signed = match is_predicate && !measure.knows_depth {
+                    true => measure.signed.max(0.0),
+                    false => measure.signed,
+                };
+                let highest = signed + measure.excess + measure.error + change;
+                // What bodies only stand for is met by no contact epsilon: see [`PureSet::classify`].
+                let epsilon = if is_predicate || measure.excess > 0.0 {
                     0.0
                 } else {
                     self.set.epsilon()
@@ -222,7 +261,7 @@ impl MovingPart {
     }
 
     /// How far the link over a floor may come down from the middle of the interval on, by its motion along the normal alone:
-    /// nothing for a base that slides. Of straight motions and boxes.
+    /// nothing for a base that slides.
     fn along_normal(&self, moment: &Moment) -> Option<f64> {
         let PureShape::Floor { links, normal, .. } = &self.set.shape else {
             return None;
@@ -237,18 +276,24 @@ impl MovingPart {
                 return Some(piece.change_along(link, body, normal)? * RATE_SLACK);
             }
         };
-        if !matches!(moment.way.kind, WayKind::Line) {
-            return None;
-        }
         let extent = moment.scene.link(link)?.0.radius_from_origin();
         let space = moment.scene.space();
         let state = moment.scene.state()?;
+        let is_straight = matches!(moment.way.kind, WayKind::Line);
         let toward = |sign: f64| {
             let v = moment.way.line.v.iter();
             let v: Vec<f64> = v.map(|rate| sign * half * rate).collect();
-            space.directed_motion_bound(link, extent, normal, state, &v)
+            let velocity = match is_straight {
+                true => Velocity::Constant(&v),
+                false => Velocity::AtMost(&v),
+            };
+            space.directed_motion_bound(link, extent, normal, state, velocity)
         };
-        Some(toward(1.0).max(toward(-1.0)) * RATE_SLACK)
+        let along = match is_straight {
+            true => toward(1.0).max(toward(-1.0)),
+            false => toward(1.0),
+        };
+        Some(along * RATE_SLACK)
     }
 }
 
@@ -289,10 +334,9 @@ fn rate(way: &Way, set: &PureSet) -> f64 {
             let falls = |v: &[f64]| set.motion_bound(space, q, v);
             falls(v).max(falls(&back))
         }
-        PureShape::HalfSpace { normal, .. } if matches!(way.kind, WayKind::Box { .. }) => {
+        PureShape::HalfSpace { normal, .. } => {
             set.motion_bound(space, q, &falling(space, normal, v))
         }
-        PureShape::HalfSpace { .. } => speed(),
         _ => set.motion_bound(space, q, v),
     }
 }

@@ -1,7 +1,7 @@
 //! How fast the bodies of pairs move as the other one sees them.
 
 use super::carried::Carried;
-use crate::robot::{ChainRates, LinkMotions, MotionRates, RatesFrom};
+use crate::robot::{ChainRates, ChainRounding, LinkMotions, MotionRates, RatesFrom};
 
 /// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
 /// the same A and Bs that rest, or Bs of the same link.
@@ -37,15 +37,30 @@ impl<'a> PairRates<'a> {
                 let mut rates = at_center(self.on_link.of(a.link)?, a);
                 for link in [from, a.link] {
                     let in_world = self.in_world.of_known_joints(link).rates;
-                    rates.size += in_world.size;
-                    rates.angle = rates.angle.max(in_world.angle);
+                    rates.rounding.take_in(&in_world.rounding);
                 }
                 rates
             }
         };
         // Poses are computed in the world, and rounded relative to where they are there.
-        rates.size += b.pose.map_or(0.0, |pose| pose.translation.norm());
+        rates.rounding.size += b.pose.map_or(0.0, |pose| pose.translation.norm());
         Some(rates)
+    }
+
+    /// What the rounding of both bodies' places comes from, but for the custom joints that move.
+    pub fn rounding_of_known_joints(
+        &mut self,
+        a: &Carried<usize>,
+        b: &Carried<Option<usize>>,
+    ) -> ChainRounding {
+        let mut rounding = ChainRounding::default();
+        for link in std::iter::once(a.link).chain(b.link) {
+            rounding.take_in(&self.in_world.of_known_joints(link).rates.rounding);
+        }
+        for center in [a.pose, b.pose].into_iter().flatten() {
+            rounding.size += center.translation.norm();
+        }
+        rounding
     }
 
     /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
@@ -65,6 +80,6 @@ impl<'a> PairRates<'a> {
 fn at_center(chain: &ChainRates, body: &Carried<usize>) -> MotionRates {
     let mut rates = chain.at(&body.center());
     // The centre's place is the sum of two vectors, which are together at most this much longer than it.
-    rates.size += body.pose.map_or(0.0, |pose| 2.0 * pose.translation.norm());
+    rates.rounding.size += body.pose.map_or(0.0, |pose| 2.0 * pose.translation.norm());
     rates
 }

@@ -125,9 +125,9 @@ pub(super) enum BoxProof {
     Free,
     /// This one is, certainly.
     Meets(Vec<f64>),
-    /// The work ended.
+    /// The work ended, or some part is too small to be halved.
     Undecided {
-        /// The middle of the box that was looked at last.
+        /// The middle of the part that was looked at last, or of one that is too small.
         at: Vec<f64>,
         /// The part of the volume that is proved.
         proved: f64,
@@ -201,8 +201,8 @@ impl Work for Prover<'_, '_, '_> {
             part: front.start(&set.pairs, &set.crowds, !set.tree.is_plain_union()),
             volume: 1.0,
         }];
-        let mut proved = 0.0;
-        let mut boxes = 0;
+        let (mut proved, mut boxes) = (0.0, 0);
+        let mut undecided = None;
         while let Some(Rest {
             region,
             part,
@@ -269,7 +269,9 @@ impl Work for Prover<'_, '_, '_> {
             let mut shares = vec![0.0; space.nv()];
             front.raise_shares(&left, set, piece, &mut shares);
             let Some((c, _)) = widest(way, shares, &whole_half) else {
-                return Ok(BoxProof::Undecided { at: q, proved });
+                // It cannot be halved any more. Another part may still have a contact.
+                undecided = Some(q);
+                continue;
             };
             let [mut lower, mut upper] = [region.clone(), region];
             lower.high[c] = q[c];
@@ -282,7 +284,10 @@ impl Work for Prover<'_, '_, '_> {
                 });
             }
         }
-        Ok(BoxProof::Free)
+        Ok(match undecided {
+            Some(at) => BoxProof::Undecided { at, proved },
+            None => BoxProof::Free,
+        })
     }
 }
 

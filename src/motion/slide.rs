@@ -266,11 +266,9 @@ impl QueryContext {
 
     /// Whether the robot is proved to keep clear of the C-object on a motion from the start.
     fn way_is_free(&mut self, request: &SlideRequest, motion: LinearMotion) -> Result<bool> {
-        let &SlideRequest {
-            cobject, options, ..
-        } = request;
+        let SlideRequest { options, .. } = request;
         let allowance = TouchAllowance {
-            distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(cobject)),
+            distance: TOUCH_FRACTION * options.max_shell.min(smallest_radius(&motion)?),
             max_count: options.max_witnesses,
         };
         let mut start = StartContacts::default();
@@ -336,12 +334,14 @@ fn require_union(cobject: &CObject) -> Result<()> {
     ))
 }
 
-fn smallest_radius(cobject: &CObject) -> f64 {
-    let space = cobject.space();
-    let bodies = (0..space.link_count()).filter_map(|link| space.link(link)?.body.as_ref());
-    bodies
-        .map(|body| body.radius())
-        .fold(f64::INFINITY, f64::min)
+/// The least radius of a body that a link carries, its own or an attached object.
+fn smallest_radius(motion: &LinearMotion) -> Result<f64> {
+    let space = motion.cobject.space();
+    let links = (0..space.link_count()).filter_map(|link| space.link(link)?.body.as_ref());
+    let own = links.map(|body| body.radius());
+    let scene = &motion.scene(motion.q)?;
+    let attached = scene.held().iter().map(|held| held.object.body.radius());
+    Ok(own.chain(attached).fold(f64::INFINITY, f64::min))
 }
 
 fn overlaps(list: &WitnessList, options: &SlideOptions) -> bool {

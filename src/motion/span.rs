@@ -5,7 +5,7 @@
 pub(super) enum Span {
     /// It goes as far to either side.
     Around(f64),
-    /// It ends there: so long. What approaches all the while is nearest there, however it bends before.
+    /// It ends there, and has this length. What approaches all the while is nearest there, however it bends before.
     Before(f64),
 }
 

@@ -89,8 +89,8 @@ fn excess_beside(
             Vec3::zeros(),
             DistanceLimits::EXACT,
         );
-        excess = excess.max(outside.upper);
-        if outside.upper > accepted {
+        excess = excess.max(outside.attained);
+        if outside.attained > accepted {
             lost.push(i as u32);
         }
     }

@@ -518,7 +518,7 @@ fn measured(
     };
     let start = a.support(&Vec3::x()) - b.support(&Vec3::x());
     let found: Gjk = gjk(a, b, start, limits);
-    let apart = [found.lower, found.upper].map(|bound| (bound - radii[0] - radii[1]).max(0.0));
+    let apart = [found.lower, found.attained].map(|bound| (bound - radii[0] - radii[1]).max(0.0));
     let nearest = found.nearest.map(|nearest| nearest.points);
     let [on_a, on_b] = found.near.or(nearest).unwrap_or([found.common; 2]);
     let across = (on_a - on_b).try_normalize(0.0).unwrap_or_default();

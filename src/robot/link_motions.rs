@@ -187,6 +187,23 @@ impl LinkMotions {
         self.links[link].parent
     }
 
+    /// The lengths of the joints that carry a link and of whose motion no more than a speed is known, at these poses of links.
+    pub fn lengths_of_unknown_joints<'p>(
+        &self,
+        link: usize,
+        pose: impl Fn(usize) -> &'p Pose,
+    ) -> f64 {
+        let carriers = std::iter::successors(Some(link), |&link| self.parent(link));
+        let unknown = carriers.filter(|&link| !self.is_joint_known(link));
+        let length = |link: usize| {
+            let from = self
+                .parent(link)
+                .map_or(Vec3::zeros(), |parent| pose(parent).translation);
+            (pose(link).translation - from).norm()
+        };
+        unknown.map(length).sum()
+    }
+
     /// What a link's joint is made of, from its parent's frame on. Of a custom joint that moves, only where it begins.
     pub(super) fn elements_of(&self, link: usize) -> &[Element] {
         let [first, end] = self.links[link].elements;

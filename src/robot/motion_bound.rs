@@ -3,7 +3,7 @@
 
 use super::{JointKind, Link, Robot, RobotState};
 use crate::nonzero::{length, product};
-use crate::pose::Vec3;
+use crate::pose::{Mat3, Vec3};
 
 /// What one joint contributes to the motion of a point set that it carries.
 struct JointMotion {
@@ -13,6 +13,31 @@ struct JointMotion {
     turn: f64,
     /// The largest distance of the carried points from the link's origin during the motion.
     extent: f64,
+}
+
+/// What is known of the velocities of a motion, one entry per velocity.
+#[derive(Clone, Copy, Debug)]
+pub enum Velocity<'a> {
+    /// They stay these.
+    Constant(&'a [f64]),
+    /// They may be of any sign, and change, but are no larger. Only of joints each of whose coordinates turns about an axis of its own: what
+    /// turns about several axes at once may turn about others.
+    AtMost(&'a [f64]),
+}
+
+impl<'a> Velocity<'a> {
+    fn entries(self) -> &'a [f64] {
+        let (Self::Constant(v) | Self::AtMost(v)) = self;
+        v
+    }
+
+    /// Those of some of the coordinates.
+    pub fn of(self, entries: std::ops::Range<usize>) -> Self {
+        match self {
+            Self::Constant(v) => Self::Constant(&v[entries]),
+            Self::AtMost(v) => Self::AtMost(&v[entries]),
+        }
+    }
 }
 
 impl Robot {
@@ -46,23 +71,28 @@ impl Robot {
         bound
     }
 
-    /// The same along a unit direction of the world; `state` holds the link poses at the start. For a base that drives on a
+    /// The same along a unit direction n of the world; `state` holds the link poses at the start. For a base that drives on a
     /// floor, the bound along the floor's normal is 0.
+    ///
+    /// A joint that turns with w moves a point at r from its axis along n at n . (w x r) = r . (n x w), at most |r| |w| times the sine of
+    /// the angle between n and its axis. Seen from the joint's frame n drifts by the turns of all joints before it, and by its own turn,
+    /// and a sine grows by no more than the drift. A shift along s is n . s at the start, and changes by at most |s| times the drift.
     pub fn directed_motion_bound(
         &self,
         link: usize,
         radius: f64,
         direction: &Vec3,
         state: RobotState,
-        v: &[f64],
+        velocity: Velocity,
     ) -> f64 {
         let mut joints: Vec<JointMotion> = Vec::new();
+        let v = velocity.entries();
         self.visit_motions(None, link, radius, state.q, v, |joint| joints.push(joint));
         let mut bound = 0.0;
         // How far the direction, in the frame of the current joint, drifts from its value at the start.
         let mut drift = 0.0;
         for joint in joints.iter().rev() {
-            let [shift, turn] = self.directed_velocity(joint, direction, state, v);
+            let [shift, turn] = self.directed_velocity(joint, direction, state, velocity);
             let turned = times(joint.turn, (turn + drift).min(1.0));
             drift += turned;
             let shift = (shift + times(joint.shift, drift)).min(joint.shift);
@@ -78,30 +108,33 @@ impl Robot {
         joint: &JointMotion,
         direction: &Vec3,
         state: RobotState,
-        v: &[f64],
+        velocity: Velocity,
     ) -> [f64; 2] {
         let link = &self.links()[joint.link];
-        let Some([shift, turn]) = self.start_velocity(link, joint.link, state, v) else {
+        let v = velocity.entries();
+        let Some((shifts, turn)) = self.start_velocity(link, joint.link, state, v) else {
             return [joint.shift, 1.0];
+        };
+        let shifts = shifts.map(|shift| shift.dot(direction));
+        let shift = match velocity {
+            Velocity::Constant(_) => shifts.iter().sum::<f64>().abs(),
+            Velocity::AtMost(_) => shifts.iter().map(|shift| shift.abs()).sum(),
         };
         let sine = turn.try_normalize(0.0);
         let sine = sine.map_or(0.0, |axis| axis.cross(direction).norm());
         let is_known = !matches!(link.joint.kind, JointKind::FreeEuler);
-        [
-            shift.dot(direction).abs(),
-            if is_known { sine } else { 1.0 },
-        ]
+        [shift, if is_known { sine } else { 1.0 }]
     }
 
-    /// The linear and the angular velocity that a link's own joint gives it at the start of the motion, in the world;
-    /// `None` for custom joints.
+    /// The linear velocities that the coordinates of a link's own joint give it at the start of the motion, and its angular velocity, in
+    /// the world; `None` for custom joints.
     fn start_velocity(
         &self,
         link: &Link,
         index: usize,
         state: RobotState,
         v: &[f64],
-    ) -> Option<[Vec3; 2]> {
+    ) -> Option<([Vec3; 3], Vec3)> {
         let joint = &link.joint;
         let own = &v[joint.velocity..joint.velocity + joint.kind.nv()];
         let turned = state.poses[index].rotation;
@@ -111,18 +144,24 @@ impl Robot {
         };
         let vector = |at: usize| Vec3::new(own[at], own[at + 1], own[at + 2]);
         let zero = Vec3::zeros();
+        let along = |axes: Mat3, count: usize| {
+            [0, 1, 2].map(|k| match k < count {
+                true => axes.column(k) * own[k],
+                false => zero,
+            })
+        };
         Some(match joint.kind {
-            JointKind::Fixed => [zero, zero],
+            JointKind::Fixed => ([zero; 3], zero),
             // The joint's motion leaves the axis in place.
-            JointKind::Revolute => [zero, turned * joint.axis * (joint.multiplier * own[0])],
-            JointKind::Prismatic => [turned * joint.axis * (joint.multiplier * own[0]), zero],
-            JointKind::Planar => {
-                let shift = Vec3::new(own[0], own[1], 0.0);
-                [frame() * shift, frame().column(2) * own[2]]
+            JointKind::Revolute => ([zero; 3], turned * joint.axis * (joint.multiplier * own[0])),
+            JointKind::Prismatic => {
+                let shift = turned * joint.axis * (joint.multiplier * own[0]);
+                ([shift, zero, zero], zero)
             }
-            JointKind::Spherical => [zero, turned * vector(0)],
-            JointKind::Free => [turned * vector(0), turned * vector(3)],
-            JointKind::FreeEuler => [frame() * vector(0), zero],
+            JointKind::Planar => (along(frame(), 2), frame().column(2) * own[2]),
+            JointKind::Spherical => ([zero; 3], turned * vector(0)),
+            JointKind::Free => (along(turned, 3), turned * vector(3)),
+            JointKind::FreeEuler => (along(frame(), 3), zero),
             JointKind::Custom(_) => return None,
         })
     }

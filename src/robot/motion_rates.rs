@@ -2,6 +2,7 @@
 
 use super::course::CourseBounds;
 use crate::pose::{Pose, Vec3, turned_back};
+use crate::tolerance::EPSILON;
 
 /// Bounds for a whole motion: the k-th derivative of a point's position is at most `origin[k - 1] + turn[k - 1] r`, for points no
 /// farther than r from the moving frame's origin.
@@ -14,10 +15,46 @@ pub struct MotionRates {
     pub turn: [f64; 3],
     /// The first three derivatives of the origin.
     pub origin: [f64; 3],
-    /// The sum of the lengths of all that the origin's place is a sum of: what its rounding is relative to.
+    /// What the rounding of places and velocities comes from.
+    pub rounding: ChainRounding,
+}
+
+/// What the rounding of places along a chain comes from.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ChainRounding {
+    /// The number of its elements.
+    pub elements: f64,
+    /// The sum of the lengths of all that a place is a sum of.
     pub size: f64,
     /// The largest angle of a turn, in radians: an angle is rounded relative to itself.
     pub angle: f64,
+    /// The sum over all turns of the bounds of their speeds.
+    pub turning: f64,
+}
+
+impl ChainRounding {
+    /// Takes in another chain that a pose is computed along.
+    pub fn take_in(&mut self, other: &Self) {
+        self.elements += other.elements;
+        self.size += other.size;
+        self.angle = self.angle.max(other.angle);
+        self.turning += other.turning;
+    }
+
+    /// What the rounding of a pose may move a point within `radius` of the frame's origin, and what that of velocities and accelerations
+    /// may move it over a time `reach`.
+    ///
+    /// A pose is a product of the poses of n elements. A product of two matrices is off by at most 6 epsilon, as a matrix; a turn by an angle
+    /// of at most a by 4 epsilon, and by 2 a epsilon as its angle is rounded; a sum of translations by 4 epsilon of its size. Each turns or
+    /// moves all that comes after, so a point is off by at most n (10 + 2 a) epsilon times the sum s of all lengths. The relative pose of
+    /// two bodies, their support points, and the rounding of what classes measure take 96 epsilon s more. A velocity is a sum over the
+    /// turns of their speeds times arms that are off by as much: over a time in which these turn by T together it adds T times that,
+    /// and an acceleration T^2 times.
+    pub fn of_places(&self, radius: f64, reach: f64) -> f64 {
+        let turned = reach * self.turning;
+        let relative = 96.0 + self.elements * (10.0 + 2.0 * self.angle);
+        relative * EPSILON * (self.size + radius) * (1.0 + turned * (1.0 + turned))
+    }
 }
 
 /// The bounds along a chain of frames, up to one of them.
@@ -34,6 +71,7 @@ pub struct ChainRates {
 impl ChainRates {
     /// Goes on to a frame that is fixed to the last one.
     pub fn push_fixed(&mut self, pose: &Pose) {
+        self.rates.rounding.elements += 1.0;
         self.carry(&pose.translation, &CourseBounds::ONE);
         if let Some((axis, _)) = &mut self.last {
             *axis = turned_back(&pose.rotation, axis);
@@ -60,11 +98,15 @@ impl ChainRates {
         }
         let [s1, s2, s3] = self.angles;
         self.rates.turn = [s1, s1 * s1 + s2, s1 * s1 * s1 + 3.0 * s1 * s2 + s3];
-        self.rates.angle = self.rates.angle.max(bounds.summed);
+        let rounding = &mut self.rates.rounding;
+        rounding.elements += 1.0;
+        rounding.angle = rounding.angle.max(bounds.summed);
+        rounding.turning = s1;
     }
 
     /// Goes on behind a shift along a unit axis.
     pub(super) fn push_shift(&mut self, axis: &Vec3, bounds: &CourseBounds) {
+        self.rates.rounding.elements += 1.0;
         self.carry(axis, bounds);
     }
 
@@ -74,6 +116,7 @@ impl ChainRates {
         self.last = None;
         // Where no axis is known the arm counts by its length alone, which is 1.
         self.carry(axis, way);
+        self.rates.rounding.elements += 1.0;
         self.push_turn(axis, angle);
     }
 
@@ -85,7 +128,7 @@ impl ChainRates {
             return;
         }
         let length = factor.farthest;
-        self.rates.size += whole * factor.summed;
+        self.rates.rounding.size += whole * factor.summed;
         let parts = match self.last {
             // Along the last turn's axis only the turns before it count.
             Some((axis, before)) => [

@@ -8,7 +8,7 @@ use crate::body::Body;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{
-    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState,
+    Block, Column, Coordinate, CoordinateCourses, Link, LinkMotions, Robot, RobotState, Velocity,
     check_configuration,
 };
 
@@ -311,16 +311,22 @@ impl Space {
         radius: f64,
         direction: &Vec3,
         state: RobotState,
-        v: &[f64],
+        velocity: Velocity,
     ) -> f64 {
         let robot = self.robot_of(link);
         let offset = self.offsets[robot];
-        let v = &v[offset.velocity..offset.velocity + self.robots[robot].nv()];
+        let own_velocity = velocity.of(offset.velocity..offset.velocity + self.robots[robot].nv());
         let own = RobotState {
             q: &state.q[self.coordinates_of(robot)],
             poses: &state.poses[offset.link..],
         };
-        self.robots[robot].directed_motion_bound(link - offset.link, radius, direction, own, v)
+        self.robots[robot].directed_motion_bound(
+            link - offset.link,
+            radius,
+            direction,
+            own,
+            own_velocity,
+        )
     }
 
     /// Bounds the change of the distance between point sets fixed to two links, each within its extent of its link's

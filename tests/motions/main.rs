@@ -1,5 +1,6 @@
 //! Motions: slides, their paths and their proofs.
 
+mod beside_sets;
 mod certificate_forgeries;
 mod certificate_sets;
 mod certificates;

@@ -32,6 +32,19 @@ fn headers() -> Vec<(String, PathBuf)> {
         .collect()
 }
 
+/// A text without its comments, of lines and in between.
+fn without_comments(text: &str) -> String {
+    let blocks = text.split("/*").enumerate().map(|(i, part)| match i {
+        0 => part,
+        _ => part.split_once("*/").map_or("", |(_, rest)| rest),
+    });
+    let lines = blocks.collect::<String>();
+    let code = lines
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""));
+    code.collect::<Vec<_>>().join("\n")
+}
+
 #[test]
 fn headers_include_only_those_above_them() {
     let whole = std::fs::read_to_string(root().join("include/cstk.hpp")).unwrap();
@@ -59,8 +72,9 @@ fn headers_include_only_those_above_them() {
 fn every_export_is_called_in_the_layer() {
     let text: String = headers()
         .iter()
-        .map(|(_, path)| std::fs::read_to_string(path).unwrap())
+        .map(|(_, path)| without_comments(&std::fs::read_to_string(path).unwrap()))
         .collect();
+    // What is called, or handed on to be called.
     let words: std::collections::HashSet<&str> = text
         .split(|c: char| !c.is_alphanumeric() && c != '_')
         .collect();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Pose, Vec3, rotation_about};
 use cstk::robot::{
     JointKind, LinkDefinition, LinkMotions, LinkStates, MotionState, RatesFrom, bezier,
 };
@@ -115,6 +115,57 @@ fn poses_are_those_of_the_robot() {
             }
         }
     }
+}
+
+/// An arm folded to and fro, of many links that turn about random axes, and the same with every link before the last at rest in its frame:
+/// what is the same place but for rounding is as far apart as the bound says at most, which grows with the chain.
+#[test]
+fn places_are_rounded_within_the_bound_of_their_chain() {
+    let mut random = Random::new(83);
+    let mut least = f64::INFINITY;
+    for count in [3, 30, 300, 1000] {
+        let (mut turning, mut fixed) = (Vec::new(), Vec::new());
+        let mut q = Vec::new();
+        for i in 0..count {
+            let axis = random.unit();
+            let angle = random.within(-3.0, 3.0);
+            let at = Pose::from_translation(random.unit() * [1.0, 1e3][i % 2]);
+            let parent = usize::checked_sub(i, 1);
+            turning.push(LinkDefinition {
+                at,
+                ..link(parent, JointKind::Revolute, axis)
+            });
+            // The same turn by its rotation matrix, split in two.
+            let half = Pose {
+                rotation: rotation_about(&axis, 0.5 * angle),
+                translation: Vec3::zeros(),
+            };
+            fixed.push(LinkDefinition {
+                at: at.compose(&half).compose(&half),
+                ..link(parent, JointKind::Fixed, Vec3::x())
+            });
+            q.push(angle);
+        }
+        let [turning, fixed] = [turning, fixed].map(|links| space(vec![robot(3, links)]));
+        let places = [
+            turning.link_poses(&q).unwrap()[count - 1],
+            fixed.link_poses(&[]).unwrap()[count - 1],
+        ];
+        let point = Vec3::new(1.0, 2.0, 2.0);
+        let [a, b] = places.map(|pose| pose.transform_point(&point));
+        let motions = turning.link_motions(&q, &vec![0.1; count]);
+        let rates = RatesFrom::new(&motions, None).of(count - 1).unwrap().rates;
+        let bound = rates.rounding.of_places(point.norm(), 1.0);
+        assert!(
+            (a - b).norm() <= bound,
+            "{count}: {} > {bound}",
+            (a - b).norm()
+        );
+        let per_link = bound / (count as f64 * rates.rounding.size * f64::EPSILON);
+        least = least.min(per_link);
+        assert_eq!(rates.rounding.elements, 2.0 * count as f64);
+    }
+    assert!(least > 20.0, "{least} epsilon a link");
 }
 
 /// Central differences of the poses are the oracle of velocities, those of velocities the oracle of accelerations.

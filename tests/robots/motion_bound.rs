@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use cstk::body::Body;
 use cstk::pose::Vec3;
-use cstk::robot::{JointKind, LinkDefinition, RobotState};
+use cstk::robot::{JointKind, LinkDefinition, RobotState, Velocity};
 
 use helpers::random::Random;
 use helpers::robots::{Screw, link, robot, space};
@@ -165,7 +165,13 @@ fn no_point_moves_farther_along_a_direction_than_the_directed_bound() {
         for direction in [Vec3::z(), random.unit()] {
             let point = random.point(0.5);
             let link = length - 1;
-            let bound = space.directed_motion_bound(link, point.norm(), &direction, posture, &v);
+            let bound = space.directed_motion_bound(
+                link,
+                point.norm(),
+                &direction,
+                posture,
+                Velocity::Constant(&v),
+            );
             let whole = space.motion_bound_of_radius(link, point.norm(), &q, &v);
             assert!(bound <= whole * (1.0 + 1e-12), "{bound} > {whole}");
             for k in 1..=20 {
@@ -179,6 +185,54 @@ fn no_point_moves_farther_along_a_direction_than_the_directed_bound() {
                     used = used.max(along / (bound * share));
                 }
             }
+        }
+    }
+    assert!(used > 0.5, "at most {used:.3} of a bound was used");
+}
+
+/// Joints whose speeds change on the way, and their signs too.
+#[test]
+fn velocities_of_any_sign_move_along_a_direction_no_farther_than_their_bound() {
+    let mut random = Random::new(41);
+    let kinds = [
+        JointKind::Revolute,
+        JointKind::Prismatic,
+        JointKind::Planar,
+        JointKind::FreeEuler,
+    ];
+    let mut used = 0.0f64;
+    for round in 0..1000 {
+        let length = 1 + random.below(4);
+        let links = (0..length).map(|i: usize| LinkDefinition {
+            at: random.pose(0.5),
+            ..link(
+                i.checked_sub(1),
+                kinds[random.below(4)].clone(),
+                random.unit(),
+            )
+        });
+        let space = space(vec![robot(3, links.collect())]);
+        let size = [0.01, 0.3, 2.0][round % 3];
+        let q: Vec<f64> = (0..space.nq()).map(|_| random.within(-1.0, 1.0)).collect();
+        let most: Vec<f64> = (0..space.nv()).map(|_| random.within(0.0, size)).collect();
+        let poses = &space.link_poses(&q).unwrap();
+        let posture = RobotState { q: &q, poses };
+        let (direction, point) = (random.unit(), random.point(0.5));
+        let link = length - 1;
+        let velocity = Velocity::AtMost(&most);
+        let bound = space.directed_motion_bound(link, point.norm(), &direction, posture, velocity);
+        let mut at = q.clone();
+        for _ in 0..4 {
+            let part: Vec<f64> = most
+                .iter()
+                .map(|x| 0.25 * x * random.within(-1.0, 1.0).signum())
+                .collect();
+            at = at.iter().zip(&part).map(|(x, y)| x + y).collect();
+            let after = space.link_poses(&at).unwrap();
+            let way = after[link].transform_point(&point) - poses[link].transform_point(&point);
+            let along = way.dot(&direction).abs();
+            assert!(along <= bound + 1e-12, "{along} > {bound}");
+            used = used.max(along / bound);
         }
     }
     assert!(used > 0.5, "at most {used:.3} of a bound was used");
@@ -198,7 +252,8 @@ fn what_moves_level_has_no_motion_upwards() {
     let poses = &space.link_poses(&q).unwrap();
     let posture = RobotState { q: &q, poses };
     for link in 0..3 {
-        let bound = space.directed_motion_bound(link, 1.0, &Vec3::z(), posture, &v);
+        let bound =
+            space.directed_motion_bound(link, 1.0, &Vec3::z(), posture, Velocity::Constant(&v));
         assert!(bound < 1e-14, "{bound}");
     }
 }

@@ -57,7 +57,8 @@ pub struct cstk_predicate {
     pub destroy: cstk_destroy_fn,
     /// 1 if the distance function gives lower bounds outside the set, 0 (the default) if it gives distances.
     pub distance_is_bound: u32,
-    /// 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0.
+    /// 1 if the distance function gives minus the depth inside (the exact distance from the complement). Default 0: what it gives
+    /// below 0 then counts as 0.
     pub knows_depth: u32,
 }
 

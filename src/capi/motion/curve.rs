@@ -53,7 +53,8 @@ pub unsafe extern "C" fn cstk_motion_curve(
 
 /// The same on a B-spline of a degree from 1 to 16, with `count` control points, more than its degree, and `knot_count` knots that
 /// never fall: count + degree + 1 of them. The parameter goes from the knot of number `degree` to that of number `count`; times of
-/// the result go from 0 to 1 in proportion to it. What is before and behind is the caller's to leave out.
+/// the result go from 0 to 1 in proportion to it. What is before and behind is the caller's to leave out. A knot between the two
+/// stands there at most `degree` times: with more the curve may jump, which is CSTK_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_motion_spline(
     query: *mut cstk_query,

@@ -112,9 +112,11 @@ pub unsafe extern "C" fn cstk_slide_options_default(
 /// until the whole motion is proved free. Along a contact only part of the step is left; see `normalize`.
 ///
 /// The proof is that of cstk_motion: each pair of primitives, and each link with a floor or the world box, is parted by
-/// bounds over intervals of the way, so that a robot slides along what is only a rounding error away. Pairs that no joint of
+/// bounds over intervals of the way, so that a robot slides along what is only a rounding error away. The way is the straight one by
+/// the velocity that leads to `reached`, a part of `step` and what contacts turned it to: a step of more than half a turn about a circle
+/// goes all of it, where cstk_motion from q to `reached` would go the shorter way. Pairs that no joint of
 /// the step moves relative to each other may touch. For a pair that touches at q and moves, the gradients of its contacts are
-/// trusted for the first 1e-4 of max_shell (or of the smallest link's radius); from there on it must be apart, unless the
+/// trusted for the first 1e-4 of max_shell (or of the radius of the smallest body that a link carries); from there on it must be apart, unless the
 /// whole motion is shorter, or a plane separates the two bodies and the motion goes along it. Of two bodies with more than
 /// 64 primitive pairs only the nearest constrain a step: at most 8, no more than 1 % of the shell farther apart than the
 /// nearest.
