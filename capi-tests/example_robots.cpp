@@ -109,7 +109,7 @@ std::vector<std::string> meeting(const cstk::Space &space, const std::vector<std
 std::vector<std::array<std::uint32_t, 2>> combined_pairs(const cstk::Space &space) {
     cstk_link_pair_options options = cstk::link_pair_options();
     options.samples = 1;
-    return cstk::Query().find_link_pairs(space, options);
+    return cstk::Query().find_link_pairs(space, options).tested;
 }
 
 void load(cstk::RobotBuilder &builder, const std::string &robots, const Example &example, bool skips_unknown) {

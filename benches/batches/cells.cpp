@@ -45,7 +45,7 @@ std::vector<Cell> cells(const std::string &puma, const std::string &panda, std::
     if (!puma.empty()) {
         const cstk::Robot robot = problems::puma_560(puma);
         const cstk::Space space(robot);
-        add("Puma 560", robot, space, cstk::Query().find_link_pairs(space));
+        add("Puma 560", robot, space, cstk::Query().find_link_pairs(space).tested);
     }
     if (!panda.empty()) {
         const problems::Panda source(panda);

@@ -88,7 +88,7 @@ std::optional<Ends> towards_random(const Scene &scene, double length, Random &ra
 
 void add_arm(const std::string &name, const cstk::Robot &robot, std::vector<Obstacle> obstacles,
              Scenes &scenes) {
-    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(cstk::Space(robot));
+    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(cstk::Space(robot)).tested;
     scenes.push_back(std::make_unique<Scene>(name, robot, std::move(obstacles), pairs, tries,
                                              towards_random));
 }

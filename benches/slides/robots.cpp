@@ -31,7 +31,7 @@ cstk::Environment obstacles_around() {
 
 Cell::Cell(const std::string &robots, const std::string &urdf)
     : space(space_of(robots, urdf)), environment(obstacles_around()) {
-    const auto tested = cstk::Query().find_link_pairs(space);
+    const auto tested = cstk::Query().find_link_pairs(space).tested;
     pairs = tested.size();
     itself = cstk::CObject::induced_links(space, tested);
     obstacles = cstk::CObject::induced(space, environment);

@@ -1,6 +1,7 @@
 #include "check.hpp"
 #include "subjects.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,6 +15,32 @@ void scenes() {
     REQUIRE(ids.size() == 1 && environment.object_pose(ids[0])[3] == 1);
     REQUIRE(std::string(static_cast<const char *>(environment.object(ids[0]).data)) == "ball");
     REQUIRE(status_of([&] { return environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
+}
+
+/* An arm of three rods whose last may fold onto the first. */
+static void folding_arm(cstk::Query &query) {
+    cstk::RobotBuilder builder;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        cstk::Link rod;
+        rod.body = cstk::Body::box({1, 0.1, 0.1}, cstk::translation(1, 0, 0));
+        rod.joint = CSTK_JOINT_REVOLUTE;
+        rod.axis = {0, 0, 1};
+        if (i > 0) {
+            rod.parent = i - 1;
+            rod.at = cstk::translation(2, 0, 0);
+        }
+        builder.add_link(rod);
+    }
+    const cstk::Space arm(builder.build());
+    const cstk::LinkPairs found = query.find_link_pairs(arm);
+    REQUIRE((found.tested == std::vector<std::array<std::uint32_t, 2>>{{0, 2}}));
+    REQUIRE(found.pairs.size() == 3 && found.pairs[1].verdict == CSTK_PAIR_TEST && found.pairs[1].share > 0);
+    const auto stop = [](double) { return false; };
+    REQUIRE(status_of([&] { return query.find_link_pairs(arm, cstk::link_pair_options(), stop); }) ==
+            CSTK_ERROR_CANCELLED);
+    const cstk::CObject itself = cstk::CObject::induced_links(arm, found.tested);
+    REQUIRE(status_of([&] { return query.prove_clear_pairs(itself, cstk::clear_pair_options(), nullptr, stop); }) ==
+            CSTK_ERROR_CANCELLED);
 }
 
 /* A robot with an object in its hand, over a floor. */
@@ -40,7 +67,8 @@ void worlds(const cstk::Space &space, const cstk::Body &body) {
     world.move(id, cstk::translation(0, 0, 50));
     REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
     REQUIRE(query.distance(all, q).witness.r_object == 0);
-    REQUIRE(space.link_name(hand) == "link1" && query.find_link_pairs(space).empty());
+    REQUIRE(space.link_name(hand) == "link1" && query.find_link_pairs(space).tested.empty());
+    folding_arm(query);
     const cstk::CObject none = cstk::CObject::induced_links(space, {});
     REQUIRE(query.prove_clear_pairs(none).number() != none.number());
 }

@@ -7,6 +7,7 @@
 #include <cstk/detail.hpp>
 #include <cstk/error.hpp>
 #include <cstk/pose.hpp>
+#include <cstk/progress.hpp>
 #include <cstk/space.hpp>
 #include <cstk/span.hpp>
 
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace cstk {
@@ -29,6 +31,14 @@ namespace cstk {
     check(cstk_clear_pair_options_default(&options, sizeof options));
     return options;
 }
+
+/// The links that may come near each other.
+struct LinkPairs {
+    /// All pairs, with what was found of each.
+    std::vector<cstk_link_pair> pairs;
+    /// Those to test, for CObject::induced_links().
+    std::vector<std::array<std::uint32_t, 2>> tested;
+};
 
 namespace detail {
 
@@ -78,25 +88,28 @@ public:
         return out;
     }
 
-    /// Which pairs of links to test for self-collision, for CObject::induced_links().
-    [[nodiscard]] std::vector<std::array<std::uint32_t, 2>>
-    find_link_pairs(const Space &space,
-               const cstk_link_pair_options &options = link_pair_options()) {
+    /// Which pairs of links to test for self-collision, and why the others need not be.
+    [[nodiscard]] LinkPairs find_link_pairs(const Space &space, const cstk_link_pair_options &options = link_pair_options(),
+                                            Progress progress = {}) {
+        Report report{std::move(progress), nullptr};
         cstk_link_pair_list list;
-        check(cstk_find_link_pairs(query_of(*this), space.get(), &options, nullptr, nullptr, &list));
-        std::vector<std::array<std::uint32_t, 2>> pairs(list.tested_count);
-        for (std::size_t i = 0; i < pairs.size(); ++i) {
-            pairs[i] = {list.tested[2 * i], list.tested[2 * i + 1]};
+        report.check(cstk_find_link_pairs(query_of(*this), space.get(), &options, report.function(), &report, &list));
+        LinkPairs found{{list.pairs, list.pairs + list.count}, {}};
+        found.tested.resize(list.tested_count);
+        for (std::size_t i = 0; i < found.tested.size(); ++i) {
+            found.tested[i] = {list.tested[2 * i], list.tested[2 * i + 1]};
         }
-        return pairs;
+        return found;
     }
 
     /// A copy of a set of link pairs that knows by proof where its links are apart.
     [[nodiscard]] CObject prove_clear_pairs(const CObject &cobject,
                               const cstk_clear_pair_options &options = clear_pair_options(),
-                              cstk_clear_pair_summary *summary = nullptr) {
+                              cstk_clear_pair_summary *summary = nullptr, Progress progress = {}) {
+        Report report{std::move(progress), nullptr};
         cstk_cobject *out = nullptr;
-        check(cstk_prove_clear_pairs(query_of(*this), cobject.get(), &options, nullptr, nullptr, summary, &out));
+        report.check(cstk_prove_clear_pairs(query_of(*this), cobject.get(), &options, report.function(), &report,
+                                            summary, &out));
         return CObject(out);
     }
 

@@ -7,6 +7,7 @@
 #include <cstk/detail.hpp>
 #include <cstk/error.hpp>
 #include <cstk/pose.hpp>
+#include <cstk/progress.hpp>
 #include <cstk/robot.hpp>
 
 #include <array>
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace cstk {
 
@@ -86,19 +88,21 @@ public:
 
     /// Adds the robot of a URDF file; returns its root link. urdf_report() tells what was read and built.
     std::uint32_t load_urdf(const std::string &file,
-                            const cstk_urdf_options &options = urdf_options()) {
+                            const cstk_urdf_options &options = urdf_options(), Progress progress = {}) {
+        detail::Report report{std::move(progress), nullptr};
         std::uint32_t root = 0;
-        check(cstk_robot_builder_load_urdf(get(), file.c_str(), &options, nullptr, nullptr, &root));
+        report.check(cstk_robot_builder_load_urdf(get(), file.c_str(), &options, report.function(), &report, &root));
         return root;
     }
 
     /// Adds the robot of a URDF text, a robot_description say; mesh names are relative to `folder`.
     std::uint32_t load_urdf_text(const std::string &urdf, const std::string &folder = {},
-                                 const cstk_urdf_options &options = urdf_options()) {
+                                 const cstk_urdf_options &options = urdf_options(), Progress progress = {}) {
+        detail::Report report{std::move(progress), nullptr};
         std::uint32_t root = 0;
         const char *at = folder.empty() ? nullptr : folder.c_str();
-        check(cstk_robot_builder_load_urdf_text(get(), urdf.c_str(), at, &options, nullptr, nullptr,
-                                                &root));
+        report.check(cstk_robot_builder_load_urdf_text(get(), urdf.c_str(), at, &options, report.function(), &report,
+                                                       &root));
         return root;
     }
 

@@ -31,7 +31,7 @@ Problem chambers() {
     obstacles.push_back(box(cstk::translation(1.3, 0.5, 0), {0.3, thick, high}));
     const cstk::Robot robot = planar_arm(4);
     const cstk::Space space(robot);
-    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(space);
+    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(space).tested;
     auto workcell = std::make_shared<const Workcell>(robot, space, obstacles, pairs);
     return {"chambers", "1", workcell, {0, 0, 0, 0}, {3.1, 0, 0, 0}, 1};
 }

@@ -55,7 +55,7 @@ Problem puma_cell(const std::string &folder) {
     };
     const cstk::Robot robot = puma_560(folder);
     const cstk::Space space(robot);
-    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(space);
+    const std::vector<LinkPair> pairs = cstk::Query().find_link_pairs(space).tested;
     auto workcell = std::make_shared<const Workcell>(robot, space, obstacles, pairs);
     Configuration start = {0, 0, -120, 0, 60, 0}, goal = {-90, -60, 15, 0, 30, 0};
     for (Configuration *q : {&start, &goal}) {
