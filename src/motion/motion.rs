@@ -98,6 +98,30 @@ impl MotionOptions {
     }
 }
 
+impl MotionOutcome {
+    /// How a proof ended, and the two times of the answer. `meets` says whether there is contact at a time.
+    pub(super) fn of_proof(
+        proof: Proof,
+        tolerance: f64,
+        mut meets: impl FnMut(f64) -> Result<bool>,
+    ) -> Result<(Self, [f64; 2])> {
+        Ok(match proof {
+            Proof::Free => (Self::Free, [1.0, 1.0]),
+            Proof::Contact(times) => (Self::Hit, times),
+            Proof::Exceeded(time) => (Self::Undecided, [time, time]),
+            Proof::Undecided([start, end]) => {
+                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
+                for later in [end, (start + tolerance).min(1.0)] {
+                    if meets(later)? {
+                        return Ok((Self::Hit, [start, later]));
+                    }
+                }
+                (Self::Near, [start, end])
+            }
+        })
+    }
+}
+
 impl QueryContext {
     /// Whether the motion from q0 to q1, as [`crate::space::Space::interpolate`] makes it, keeps clear of a C-object: proved, or its
     /// first contact.
@@ -213,22 +237,10 @@ impl QueryContext {
             any_contact: options.any_contact,
             intervals: usize::MAX,
         };
-        match self.prove_way(way, options.threshold, limits, None, confirm)? {
-            Proof::Free => self.answer(way, MotionOutcome::Free, [1.0, 1.0], options),
-            Proof::Contact(times) => self.answer(way, MotionOutcome::Hit, times, options),
-            Proof::Exceeded(time) => {
-                self.answer(way, MotionOutcome::Undecided, [time, time], options)
-            }
-            Proof::Undecided([start, end]) => {
-                // Where rounding hides the moment of contact, it may be certain as soon as the tolerance allows.
-                for end in [end, (start + options.tolerance).min(1.0)] {
-                    if self.has_contact(way, end, options)? {
-                        return self.answer(way, MotionOutcome::Hit, [start, end], options);
-                    }
-                }
-                self.answer(way, MotionOutcome::Near, [start, end], options)
-            }
-        }
+        let proof = self.prove_way(way, options.threshold, limits, None, confirm)?;
+        let meets = |t: f64| self.has_contact(way, t, options);
+        let (outcome, times) = MotionOutcome::of_proof(proof, options.tolerance, meets)?;
+        self.answer(way, outcome, times, options)
     }
 
     /// The proof of a motion. `start` is given for motions that are known not to begin inside.

@@ -112,21 +112,7 @@ impl QueryContext {
             self.proof_memory.keep(memory);
             proof?
         };
-        let (outcome, times) = match end {
-            Proof::Free => (MotionOutcome::Free, [1.0, 1.0]),
-            Proof::Contact(times) => (MotionOutcome::Hit, times),
-            Proof::Exceeded(time) => (MotionOutcome::Undecided, [time, time]),
-            Proof::Undecided([start, end]) => {
-                let later = (start + options.tolerance).min(1.0);
-                if meets(self, end)? {
-                    (MotionOutcome::Hit, [start, end])
-                } else if meets(self, later)? {
-                    (MotionOutcome::Hit, [start, later])
-                } else {
-                    (MotionOutcome::Near, [start, end])
-                }
-            }
-        };
+        let (outcome, times) = MotionOutcome::of_proof(end, options.tolerance, |t| meets(self, t))?;
         let poses = if times[1] == 1.0 {
             [*a.poses[1], *b.poses[1]]
         } else {
