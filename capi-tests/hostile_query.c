@@ -58,6 +58,7 @@ typedef union answer {
     cstk_witness_list list;
     cstk_pseudo_normal_result pseudo_normal;
     cstk_signed_distance_list signed_distances;
+    cstk_explanation explanation;
 } answer;
 
 typedef cstk_status (*ask_fn)(const question *, answer *);
@@ -101,6 +102,15 @@ static cstk_status witnesses_at(const question *a, answer *out) {
                              out ? &out->list : NULL);
 }
 
+static cstk_status explain(const question *a, answer *out) {
+    return cstk_explain(a->query, a->cobject, a->at, a->count, a->max_count, out ? &out->explanation : NULL);
+}
+
+static cstk_status explain_at(const question *a, answer *out) {
+    return cstk_explain_at_link_poses(a->query, a->cobject, a->at, a->count, a->max_count,
+                                      out ? &out->explanation : NULL);
+}
+
 static cstk_status gradients(const question *a, answer *out) {
     return cstk_gradients(a->query, a->cobject, a->at, a->count, a->number, a->max_count,
                           out ? &out->list : NULL);
@@ -134,6 +144,8 @@ static const form forms[] = {
     {"distance_at", distance_at, true, "max_distance"},
     {"witnesses", witnesses, false, "epsilon"},
     {"witnesses_at", witnesses_at, true, "epsilon"},
+    {"explain", explain, false, NULL},
+    {"explain_at", explain_at, true, NULL},
     {"gradients", gradients, false, "epsilon"},
     {"pseudo_normal", pseudo_normal, false, "max_shell"},
     {"signed_distances", signed_distances, false, "max_distance"},

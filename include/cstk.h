@@ -3509,7 +3509,8 @@ typedef struct cstk_query cstk_query;
  */
 typedef struct cstk_query_statistics {
   /**
-   * Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes.
+   * Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes; for motions and
+   * regions, the looks at pure sets too.
    */
   uint64_t node_pairs;
   /**
@@ -4299,6 +4300,16 @@ cstk_status cstk_explain(cstk_query *query,
                          size_t nq,
                          size_t max_count,
                          cstk_explanation *out);
+
+/**
+ * cstk_explain with link poses instead of q; see cstk_classify_at_link_poses.
+ */
+cstk_status cstk_explain_at_link_poses(cstk_query *query,
+                                       const cstk_cobject *cobject,
+                                       const double *link_poses,
+                                       size_t link_count,
+                                       size_t max_count,
+                                       cstk_explanation *out);
 
 /**
  * Writes the default options. `size` is sizeof(cstk_link_pair_options).

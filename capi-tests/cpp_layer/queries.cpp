@@ -94,6 +94,7 @@ void queries() {
     const std::vector<cstk::Pose> links = {robot.link_pose(q, 0), robot.link_pose(q, 1)};
     REQUIRE(query.classify_at_link_poses(all, links) == CSTK_CLASS_CONTACT);
     REQUIRE(query.within_at_link_poses(all, links, 2.0));
+    REQUIRE(query.explain_at_link_poses(all, links).leaf_count == 2);
     REQUIRE(query.distance_at_link_poses(all, links).distance == 2.0);
     REQUIRE(query.witnesses_at_link_poses(all, links, 2.6).witness_count == 2);
 

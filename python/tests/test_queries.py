@@ -22,6 +22,7 @@ def test_class_and_distance_of_a_planar_arm(query, rng):
         assert query.within(arm.cobject, q, 0.5) == (truth <= 0.5)
         poses = arm.space.link_poses(q)
         assert query.classify_at_link_poses(arm.cobject, poses) == place
+        assert query.explain_at_link_poses(arm.cobject, poses).point_class == place
         assert query.distance_at_link_poses(arm.cobject, poses).distance == found.distance
         assert query.within_at_link_poses(arm.cobject, poses, 0.5) == (truth <= 0.5)
         assert len(query.witnesses_at_link_poses(arm.cobject, poses, 9)) == 2

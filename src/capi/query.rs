@@ -325,7 +325,8 @@ pub unsafe extern "C" fn cstk_query_set_refinement(
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct cstk_query_statistics {
-    /// Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes.
+    /// Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes; for motions and
+    /// regions, the looks at pure sets too.
     pub node_pairs: u64,
     /// Primitive pairs tested; for rays, the faces.
     pub primitive_pairs: u64,

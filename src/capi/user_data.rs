@@ -29,6 +29,11 @@ impl CallerData {
         })
     }
 
+    /// The caller's address, which the caller's functions are called with.
+    pub fn address(&self) -> *mut c_void {
+        self.data
+    }
+
     /// The data in the form that objects carry; `None` if there is neither an address nor a function.
     pub fn as_user_data(self: &Arc<Self>) -> Option<UserData> {
         let is_something = !self.data.is_null() || self.destroy.is_some();

@@ -134,6 +134,15 @@ class AtConfiguration(Handle):
         check(lib.cstk_witnesses_at_link_poses(self._pointer, *set_at_poses(cobject, link_poses), *limits, out))
         return WitnessList(out[0])
 
+    def explain_at_link_poses(
+        self, cobject: CObject, link_poses: ArrayLike, max_count: int = MAX_COUNT
+    ) -> Explanation:
+        """explain() at link poses."""
+        out = ffi.new("cstk_explanation *")
+        arguments = *set_at_poses(cobject, link_poses), index("max_count", max_count, 64)
+        check(lib.cstk_explain_at_link_poses(self._pointer, *arguments, out))
+        return Explanation(out)
+
     def find_link_pairs(
         self,
         space: Space,

@@ -3,11 +3,10 @@
 use std::ffi::c_void;
 
 use crate::capi::at_configuration::answers::{cstk_class, cstk_witness_list};
-use crate::capi::boundary::guard;
+use crate::capi::at_configuration::questions::{StateInput, run_at};
+use crate::capi::boundary::Failure;
 use crate::capi::cobject::cobject::cstk_cobject;
-use crate::capi::handle;
-use crate::capi::input::{Output, slice};
-use crate::capi::query::{cstk_query, start, with_query};
+use crate::capi::query::{State, cstk_query, refill, start};
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::address;
 use crate::cobject::CObject;
@@ -70,6 +69,24 @@ impl From<&Verdict> for cstk_verdict {
     }
 }
 
+fn explain(
+    state: &mut State,
+    cobject: &CObject,
+    at: Configuration,
+    max_count: usize,
+) -> Result<cstk_explanation, Failure> {
+    let found = state.context.explain(cobject, at, max_count)?;
+    refill(&mut state.verdicts, &found.leaves);
+    Ok(cstk_explanation {
+        point_class: found.class.into(),
+        reserved_word: 0,
+        leaves: start(&state.verdicts),
+        leaf_count: state.verdicts.len(),
+        list: state.keep(found.list),
+        reserved: [0; 4],
+    })
+}
+
 /// Writes the class of q as cstk_classify does, and what decides it: the leaves of the C-object, and at most `max_count`
 /// primitive pairs (§2.2.4, operations 4 and 5). Slower than cstk_classify, since every leaf is tested. `q` has `nq`
 /// doubles.
@@ -82,26 +99,36 @@ pub unsafe extern "C" fn cstk_explain(
     max_count: usize,
     out: *mut cstk_explanation,
 ) -> cstk_status {
-    guard(|| {
-        with_query(query, |state| {
-            let cobject = handle::share::<CObject>(cobject, "cobject")?;
-            let out = Output::checked(out, "out")?;
-            // SAFETY: checked for NULL; the caller states the length.
-            let q = unsafe { slice(q, nq, "q")? };
-            let at = Configuration::Coordinates(q);
-            let found = state.context.explain(&cobject, at, max_count)?;
-            state.verdicts = found.leaves.iter().map(From::from).collect();
-            let leaves = start(&state.verdicts);
-            let leaf_count = state.verdicts.len();
-            out.write(cstk_explanation {
-                point_class: found.class.into(),
-                reserved_word: 0,
-                leaves,
-                leaf_count,
-                list: state.keep(found.list),
-                reserved: [0; 4],
-            });
-            Ok(())
-        })
-    })
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::Coordinates(q, nq),
+            out,
+            |state, cobject, at| explain(state, cobject, at, max_count),
+        )
+    }
+}
+
+/// cstk_explain with link poses instead of q; see cstk_classify_at_link_poses.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_explain_at_link_poses(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    link_poses: *const f64,
+    link_count: usize,
+    max_count: usize,
+    out: *mut cstk_explanation,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    unsafe {
+        run_at(
+            query,
+            cobject,
+            StateInput::LinkPoses(link_poses, link_count),
+            out,
+            |state, cobject, at| explain(state, cobject, at, max_count),
+        )
+    }
 }

@@ -15,7 +15,7 @@ use crate::space::Space;
 
 /// The robot's state as the caller passed it: coordinates or link poses, and their number.
 #[derive(Clone, Copy)]
-enum StateInput {
+pub(super) enum StateInput {
     Coordinates(*const f64, usize),
     LinkPoses(*const f64, usize),
 }
@@ -62,7 +62,7 @@ fn run<At, T>(
 }
 
 /// The same for queries that also take link poses.
-unsafe fn run_at<T>(
+pub(super) unsafe fn run_at<T>(
     query: *mut cstk_query,
     cobject: *const cstk_cobject,
     given: StateInput,

@@ -2,7 +2,6 @@
 
 use std::ffi::c_void;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::body::{BodyBuilder, HeightField};
 use crate::capi::body::builder::{cstk_body_builder, with_builder};
@@ -10,6 +9,7 @@ use crate::capi::boundary::{Failure, guard};
 use crate::capi::input::{array, points, pose, slice};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
+use crate::capi::user_data::CallerData;
 use crate::error::{Error, ErrorKind};
 use crate::pose::Vec3;
 use crate::primitive::SupportFunction;
@@ -260,13 +260,10 @@ pub unsafe extern "C" fn cstk_body_builder_add_support(
             support: support.ok_or_else(|| {
                 Failure::new(cstk_status::CSTK_ERROR_NULL_ARGUMENT, "support is NULL")
             })?,
-            user,
-            destroy,
-            owned: AtomicBool::new(false),
+            user: CallerData::new(user, destroy),
         });
         builder.add_support(function.clone(), tag)?;
-        // From now on the data are released when nothing refers to them.
-        function.owned.store(true, Ordering::Release);
+        function.user.take_ownership();
         Ok(())
     })
 }
@@ -274,22 +271,16 @@ pub unsafe extern "C" fn cstk_body_builder_add_support(
 /// The caller's function and its user data.
 struct Function {
     support: unsafe extern "C" fn(*const f64, *mut f64, *mut c_void) -> i32,
-    user: *mut c_void,
-    destroy: cstk_destroy_fn,
-    owned: AtomicBool,
+    user: Arc<CallerData>,
 }
-
-// SAFETY: the header asks that the function may be called by any thread, several at once.
-unsafe impl Send for Function {}
-// SAFETY: as above.
-unsafe impl Sync for Function {}
 
 impl SupportFunction for Function {
     fn support(&self, direction: &Vec3) -> Result<Vec3, Error> {
         let direction: [f64; 3] = (*direction).into();
         let mut point = [f64::NAN; 3];
-        // SAFETY: the header states the lengths.
-        let status = unsafe { (self.support)(direction.as_ptr(), point.as_mut_ptr(), self.user) };
+        let user = self.user.address();
+        // SAFETY: the header states the lengths, and asks that any thread may call, several at once.
+        let status = unsafe { (self.support)(direction.as_ptr(), point.as_mut_ptr(), user) };
         if status != 0 {
             return Err(Error::new(
                 ErrorKind::Callback,
@@ -297,16 +288,5 @@ impl SupportFunction for Function {
             ));
         }
         Ok(point.into())
-    }
-}
-
-impl Drop for Function {
-    fn drop(&mut self) {
-        if let Some(destroy) = self.destroy
-            && self.owned.load(Ordering::Acquire)
-        {
-            // SAFETY: given back once, as nothing refers to the function any more.
-            unsafe { destroy(self.user) }
-        }
     }
 }

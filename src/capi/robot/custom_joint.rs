@@ -1,17 +1,18 @@
 //! Joints defined by callbacks.
 
 use std::ffi::c_void;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
 
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::input::{OptionsStruct, write_defaults};
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
+use crate::capi::user_data::CallerData;
 use crate::error::{Error, ErrorKind};
-
-type Result<T, E = Error> = std::result::Result<T, E>;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{CustomJoint, Speeds, Twist};
+
+type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// Writes the pose of the link in the joint's frame, 12 doubles, at the joint's `n` coordinates. Returns CSTK_OK, or
 /// anything else to make the calling function fail with CSTK_ERROR_CALLBACK_FAILED.
@@ -89,17 +90,9 @@ pub(crate) struct Functions {
     coordinates: usize,
     pose: Map,
     jacobian: Map,
-    user: *mut c_void,
-    destroy: cstk_destroy_fn,
+    user: Arc<CallerData>,
     speeds: Option<Speeds>,
-    /// Whether the library must release the user data.
-    owned: AtomicBool,
 }
-
-// SAFETY: the header asks that the functions may be called by any thread, several at once.
-unsafe impl Send for Functions {}
-// SAFETY: as above.
-unsafe impl Sync for Functions {}
 
 impl Functions {
     pub fn new(given: &cstk_custom_joint) -> Result<Self, Failure> {
@@ -127,24 +120,23 @@ impl Functions {
             coordinates: given.coordinates as usize,
             pose: given.pose.ok_or_else(|| missing("pose"))?,
             jacobian: given.jacobian.ok_or_else(|| missing("jacobian"))?,
-            user: given.user,
-            destroy: given.destroy,
+            user: CallerData::new(given.user, given.destroy),
             speeds: known.then_some(Speeds {
                 linear: given.linear_speed,
                 angular: given.angular_speed,
             }),
-            owned: AtomicBool::new(false),
         })
     }
 
     /// From now on the data are released when nothing refers to them.
     pub fn take_ownership(&self) {
-        self.owned.store(true, Ordering::Release);
+        self.user.take_ownership();
     }
 
     fn call(&self, function: Map, name: &str, q: &[f64], out: &mut [f64]) -> Result<()> {
-        // SAFETY: the header states the lengths.
-        let status = unsafe { function(q.as_ptr(), q.len(), out.as_mut_ptr(), self.user) };
+        // SAFETY: the header states the lengths, and asks that any thread may call, several at once.
+        let status =
+            unsafe { function(q.as_ptr(), q.len(), out.as_mut_ptr(), self.user.address()) };
         if status != 0 {
             return Err(Error::new(
                 ErrorKind::Callback,
@@ -152,17 +144,6 @@ impl Functions {
             ));
         }
         Ok(())
-    }
-}
-
-impl Drop for Functions {
-    fn drop(&mut self) {
-        if let Some(destroy) = self.destroy
-            && self.owned.load(Ordering::Acquire)
-        {
-            // SAFETY: given back once, as nothing refers to the functions any more.
-            unsafe { destroy(self.user) }
-        }
     }
 }
 
