@@ -121,13 +121,6 @@ public:
         return out;
     }
 
-    [[nodiscard]] cstk_explanation explain_at_link_poses(const CObject &cobject, Span<Pose> links,
-                                                         std::size_t max_count = 4096) {
-        cstk_explanation out;
-        check(cstk_explain_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), max_count, &out));
-        return out;
-    }
-
     /// The same queries at given link poses: 12 doubles for every link of the space.
     [[nodiscard]] cstk_class classify_at_link_poses(const CObject &cobject, Span<Pose> links) {
         cstk_class out = CSTK_CLASS_OUTSIDE;
@@ -154,6 +147,13 @@ public:
         cstk_witness_list out;
         check(cstk_witnesses_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), epsilon, max_count,
                                 &out));
+        return out;
+    }
+
+    [[nodiscard]] cstk_explanation explain_at_link_poses(const CObject &cobject, Span<Pose> links,
+                                                         std::size_t max_count = 4096) {
+        cstk_explanation out;
+        check(cstk_explain_at_link_poses(query_of(*this), cobject.get(), flat(links), links.size(), max_count, &out));
         return out;
     }
 

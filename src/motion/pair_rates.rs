@@ -57,8 +57,8 @@ impl<'a> PairRates<'a> {
         for link in std::iter::once(a.link).chain(b.link) {
             rounding.take_in(&self.in_world.of_known_joints(link).rates.rounding);
         }
-        for center in [a.pose, b.pose].into_iter().flatten() {
-            rounding.size += center.translation.norm();
+        for pose in [a.pose, b.pose].into_iter().flatten() {
+            rounding.size += pose.translation.norm();
         }
         rounding
     }

@@ -53,7 +53,9 @@ impl ChainRounding {
     pub fn of_places(&self, radius: f64, reach: f64) -> f64 {
         let turned = reach * self.turning;
         let relative = 96.0 + self.elements * (10.0 + 2.0 * self.angle);
-        relative * EPSILON * (self.size + radius) * (1.0 + turned * (1.0 + turned))
+        let moved = relative * EPSILON * (self.size + radius) * (1.0 + turned * (1.0 + turned));
+        // Of speeds that overflow nothing is known, and no comparison with what is no number may prune.
+        if moved.is_nan() { f64::INFINITY } else { moved }
     }
 }
 
