@@ -122,13 +122,13 @@ impl Sample {
 }
 
 /// The bounds so far.
-struct Bounds {
+struct ClearanceBounds {
     /// The largest threshold that the motion is proved to keep; `None` if it is not even proved free.
     proved: Option<f64>,
     nearest: Sample,
 }
 
-impl Bounds {
+impl ClearanceBounds {
     fn lower(&self) -> f64 {
         self.proved.unwrap_or(0.0)
     }
@@ -189,7 +189,7 @@ impl QueryContext {
         way: &Way,
         options: &ClearanceOptions,
     ) -> Result<MotionClearance> {
-        let mut bounds = Bounds {
+        let mut bounds = ClearanceBounds {
             proved: None,
             nearest: self.sample(way, 0.0, options.max_distance)?,
         };
@@ -220,7 +220,7 @@ impl QueryContext {
         &mut self,
         way: &Way,
         options: &ClearanceOptions,
-        bounds: &mut Bounds,
+        bounds: &mut ClearanceBounds,
     ) -> Result<ClearanceOutcome> {
         for i in 1..=INTERVALS {
             if bounds.nearest.upper() == 0.0 {
@@ -311,7 +311,7 @@ impl QueryContext {
         way: &Way,
         from: Sample,
         options: &ClearanceOptions,
-        bounds: &mut Bounds,
+        bounds: &mut ClearanceBounds,
     ) -> Result<()> {
         let mut height = |time: f64| -> Result<Height> {
             let sample = self.sample(way, time, f64::INFINITY)?;

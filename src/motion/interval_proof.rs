@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
-use super::front::{Front, Part};
+use super::front::{Front, FrontPart};
 use super::kinematics::Kinematics;
 use super::look::{LeafLook, Look, PairLook};
 use super::moving_pair::{Interval, MovingPair};
@@ -13,7 +13,7 @@ use super::moving_pure::{Extent, Moment, MovingPure};
 use super::over_pairs::{OverPairs, OverPairsMemory};
 use super::over_piece::OneTwist;
 use super::piece::Piece;
-use super::set_tree::{Known, SetTree, known_over};
+use super::set_tree::{SetTree, SetVerdict, verdict_over};
 use super::span::Span;
 use super::way::Way;
 use crate::cobject::ConvexSets;
@@ -99,7 +99,7 @@ pub(super) struct Middle<'a> {
 /// An interval of time, with what is undecided in it.
 struct Undecided {
     times: [f64; 2],
-    part: Part,
+    part: FrontPart,
     /// Primitives nearly meet at its end.
     ends_near_contact: bool,
 }
@@ -138,8 +138,8 @@ struct Prover<'a, 'k, 'c, 'd> {
 
 /// What is known of an interval.
 struct Outcome {
-    whole: Known,
-    left: Part,
+    whole: SetVerdict,
+    left: FrontPart,
     /// Primitives that meet where it was looked at.
     met: Option<MeetingLeaves>,
 }
@@ -149,8 +149,8 @@ struct Outcome {
 pub(super) struct SearchMemory {
     front: Front,
     over: OverPairsMemory<OneTwist>,
-    known: Vec<Known>,
-    nodes: Vec<Known>,
+    verdicts: Vec<SetVerdict>,
+    nodes: Vec<SetVerdict>,
     todo: Vec<Undecided>,
 }
 
@@ -158,8 +158,8 @@ pub(super) struct SearchMemory {
 struct Lists<'a, 'm> {
     front: &'m mut Front,
     over: OverPairs<'a, OneTwist>,
-    known: &'m mut Vec<Known>,
-    nodes: &'m mut Vec<Known>,
+    verdicts: &'m mut Vec<SetVerdict>,
+    nodes: &'m mut Vec<SetVerdict>,
 }
 
 impl Work for Prover<'_, '_, '_, '_> {
@@ -171,23 +171,23 @@ impl Work for Prover<'_, '_, '_, '_> {
         let SearchMemory {
             mut front,
             over,
-            mut known,
+            mut verdicts,
             mut nodes,
             mut todo,
         } = std::mem::take(self.memory);
-        known.clear();
-        known.resize(set.leaves.len(), Known::Nothing);
+        verdicts.clear();
+        verdicts.resize(set.leaves.len(), SetVerdict::Undecided);
         let mut lists = Lists {
             front: &mut front,
             over: OverPairs::new(set.pairs.len(), over),
-            known: &mut known,
+            verdicts: &mut verdicts,
             nodes: &mut nodes,
         };
         let proof = self.search(lanes, &mut lists, &mut todo);
         *self.memory = SearchMemory {
             over: lists.over.into_memory(),
             front,
-            known,
+            verdicts,
             nodes,
             todo,
         };
@@ -236,10 +236,10 @@ impl<'a> Prover<'a, '_, '_, '_> {
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
-            if whole == Known::Free {
+            if whole == SetVerdict::Free {
                 continue;
             }
-            let is_start_wanted = whole == Known::Meets || end <= START_ASKED_BELOW;
+            let is_start_wanted = whole == SetVerdict::Meets || end <= START_ASKED_BELOW;
             if start == 0.0 && is_start_wanted && !is_start_asked {
                 is_start_asked = true;
                 if (self.confirm)(self.context, 0.0)? {
@@ -247,7 +247,8 @@ impl<'a> Prover<'a, '_, '_, '_> {
                 }
             }
             let time = interval.compared_at();
-            let meets = whole == Known::Meets && (is_plain || (self.confirm)(self.context, time)?);
+            let meets =
+                whole == SetVerdict::Meets && (is_plain || (self.confirm)(self.context, time)?);
             if !meets {
                 // The first such interval ends the proof, so that a graze costs one descent.
                 if end - start <= SHORTEST_INTERVAL {
@@ -306,7 +307,7 @@ impl Undecided {
     }
 
     /// Adds what comes before a contact at `meeting`; the primitives that meet there are apart up to `apart`.
-    fn before(&self, apart: f64, meeting: f64, part: Part, todo: &mut Vec<Self>) {
+    fn before(&self, apart: f64, meeting: f64, part: FrontPart, todo: &mut Vec<Self>) {
         let [start, _] = self.times;
         let with = |times: [f64; 2], ends_near_contact: bool| Self {
             times,
@@ -322,7 +323,7 @@ impl Undecided {
     }
 
     /// Adds both halves, the first of them last: it is looked at next.
-    fn halve(&self, part: Part, todo: &mut Vec<Self>) {
+    fn halve(&self, part: FrontPart, todo: &mut Vec<Self>) {
         let [start, end] = self.times;
         let middle = 0.5 * (start + end);
         let later = Self {
@@ -351,7 +352,7 @@ impl<'a> Prover<'a, '_, '_, '_> {
     ) -> Result<Outcome> {
         let time = interval.compared_at();
         let (set, part) = (self.set, &interval.part);
-        lists.known.fill(Known::Nothing);
+        lists.verdicts.fill(SetVerdict::Undecided);
         self.kinematics.start(time)?;
         let at = Middle { way: set.way, time };
         let mut look = Look {
@@ -365,7 +366,7 @@ impl<'a> Prover<'a, '_, '_, '_> {
             },
             front: &mut *lists.front,
             scratch: &mut self.context.scratch,
-            known: &mut *lists.known,
+            verdicts: &mut *lists.verdicts,
             leaf: LeafLook::default(),
             pair: PairLook::new(interval.max_work()),
             met: None,
@@ -385,26 +386,26 @@ impl MovingSet<'_> {
         &self,
         lanes: I,
         look: &mut Look<P>,
-        part: &Part,
+        part: &FrontPart,
         middle: Middle,
-        memory: &mut Vec<Known>,
-    ) -> Result<Known> {
+        memory: &mut Vec<SetVerdict>,
+    ) -> Result<SetVerdict> {
         look.start(part);
         self.look_at_known(look, middle)?;
         self.look_at_pure(look, middle)?;
         let is_plain = self.tree.is_plain_union();
-        let mut whole = self.tree.known(look.known, memory);
+        let mut whole = self.tree.verdict(look.verdicts, memory);
         let mut cursor = *part;
         for (number, leaf) in self.leaves.iter().enumerate() {
             let MovingLeaf::Pairs { complement } = leaf else {
                 continue;
             };
-            if whole == Known::Free {
+            if whole == SetVerdict::Free {
                 break;
             }
-            let is_passed = whole == Known::Meets && is_plain;
-            look.look_at(lanes, number, [*complement, is_passed], part, &mut cursor);
-            whole = self.tree.known(look.known, memory);
+            let is_passed = whole == SetVerdict::Meets && is_plain;
+            look.look_at(lanes, number, *complement, is_passed, part, &mut cursor);
+            whole = self.tree.verdict(look.verdicts, memory);
         }
         Ok(whole)
     }
@@ -416,7 +417,7 @@ impl MovingSet<'_> {
         };
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Known { sets, complement } = leaf
-                && look.known[number] == Known::Nothing
+                && look.verdicts[number] == SetVerdict::Undecided
             {
                 let interval = match look.piece.extent() {
                     Extent::Time { time, span } => Some((time, span)),
@@ -425,11 +426,11 @@ impl MovingSet<'_> {
                 let space = way.line.cobject.space();
                 let at = way.at(middle.time)?;
                 let over = way.with_around(interval, |around| {
-                    known_over(sets, *complement, space, around, &at)
+                    verdict_over(sets, *complement, space, around, &at)
                 })?;
                 match over {
-                    Known::Free => look.settle(number, Known::Free),
-                    known => look.known[number] = known,
+                    SetVerdict::Free => look.settle(number, SetVerdict::Free),
+                    verdict => look.verdicts[number] = verdict,
                 }
             }
         }
@@ -439,11 +440,11 @@ impl MovingSet<'_> {
     /// Asks the pure leaves.
     fn look_at_pure<P: Piece>(&self, look: &mut Look<P>, middle: Middle) -> Result<()> {
         let mut is_asked = false;
-        for (leaf, known) in self.leaves.iter().zip(look.known.iter_mut()) {
+        for (leaf, verdict) in self.leaves.iter().zip(look.verdicts.iter_mut()) {
             match leaf {
                 MovingLeaf::Pairs { .. } | MovingLeaf::Known { .. } => {}
-                MovingLeaf::Everything => *known = Known::Meets,
-                MovingLeaf::Pure(_) => is_asked |= *known == Known::Nothing,
+                MovingLeaf::Everything => *verdict = SetVerdict::Meets,
+                MovingLeaf::Pure(_) => is_asked |= *verdict == SetVerdict::Undecided,
             }
         }
         let (true, Some(way)) = (is_asked, middle.way) else {
@@ -453,7 +454,7 @@ impl MovingSet<'_> {
         let scene = &way.scene(&q)?;
         for (number, leaf) in self.leaves.iter().enumerate() {
             if let MovingLeaf::Pure(pure) = leaf
-                && look.known[number] == Known::Nothing
+                && look.verdicts[number] == SetVerdict::Undecided
             {
                 // A look at no geometry is work too, or nothing would end a proof beside a pure set.
                 look.scratch.meter_mut().count_nodes(1);
@@ -463,8 +464,8 @@ impl MovingSet<'_> {
                     extent: look.piece.extent(),
                 };
                 match pure.over(&moment)? {
-                    Known::Free => look.settle(number, Known::Free),
-                    known => look.known[number] = known,
+                    SetVerdict::Free => look.settle(number, SetVerdict::Free),
+                    verdict => look.verdicts[number] = verdict,
                 }
             }
         }

@@ -2,12 +2,12 @@
 
 use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
-use super::front::{Bundle, Front, Group, Leaves, Part};
+use super::front::{Bundle, Front, FrontPart, Group, Leaves};
 use super::moving_pair::MovingPair;
 use super::over_pairs::OverPairs;
 use super::over_piece::PairOver;
 use super::piece::Piece;
-use super::set_tree::Known;
+use super::set_tree::SetVerdict;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
 use crate::pair::{GapsWanted, Scratch, SweptLeaves, swept_gaps};
@@ -36,7 +36,7 @@ pub(super) struct Look<'l, 'p, P: Piece> {
     pub front: &'l mut Front,
     pub scratch: &'l mut Scratch,
     /// What is known of the set tree's leaves.
-    pub known: &'l mut [Known],
+    pub verdicts: &'l mut [SetVerdict],
     /// The leaf that is looked at.
     pub leaf: LeafLook,
     /// The pair that is looked at.
@@ -107,24 +107,24 @@ impl PairLook {
 
 impl<P: Piece> Look<'_, '_, P> {
     /// Prepares for a part of the front; fills in what was known before.
-    pub fn start(&mut self, part: &Part) {
+    pub fn start(&mut self, part: &FrontPart) {
         self.front.truncate(part);
         self.over.start();
         for i in part.settled[0]..part.settled[1] {
-            let (leaf, known) = self.front.settled[i];
-            self.known[leaf as usize] = known;
-            self.front.settled.push((leaf, known));
+            let (leaf, verdict) = self.front.settled[i];
+            self.verdicts[leaf as usize] = verdict;
+            self.front.settled.push((leaf, verdict));
         }
     }
 
     /// Notes what holds of a leaf through the whole piece.
-    pub fn settle(&mut self, leaf: usize, known: Known) {
-        self.known[leaf] = known;
-        self.front.settled.push((leaf as u32, known));
+    pub fn settle(&mut self, leaf: usize, verdict: SetVerdict) {
+        self.verdicts[leaf] = verdict;
+        self.front.settled.push((leaf as u32, verdict));
     }
 
     /// What is left for the halves.
-    pub fn left(&self, part: &Part) -> Part {
+    pub fn left(&self, part: &FrontPart) -> FrontPart {
         self.front.part_after(part)
     }
 
@@ -135,11 +135,12 @@ impl<P: Piece> Look<'_, '_, P> {
         &mut self,
         lanes: I,
         leaf: usize,
-        [complement, is_passed]: [bool; 2],
-        part: &Part,
-        cursor: &mut Part,
+        complement: bool,
+        is_passed: bool,
+        part: &FrontPart,
+        cursor: &mut FrontPart,
     ) {
-        let is_settled = self.known[leaf] != Known::Nothing;
+        let is_settled = self.verdicts[leaf] != SetVerdict::Undecided;
         self.leaf = LeafLook {
             complement,
             is_decided: is_passed,
@@ -150,56 +151,24 @@ impl<P: Piece> Look<'_, '_, P> {
             ],
             ..LeafLook::default()
         };
-        // Primitives first: they decide contacts.
-        while cursor.leaves[0] < part.leaves[1] {
-            let pair = self.front.leaves[cursor.leaves[0]];
-            if self.pairs[pair.pair as usize].leaf as usize != leaf {
-                break;
-            }
-            cursor.leaves[0] += 1;
-            if !is_settled {
-                self.visit(pair);
-            }
-        }
-        let first = cursor.groups[0];
-        while cursor.groups[0] < part.groups[1]
-            && self.pairs[self.front.groups[cursor.groups[0]].pair as usize].leaf as usize == leaf
-        {
-            cursor.groups[0] += 1;
-        }
-        if !is_settled {
-            let Front { groups, open, .. } = &mut *self.front;
-            open.extend_from_slice(&groups[first..cursor.groups[0]]);
-            while let Some(group) = self.front.open.pop() {
-                self.open(lanes, group);
-            }
-        }
-        let first = cursor.bundles[0];
-        while cursor.bundles[0] < part.bundles[1] {
-            let crowd = &self.crowds[self.front.bundles[cursor.bundles[0]].crowd as usize];
-            if self.pairs[crowd.first_pair as usize].leaf as usize != leaf {
-                break;
-            }
-            cursor.bundles[0] += 1;
-        }
-        if !is_settled {
-            for i in first..cursor.bundles[0] {
-                self.open_bundle(lanes, self.front.bundles[i]);
-                while let Some(group) = self.front.open.pop() {
-                    self.open(lanes, group);
-                }
-            }
-        }
-        let solids = cursor.solids[0];
-        while cursor.solids[0] < part.solids[1]
-            && self.pairs[self.front.solids[cursor.solids[0]] as usize].leaf as usize == leaf
-        {
-            cursor.solids[0] += 1;
-        }
+        let (pairs, crowds) = (self.pairs, self.crowds);
+        let is_of = |pair: u32| pairs[pair as usize].leaf as usize == leaf;
+        let share = self.front.share(part, cursor, crowds, is_of);
         if is_settled {
             return;
         }
-        self.look_at_solids([solids, cursor.solids[0]]);
+        // Primitives first: they decide contacts.
+        for i in share.leaves[0]..share.leaves[1] {
+            self.visit(self.front.leaves[i]);
+        }
+        let Front { groups, open, .. } = &mut *self.front;
+        open.extend_from_slice(&groups[share.groups[0]..share.groups[1]]);
+        self.open_all(lanes);
+        for i in share.bundles[0]..share.bundles[1] {
+            self.open_bundle(lanes, self.front.bundles[i]);
+            self.open_all(lanes);
+        }
+        self.look_at_solids(share.solids);
         if !is_passed {
             self.conclude(leaf);
         }
@@ -218,25 +187,25 @@ impl<P: Piece> Look<'_, '_, P> {
         let is_left = front.bundles.len() > first[0]
             || front.groups.len() > first[1]
             || front.leaves.len() > first[2];
-        self.known[leaf] = if complement {
+        self.verdicts[leaf] = if complement {
             if is_decided {
                 // It stays in the set: nothing of the leaf is looked at again.
                 front.bundles.truncate(first[0]);
                 front.groups.truncate(first[1]);
                 front.leaves.truncate(first[2]);
-                front.settled.push((leaf as u32, Known::Free));
-                Known::Free
+                front.settled.push((leaf as u32, SetVerdict::Free));
+                SetVerdict::Free
             } else if is_left || meets {
-                Known::Nothing
+                SetVerdict::Undecided
             } else {
-                Known::Meets
+                SetVerdict::Meets
             }
         } else if meets {
-            Known::Meets
+            SetVerdict::Meets
         } else if is_left {
-            Known::Nothing
+            SetVerdict::Undecided
         } else {
-            Known::Free
+            SetVerdict::Free
         };
     }
 
@@ -446,6 +415,14 @@ impl<P: Piece> Look<'_, '_, P> {
             lanes: ((1u32 << trees[side].node(node).count) - 1) as u8,
         });
         true
+    }
+
+    /// Looks at all groups that are open.
+    #[inline(always)]
+    fn open_all<I: Instructions>(&mut self, lanes: I) {
+        while let Some(group) = self.front.open.pop() {
+            self.open(lanes, group);
+        }
     }
 
     /// Looks at the children of a group: decided ones fall away, others are opened, visited, or left to the halves.

@@ -18,7 +18,7 @@ use crate::robot::{ChainRounding, LinkMotions, MotionRates};
 pub(super) struct MovingPair<'a> {
     a: Carried<'a, usize>,
     b: Carried<'a, Option<usize>>,
-    bounds: Bounds,
+    bounds: RelativeRates,
     /// The two count as meeting up to this distance: the threshold with the margin of the pair's set and the deviations that
     /// the bodies state.
     pub threshold: f64,
@@ -30,7 +30,7 @@ pub(super) struct MovingPair<'a> {
 
 /// What is known of a pair's relative motion.
 #[derive(Clone, Copy, Debug)]
-enum Bounds {
+enum RelativeRates {
     /// The derivatives of A's centre as B sees it.
     Derivatives(MotionRates),
     /// No velocities are known.
@@ -59,13 +59,13 @@ impl<'a> MovingPair<'a> {
         speed: impl FnOnce() -> [f64; 2],
     ) -> Option<Self> {
         let bounds = match rates.between(&a, &b) {
-            Some(rates) => Bounds::Derivatives(rates),
+            Some(rates) => RelativeRates::Derivatives(rates),
             None => {
                 let [speed, rounding] = speed();
                 if !(speed + rounding).is_finite() {
                     return None;
                 }
-                Bounds::Speed {
+                RelativeRates::Speed {
                     speed,
                     rounding,
                     chain: rates.rounding_of_known_joints(&a, &b),
@@ -99,16 +99,18 @@ impl<'a> MovingPair<'a> {
     /// Whether neither moves as the other sees it.
     pub fn rests(&self) -> bool {
         match &self.bounds {
-            Bounds::Derivatives(rates) => rates.turn[0] == 0.0 && rates.origin[0] == 0.0,
-            Bounds::Speed { speed, .. } => *speed == 0.0,
+            RelativeRates::Derivatives(rates) => rates.turn[0] == 0.0 && rates.origin[0] == 0.0,
+            RelativeRates::Speed { speed, .. } => *speed == 0.0,
         }
     }
 
     /// Bounds the speed of A's points as B sees it, and so of the distance.
     pub fn speed(&self) -> f64 {
         match &self.bounds {
-            Bounds::Derivatives(rates) => rates.turn[0] * self.a.body.radius() + rates.origin[0],
-            Bounds::Speed { speed, .. } => *speed,
+            RelativeRates::Derivatives(rates) => {
+                rates.turn[0] * self.a.body.radius() + rates.origin[0]
+            }
+            RelativeRates::Speed { speed, .. } => *speed,
         }
     }
 
@@ -116,8 +118,8 @@ impl<'a> MovingPair<'a> {
     pub fn rounding_all_the_while(&self) -> f64 {
         let radius = self.a.body.radius();
         match &self.bounds {
-            Bounds::Derivatives(rates) => rates.rounding.of_places(radius, 1.0),
-            Bounds::Speed {
+            RelativeRates::Derivatives(rates) => rates.rounding.of_places(radius, 1.0),
+            RelativeRates::Speed {
                 rounding, chain, ..
             } => rounding + chain.of_places(radius, 0.0),
         }
@@ -131,8 +133,9 @@ impl<'a> MovingPair<'a> {
     /// Whether both pairs are of the same body A, with Bs that rest in the world.
     pub fn is_in_crowd_of(&self, other: &Self) -> bool {
         let key = |pair: &Self| (pair.a.number, pair.leaf);
-        let is_one_of_many =
-            |pair: &Self| pair.b.link.is_none() && matches!(pair.bounds, Bounds::Derivatives(_));
+        let is_one_of_many = |pair: &Self| {
+            pair.b.link.is_none() && matches!(pair.bounds, RelativeRates::Derivatives(_))
+        };
         key(self) == key(other)
             && self.threshold == other.threshold
             && is_one_of_many(self)
@@ -145,7 +148,7 @@ impl<'a> MovingPair<'a> {
     }
 
     pub fn needs_poses(&self) -> bool {
-        matches!(self.bounds, Bounds::Speed { .. })
+        matches!(self.bounds, RelativeRates::Speed { .. })
     }
 
     /// The pair over an interval.
@@ -162,7 +165,7 @@ impl<'a> MovingPair<'a> {
         let reach = span.reach();
         match self.bounds {
             // Most pairs are done with here: of them no more is computed than how the centres move.
-            Bounds::Derivatives(rates) => {
+            RelativeRates::Derivatives(rates) => {
                 let center = kinematics.center(&self.a, &self.b);
                 let [_, p2, p3] = rates.origin;
                 let error = self.kinematics_error(&rates, reach);
@@ -173,7 +176,7 @@ impl<'a> MovingPair<'a> {
                     return PairOver::TooLong;
                 }
             }
-            Bounds::Speed { speed, .. } => {
+            RelativeRates::Speed { speed, .. } => {
                 let (relative, rates) = self.relative(kinematics);
                 let error = self.kinematics_error(&rates, reach);
                 let apart = &relative.center.apart;
@@ -297,8 +300,8 @@ impl<'a> MovingPair<'a> {
     /// What rounding may take off the gap of the two in a time `reach` from where they are compared.
     pub fn kinematics_error(&self, rates: &MotionRates, reach: f64) -> f64 {
         let of_coordinates = match self.bounds {
-            Bounds::Derivatives(_) => 0.0,
-            Bounds::Speed { rounding, .. } => rounding,
+            RelativeRates::Derivatives(_) => 0.0,
+            RelativeRates::Speed { rounding, .. } => rounding,
         };
         rates.rounding.of_places(self.a.body.radius(), reach) + of_coordinates
     }
@@ -310,7 +313,7 @@ impl<'a> MovingPair<'a> {
         pose: impl Fn(usize) -> &'p Pose + Copy,
     ) -> MotionRates {
         let mut rates = MotionRates::default();
-        if let Bounds::Speed { chain, .. } = &self.bounds {
+        if let RelativeRates::Speed { chain, .. } = &self.bounds {
             rates.rounding = *chain;
             for link in std::iter::once(self.a.link).chain(self.b.link) {
                 rates.rounding.size += motions.lengths_of_unknown_joints(link, pose);
@@ -322,18 +325,18 @@ impl<'a> MovingPair<'a> {
     /// As [`Sweep::bends`], with more than the rounding of their sums.
     fn bends(&self, relative: &Relative, rates: &MotionRates, reach: f64) -> [f64; 2] {
         match self.bounds {
-            Bounds::Derivatives(_) => self
+            RelativeRates::Derivatives(_) => self
                 .accelerations(relative, rates, reach)
                 .map(|x| 0.5 * reach * reach * x * (1.0 + 1e-9)),
-            Bounds::Speed { speed, .. } => [reach * speed * (1.0 + 1e-9); 2],
+            RelativeRates::Speed { speed, .. } => [reach * speed * (1.0 + 1e-9); 2],
         }
     }
 
     /// How A moves as B sees it at the kinematics' time, with the bounds of derivatives that are known.
     fn relative(&self, kinematics: &mut Kinematics) -> (Relative, MotionRates) {
         match self.bounds {
-            Bounds::Derivatives(rates) => (kinematics.relative(&self.a, &self.b), rates),
-            Bounds::Speed { .. } => {
+            RelativeRates::Derivatives(rates) => (kinematics.relative(&self.a, &self.b), rates),
+            RelativeRates::Speed { .. } => {
                 let relative = kinematics.still(&self.a, &self.b);
                 let pose = |link: usize| kinematics.pose_of_link(link);
                 (relative, self.rates_at(kinematics.motions(), pose))

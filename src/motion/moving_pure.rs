@@ -2,7 +2,7 @@
 //! there.
 
 use super::box_piece::BoxPiece;
-use super::set_tree::Known;
+use super::set_tree::SetVerdict;
 use super::span::{Followed, Span};
 use super::start_contacts::StartContacts;
 use super::way::{Way, WayKind};
@@ -91,29 +91,29 @@ impl MovingPure {
     }
 
     /// What is known over an interval.
-    pub fn over(&self, moment: &Moment) -> Result<Known> {
+    pub fn over(&self, moment: &Moment) -> Result<SetVerdict> {
         if self.complement {
             return self.complement_over(moment);
         }
-        let mut all = Known::Free;
+        let mut all = SetVerdict::Free;
         for part in &self.parts {
             match part.over(moment, self.threshold)? {
-                Known::Meets => return Ok(Known::Meets),
-                Known::Nothing => all = Known::Nothing,
-                Known::Free => {}
+                SetVerdict::Meets => return Ok(SetVerdict::Meets),
+                SetVerdict::Undecided => all = SetVerdict::Undecided,
+                SetVerdict::Free => {}
             }
         }
         Ok(all)
     }
 
     /// The motion keeps out of the complement where it stays in one of the parts.
-    fn complement_over(&self, moment: &Moment) -> Result<Known> {
-        let mut all = Known::Meets;
+    fn complement_over(&self, moment: &Moment) -> Result<SetVerdict> {
+        let mut all = SetVerdict::Meets;
         for part in &self.parts {
             match part.complement_over(moment, self.threshold)? {
-                Known::Free => return Ok(Known::Free),
-                Known::Nothing => all = Known::Nothing,
-                Known::Meets => {}
+                SetVerdict::Free => return Ok(SetVerdict::Free),
+                SetVerdict::Undecided => all = SetVerdict::Undecided,
+                SetVerdict::Meets => {}
             }
         }
         Ok(all)
@@ -140,12 +140,12 @@ impl MovingPart {
         })
     }
 
-    fn over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
+    fn over(&self, moment: &Moment, threshold: f64) -> Result<SetVerdict> {
         if let Extent::Time { time, span } = moment.extent {
             match Followed::over_interval(self.followed_from, time, span) {
                 Followed::Yes => {}
-                Followed::InPart => return Ok(Known::Nothing),
-                Followed::No => return Ok(Known::Free),
+                Followed::InPart => return Ok(SetVerdict::Undecided),
+                Followed::No => return Ok(SetVerdict::Free),
             }
         }
         let pure = self.at(moment, false);
@@ -153,11 +153,11 @@ impl MovingPart {
         // At the boundary of an open set, such as that beyond the joint limits, a configuration is outside.
         let is_inside = pure.class()? == Class::Inside;
         if is_inside || (threshold > 0.0 && lower <= threshold) {
-            return Ok(Known::Meets);
+            return Ok(SetVerdict::Meets);
         }
         let change = self.change(moment);
         if change == 0.0 || lower - threshold > change {
-            return Ok(Known::Free);
+            return Ok(SetVerdict::Free);
         }
         let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
         let stays_out = lower - threshold > along + self.rounding
@@ -165,9 +165,9 @@ impl MovingPart {
                 .beyond_box(moment)
                 .is_some_and(|beyond| beyond > threshold);
         Ok(if stays_out {
-            Known::Free
+            SetVerdict::Free
         } else {
-            Known::Nothing
+            SetVerdict::Undecided
         })
     }
 
@@ -201,21 +201,21 @@ impl MovingPart {
         Some(product(self.set.scale(), length(&left)) * (1.0 - 1e-9))
     }
 
-    fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<Known> {
+    fn complement_over(&self, moment: &Moment, threshold: f64) -> Result<SetVerdict> {
         let change = self.change(moment);
         let pure = self.at(moment, true);
         if threshold > 0.0 {
             let lower = pure.bounded_distance()?.lower;
             return Ok(if lower <= threshold {
-                Known::Meets
+                SetVerdict::Meets
             } else if change == 0.0 || lower - threshold > change {
-                Known::Free
+                SetVerdict::Free
             } else {
-                Known::Nothing
+                SetVerdict::Undecided
             });
         }
         if pure.class()? == Class::Inside {
-            return Ok(Known::Meets);
+            return Ok(SetVerdict::Meets);
         }
         let stays = match self.set.measure(&moment.scene.space_state())? {
             Some(measure) if !measure.is_bound => {
@@ -237,9 +237,9 @@ impl MovingPart {
             _ => false,
         };
         Ok(if stays || change == 0.0 {
-            Known::Free
+            SetVerdict::Free
         } else {
-            Known::Nothing
+            SetVerdict::Undecided
         })
     }
 

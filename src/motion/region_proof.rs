@@ -2,12 +2,12 @@
 //! primitives, and all pure sets.
 
 use super::box_piece::BoxPiece;
-use super::front::{Front, Part};
+use super::front::{Front, FrontPart};
 use super::interval_proof::{Middle, MovingSet};
 use super::linear_motion::LinearMotion;
 use super::look::{Look, PairLook};
 use super::over_pairs::OverPairs;
-use super::set_tree::Known;
+use super::set_tree::SetVerdict;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
 use crate::error::Result;
@@ -137,7 +137,7 @@ pub(super) enum BoxProof {
 /// A box that is left to be proved.
 struct Rest {
     region: Region,
-    part: Part,
+    part: FrontPart,
     /// The part of the whole box's volume.
     volume: f64,
 }
@@ -195,7 +195,7 @@ impl Work for Prover<'_, '_, '_> {
         let front = &mut Front::default();
         let over = &mut OverPairs::new(set.pairs.len(), Default::default());
         let memory = &mut Vec::new();
-        let mut known = vec![Known::Nothing; set.leaves.len()];
+        let mut verdicts = vec![SetVerdict::Undecided; set.leaves.len()];
         let mut todo = vec![Rest {
             region: region.clone(),
             part: front.start(&set.pairs, &set.crowds, !set.tree.is_plain_union()),
@@ -230,7 +230,7 @@ impl Work for Prover<'_, '_, '_> {
             let motions = &way.link_motions();
             let poses = &way.link_poses(0.0)?;
             let piece = &mut BoxPiece::new(way, motions, poses);
-            known.fill(Known::Nothing);
+            verdicts.fill(SetVerdict::Undecided);
             let mut look = Look {
                 pairs: &set.pairs,
                 crowds: &set.crowds,
@@ -238,7 +238,7 @@ impl Work for Prover<'_, '_, '_> {
                 piece,
                 front,
                 scratch: &mut context.scratch,
-                known: &mut known,
+                verdicts: &mut verdicts,
                 leaf: Default::default(),
                 pair: PairLook::new(u32::MAX),
                 met: None,
@@ -252,11 +252,11 @@ impl Work for Prover<'_, '_, '_> {
             if context.scratch.meter().is_exceeded() {
                 return Ok(BoxProof::Undecided { at: q, proved });
             }
-            if whole == Known::Free {
+            if whole == SetVerdict::Free {
                 proved += volume;
                 continue;
             }
-            if whole == Known::Meets && confirm(context, &q)? {
+            if whole == SetVerdict::Meets && confirm(context, &q)? {
                 return Ok(BoxProof::Meets(q));
             }
             if boxes == 1 {
@@ -292,7 +292,13 @@ impl Work for Prover<'_, '_, '_> {
 }
 
 impl Front {
-    fn raise_shares(&self, left: &Part, set: &MovingSet, piece: &mut BoxPiece, shares: &mut [f64]) {
+    fn raise_shares(
+        &self,
+        left: &FrontPart,
+        set: &MovingSet,
+        piece: &mut BoxPiece,
+        shares: &mut [f64],
+    ) {
         let mut asked = 0;
         let mut last = None;
         for number in self.undecided(left, &set.crowds) {

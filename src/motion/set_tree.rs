@@ -13,13 +13,13 @@ use crate::space::Space;
 
 /// What is known of a set over an interval of the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Known {
+pub(super) enum SetVerdict {
     /// Through the interval the motion stays out of it.
     Free,
     /// At the middle of the interval the motion is in it.
     Meets,
     /// Neither is known.
-    Nothing,
+    Undecided,
 }
 
 /// A leaf of the tree.
@@ -105,31 +105,34 @@ impl<'a> SetTree<'a> {
     /// Whether the caller's word alone keeps configurations out of the set.
     pub fn is_free_by_word(&self, space: &Space, around: &Around) -> bool {
         let over = |leaf: &SetLeaf| match leaf.content {
-            LeafContent::Known(sets) => known_over(sets, leaf.complement, space, around, around.q),
-            _ => Known::Nothing,
+            LeafContent::Known(sets) => {
+                verdict_over(sets, leaf.complement, space, around, around.q)
+            }
+            _ => SetVerdict::Undecided,
         };
-        let leaves: Vec<Known> = self.leaves.iter().map(over).collect();
-        leaves.contains(&Known::Free) && self.known(&leaves, &mut Vec::new()) == Known::Free
+        let leaves: Vec<SetVerdict> = self.leaves.iter().map(over).collect();
+        leaves.contains(&SetVerdict::Free)
+            && self.verdict(&leaves, &mut Vec::new()) == SetVerdict::Free
     }
 
     /// What is known of the set, given what is known of its leaves.
-    pub fn known(&self, leaves: &[Known], memory: &mut Vec<Known>) -> Known {
+    pub fn verdict(&self, leaves: &[SetVerdict], memory: &mut Vec<SetVerdict>) -> SetVerdict {
         memory.clear();
         for node in &self.nodes {
-            let known = match node {
+            let verdict = match node {
                 Node::Leaf(leaf) => leaves[*leaf as usize],
                 Node::Any(children) => decide(
                     &self.children[children.clone()],
                     memory,
-                    [Known::Meets, Known::Free],
+                    [SetVerdict::Meets, SetVerdict::Free],
                 ),
                 Node::All(children) => decide(
                     &self.children[children.clone()],
                     memory,
-                    [Known::Free, Known::Meets],
+                    [SetVerdict::Free, SetVerdict::Meets],
                 ),
             };
-            memory.push(known);
+            memory.push(verdict);
         }
         *memory.last().expect("a set has a node")
     }
@@ -201,13 +204,13 @@ impl<'a> SetTree<'a> {
 }
 
 /// What is known of a union of convex sets, or of its complement, over configurations around one, with the class at `middle`.
-pub(super) fn known_over(
+pub(super) fn verdict_over(
     sets: &ConvexSets,
     complement: bool,
     space: &Space,
     around: &Around,
     middle: &[f64],
-) -> Known {
+) -> SetVerdict {
     let is_free = match complement {
         true => sets.contain(space, around),
         false => sets.are_apart(space, around),
@@ -218,25 +221,25 @@ pub(super) fn known_over(
         is_line: true,
     };
     if is_free {
-        Known::Free
+        SetVerdict::Free
     } else if sets.contain(space, middle) != complement {
-        Known::Meets
+        SetVerdict::Meets
     } else {
-        Known::Nothing
+        SetVerdict::Undecided
     }
 }
 
 /// `one` if it is known of some child, `all` if it is known of every child.
-fn decide(children: &[u32], known: &[Known], [one, all]: [Known; 2]) -> Known {
+fn decide(children: &[u32], verdicts: &[SetVerdict], [one, all]: [SetVerdict; 2]) -> SetVerdict {
     let mut is_all = true;
     for child in children {
-        let child = known[*child as usize];
+        let child = verdicts[*child as usize];
         if child == one {
             return one;
         }
         is_all &= child == all;
     }
-    if is_all { all } else { Known::Nothing }
+    if is_all { all } else { SetVerdict::Undecided }
 }
 
 #[cfg(test)]
@@ -246,14 +249,14 @@ mod tests {
     /// The truth table of a difference, and of its complement.
     #[test]
     fn parts_decide_the_whole() {
-        use Known::{Free, Meets, Nothing};
+        use SetVerdict::{Free, Meets, Undecided};
         for (states, any, all) in [
             ([Free, Free], Free, Free),
             ([Free, Meets], Meets, Free),
-            ([Free, Nothing], Nothing, Free),
+            ([Free, Undecided], Undecided, Free),
             ([Meets, Meets], Meets, Meets),
-            ([Meets, Nothing], Meets, Nothing),
-            ([Nothing, Nothing], Nothing, Nothing),
+            ([Meets, Undecided], Meets, Undecided),
+            ([Undecided, Undecided], Undecided, Undecided),
         ] {
             for states in [states, [states[1], states[0]]] {
                 assert_eq!(decide(&[0, 1], &states, [Meets, Free]), any);

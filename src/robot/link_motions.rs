@@ -4,7 +4,7 @@
 
 use smallvec::SmallVec;
 
-use super::arc::Arc;
+use super::circular_arc::CircularArc;
 use super::course::{Course, CourseState};
 use super::motion_rates::ChainRates;
 use super::motion_state::MotionState;
@@ -23,7 +23,7 @@ pub(super) enum Element {
     /// A shift along a unit axis.
     Shift { axis: Vec3, length: Course },
     /// A turn about a unit axis through another point than the origin, which so moves on an arc.
-    Arc(Arc),
+    CircularArc(CircularArc),
 }
 
 /// A link's parent, and its pose in it.
@@ -166,7 +166,7 @@ impl LinkMotions {
                 Element::Shift { axis, length } => {
                     state.shift(axis, &length.at(t, &self.controls, given));
                 }
-                Element::Arc(arc) => state.turn_on_arc(arc, t),
+                Element::CircularArc(arc) => state.turn_on_arc(arc, t),
             }
         }
     }
@@ -217,7 +217,9 @@ impl LinkMotions {
             Element::Shift { axis, length } => {
                 rates.push_shift(axis, &length.bounds(&self.controls));
             }
-            Element::Arc(arc) => rates.push_arc(&arc.axis, &arc.way_bounds(), &arc.angle_bounds()),
+            Element::CircularArc(arc) => {
+                rates.push_arc(&arc.axis, &arc.way_bounds(), &arc.angle_bounds())
+            }
         }
     }
 
@@ -256,7 +258,8 @@ impl LinkMotions {
         if across == Vec3::zeros() {
             self.turn(axis, Course::from_zero(rate));
         } else {
-            self.elements.push(Element::Arc(Arc { axis, rate, across }));
+            self.elements
+                .push(Element::CircularArc(CircularArc { axis, rate, across }));
         }
     }
 

@@ -71,7 +71,7 @@ impl<'a> LinkTwists<'a> {
             match element {
                 Element::Fixed(fixed) => pose = pose.compose(fixed),
                 // No coordinate of a box turns so.
-                Element::Arc(_) => {}
+                Element::CircularArc(_) => {}
                 Element::Turn { axis, angle } => {
                     let direction = turned(&pose.rotation, axis);
                     let Course::Range {

@@ -1,7 +1,7 @@
 //! Robots: trees of links and the joints that move them (§4.1–4.3).
 
-mod arc;
 mod builder;
+mod circular_arc;
 mod coordinate;
 mod course;
 mod custom_joint;

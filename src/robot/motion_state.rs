@@ -1,6 +1,6 @@
 //! Where a frame is at one time of a motion, and how it moves.
 
-use super::arc::Arc;
+use super::circular_arc::CircularArc;
 use super::course::CourseState;
 use crate::pose::{Pose, Vec3, turned, turned_axes};
 
@@ -88,8 +88,8 @@ impl MotionState {
     }
 
     /// The origin's way is the integral of its velocity, `across` turned with the frame.
-    pub(super) fn turn_on_arc(&mut self, arc: &Arc, t: f64) {
-        let Arc { axis, rate, across } = arc;
+    pub(super) fn turn_on_arc(&mut self, arc: &CircularArc, t: f64) {
+        let CircularArc { axis, rate, across } = arc;
         let angle = rate * t;
         let (sin, cos) = angle.sin_cos();
         let half = (0.5 * angle).sin();

@@ -5,7 +5,7 @@ use crate::pose::Vec3;
 
 /// A turn at a constant rate in which the origin moves too.
 #[derive(Clone, Copy, Debug)]
-pub struct Arc {
+pub struct CircularArc {
     pub axis: Vec3,
     /// In radians per unit of time, above 0.
     pub rate: f64,
@@ -14,7 +14,7 @@ pub struct Arc {
     pub across: Vec3,
 }
 
-impl Arc {
+impl CircularArc {
     /// Of the way from the origin's place at time 0: at most the arc's length, and at most the circle's diameter.
     pub fn way_bounds(&self) -> CourseBounds {
         let (rate, speed) = (self.rate, self.across.norm());
