@@ -103,7 +103,10 @@ impl QueryContext {
             return Ok(whole);
         };
         search.run(limit, |_| false, &mut self.scratch)?;
-        Ok(search.answer(limit, leaf, &mut self.scratch))
+        Ok(match search.lower() > limit {
+            true => Distance::beyond(limit, search.lower()),
+            false => search.answer(limit, whole, leaf, &mut self.scratch),
+        })
     }
 
     /// The search among the primitive pairs of a target that are at most `limit` apart once they are grown by their deviations. `None`
@@ -140,6 +143,7 @@ impl QueryContext {
             upper: f64::INFINITY,
             nearest: None,
             last: None,
+            is_settled: false,
         };
         search.begin(limit, &mut self.scratch)?;
         Ok(Some(search))
@@ -241,6 +245,8 @@ struct Search<'t, 'a> {
     nearest: Option<Nearest>,
     /// The pair looked at last, which stays in the search: the one of the least lower bound.
     last: Option<PartPair>,
+    /// The bounds have met, as near as halving can bring them.
+    is_settled: bool,
 }
 
 impl<'a> Search<'_, 'a> {
@@ -321,7 +327,8 @@ impl<'a> Search<'_, 'a> {
             let Some(pair) = &self.last else {
                 return Ok(());
             };
-            if self.upper - self.lower() <= self.gap || ends(self) || halvings == MAX_PAIRS {
+            self.is_settled = self.upper - self.lower() <= self.gap;
+            if self.is_settled || ends(self) || halvings == MAX_PAIRS {
                 return Ok(());
             }
             let deviations = pair.parts.map(|part| self.parts[part].deviation);
@@ -332,6 +339,7 @@ impl<'a> Search<'_, 'a> {
                 false => 0.0,
             });
             if gains[0] + gains[1] <= 0.125 * self.gap {
+                self.is_settled = pair.lower <= self.unlisted;
                 return Ok(());
             }
             let side = usize::from(gains[1] > gains[0]);
@@ -447,12 +455,21 @@ impl<'a> Search<'_, 'a> {
         last.min(self.unlisted)
     }
 
-    /// The distance, up to `limit`.
-    fn answer(&self, limit: f64, leaf: Leaf, scratch: &mut Scratch) -> Distance {
+    /// The distance where it may be within `limit`; `whole` is that of the bodies as they are. Only bounds of it where the search has ended
+    /// before they met: pairs were left out of it, or too many are equally near.
+    fn answer(&self, limit: f64, whole: Distance, leaf: Leaf, scratch: &mut Scratch) -> Distance {
         let lower = self.lower();
         let last = self.last.as_ref().filter(|last| last.clear <= limit);
-        let (Some(last), Some(nearest)) = (last, &self.nearest) else {
-            return Distance::beyond(limit, lower);
+        let (Some(last), Some(nearest), true) = (last, &self.nearest, self.is_settled) else {
+            let upper = self.upper.min(whole.upper);
+            return Distance {
+                kind: DistanceKind::LowerBound,
+                distance: lower,
+                lower,
+                upper,
+                excess: (upper - whole.upper_of_grown()).max(0.0),
+                ..whole
+            };
         };
         let error = self.pairing.precision.error;
         let distance = if last.clear > error { last.clear } else { 0.0 };

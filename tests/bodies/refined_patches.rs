@@ -5,7 +5,7 @@ use std::sync::Arc;
 use cstk::body::{BezierPatch, Body, BodyBuilder};
 use cstk::cobject::Class;
 use cstk::error::ErrorKind;
-use cstk::pose::{Pose, Vec3};
+use cstk::pose::{Mat3, Pose, Vec3};
 use cstk::query::{Configuration, DistanceKind, QueryContext};
 
 use helpers::random::Random;
@@ -271,6 +271,62 @@ fn bent_sheets_are_as_near_as_their_samples() {
             // The square of how far samples are apart, over the distance.
             assert!(found.upper >= truth - 0.01, "{found:?} {truth}");
             assert!(found.upper - found.lower <= GAP);
+        }
+    }
+}
+
+/// The control points of a dome over the unit square, a quarter high at its middle.
+fn dome(shift: f64) -> Vec<Vec3> {
+    let point = |k: usize| {
+        let (i, j) = (k / 3, k % 3);
+        let z = if (i, j) == (1, 1) { 1.0 } else { 0.0 };
+        Vec3::new(0.5 * i as f64 + shift, 0.5 * j as f64, z)
+    };
+    (0..9).map(point).collect()
+}
+
+/// Far more triangles are near, by the deviation of a coarse part far away, than a refinement begins with: touching bodies are never
+/// said to be apart, nor their distance to be known.
+#[test]
+fn pairs_that_are_left_out_leave_a_doubt() {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    let add = |builder: &mut BodyBuilder, points: &[Vec3], tolerance: f64| {
+        let patch = BezierPatch {
+            degrees: [2, 2],
+            points,
+            weights: None,
+        };
+        builder.add_bezier_patch(&patch, tolerance, 1).unwrap();
+    };
+    add(&mut builder, &dome(0.0), 6.25e-4);
+    let fine = built(&builder);
+    add(&mut builder, &dome(50.0), 0.2);
+    let with_coarse = built(&builder);
+    // Upside down, top on top.
+    let half_turn = Mat3::new(1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0);
+    let mut query = QueryContext::new();
+    query.set_refinement(Some(1e-4)).unwrap();
+    for lift in [0.0, 1e-3, 0.05] {
+        let over = Pose {
+            rotation: half_turn,
+            translation: Vec3::new(0.0, 1.0, 0.5 + lift),
+        };
+        let sides = ((&*with_coarse, &Pose::identity()), (&*fine, &over));
+        for most in [1e-4, 2e-3, f64::INFINITY] {
+            let found = query.pair_distance(sides.0, sides.1, most).unwrap();
+            assert!(
+                found.lower <= lift + 1e-12 && lift <= found.upper + 1e-12,
+                "{lift} {most} {found:?}"
+            );
+            match found.kind {
+                DistanceKind::BeyondMax => assert!(most < lift, "{lift} {most} {found:?}"),
+                DistanceKind::LowerBound => assert_eq!(found.distance, found.lower),
+                _ => assert!(
+                    (found.distance - lift).abs() <= 1e-4,
+                    "{lift} {most} {found:?}"
+                ),
+            }
+            assert!(query.pair_within(sides.0, sides.1, lift + 1e-3).unwrap());
         }
     }
 }
