@@ -40,6 +40,9 @@ pub mod lanes;
 // Buffers of borrowed items, used again by the next query.
 mod reused;
 
+// Memory of a size that a caller's input decides.
+mod room;
+
 // Files written whole or not at all, and read within limits.
 mod whole_file;
 

@@ -334,6 +334,7 @@ impl BodyBuilder {
     /// Adds points of one shape, tagged with their indices in `points`: all of them or none.
     pub(super) fn push_points(&mut self, shape: &Convex, points: &[Vec3]) -> Result<()> {
         self.require_room(points.len())?;
+        self.primitives.reserve_points(points.len())?;
         self.primitives.push_points(shape, points.iter().copied());
         Ok(())
     }

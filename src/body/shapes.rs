@@ -9,6 +9,7 @@ use crate::primitive::{
     Convex, SupportFunction, block, capsule, cone, convex_polygon, convex_polyhedron, cylinder,
     ellipsoid, rounded, sphere, support_set,
 };
+use crate::room::room_for;
 
 /// Heights over the nodes of a grid in the xy plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,7 +147,7 @@ impl BodyBuilder {
             let [dx, dy] = field.cell;
             Vec3::new(i as f64 * dx, j as f64 * dy, field.heights[j * nx + i])
         };
-        let mut added = Vec::with_capacity(2 * (nx - 1) * (ny - 1));
+        let mut added = room_for(2 * (nx - 1) * (ny - 1))?;
         for j in 0..ny - 1 {
             for i in 0..nx - 1 {
                 let tag = (j * (nx - 1) + i) as u64;

@@ -6,8 +6,8 @@ use std::ops::Deref;
 
 use super::boundary::Failure;
 use crate::capi::status::status::cstk_status;
-use crate::error::Error;
 use crate::pose::{Pose, Vec3};
+use crate::room::room_for;
 
 /// The number of entries of `count` items of `width` each.
 pub fn product(count: usize, width: usize, argument: &str) -> Result<usize, Failure> {
@@ -77,10 +77,7 @@ pub fn collected<T>(
 
 /// An empty array with room for `count` items. If there is not enough memory, the call is refused.
 pub fn reserved<T>(count: usize, argument: impl Display) -> Result<Vec<T>, Failure> {
-    let mut room = Vec::new();
-    let done = room.try_reserve_exact(count);
-    done.map_err(|e| Error::memory(e).within(argument))?;
-    Ok(room)
+    Ok(room_for(count).map_err(|error| error.within(argument))?)
 }
 
 /// `count` points of three numbers each.

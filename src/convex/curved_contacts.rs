@@ -144,7 +144,7 @@ fn smooth_touch(
         }
         points = [found.points[0] - by, found.points[1]];
         let turned = (found.direction - normal).norm();
-        normal = found.direction;
+        normal = found.direction.normalize();
         if shift <= LAST_SHIFT && turned <= tolerance::NORMAL_STEP {
             break;
         }

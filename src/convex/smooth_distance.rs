@@ -25,7 +25,8 @@ pub fn smooth_closest(
         let found = from_point(b, &core_a, pair)?;
         Some(found.swapped())
     }) {
-        let direction = (found.points[0] - found.points[1]) / found.distance;
+        // Not divided by the distance, which is rounded otherwise: this has to be of length 1.
+        let direction = (found.points[0] - found.points[1]).normalize();
         return Ok((found, direction));
     }
     // A start that depends on the two primitives alone, so that the answer does too.

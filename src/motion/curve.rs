@@ -39,13 +39,16 @@ impl QueryContext {
         points: &[f64],
         options: &MotionOptions,
     ) -> Result<MotionAnswer> {
-        check_points(cobject.space(), points)?;
-        let degree = points.len() / cobject.space().nq() - 1;
-        if degree > MAX_DEGREE {
+        let count = points.len().checked_div(cobject.space().nq());
+        // Before the points are read.
+        if let Some(degree) = count.and_then(|count| count.checked_sub(1))
+            && degree > MAX_DEGREE
+        {
             return Err(Error::invalid(format!(
                 "the curve is of degree {degree}; the highest is {MAX_DEGREE}"
             )));
         }
+        check_points(cobject.space(), points)?;
         let world = &self.begin_motion(cobject, options)?;
         self.motion_on_piece(world, cobject, points, options)
     }

@@ -232,7 +232,13 @@ impl<'a> Prover<'a, '_, '_, '_> {
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }
+            let before = self.context.scratch.meter().done.node_pairs;
             let Outcome { whole, left, met } = self.look_at(lanes, &interval, is_plain, lists)?;
+            // What balls or lengths decide is work too, or nothing would end the proof of a turn of many rounds.
+            let meter = self.context.scratch.meter_mut();
+            if meter.done.node_pairs == before {
+                meter.count_nodes(1);
+            }
             if self.context.scratch.meter().is_exceeded() {
                 return Ok(Proof::Exceeded(start));
             }

@@ -5,6 +5,7 @@ use super::path::{Path, checked_count};
 use crate::cobject::CObject;
 use crate::error::{ErrorKind, Result};
 use crate::query::{Configuration, QueryContext};
+use crate::room::room_for;
 
 /// The least distance along a path.
 #[derive(Clone, Debug)]
@@ -125,7 +126,7 @@ impl QueryContext {
         let nq = path.cobject.space().nq();
         let count = path.points.len().checked_div(nq).unwrap_or(1);
         let mut limit = max_distance;
-        let mut distances = Vec::with_capacity(count);
+        let (mut distances, mut order) = (room_for(count)?, room_for(path.segment_count())?);
         for i in 0..count {
             let at = Configuration::Coordinates(path.point(i));
             let distance = match self.distance_in(path.world, path.cobject, at, limit) {
@@ -138,7 +139,7 @@ impl QueryContext {
         }
         distances.resize(count, f64::INFINITY);
         let nearer = |&segment: &usize| distances[segment].min(distances[(segment + 1) % count]);
-        let mut order: Vec<usize> = (0..path.segment_count()).collect();
+        order.extend(0..path.segment_count());
         order.sort_by(|a, b| nearer(a).total_cmp(&nearer(b)));
         Ok(order)
     }

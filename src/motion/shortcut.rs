@@ -8,6 +8,7 @@ use super::way::Way;
 use crate::cobject::CObject;
 use crate::error::{ErrorKind, Result};
 use crate::query::{QueryContext, World};
+use crate::room::room_for;
 use crate::space::{Sampler, Space};
 
 /// How a path is made shorter.
@@ -178,7 +179,8 @@ impl QueryContext {
             Ok(())
         };
         let given = self.prove_segments(path, motion, &mut step)?;
-        let all = (0..count).map(|i| path.point(i).to_vec()).collect();
+        let mut all = room_for(count)?;
+        all.extend((0..count).map(|i| path.point(i).to_vec()));
         let mut cutting = Cutting::new(space, all);
         let before = cutting.length();
         let mut cuts = 0;

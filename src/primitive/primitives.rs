@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Convex, PrimitiveKind};
+use crate::error::{Error, Result};
 use crate::pose::Vec3;
 
 /// A primitive: its shape and the positions of its vertices. The points of a cloud share one shape, a point at the origin,
@@ -161,6 +162,11 @@ impl Primitives {
         self.begin(self.points.len(), Some(self.point_shapes.len() as u32 - 1));
         self.points.extend(points);
         self.len += count;
+    }
+
+    /// Reserves memory for more points, or fails if there is too little.
+    pub fn reserve_points(&mut self, count: usize) -> Result<()> {
+        self.points.try_reserve(count).map_err(Error::memory)
     }
 
     /// Reserves memory for as many more primitives as others hold.

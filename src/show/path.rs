@@ -65,13 +65,14 @@ fn moments(space: &Space, points: &[f64], seconds: f64) -> Result<Vec<(f64, Vec<
             ),
         ));
     }
-    let points: Vec<&[f64]> = points.chunks(nq).collect();
-    if points.len() > MAX_POINTS {
+    let count = points.len() / nq;
+    if count > MAX_POINTS {
         return Err(Error::new(
             ErrorKind::WrongSize,
-            format!("{} points are more than {MAX_POINTS}", points.len()),
+            format!("{count} points are more than {MAX_POINTS}"),
         ));
     }
+    let points: Vec<&[f64]> = points.chunks(nq).collect();
     for (i, q) in points.iter().enumerate() {
         let checked = space.check_configuration(q);
         checked.map_err(|error| error.within(format_args!("point {i}")))?;

@@ -13,6 +13,7 @@ use crate::error::{Error, ErrorKind, Result, require_coordinates};
 use crate::nonzero::{PLAIN_SQUARES, length};
 use crate::pose::Vec3;
 use crate::robot::{BlockKind, Coordinate};
+use crate::room::room_for;
 
 impl Space {
     /// Refuses a velocity that has the wrong number of entries, or an entry that is not a usable number.
@@ -223,7 +224,10 @@ impl Space {
         weights: Option<&[f64]>,
     ) -> std::result::Result<SmallVec<[f64; 64]>, (usize, Error)> {
         let nq = self.nq();
-        let mut distances = SmallVec::with_capacity(count);
+        let mut distances = SmallVec::new();
+        if count > distances.inline_size() {
+            distances = SmallVec::from_vec(room_for(count).map_err(|error| (0, error))?);
+        }
         for i in 0..count {
             let other = &others[i * nq..(i + 1) * nq];
             self.check_configuration(other)

@@ -147,7 +147,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_mesh(
             };
             let face_sizes = if face_sizes.is_null() {
                 // One face more than the indices suffice for is enough to name the face that lacks them.
-                vec![3; face_count.min(index_count / 3 + 1)]
+                let faces = face_count.min(index_count / 3 + 1);
+                collected((0..faces).map(|_| 3), "face_sizes")?
             } else {
                 // SAFETY: as above.
                 let sizes = unsafe { slice(face_sizes, face_count, "face_sizes")? };
