@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 static void require(bool condition, const char *what) {
     if (!condition) {
@@ -42,6 +43,20 @@ int main() {
     cstk::Environment world;
     world.add(box, cstk::pose_from(Eigen::Isometry3d(Eigen::Translation3d(3, 0, 0))));
     const cstk::CObject contact = cstk::CObject::induced(cstk::Space(builder.build()), world);
+    // What skips numbers is no span; what does not is one.
+    using cstk::detail::IsContiguous;
+    static_assert(IsContiguous<Eigen::VectorXd>::value && IsContiguous<Eigen::MatrixXd>::value);
+    static_assert(IsContiguous<Eigen::Map<const Eigen::VectorXd>>::value);
+    static_assert(IsContiguous<Eigen::MatrixXd::ColXpr>::value && !IsContiguous<Eigen::MatrixXd::RowXpr>::value);
+    static_assert(!IsContiguous<Eigen::Block<Eigen::MatrixXd>>::value);
+    using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    static_assert(IsContiguous<ByRows::RowXpr>::value && !IsContiguous<ByRows::ColXpr>::value);
+    static_assert(IsContiguous<std::vector<double>>::value);
+    ByRows table(2, 3);
+    table << 1, 2, 3, 4, 5, 6;
+    const cstk::Span<double> second = table.row(1);
+    REQUIRE(second.size() == 3 && second[0] == 4 && second[2] == 6);
+
     Eigen::VectorXd q(1);
     q << 0.5;
     REQUIRE(query.classify(contact, q) == CSTK_CLASS_OUTSIDE);

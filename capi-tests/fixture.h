@@ -22,7 +22,7 @@ typedef enum noun {
     NOUN_COUNT
 } noun;
 
-enum { FIXTURE_NQ = 3, FIXTURE_LINKS = 4, FIXTURE_BASE = 0, FIXTURE_TIP = 3 };
+enum { FIXTURE_NQ = 3, FIXTURE_NV = 3, FIXTURE_LINKS = 4, FIXTURE_BASE = 0, FIXTURE_TIP = 3 };
 
 /* A planar-looking arm in space: a base without a body and three links with a box each, turning
  * about z; an environment with one box. At `q` the arm is free. */

@@ -1,6 +1,7 @@
 /* Hostile input to grasps, to pairs that may meet, and to the choice of link pairs; and what they
  * do when all is well. */
 #include <math.h>
+#include <stddef.h>
 
 #include "check.h"
 #include "fixture.h"
@@ -50,6 +51,74 @@ static void attach_refusals(const fixture *f) {
     change = good;
     change.pose[0] = 2;
     refuse(f, &change, CSTK_ERROR_NOT_A_ROTATION, "changes[0].pose");
+    fixture_unchanged(f);
+}
+
+/* What comes attached is refused as what is attached later, and its name with it. */
+static void add_attached(const fixture *f) {
+    const uint32_t nowhere[] = {FIXTURE_LINKS};
+    cstk_environment_change change;
+    CHECK_OK(cstk_environment_change_default(&change, sizeof change));
+    change.body = f->body;
+    change.name = "\xff";
+    refuse(f, &change, CSTK_ERROR_INVALID_ARGUMENT, "changes[0].name");
+    change.name = "cup";
+    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
+        if (bad->handle != NULL) {
+            change.space = bad->handle;
+            refuse(f, &change, bad->status, "changes[0].space");
+        }
+    }
+    change.space = f->space;
+    change.link = FIXTURE_LINKS;
+    refuse(f, &change, CSTK_ERROR_NOT_FOUND, "link 4");
+    change.link = FIXTURE_TIP;
+    change.touch_links = nowhere;
+    change.touch_count = 1;
+    refuse(f, &change, CSTK_ERROR_NOT_FOUND, "touch link 4");
+    change.touch_count = 0;
+    fixture_unchanged(f);
+    cstk_environment *world = NULL;
+    cstk_object_info info;
+    char name[8];
+    size_t length = 0;
+    uint64_t ids[2];
+    uint64_t found = 0;
+    CHECK_OK(cstk_environment_create(&world));
+    CHECK_OK(cstk_environment_apply(world, &change, 1, &ids[0], NULL));
+    CHECK_OK(cstk_environment_apply(world, &change, 1, &ids[1], NULL));
+    CHECK_OK(cstk_environment_get_object_info(world, ids[0], &info));
+    CHECK(info.link == FIXTURE_TIP && info.touch_count == 0);
+    CHECK_OK(cstk_environment_get_object_name(world, ids[1], name, sizeof name, &length));
+    CHECK(strcmp(name, "cup") == 0 && length == 3);
+    CHECK_OK(cstk_environment_find_object(world, "cup", &found));
+    CHECK(found == ids[0]);
+    /* A change as programs of before this name gave it: shorter, and without one. */
+    change.size = offsetof(cstk_environment_change, name);
+    CHECK_OK(cstk_environment_apply(world, &change, 1, &ids[0], NULL));
+    CHECK_OK(cstk_environment_get_object_name(world, ids[0], NULL, 0, &length));
+    CHECK(length == 0);
+    CHECK_OK(cstk_environment_release(world));
+}
+
+static void object_names(const fixture *f) {
+    char name[4];
+    uint64_t id;
+    EACH_BAD_HANDLE(f, NOUN_ENVIRONMENT, bad) {
+        CHECK_REFUSED(name, cstk_environment_get_object_name(bad->handle, f->box, name, 4, NULL), bad->status,
+                      "environment");
+        CHECK_REFUSED(id, cstk_environment_find_object(bad->handle, "cup", &id), bad->status, "environment");
+    }
+    CHECK_REFUSED(name, cstk_environment_get_object_name(f->environment, 0, name, 4, NULL), CSTK_ERROR_NOT_FOUND,
+                  "id 0");
+    CHECK_FAILS(cstk_environment_get_object_name(f->environment, f->box, NULL, 4, NULL), CSTK_ERROR_NULL_ARGUMENT,
+                "buffer");
+    CHECK_REFUSED(id, cstk_environment_find_object(f->environment, NULL, &id), CSTK_ERROR_NULL_ARGUMENT, "name");
+    CHECK_REFUSED(id, cstk_environment_find_object(f->environment, "\xff", &id), CSTK_ERROR_INVALID_ARGUMENT, "name");
+    CHECK_REFUSED(id, cstk_environment_find_object(f->environment, "cup", &id), CSTK_ERROR_NOT_FOUND, "cup");
+    /* Those without a name have none to be found by. */
+    CHECK_REFUSED(id, cstk_environment_find_object(f->environment, "", &id), CSTK_ERROR_NOT_FOUND, "name");
+    CHECK_FAILS(cstk_environment_find_object(f->environment, "cup", NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
     fixture_unchanged(f);
 }
 
@@ -321,6 +390,8 @@ int main(void) {
     fixture f;
     fixture_create(&f);
     attach_refusals(&f);
+    add_attached(&f);
+    object_names(&f);
     attach_elsewhere(&f);
     grasp_and_release(&f);
     allowed_refusals(&f);

@@ -87,6 +87,12 @@ static cstk_status distance(const question *a, answer *out) {
                          out ? &out->distance : NULL);
 }
 
+static cstk_status distance_with_gradient(const question *a, answer *out) {
+    double gradient[FIXTURE_NV];
+    return cstk_distance_with_gradient(a->query, a->cobject, a->at, a->count, a->number, out ? &out->distance : NULL,
+                                       gradient, FIXTURE_NV);
+}
+
 static cstk_status distance_at(const question *a, answer *out) {
     return cstk_distance_at_link_poses(a->query, a->cobject, a->at, a->count, a->number,
                             out ? &out->distance : NULL);
@@ -141,6 +147,7 @@ static const form forms[] = {
     {"within", within, false, "threshold"},
     {"within_at", within_at, true, "threshold"},
     {"distance", distance, false, "max_distance"},
+    {"distance_with_gradient", distance_with_gradient, false, "max_distance"},
     {"distance_at", distance_at, true, "max_distance"},
     {"witnesses", witnesses, false, "epsilon"},
     {"witnesses_at", witnesses_at, true, "epsilon"},
@@ -265,12 +272,40 @@ static void query_limits(const fixture *f, const form *of) {
     CHECK_OK(of->ask(&a, &out));
 }
 
+/* A refused gradient leaves the distance alone too; else both are what others say. */
+static void gradient_of_the_nearest(const fixture *f) {
+    cstk_distance_result out;
+    double gradient[FIXTURE_NV];
+    CHECK_REFUSED(out, cstk_distance_with_gradient(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &out, NULL, FIXTURE_NV),
+                  CSTK_ERROR_NULL_ARGUMENT, "gradient");
+    const size_t counts[] = {0, FIXTURE_NV - 1, FIXTURE_NV + 1, SIZE_MAX};
+    for (int i = 0; i < 4; ++i) {
+        CHECK_REFUSED(out, cstk_distance_with_gradient(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &out, gradient, counts[i]),
+                      CSTK_ERROR_WRONG_SIZE, "nv");
+    }
+    CHECK_REFUSED(gradient, cstk_distance_with_gradient(f->query, f->cobject, f->q, FIXTURE_NQ, -1, &out, gradient, FIXTURE_NV),
+                  CSTK_ERROR_INVALID_ARGUMENT, "max_distance");
+    cstk_distance_result alone;
+    cstk_witness_list list;
+    CHECK_OK(cstk_distance(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &alone));
+    CHECK_OK(cstk_distance_with_gradient(f->query, f->cobject, f->q, FIXTURE_NQ, INFINITY, &out, gradient, FIXTURE_NV));
+    CHECK(out.distance == alone.distance && out.has_contact && out.distance > 0);
+    CHECK_OK(cstk_gradients(f->query, f->cobject, f->q, FIXTURE_NQ, out.upper, 1, &list));
+    CHECK(list.nv == FIXTURE_NV && memcmp(gradient, list.gradients, sizeof gradient) == 0);
+    /* Nothing is near: zeros. */
+    gradient[0] = 7;
+    CHECK_OK(cstk_distance_with_gradient(f->query, f->cobject, f->q, FIXTURE_NQ, 0, &out, gradient, FIXTURE_NV));
+    CHECK(out.kind == CSTK_DISTANCE_BEYOND_MAX && gradient[0] == 0);
+    fixture_unchanged(f);
+}
+
 int main(void) {
     fixture f;
     fixture_create(&f);
     query_create(&f);
     get_statistics(&f);
     set_limit(&f);
+    gradient_of_the_nearest(&f);
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
         query_handles(&f, &forms[i]);
         query_counts(&f, &forms[i]);

@@ -157,6 +157,23 @@ static void cobject_options(const fixture *f) {
     fixture_unchanged(f);
 }
 
+/* The choice of pairs that no coordinate moves is a choice of two, and of s-objects alone. */
+static void left_out(const fixture *f) {
+    cstk_cobject *out;
+    cstk_induced_options options;
+    const uint32_t pair[2] = {1, 3};
+    CHECK_OK(cstk_induced_options_default(&options, sizeof options));
+    options.leave_out_unmoved = 2;
+    CHECK_REFUSED(out, cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out),
+                  CSTK_ERROR_INVALID_ARGUMENT, "leave_out_unmoved");
+    options.leave_out_unmoved = 1;
+    CHECK_REFUSED(out, cstk_cobject_induced_links(f->space, pair, 1, &options, &out), CSTK_ERROR_UNSUPPORTED,
+                  "leave_out_unmoved");
+    CHECK_OK(cstk_cobject_induced(f->space, NULL, 0, f->environment, NULL, 0, &options, &out));
+    CHECK_OK(cstk_cobject_release(out));
+    fixture_unchanged(f);
+}
+
 static void cobject_induced(const fixture *f) {
     cstk_cobject *out;
     const cstk_space *s = f->space;
@@ -347,6 +364,7 @@ int main(void) {
     apply_values(&f);
     environment_others(&f);
     cobject_options(&f);
+    left_out(&f);
     cobject_induced(&f);
     cobject_induced_links(&f);
     cobject_union(&f);

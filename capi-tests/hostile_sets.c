@@ -328,6 +328,16 @@ static void data(const scene *s) {
                 "out");
     CHECK(destroyed == 0);
     CHECK_OK(cstk_cobject_get_data(s->f.cobject, NULL, NULL));
+    cstk_space *space;
+    EACH_BAD_HANDLE(&s->f, NOUN_COBJECT, bad) {
+        CHECK_REFUSED(space, cstk_cobject_get_space(bad->handle, &space), bad->status, "cobject");
+    }
+    CHECK_FAILS(cstk_cobject_get_space(s->f.cobject, NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    size_t nq = 0;
+    CHECK_OK(cstk_cobject_get_space(s->f.cobject, &space));
+    CHECK_OK(cstk_space_get_size(space, &nq, NULL, NULL));
+    CHECK(nq == FIXTURE_NQ);
+    CHECK_OK(cstk_space_release(space));
     fixture_unchanged(&s->f);
 }
 

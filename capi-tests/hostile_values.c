@@ -41,6 +41,32 @@ static void pose_from_euler(void) {
     }
 }
 
+static void pose_from_rpy(void) {
+    const double good[6] = {1, 2, 3, 0.1, 0.2, 0.3};
+    double pose[12];
+    CHECK_REFUSED(pose, cstk_pose_from_rpy(NULL, pose), CSTK_ERROR_NULL_ARGUMENT, "xyz_rpy");
+    CHECK_FAILS(cstk_pose_from_rpy(good, NULL), CSTK_ERROR_NULL_ARGUMENT, "pose");
+    for (int entry = 0; entry < 6; ++entry) {
+        EACH_NOT_FINITE(i) {
+            double bad[6];
+            memcpy(bad, good, sizeof bad);
+            bad[entry] = not_finite[i];
+            CHECK_REFUSED(pose, cstk_pose_from_rpy(bad, pose), CSTK_ERROR_NOT_FINITE, "xyz_rpy");
+        }
+    }
+    /* The rows by hand, for roll a, pitch b, yaw c. */
+    const double a = good[3], b = good[4], c = good[5];
+    const double want[12] = {cos(c) * cos(b), cos(c) * sin(b) * sin(a) - sin(c) * cos(a),
+                             cos(c) * sin(b) * cos(a) + sin(c) * sin(a), 1,
+                             sin(c) * cos(b), sin(c) * sin(b) * sin(a) + cos(c) * cos(a),
+                             sin(c) * sin(b) * cos(a) - cos(c) * sin(a), 2,
+                             -sin(b), cos(b) * sin(a), cos(b) * cos(a), 3};
+    CHECK_OK(cstk_pose_from_rpy(good, pose));
+    for (int i = 0; i < 12; ++i) {
+        CHECK(fabs(pose[i] - want[i]) < 1e-15);
+    }
+}
+
 static void pose_from_quaternion(void) {
     double good[7] = {1, 2, 3, 0.6, 0, 0, 0.8};
     double pose[12];
@@ -328,6 +354,7 @@ static void earlier_sizes(void) {
 int main(void) {
     texts();
     pose_from_euler();
+    pose_from_rpy();
     pose_from_quaternion();
     pose_to_euler();
     pose_compose();

@@ -104,8 +104,25 @@ static void link_names(const fixture *f) {
                   CSTK_ERROR_NOT_FOUND, "link 4");
     CHECK_REFUSED(length, cstk_space_get_link_name(f->space, 0, NULL, 9, &length), CSTK_ERROR_NULL_ARGUMENT,
                   "buffer");
+    uint32_t link_found;
+    EACH_BAD_HANDLE(f, NOUN_SPACE, bad) {
+        CHECK_REFUSED(link_found, cstk_space_find_link(bad->handle, "link0", &link_found), bad->status, "space");
+    }
+    CHECK_REFUSED(link_found, cstk_space_find_link(f->space, NULL, &link_found), CSTK_ERROR_NULL_ARGUMENT, "name");
+    CHECK_REFUSED(link_found, cstk_space_find_link(f->space, "\xff", &link_found), CSTK_ERROR_INVALID_ARGUMENT, "name");
+    CHECK_REFUSED(link_found, cstk_space_find_link(f->space, "elbow", &link_found), CSTK_ERROR_NOT_FOUND, "elbow");
+    CHECK_FAILS(cstk_space_find_link(f->space, "link0", NULL), CSTK_ERROR_NULL_ARGUMENT, "out");
+    const cstk_robot *twins[2] = {f->robot, f->robot};
+    cstk_space *both = NULL;
+    CHECK_OK(cstk_space_create(twins, 2, NULL, 0, NULL, &both));
+    CHECK_REFUSED(link_found, cstk_space_find_link(both, "link1", &link_found), CSTK_ERROR_INVALID_ARGUMENT,
+                  "links 1 and 5");
+    CHECK_OK(cstk_space_release(both));
     for (uint32_t link = 0; link < FIXTURE_LINKS; ++link) {
+        uint32_t found = CSTK_NONE;
         CHECK_OK(cstk_space_get_link_name(f->space, link, name, sizeof name, NULL));
+        CHECK_OK(cstk_space_find_link(f->space, name, &found));
+        CHECK(found == link);
         CHECK_OK(cstk_robot_get_link_name(f->robot, link, same, sizeof same, NULL));
         CHECK(strcmp(name, same) == 0);
     }

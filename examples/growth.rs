@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use cstk::body::{Body, BodyBuilder, Mesh};
-use cstk::cobject::{CObject, InducedOptions, PureOptions, PureShape, SObjects};
+use cstk::cobject::{CObject, InducedOptions, LeftOut, PureOptions, PureShape, SObjects};
 use cstk::environment::{Attachment, Change, Environment};
 use cstk::pose::{Pose, Vec3};
 use cstk::primitive::{convex_polyhedron, split_face};
@@ -198,11 +198,7 @@ fn union_of_environments(n: usize) -> f64 {
     let body = cube();
     let term = |i: usize| {
         let environment = Arc::new(Environment::default());
-        let add = |x: f64| Change::Add {
-            body: body.clone(),
-            pose: at(x),
-            data: None,
-        };
+        let add = |x: f64| Change::add(body.clone(), at(x));
         let (ids, _) = environment
             .apply(&[add(2.0), add(10.0 + i as f64)])
             .unwrap();
@@ -214,7 +210,9 @@ fn union_of_environments(n: usize) -> f64 {
         environment.apply(&[attach]).unwrap();
         let objects = SObjects::All(environment);
         let options = InducedOptions::default();
-        Arc::new(CObject::induced(space.clone(), &[], objects, &[], options).unwrap())
+        Arc::new(
+            CObject::induced(space.clone(), &[], objects, LeftOut::default(), options).unwrap(),
+        )
     };
     let terms: Vec<_> = (0..n).map(term).collect();
     let all = CObject::union(&terms).unwrap();
@@ -232,11 +230,7 @@ fn objects_attached(n: usize) -> f64 {
     let space = robots(1);
     let body = cube();
     let environment = Environment::default();
-    let add = |i: usize| Change::Add {
-        body: body.clone(),
-        pose: at(i as f64),
-        data: None,
-    };
+    let add = |i: usize| Change::add(body.clone(), at(i as f64));
     let (ids, _) = environment
         .apply(&(0..n).map(add).collect::<Vec<_>>())
         .unwrap();

@@ -318,6 +318,13 @@ cstk_status cstk_pose_to_euler(const double *pose_12,
                                double *xyz_ypr);
 
 /**
+ * Converts a placement as URDF and ROS have it to a pose. `xyz_rpy` holds x, y, z, and roll about the fixed X, then pitch about the
+ * fixed Y, then yaw about the fixed Z, in radians; `pose` receives 12 doubles.
+ */
+cstk_status cstk_pose_from_rpy(const double *xyz_rpy,
+                               double *pose);
+
+/**
  * Converts a translation and a unit quaternion to a pose. `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
  * of the quaternion, whose norm must be 1 to within 1e-6; `pose` receives 12 doubles.
  */
@@ -905,7 +912,8 @@ cstk_status cstk_body_builder_add_points(cstk_body_builder *builder,
  * at the origin; `heights[j * nx + i]` is the z of node (i, j). Each cell is two triangles, split along the diagonal from
  * (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. If `base` is NaN the field is a surface; otherwise it is
  * solid ground down to z = base, which must be below all heights, and each triangle becomes a prism. Exact to 1e-12 of the
- * largest coordinate.
+ * largest coordinate. CSTK_ERROR_NOT_CONVERGED, with the cell, for a prism so steep that rounding leaves it no closed hull: its heights
+ * differ by a million times its sides and more.
  */
 cstk_status cstk_body_builder_add_height_field(cstk_body_builder *builder,
                                                size_t nx,
@@ -1600,7 +1608,7 @@ typedef struct cstk_link_def {
   double offset;
   /**
    * The range of a revolute or prismatic joint's coordinate, which a space may override; radians or lengths. The default
-   * is infinite: a revolute joint then turns on a circle. Ignored where the joint shares an earlier joint's coordinate.
+   * is infinite: a revolute joint then turns on a circle. Finite ones are at most 1e50 in size. Ignored where the joint shares an earlier joint's coordinate.
    */
   double lower;
   double upper;
@@ -2474,6 +2482,14 @@ cstk_status cstk_space_get_link_name(const cstk_space *space,
                                      size_t *length);
 
 /**
+ * Writes the number of the link with this name. CSTK_ERROR_NOT_FOUND if there is none; CSTK_ERROR_INVALID_ARGUMENT if several robots
+ * of the space have one: see cstk_robot_find_link and cstk_space_get_offset then.
+ */
+cstk_status cstk_space_find_link(const cstk_space *space,
+                                 const char *name,
+                                 uint32_t *out);
+
+/**
  * Writes where the links, coordinates and velocities of the space's `robot`-th robot begin: add them to the robot's own
  * numbers. Robots are counted from 0.
  */
@@ -2725,7 +2741,8 @@ typedef struct cstk_environment_change {
    */
   double pose[12];
   /**
-   * For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link.
+   * For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link. Given
+   * with CSTK_CHANGE_ADD, the new object comes attached, `pose` then in the link's frame.
    * Queries in other spaces on sets that include the object fail with CSTK_ERROR_UNSUPPORTED, since its pose is unknown
    * there. In a set of links against s-objects, it is tested against the other s-objects as the link itself is
    * (`r_object` of a witness names it); and as an s-object against the links, except the link that holds it and the
@@ -2742,6 +2759,10 @@ typedef struct cstk_environment_change {
    */
   void *data;
   cstk_destroy_fn destroy;
+  /**
+   * For CSTK_CHANGE_ADD: the object's name, UTF-8, which is copied; NULL or empty for none. Several objects may have one name.
+   */
+  const char *name;
 } cstk_environment_change;
 
 /**
@@ -2859,6 +2880,24 @@ cstk_status cstk_environment_get_objects(const cstk_environment *environment,
 cstk_status cstk_environment_get_object_info(const cstk_environment *environment,
                                              uint64_t id,
                                              cstk_object_info *out);
+
+/**
+ * Writes the name of an s-object, empty if it has none: see cstk_robot_get_link_name for the buffer. CSTK_ERROR_NOT_FOUND for an
+ * unknown or deleted id.
+ */
+cstk_status cstk_environment_get_object_name(const cstk_environment *environment,
+                                             uint64_t id,
+                                             char *buffer,
+                                             size_t capacity,
+                                             size_t *length);
+
+/**
+ * Writes the id of the s-object with this name; of several the one that was added first. It looks at one object after the other.
+ * CSTK_ERROR_NOT_FOUND if there is none.
+ */
+cstk_status cstk_environment_find_object(const cstk_environment *environment,
+                                         const char *name,
+                                         uint64_t *out);
 
 /**
  * Writes the pose (12 doubles) of an s-object: in the world, or in the frame of the link that it is attached to (see
@@ -3120,6 +3159,13 @@ struct cstk_induced_options {
    */
   const cstk_allowed_pair *allowed;
   size_t allowed_count;
+  /**
+   * 1 leaves out, of a set of links against s-objects, the pairs of bodies that no coordinate moves: the base and the table
+   * that it stands on, which else is always the nearest, with a gradient of 0. Whether the robot meets its surroundings where it
+   * stands is then not asked; what is held is tested against the base, and all else. Default 0.
+   */
+  uint32_t leave_out_unmoved;
+  uint32_t reserved;
 };
 
 /**
@@ -3241,6 +3287,11 @@ cstk_status cstk_cobject_induced_links(const cstk_space *space,
                                        size_t pair_count,
                                        const cstk_induced_options *options,
                                        cstk_cobject **out);
+
+/**
+ * Writes a reference to the space that the set is in, to be released with cstk_space_release.
+ */
+cstk_status cstk_cobject_get_space(const cstk_cobject *cobject, cstk_space **out);
 
 /**
  * Adds a reference.
@@ -3510,7 +3561,7 @@ typedef struct cstk_query cstk_query;
 typedef struct cstk_query_statistics {
   /**
    * Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes; for motions and
-   * regions, the looks at pure sets too.
+   * regions, what is decided without nodes too: a look each.
    */
   uint64_t node_pairs;
   /**
@@ -3585,9 +3636,9 @@ cstk_status cstk_query_set_limit(cstk_query *query,
  * - thresholds and classes are decided unless the distance is within `gap` of the threshold; doubt counts as within
  *   (cstk_classify, cstk_within, cstk_pair_within and their variants).
  *
- * Witness points and normals are those of the refined parts, features and tags those of the
- * triangles. Two surfaces that are about equally near over much of their areas end after 16384 steps, with the bounds that are proved
- * by then; each step counts as one of `node_pairs` (cstk_query_set_limit).
+ * Witness points and normals are those of the refined parts, features and tags those of the triangles. What is about equally near
+ * over much of a surface ends after 16384 steps, with the bounds that are proved by then: the distance is CSTK_DISTANCE_LOWER_BOUND
+ * where they are farther apart than `gap`. Each step counts as one of `node_pairs` (cstk_query_set_limit).
  *
  * Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
  * contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
@@ -4233,6 +4284,20 @@ cstk_status cstk_distance_at_link_poses(cstk_query *query,
                                         size_t link_count,
                                         double max_distance,
                                         cstk_distance_result *out);
+
+/**
+ * cstk_distance and the gradient of the nearest pair in one call: `gradient` receives `nv` doubles, as many as the space has
+ * velocities: the derivative of the distance of `contact` with respect to them, as cstk_gradients has it. It is 0 where has_contact is
+ * false: where nothing is near, or the two overlap.
+ */
+cstk_status cstk_distance_with_gradient(cstk_query *query,
+                                        const cstk_cobject *cobject,
+                                        const double *q,
+                                        size_t nq,
+                                        double max_distance,
+                                        cstk_distance_result *out,
+                                        double *gradient,
+                                        size_t nv);
 
 /**
  * Writes all primitive pairs at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their

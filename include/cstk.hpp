@@ -31,6 +31,7 @@
 #include <cstk/space.hpp>
 #include <cstk/environment.hpp>
 #include <cstk/octree.hpp>
+#include <cstk/describe.hpp>
 #include <cstk/predicate.hpp>
 #include <cstk/cobject.hpp>
 #include <cstk/at_configuration.hpp>

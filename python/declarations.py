@@ -156,14 +156,14 @@ BEGINNING = '"""{about} Written by declarations.py from include/cstk.h; do not e
 
 
 def enums_module(all_enums: list[Definition], all_structs: list[Definition]) -> str:
-    """One IntEnum for each enum but the statuses, which are exceptions (errors.py)."""
+    """One class for each enum but the statuses, which are exceptions (errors.py)."""
     out = BEGINNING.format(about="The enumerations of the C API, without their prefixes.")
     named = [camel(enum.name) for enum in all_enums if enum.name != "cstk_status"]
-    out += f"from enum import IntEnum\n\n__all__ = {listed(named)}\n"
+    out += f"from ._named import Named\n\n__all__ = {listed(named)}\n"
     for enum in all_enums:
         if enum.name == "cstk_status":
             continue
-        out += f"\n\nclass {camel(enum.name)}(IntEnum):\n"
+        out += f"\n\nclass {camel(enum.name)}(Named):\n"
         out += docstring(python_words(enum.doc, all_enums, all_structs), "    ")
         for member in enum.members:
             out += f"\n    {member.name[len(stem(enum)) :]} = {member.count}\n"
@@ -174,7 +174,7 @@ def enums_module(all_enums: list[Definition], all_structs: list[Definition]) -> 
 
 # Fields in which CSTK_NONE or UINT32_MAX stands for none.
 MAY_BE_NONE = {
-    "cstk_witness": {"r_link", "s_link", "coordinate"},
+    "cstk_witness": {"r_link", "s_link", "coordinate", "r_part", "s_part"},
     "cstk_object_info": {"link"},
     "cstk_hierarchy_node": {"children", "primitive"},
     "cstk_certificate_entry": {"links"},

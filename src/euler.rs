@@ -5,7 +5,7 @@
 //! here states the frame of its angular velocities.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::pose::{Mat3, Pose, Vec3};
+use crate::pose::{Mat3, Pose, Vec3, rotation_about};
 
 /// Below this cos(pitch), the yaw and roll axes coincide up to rounding.
 const SINGULAR: f64 = 1e-12;
@@ -124,6 +124,15 @@ impl Pose {
     pub fn from_euler(&[x, y, z, yaw, pitch, roll]: &[f64; 6]) -> Self {
         Self {
             rotation: euler_to_rotation([yaw, pitch, roll]),
+            translation: Vec3::new(x, y, z),
+        }
+    }
+
+    /// From x, y, z, and URDF's angles: roll about the fixed x, then pitch about the fixed y, then yaw about the fixed z.
+    pub fn from_rpy(&[x, y, z, roll, pitch, yaw]: &[f64; 6]) -> Self {
+        let turn = |axis: Vec3, angle: f64| rotation_about(&axis, angle);
+        Self {
+            rotation: turn(Vec3::z(), yaw) * turn(Vec3::y(), pitch) * turn(Vec3::x(), roll),
             translation: Vec3::new(x, y, z),
         }
     }

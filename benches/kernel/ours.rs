@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use cstk::body::{Body, BodyBuilder, Mesh};
-use cstk::cobject::{CObject, InducedOptions, SObjects};
+use cstk::cobject::{CObject, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::{HierarchyOptions, WrapperKind};
 use cstk::pose::{Pose, Vec3};
@@ -132,13 +132,16 @@ fn cobject(case: &Case, wrapper: WrapperKind) -> CObject {
     let changes: Vec<Change> = case
         .obstacles
         .iter()
-        .map(|mesh| Change::Add {
-            body: body(mesh, wrapper),
-            pose: Pose::identity(),
-            data: None,
-        })
+        .map(|mesh| Change::add(body(mesh, wrapper), Pose::identity()))
         .collect();
     environment.apply(&changes).expect("obstacles");
     let all = SObjects::All(environment);
-    CObject::induced(Arc::new(space), &[], all, &[], InducedOptions::default()).expect("a C-object")
+    CObject::induced(
+        Arc::new(space),
+        &[],
+        all,
+        LeftOut::default(),
+        InducedOptions::default(),
+    )
+    .expect("a C-object")
 }

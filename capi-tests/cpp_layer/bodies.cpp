@@ -59,6 +59,7 @@ void bodies() {
     REQUIRE(body.refit(all).vertices() == all);
     REQUIRE(status_of([&] { return body.refit(std::vector<double>(3)); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { return builder.add_mesh_file("/nowhere.obj"); }) == CSTK_ERROR_IO);
+    REQUIRE(status_of([] { return cstk::Body::from_mesh_file("/nowhere.obj"); }) == CSTK_ERROR_IO);
     cstk::BodyBuilder placed;
     const cstk::BodyBuilder::Vector scale = {2, 3, -4};
     placed.add_triangles(triangle, std::vector<std::uint32_t>{0, 1, 2}, cstk::translation(5, 6, 7),

@@ -14,6 +14,9 @@ void scenes() {
     const std::vector<std::uint64_t> ids = environment.load_scene_text(text, options);
     REQUIRE(ids.size() == 1 && environment.object_pose(ids[0])[3] == 1);
     REQUIRE(std::string(static_cast<const char *>(environment.object(ids[0]).data)) == "ball");
+    REQUIRE(environment.object_name(ids[0]) == "ball" && environment.find_object("ball") == ids[0]);
+    REQUIRE(status_of([&] { return environment.find_object("cup"); }) == CSTK_ERROR_NOT_FOUND);
+    REQUIRE(status_of([&] { return environment.object_name(ids[0] + 1000); }) == CSTK_ERROR_NOT_FOUND);
     REQUIRE(status_of([&] { return environment.load_scene("/nowhere.scene"); }) == CSTK_ERROR_IO);
 }
 
@@ -43,6 +46,32 @@ static void folding_arm(cstk::Query &query) {
             CSTK_ERROR_CANCELLED);
 }
 
+/* Objects with names, one attached from the first; answers in words. */
+static void named(const cstk::Space &space, const cstk::Body &body, std::uint32_t hand) {
+    cstk::Environment world;
+    const std::uint64_t shelf = world.add(body, cstk::translation(0, 0, 30), "shelf");
+    const std::uint64_t cup = world.add_attached(body, space, hand, cstk::translation(0, 0, 20), {0}, "cup");
+    REQUIRE(world.object_name(shelf) == "shelf" && world.find_object("cup") == cup);
+    REQUIRE(world.object(cup).link == hand && world.object(cup).touch_count == 1);
+    const std::vector<double> q(space.nq(), 0.0);
+    std::vector<double> gradient(space.nv(), 7);
+    cstk::Query query;
+    const cstk::CObject all = cstk::CObject::induced(space, world);
+    const cstk_distance_result found = query.distance_with_gradient(all, q, gradient);
+    REQUIRE(cstk::describe(space, world, found.witness) == space.link_name(hand) + " (cup) x shelf");
+    REQUIRE(found.distance == query.distance(all, q).distance && gradient[0] != 7);
+    REQUIRE(all.space().nq() == space.nq());
+    gradient.clear();
+    REQUIRE(status_of([&] { return query.distance_with_gradient(all, q, gradient); }) == CSTK_ERROR_WRONG_SIZE);
+    REQUIRE(std::string(cstk::to_string(query.classify(all, q))) == "outside");
+    REQUIRE(std::string(cstk::to_string(CSTK_MOTION_UNDECIDED)) == "undecided");
+    cstk_witness limits = found.witness;
+    limits.r_link = CSTK_NONE;
+    REQUIRE(cstk::describe(space, world, limits) == "a pure set");
+    limits.coordinate = 1;
+    REQUIRE(cstk::describe(space, world, limits) == "coordinate 1");
+}
+
 /* A robot with an object in its hand, over a floor. */
 void worlds(const cstk::Space &space, const cstk::Body &body) {
     int mark = 0;
@@ -64,6 +93,11 @@ void worlds(const cstk::Space &space, const cstk::Body &body) {
     REQUIRE(found.witness.r_data == &mark && query.version(world) == world.version());
     REQUIRE(world.object(id).link == hand && world.object(id).data == &mark);
     REQUIRE((world.objects() == std::vector<std::uint64_t>{id, wall}));
+    const std::string link = space.link_name(hand);
+    REQUIRE(space.find_link(link) == hand);
+    REQUIRE(cstk::describe(space, world, found.witness) ==
+            link + " (object " + std::to_string(id) + ") x object " + std::to_string(wall));
+    named(space, body, hand);
     world.move(id, cstk::translation(0, 0, 50));
     REQUIRE(world.object(id).link == CSTK_NONE && world.object(id).pose[11] == 50);
     REQUIRE(query.distance(all, q).witness.r_object == 0);

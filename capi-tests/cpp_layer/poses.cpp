@@ -12,6 +12,8 @@ void poses() {
     for (int i = 0; i < 6; ++i) {
         REQUIRE(std::fabs(placement[i] - again[i]) < 1e-14);
     }
+    const cstk::Pose quarter = cstk::pose_from_rpy({1, 2, 3, 0, 0, std::acos(0.0)});
+    REQUIRE(std::fabs(quarter[1] + 1) < 1e-15 && std::fabs(quarter[4] - 1) < 1e-15 && quarter[11] == 3);
     REQUIRE(cstk::pose_from_quaternion({1, 2, 3, 0, 0, 0, 1}) == cstk::translation(1, 2, 3));
     REQUIRE(cstk::compose(cstk::translation(1, 2, 3), cstk::translation(1, 0, 0)) ==
             cstk::translation(2, 2, 3));

@@ -45,8 +45,9 @@ void predicates(const cstk::Space &space) {
         return q.data()[1] == 2 ? std::vector<double>{-1} : std::vector<double>{-1, 0};
     };
     functions.knows_depth = true;
-    cstk::CObject set =
-        cstk::CObject::predicate(space, std::move(functions), cstk::pure_options(0, 2));
+    cstk_pure_options doubled = cstk::pure_options();
+    doubled.scale = 2;
+    cstk::CObject set = cstk::CObject::predicate(space, std::move(functions), doubled);
     functions = cstk::Predicate();
     REQUIRE(query.distance(set, {1, 0}).distance == 4);
     REQUIRE(query.distance(set.complement(), {4, 0}).distance == 2);
@@ -56,7 +57,9 @@ void predicates(const cstk::Space &space) {
     REQUIRE(status_of([&] {
                 cstk::Predicate refused;
                 refused.classify = [kept](cstk::Span<double>) { return CSTK_CLASS_OUTSIDE; };
-                return cstk::CObject::predicate(space, refused, cstk::pure_options(-1));
+                cstk_pure_options bad = cstk::pure_options();
+                bad.contact_epsilon = -1;
+                return cstk::CObject::predicate(space, refused, bad);
             }) == CSTK_ERROR_INVALID_ARGUMENT);
     by_class = cstk::CObject();
     REQUIRE(kept.use_count() > 1);

@@ -69,7 +69,9 @@ void queries() {
     REQUIRE(environment.object_pose(id) == cstk::translation(4, 0, 0));
     REQUIRE(status_of([&] { return before.remove(id); }) == CSTK_ERROR_UNSUPPORTED);
 
-    cstk::CObject obstacles = cstk::CObject::induced(space, environment, cstk::induced_options(3));
+    cstk_induced_options options = cstk::induced_options();
+    options.contact_epsilon = 3;
+    cstk::CObject obstacles = cstk::CObject::induced(space, environment, options);
     cstk::CObject self = cstk::CObject::induced_links(space, {{0, 1}});
     cstk::CObject all = cstk::CObject::union_of({obstacles, self});
     cstk::Query query;
@@ -116,7 +118,10 @@ void queries() {
     const cstk_query_statistics done = query.statistics(true);
     REQUIRE(done.primitive_distances <= done.primitive_pairs);
 
-    REQUIRE(query.signed_distances(all, q, 2.6).count > 0);
+    const cstk_signed_distance_list signed_list = query.signed_distances(all, q, 2.6);
+    REQUIRE(signed_list.count > 0);
+    const cstk_signed_distance &last = cstk::pairs_of(signed_list)[signed_list.count - 1];
+    REQUIRE(cstk::gradient_of(signed_list, last).data() == signed_list.gradients + 2 * (signed_list.count - 1));
     REQUIRE(status_of([&] { return query.signed_distances(all, q, -1.0); }) == CSTK_ERROR_INVALID_ARGUMENT);
     pairs(query, body);
     object_pairs(query, body);

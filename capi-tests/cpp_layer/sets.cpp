@@ -9,7 +9,9 @@
 static void pure_sets(const cstk::Space &space) {
     cstk::Query query;
     const double infinity = std::numeric_limits<double>::infinity();
-    const cstk_pure_options options = cstk::pure_options(1, 2);
+    cstk_pure_options options = cstk::pure_options();
+    options.contact_epsilon = 1;
+    options.scale = 2;
     const cstk::CObject limits = cstk::CObject::beyond_limits(space);
     const cstk::CObject world = cstk::CObject::beyond_world(space);
     const cstk::CObject box = cstk::CObject::box(space, {1, -infinity}, {2, infinity}, options);
@@ -36,7 +38,8 @@ static void pure_sets(const cstk::Space &space) {
     REQUIRE(status_of([&] { return cstk::CObject::box(space, {1}, {2}); }) == CSTK_ERROR_WRONG_SIZE);
     REQUIRE(status_of([&] { return cstk::CObject::halfspace(space, {0, 0}, 1); }) == CSTK_ERROR_DEGENERATE);
     REQUIRE(status_of([&] { return cstk::CObject::ball(space, {0, 0}, -1); }) == CSTK_ERROR_INVALID_ARGUMENT);
-    const cstk_pure_options bad = cstk::pure_options(-1);
+    cstk_pure_options bad = cstk::pure_options();
+    bad.contact_epsilon = -1;
     REQUIRE(status_of([&] { return cstk::CObject::beyond_limits(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
     REQUIRE(status_of([&] { return cstk::CObject::beyond_world(space, bad); }) == CSTK_ERROR_INVALID_ARGUMENT);
     REQUIRE(status_of([] { return cstk::CObject::intersection_of({}); }) == CSTK_ERROR_EMPTY);

@@ -22,6 +22,8 @@ void urdf() {
     const cstk::Robot robot = builder.build();
     REQUIRE(robot.find_link("b_a") == 1 && robot.nq() == 7 && robot.nv() == 6);
     REQUIRE(robot.body(1).statistics().primitive_count == 1);
+    REQUIRE(cstk::Robot::from_urdf(file, "", {"/packages"}).link_count() == 1);
+    REQUIRE(status_of([&] { return cstk::Robot::from_urdf(file, "/nowhere.srdf"); }) == CSTK_ERROR_IO);
     REQUIRE(std::remove(file) == 0);
     REQUIRE(status_of([&] { return builder.load_urdf(file); }) == CSTK_ERROR_IO);
     cstk::RobotBuilder described;

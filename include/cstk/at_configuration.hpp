@@ -65,6 +65,17 @@ public:
         return out;
     }
 
+    /// The distance, and its derivative with respect to each velocity, for which `gradient` has room: zeros where the answer has no
+    /// contact.
+    [[nodiscard]] cstk_distance_result
+    distance_with_gradient(const CObject &cobject, Span<double> q, std::vector<double> &gradient,
+                           double max_distance = std::numeric_limits<double>::infinity()) {
+        cstk_distance_result out;
+        check(cstk_distance_with_gradient(query_of(*this), cobject.get(), q.data(), q.size(), max_distance, &out,
+                                          gradient.data(), gradient.size()));
+        return out;
+    }
+
     [[nodiscard]] cstk_witness_list witnesses(const CObject &cobject, Span<double> q, double epsilon,
                                 std::size_t max_count = 4096) {
         cstk_witness_list out;

@@ -43,6 +43,7 @@ public:
     [[nodiscard]] static Body box(const Vector &half_extents, const Pose &pose = identity(), std::uint64_t tag = 0);
     [[nodiscard]] static Body cylinder(double radius, double half_length, const Pose &pose = identity(), std::uint64_t tag = 0);
     [[nodiscard]] static Body cone(double radius, double height, const Pose &pose = identity(), std::uint64_t tag = 0);
+    [[nodiscard]] static Body from_mesh_file(const std::string &file, const Vector &scale = {1, 1, 1}, const Pose &pose = identity());
     [[nodiscard]] static Body ellipsoid(const Vector &semi_axes, const Pose &pose = identity(), std::uint64_t tag = 0);
 
     /// Data that witnesses hand back; once for each body.

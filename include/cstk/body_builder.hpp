@@ -271,6 +271,10 @@ inline Body Body::ellipsoid(const Vector &semi_axes, const Pose &pose, std::uint
     return BodyBuilder().add_ellipsoid(pose, semi_axes, tag).build();
 }
 
+inline Body Body::from_mesh_file(const std::string &file, const Vector &scale, const Pose &pose) {
+    return BodyBuilder().add_mesh_file(file, pose, scale).build();
+}
+
 } // namespace cstk
 
 #endif

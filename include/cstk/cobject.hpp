@@ -20,19 +20,18 @@
 
 namespace cstk {
 
-[[nodiscard]] inline cstk_induced_options induced_options(double contact_epsilon = 0, double margin = 0) {
+/// `margin` keeps the robot that far from obstacles; set contact_epsilon, allowed pairs and leave_out_unmoved by their names.
+[[nodiscard]] inline cstk_induced_options induced_options(double margin = 0) {
     cstk_induced_options options;
     check(cstk_induced_options_default(&options, sizeof options));
-    options.contact_epsilon = contact_epsilon;
     options.margin = margin;
     return options;
 }
 
-[[nodiscard]] inline cstk_pure_options pure_options(double contact_epsilon = 0, double scale = 0) {
+/// Set contact_epsilon and scale by their names.
+[[nodiscard]] inline cstk_pure_options pure_options() {
     cstk_pure_options options;
     check(cstk_pure_options_default(&options, sizeof options));
-    options.contact_epsilon = contact_epsilon;
-    options.scale = scale;
     return options;
 }
 
@@ -40,7 +39,8 @@ class CObject : public Handle<cstk_cobject, cstk_cobject_retain, cstk_cobject_re
 public:
     using Handle::Handle;
 
-    /// No links: all that have a body. No ids: all objects of the environment.
+    /// No links: all of the space, with what is attached to them, be it to a frame without a body. Of given links no other is tested, nor
+    /// what is attached to others. No ids: all objects of the environment. Where the robot stands on one of them, set leave_out_unmoved.
     [[nodiscard]] static CObject induced(const Space &space, const Environment &environment,
                            const cstk_induced_options &options = induced_options(),
                            Span<std::uint32_t> links = {}, Span<std::uint64_t> ids = {}) {
@@ -175,6 +175,13 @@ public:
         return CObject(out);
     }
 
+    /// The space that the set is in.
+    [[nodiscard]] Space space() const {
+        cstk_space *out = nullptr;
+        check(cstk_cobject_get_space(get(), &out));
+        return Space(out);
+    }
+
     [[nodiscard]] void *data() const {
         void *data = nullptr;
         check(cstk_cobject_get_data(get(), &data, nullptr));
@@ -190,6 +197,11 @@ public:
 
     void show(Span<double> q, const std::string &file) const {
         check(cstk_show(get(), q.data(), q.size(), file.c_str()));
+    }
+
+    /// The same of configurations that are vectors of their own.
+    void show_path(const std::vector<std::vector<double>> &points, double seconds, const std::string &file) const {
+        show_path(detail::flattened(points), points.size(), seconds, file);
     }
 
     /// The robots move along a path within so many seconds: `points` holds `count` configurations, one after the other.

@@ -64,6 +64,18 @@ inline std::size_t parts_of(Span<double> points, std::size_t count) {
     return points.size() / count;
 }
 
+/// Configurations one after the other.
+inline std::vector<double> flattened(const std::vector<std::vector<double>> &points) {
+    std::vector<double> all;
+    for (const std::vector<double> &point : points) {
+        if (point.size() != points.front().size()) {
+            throw std::invalid_argument("cstk: the points of a path are of one size");
+        }
+        all.insert(all.end(), point.begin(), point.end());
+    }
+    return all;
+}
+
 /* The context of the query of which `part` is one part. */
 template <template <typename> class Part, typename Query> cstk_query *query_of(Part<Query> &part) {
     return static_cast<Query &>(part).get();

@@ -28,9 +28,20 @@ class Environment
 public:
     Environment() : Handle(create()) {}
 
-    /// Adds an s-object; returns its id.
-    std::uint64_t add(const Body &body, const Pose &pose) {
-        return apply_one(change(CSTK_CHANGE_ADD, 0, body.get(), pose));
+    /// Adds an s-object, with a name if given; returns its id.
+    std::uint64_t add(const Body &body, const Pose &pose, const std::string &name = {}) {
+        cstk_environment_change added = change(CSTK_CHANGE_ADD, 0, body.get(), pose);
+        added.name = name.c_str();
+        return apply_one(added);
+    }
+
+    /// Adds an s-object that is attached to a link from the first, `pose` in the link's frame: see attach().
+    std::uint64_t add_attached(const Body &body, const Space &space, std::uint32_t link, const Pose &pose,
+                               Span<std::uint32_t> touch_links = {}, const std::string &name = {}) {
+        cstk_environment_change added = change(CSTK_CHANGE_ADD, 0, body.get(), pose);
+        added.name = name.c_str();
+        hold(added, space, link, touch_links);
+        return apply_one(added);
     }
 
     void move(std::uint64_t id, const Pose &pose) {
@@ -41,19 +52,16 @@ public:
         apply_one(change(CSTK_CHANGE_DELETE, id, nullptr, identity()));
     }
 
-    /// Fixes an s-object to a link of a space, `pose` in the link's frame; move() lets it go. The links in `touching` may meet
+    /// Fixes an s-object to a link of a space, `pose` in the link's frame; move() lets it go. The links in `touch_links` may meet
     /// it: the fingers, say.
     void attach(std::uint64_t id, const Space &space, std::uint32_t link, const Pose &pose,
-                Span<std::uint32_t> touching = {}) {
+                Span<std::uint32_t> touch_links = {}) {
         cstk_environment_change attached = change(CSTK_CHANGE_ATTACH, id, nullptr, pose);
-        attached.space = space.get();
-        attached.link = link;
-        attached.touch_links = touching.data();
-        attached.touch_count = static_cast<std::uint32_t>(touching.size());
+        hold(attached, space, link, touch_links);
         apply_one(attached);
     }
 
-    /// Adds the objects of a MoveIt `.scene` file; returns their ids. Their data are their names.
+    /// Adds the objects of a MoveIt `.scene` file, with their names; returns their ids.
     std::vector<std::uint64_t> load_scene(const std::string &file,
                                           const cstk_scene_options &options = scene_options()) {
         return load(cstk_environment_load_scene, file, options);
@@ -113,6 +121,24 @@ public:
         return ids;
     }
 
+    /// The name of an s-object; empty if it has none.
+    [[nodiscard]] std::string object_name(std::uint64_t id) const {
+        std::size_t length = 0;
+        check(cstk_environment_get_object_name(get(), id, nullptr, 0, &length));
+        /* With room for the terminator, which strings have too. */
+        std::string out(length + 1, '\0');
+        check(cstk_environment_get_object_name(get(), id, out.data(), out.size(), nullptr));
+        out.resize(length);
+        return out;
+    }
+
+    /// The s-object with this name, of several the first; throws if there is none.
+    [[nodiscard]] std::uint64_t find_object(const std::string &name) const {
+        std::uint64_t id = 0;
+        check(cstk_environment_find_object(get(), name.c_str(), &id));
+        return id;
+    }
+
     [[nodiscard]] cstk_object_info object(std::uint64_t id) const {
         cstk_object_info out;
         check(cstk_environment_get_object_info(get(), id, &out));
@@ -140,6 +166,14 @@ private:
     }
 
     explicit Environment(cstk_environment *owned) : Handle(owned) {}
+
+    static void hold(cstk_environment_change &change, const Space &space, std::uint32_t link,
+                     Span<std::uint32_t> touch_links) {
+        change.space = space.get();
+        change.link = link;
+        change.touch_links = touch_links.data();
+        change.touch_count = static_cast<std::uint32_t>(touch_links.size());
+    }
 
     std::uint64_t apply_one(const cstk_environment_change &change) {
         std::uint64_t id = 0;

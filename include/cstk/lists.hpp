@@ -57,6 +57,11 @@ namespace cstk {
     return {list.pairs, list.count};
 }
 
+/// The derivative of a pair's distance with respect to each velocity; `pair` is one of the list's own, and its gradient_kind says what it is.
+[[nodiscard]] inline Span<double> gradient_of(const cstk_signed_distance_list &list, const cstk_signed_distance &pair) noexcept {
+    return {list.gradients + static_cast<std::size_t>(&pair - list.pairs) * list.nv, list.nv};
+}
+
 /// The configurations of a path.
 [[nodiscard]] inline std::vector<std::vector<double>> configurations_of(const cstk_path &path) {
     std::vector<std::vector<double>> points;

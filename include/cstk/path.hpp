@@ -47,6 +47,13 @@ public:
         return out;
     }
 
+    /// The same of configurations that are vectors of their own.
+    [[nodiscard]] cstk_path_result motion_path(const CObject &cobject, const std::vector<std::vector<double>> &points,
+                                               const cstk_motion_options &options = motion_options(),
+                                               Progress progress = {}, std::vector<double> *reached = nullptr) {
+        return motion_path(cobject, detail::flattened(points), points.size(), options, std::move(progress), reached);
+    }
+
     /// The least distance along a path: `points` holds `count` configurations, one after the other; `nearest`, if given, receives the
     /// configuration at the nearest place.
     [[nodiscard]] cstk_path_clearance_result path_clearance(const CObject &cobject, Span<double> points,
@@ -65,6 +72,15 @@ public:
         return out;
     }
 
+    /// The same of configurations that are vectors of their own.
+    [[nodiscard]] cstk_path_clearance_result path_clearance(const CObject &cobject,
+                                                            const std::vector<std::vector<double>> &points,
+                                                            const cstk_clearance_options &options,
+                                                            Progress progress = {},
+                                                            std::vector<double> *nearest = nullptr) {
+        return path_clearance(cobject, detail::flattened(points), points.size(), options, std::move(progress), nearest);
+    }
+
     /// Makes a path shorter by motions that are proved free. The path of the answer belongs to this query until its next call.
     [[nodiscard]] cstk_shortcut_result path_shortcut(const CObject &cobject, Span<double> points,
                                        std::size_t count,
@@ -76,6 +92,14 @@ public:
                                         detail::parts_of(points, count), &options, report.function(),
                                         &report, &out));
         return out;
+    }
+
+    /// The same of configurations that are vectors of their own; cstk/lists.hpp gives the shorter path as such.
+    [[nodiscard]] cstk_shortcut_result path_shortcut(const CObject &cobject,
+                                                     const std::vector<std::vector<double>> &points,
+                                                     const cstk_shortcut_options &options = shortcut_options(),
+                                                     Progress progress = {}) {
+        return path_shortcut(cobject, detail::flattened(points), points.size(), options, std::move(progress));
     }
 };
 

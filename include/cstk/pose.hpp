@@ -23,6 +23,13 @@ using Pose = std::array<double, 12>;
     return pose;
 }
 
+/// As URDF and ROS have it: x, y, z, roll, pitch, yaw, about fixed axes.
+[[nodiscard]] inline Pose pose_from_rpy(const std::array<double, 6> &xyz_rpy) {
+    Pose pose;
+    check(cstk_pose_from_rpy(xyz_rpy.data(), pose.data()));
+    return pose;
+}
+
 /// x, y, z, and the unit quaternion x, y, z, w.
 [[nodiscard]] inline Pose pose_from_quaternion(const std::array<double, 7> &xyz_quaternion) {
     Pose pose;

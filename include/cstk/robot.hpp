@@ -21,6 +21,11 @@ class Robot : public Handle<cstk_robot, cstk_robot_retain, cstk_robot_release> {
 public:
     using Handle::Handle;
 
+    /// The robot of a URDF file and, if given, of its SRDF file: `package_paths` are folders that hold the packages of package:// names.
+    /// RobotBuilder takes options, texts and several files, and reports what it read. Defined in robot_builder.hpp.
+    [[nodiscard]] static Robot from_urdf(const std::string &urdf, const std::string &srdf = {},
+                                         const std::vector<std::string> &package_paths = {});
+
     [[nodiscard]] std::size_t nq() const {
         std::size_t nq = 0;
         check(cstk_robot_get_size(get(), &nq, nullptr, nullptr));

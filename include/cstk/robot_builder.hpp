@@ -16,6 +16,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cstk {
 
@@ -147,6 +148,23 @@ private:
         return out;
     }
 };
+
+inline Robot Robot::from_urdf(const std::string &urdf, const std::string &srdf,
+                              const std::vector<std::string> &package_paths) {
+    std::vector<const char *> folders;
+    for (const std::string &folder : package_paths) {
+        folders.push_back(folder.c_str());
+    }
+    cstk_urdf_options options = urdf_options();
+    options.package_paths = folders.data();
+    options.package_path_count = folders.size();
+    RobotBuilder builder;
+    builder.load_urdf(urdf, options);
+    if (!srdf.empty()) {
+        builder.load_srdf(srdf);
+    }
+    return builder.build();
+}
 
 } // namespace cstk
 

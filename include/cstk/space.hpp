@@ -32,6 +32,8 @@ class Space : public Handle<cstk_space, cstk_space_retain, cstk_space_release> {
 public:
     /// Holds no space yet.
     Space() = default;
+    /// Takes over the reference that a call of C gave.
+    explicit Space(cstk_space *owned) noexcept : Handle(owned) {}
     /// `world_box` is empty for everywhere, or low x, y, z, high x, y, z.
     explicit Space(const std::vector<Robot> &robots, Span<cstk_range> ranges = {},
                    Span<double> world_box = {})
@@ -64,6 +66,13 @@ public:
         check(cstk_space_get_link_name(get(), link, out.data(), out.size(), nullptr));
         out.resize(length);
         return out;
+    }
+
+    /// The link with this name; throws if there is none, or several robots have one.
+    [[nodiscard]] std::uint32_t find_link(const std::string &name) const {
+        std::uint32_t link = 0;
+        check(cstk_space_find_link(get(), name.c_str(), &link));
+        return link;
     }
 
     /// The pairs of links that SRDF files leave to be tested, for CObject::induced_links().

@@ -9,7 +9,19 @@
 
 namespace cstk {
 
-/// A view of contiguous items: from std::vector, std::array, a C array, or a pointer and a count.
+namespace detail {
+
+/* Whether items lie one after the other: of all containers, but of Eigen's only vectors without a stride and matrices that own their
+ * numbers. Others may skip some: a row of a matrix kept by columns, a block. */
+template <typename Container, typename = void> struct IsContiguous : std::true_type {};
+template <typename Container>
+struct IsContiguous<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime), typename Container::PlainObject>>
+    : std::bool_constant<static_cast<int>(Container::InnerStrideAtCompileTime) == 1 &&
+                         (Container::IsVectorAtCompileTime || std::is_same_v<Container, typename Container::PlainObject>)> {};
+
+} // namespace detail
+
+/// A view of contiguous items: from std::vector, std::array, a C array, a vector of Eigen's, or a pointer and a count.
 template <typename T> class Span {
 public:
     Span() = default;
@@ -27,7 +39,11 @@ public:
     template <typename Container,
               typename = std::enable_if_t<std::is_convertible_v<
                   decltype(std::declval<const Container &>().data()), const T *>>>
-    Span(const Container &items) : data_(items.data()), size_(items.size()) {}
+    Span(const Container &items) : data_(items.data()), size_(static_cast<std::size_t>(items.size())) {
+        static_assert(detail::IsContiguous<Container>::value,
+                      "cstk: these items do not lie one after the other, as those of a matrix's row do not: copy them, or keep the "
+                      "matrix by rows (Eigen::RowMajor)");
+    }
 
     const T *data() const noexcept { return data_; }
     std::size_t size() const noexcept { return size_; }

@@ -198,3 +198,43 @@ def test_limits_of_work(arm, query):
     query.gradients(arm.cobject, [1, 0.5], 9)
     work = query.statistics(reset=True)
     assert work.primitive_pairs > 0 and query.statistics().primitive_pairs == 0
+
+
+def test_the_nearest_with_its_gradient(arm, query, rng):
+    for q in rng.uniform(-math.pi, math.pi, (50, 2)):
+        found, gradient = query.distance_with_gradient(arm.cobject, q)
+        assert found.distance == query.distance(arm.cobject, q).distance and gradient.shape == (2,)
+        if found.has_contact:
+            near = query.gradients(arm.cobject, q, found.upper, 1)
+            assert (gradient == near.gradients[near[0].first_contact]).all()
+        else:
+            assert (gradient == 0).all()
+    assert (query.distance_with_gradient(arm.cobject, q, 0)[1] == 0).all() or arm.clearance(q) <= 0
+    with pytest.raises(cstk.WrongSizeError, match="q"):
+        query.distance_with_gradient(arm.cobject, [[0, 0]])
+
+
+def test_a_base_may_stand_on_its_table(query):
+    cube = cstk.Body.box([0.5, 0.5, 0.5])
+    builder = cstk.RobotBuilder()
+    base = builder.add_link(body=cube)
+    builder.add_link(body=cube, parent=base, joint=cstk.JointKind.PRISMATIC, at=cstk.translation(0, 0, 2), axis=[1, 0, 0])
+    space, world = cstk.Space(builder.build()), cstk.Environment()
+    world.add(cube, cstk.translation(0, 0, -1), name="table")
+    world.add(cube, cstk.translation(5, 0, 2), name="wall")
+    nearest = query.distance(cstk.CObject.induced(space, world, leave_out_unmoved=True), [2.5])
+    assert nearest.distance == 1.5 and world.object_name(nearest.witness.s_object) == "wall"
+    assert query.distance(cstk.CObject.induced(space, world), [2.5]).distance == 0
+
+
+def test_answers_print_as_words(arm, query):
+    assert str(cstk.Class.INSIDE) == f"{cstk.Class.INSIDE}" == "INSIDE" and f"{cstk.Class.INSIDE:d}" == "2"
+    assert repr(query.explain(arm.cobject, [0, 0])).startswith("<cstk.Explanation: ")
+    assert repr(query.pseudo_normal(arm.cobject, [0, 0], 1)).startswith("<cstk.PseudoNormal: ")
+    assert repr(query.signed_distances(arm.cobject, [0, 0], 9)) == "<cstk.SignedDistanceList of 2 pairs>"
+    assert repr(query.find_link_pairs(arm.space)).endswith(" to test>")
+    cube = cstk.Body.box([0.5, 0.5, 0.5])
+    overlap = query.pair_penetration(cube, cstk.identity(), cube, cstk.translation(0.5, 0, 0))
+    assert repr(overlap) == "<cstk.PenetrationList of 1>"
+    witness = query.witnesses(arm.cobject, [0, 0], 9)[0]
+    assert witness.r_part is None and witness.s_part is None

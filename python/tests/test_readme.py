@@ -28,7 +28,7 @@ def test_a_robot_among_obstacles(tmp_path, monkeypatch, capsys):
     (tmp_path / "panda.urdf").write_text(URDF)
     names = {}
     exec("import cstk\n" + blocks(PYTHON / "README.md")[1], names)
-    assert names["query"].distance(names["forbidden"], names["q"]).witness.s_data == "table"
+    assert names["environment"].object_name(names["nearest"].witness.s_object) == "table" and names["gradient"].shape == (1,)
     assert names["free"].shape == (64,)
     assert names["motion"].outcome in (cstk.MotionOutcome.FREE, cstk.MotionOutcome.HIT)
     assert capsys.readouterr().out

@@ -193,3 +193,71 @@ def test_environments_change_as_one(arm):
     assert environment.object_info(first).link is None
     environment.delete(first)
     assert environment.object_count == 4
+
+
+def test_objects_have_names_and_come_attached(arm):
+    cube, world = cstk.Body.box([0.1, 0.1, 0.1]), cstk.Environment()
+    shelf = world.add(cube, cstk.translation(9, 0, 0), name="shelf")
+    plain = world.add(cube)
+    link = arm.space.link_count - 1
+    cup = world.add_attached(cube, arm.space, link, cstk.identity(), [0], data="mine", name="cup")
+    assert [world.object_name(id) for id in (shelf, plain, cup)] == ["shelf", "", "cup"]
+    assert world.find_object("cup") == cup
+    held = world.object_info(cup)
+    assert held.link == link and held.touch_count == 1 and held.data == "mine"
+    with pytest.raises(cstk.NotFoundError, match="spoon"):
+        world.find_object("spoon")
+    with pytest.raises(cstk.NotFoundError):
+        world.object_name(cup + 1000)
+    scene = "s\n* ball\n1\nsphere\n1\n4 0 0\n0 0 0 1\n0 0 0 0\n.\n"
+    assert world.object_name(int(world.load_scene_text(scene)[0])) == "ball"
+
+
+def test_spaces_find_links_and_take_several_at_once(arm):
+    space = arm.space
+    for link in range(space.link_count):
+        assert space.find_link(space.link_name(link)) == link
+    with pytest.raises(cstk.NotFoundError, match="elbow"):
+        space.find_link("elbow")
+    random, again = cstk.Random(3), cstk.Random(3)
+    drawn = space.sample(random, 5)
+    assert drawn.shape == (5, space.nq) and (drawn == [space.sample(again) for _ in range(5)]).all()
+    times = [0.0, 0.25, 1.0]
+    way = space.interpolate(drawn[0], drawn[1], times)
+    assert (way == [space.interpolate(drawn[0], drawn[1], t) for t in times]).all()
+    poses = space.link_poses(drawn)
+    assert poses.shape == (5, space.link_count, 3, 4) and (poses[3] == space.link_poses(drawn[3])).all()
+    assert arm.cobject.space.nq == space.nq
+    with pytest.raises(cstk.WrongSizeError, match="q"):
+        space.link_poses(np.zeros((2, 2, 2)))
+
+
+def test_placements_of_urdf():
+    roll, pitch, yaw = 0.3, -0.7, 1.1
+
+    def about(axis, angle):
+        out, (i, j) = np.eye(4), [k for k in range(3) if k != axis]
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        out[np.ix_([i, j], [i, j])] = turn if axis != 1 else turn.T
+        return out
+
+    want = cstk.translation(1, 2, 3) @ about(2, yaw) @ about(1, pitch) @ about(0, roll)
+    np.testing.assert_allclose(cstk.pose_from_rpy([1, 2, 3, roll, pitch, yaw]), want, atol=1e-15)
+
+
+def test_package_folders_are_folders(tmp_path):
+    (tmp_path / "thing").mkdir()
+    mesh = "o\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    (tmp_path / "thing" / "tri.obj").write_text(mesh)
+    urdf = (
+        "<robot name='r'><link name='a'><collision><geometry><mesh filename='package://thing/tri.obj'/></geometry>"
+        "</collision></link></robot>"
+    )
+    for folders in (str(tmp_path), tmp_path, [tmp_path], tmp_path / "thing"):
+        builder = cstk.RobotBuilder()
+        builder.load_urdf_text(urdf, package_paths=folders)
+        assert builder.urdf_report().links_with_body == 1
+    with pytest.raises(TypeError, match="package_paths"):
+        cstk.RobotBuilder().load_urdf_text(urdf, package_paths={"thing": tmp_path / "thing"})
+    with pytest.raises(cstk.NotFoundError, match='a folder "thing" with it in /nowhere'):
+        cstk.RobotBuilder().load_urdf_text(urdf, package_paths="/nowhere")

@@ -47,6 +47,20 @@ pub unsafe extern "C" fn cstk_pose_to_euler(pose_12: *const f64, xyz_ypr: *mut f
     })
 }
 
+/// Converts a placement as URDF and ROS have it to a pose. `xyz_rpy` holds x, y, z, and roll about the fixed X, then pitch about the
+/// fixed Y, then yaw about the fixed Z, in radians; `pose` receives 12 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_pose_from_rpy(xyz_rpy: *const f64, pose: *mut f64) -> cstk_status {
+    guard(|| {
+        // SAFETY: checked for NULL; the header states the lengths.
+        let placement = unsafe { array::<6>(xyz_rpy, "xyz_rpy")? };
+        let out = OutputSlice::checked(pose, 12, "pose")?;
+        require_finite(placement, "xyz_rpy entry")?;
+        out.write(&Pose::from_rpy(placement).to_row_major());
+        Ok(())
+    })
+}
+
 /// Converts a translation and a unit quaternion to a pose. `xyz_quaternion` holds x, y, z of the translation and x, y, z, w
 /// of the quaternion, whose norm must be 1 to within 1e-6; `pose` receives 12 doubles.
 #[unsafe(no_mangle)]

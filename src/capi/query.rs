@@ -59,6 +59,8 @@ pub(super) struct State {
     path: Vec<f64>,
     pub object_pairs: Vec<cstk_object_pair>,
     pub distances: Vec<cstk_distance_result>,
+    /// Memory for a gradient.
+    pub row: Vec<f64>,
     /// Memory for the link poses passed to a call.
     pub poses: Vec<Pose>,
 }
@@ -299,9 +301,9 @@ pub unsafe extern "C" fn cstk_query_set_limit(
 /// - thresholds and classes are decided unless the distance is within `gap` of the threshold; doubt counts as within
 ///   (cstk_classify, cstk_within, cstk_pair_within and their variants).
 ///
-/// Witness points and normals are those of the refined parts, features and tags those of the
-/// triangles. Two surfaces that are about equally near over much of their areas end after 16384 steps, with the bounds that are proved
-/// by then; each step counts as one of `node_pairs` (cstk_query_set_limit).
+/// Witness points and normals are those of the refined parts, features and tags those of the triangles. What is about equally near
+/// over much of a surface ends after 16384 steps, with the bounds that are proved by then: the distance is CSTK_DISTANCE_LOWER_BOUND
+/// where they are farther apart than `gap`. Each step counts as one of `node_pairs` (cstk_query_set_limit).
 ///
 /// Not refined are lists of witnesses and verdicts, queries of all pairs of objects, motions, regions, slides, maps, batches (they have
 /// contexts of their own), depths and signed distances; bodies whose builder was told of a deviation (cstk_body_builder_set_deviation), bodies read from files, refitted
@@ -326,7 +328,7 @@ pub unsafe extern "C" fn cstk_query_set_refinement(
 #[derive(Clone, Copy)]
 pub struct cstk_query_statistics {
     /// Pairs of hierarchy nodes whose wrappers were tested, including pairs of bodies; for rays into solids, the nodes; for motions and
-    /// regions, the looks at pure sets too.
+    /// regions, what is decided without nodes too: a look each.
     pub node_pairs: u64,
     /// Primitive pairs tested; for rays, the faces.
     pub primitive_pairs: u64,

@@ -7,8 +7,8 @@ use super::compound::{Compound, CompoundKind};
 use super::leaf::next_serial;
 use super::set::{Flat, Metric, Set};
 use super::{
-    AllowedPair, BodyPairs, Class, ClearCells, ClearPairs, Induced, InducedOptions, KnownClass,
-    Leaf, PureOptions, PureSet, PureShape, SObjects,
+    BodyPairs, Class, ClearCells, ClearPairs, Induced, InducedOptions, KnownClass, Leaf, LeftOut,
+    PureOptions, PureSet, PureShape, SObjects,
 };
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_coordinates};
@@ -42,11 +42,11 @@ impl CObject {
         space: Arc<Space>,
         links: &[usize],
         objects: SObjects,
-        allowed: &[AllowedPair],
+        left_out: LeftOut,
         options: InducedOptions,
     ) -> Result<Self> {
         options.check()?;
-        let pairs = BodyPairs::with_objects(&space, links, objects, allowed)?;
+        let pairs = BodyPairs::with_objects(&space, links, objects, left_out)?;
         Ok(Self::of_pairs(space, pairs, options))
     }
 

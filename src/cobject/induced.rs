@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::{ClearPairs, Leaf, LinkRows};
+use super::{ClearPairs, Exceptions, Leaf, LeftOut, LinkRows};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::space::Space;
@@ -27,17 +27,6 @@ pub enum SObjects {
     Some(Arc<Environment>, Vec<u64>),
 }
 
-/// A body pair that may meet, so that the set leaves it out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct AllowedPair {
-    /// The link on the r-side; with an attached object, the link that holds it.
-    pub link: usize,
-    /// An object attached to the link, or 0 for the link's own body.
-    pub attached: u64,
-    /// The s-object.
-    pub object: u64,
-}
-
 /// The body pairs of an induced set.
 #[derive(Clone, Debug)]
 pub enum BodyPairs {
@@ -48,8 +37,8 @@ pub enum BodyPairs {
         links: Vec<usize>,
         /// The s-side.
         objects: SObjects,
-        /// Pairs that are left out, sorted.
-        allowed: Vec<AllowedPair>,
+        /// Pairs that are left out.
+        exceptions: Exceptions,
     },
     /// Links against links; the second of a pair is the nominal s-object.
     Links {
@@ -99,7 +88,7 @@ impl BodyPairs {
         space: &Space,
         links: &[usize],
         mut objects: SObjects,
-        allowed: &[AllowedPair],
+        left_out: LeftOut,
     ) -> Result<Self> {
         let links = if links.is_empty() {
             let all = 0..space.link_count();
@@ -119,20 +108,15 @@ impl BodyPairs {
             let is_new = |link: &usize| seen.insert(*link);
             links.iter().copied().filter(is_new).collect()
         };
-        for (i, pair) in allowed.iter().enumerate() {
-            require_link(space, pair.link).map_err(|e| e.within(format_args!("allowed[{i}]")))?;
-        }
+        let exceptions = Exceptions::new(space, left_out)?;
         if let SObjects::Some(_, ids) = &mut objects {
             ids.sort_unstable();
             ids.dedup();
         }
-        let mut allowed = allowed.to_vec();
-        allowed.sort_unstable();
-        allowed.dedup();
         Ok(Self::Objects {
             links,
             objects,
-            allowed,
+            exceptions,
         })
     }
 
@@ -192,7 +176,7 @@ impl InducedOptions {
     }
 }
 
-fn require_link(space: &Space, link: usize) -> Result<&crate::robot::Link> {
+pub(super) fn require_link(space: &Space, link: usize) -> Result<&crate::robot::Link> {
     space.link(link).ok_or_else(|| {
         Error::new(
             ErrorKind::NotFound,

@@ -7,6 +7,7 @@ mod clear_pairs;
 #[allow(clippy::module_inception)]
 mod cobject;
 mod compound;
+mod exceptions;
 mod induced;
 mod known;
 mod leaf;
@@ -25,7 +26,8 @@ pub use class::Class;
 pub use clear_cells::{CellAxis, ClearCells, MAX_CELL_AXES};
 pub use clear_pairs::ClearPairs;
 pub use cobject::CObject;
-pub use induced::{AllowedPair, BodyPairs, Induced, InducedOptions, SObjects};
+pub use exceptions::{AllowedPair, Exceptions, LeftOut};
+pub use induced::{BodyPairs, Induced, InducedOptions, SObjects};
 pub use known::{Around, ConvexSets, KnownClass};
 pub use leaf::Leaf;
 pub use link_rows::{LinkRow, LinkRows};

@@ -15,15 +15,8 @@ use crate::user_data::UserData;
 /// One change of an environment.
 #[derive(Clone, Debug)]
 pub enum Change {
-    /// Adds a body at a pose, with data of the caller.
-    Add {
-        /// The body, which the object keeps alive.
-        body: Arc<Body>,
-        /// The body's pose in the world.
-        pose: Pose,
-        /// The caller's data, if any.
-        data: Option<UserData>,
-    },
+    /// Adds an object.
+    Add(Addition),
     /// Places an object in the world; an attached one is detached.
     Move {
         /// The object's id.
@@ -45,6 +38,34 @@ pub enum Change {
         /// The object's id.
         id: u64,
     },
+}
+
+/// An object to add.
+#[derive(Clone, Debug)]
+pub struct Addition {
+    /// The body, which the object keeps alive.
+    pub body: Arc<Body>,
+    /// The body's pose: in the world, or, of an object that comes attached, in the link's frame.
+    pub pose: Pose,
+    /// What it comes attached to, if anything.
+    pub attachment: Option<Attachment>,
+    /// Its name, if it has one; others may have the same.
+    pub name: Option<Arc<str>>,
+    /// The caller's data, if any.
+    pub data: Option<UserData>,
+}
+
+impl Addition {
+    /// A body in the world.
+    pub fn new(body: Arc<Body>, pose: Pose) -> Self {
+        Self {
+            body,
+            pose,
+            attachment: None,
+            name: None,
+            data: None,
+        }
+    }
 }
 
 /// A set of s-objects that several threads may query while it changes: a query sees the state before a change or after
@@ -150,6 +171,11 @@ impl Environment {
 }
 
 impl Change {
+    /// Adds a body at a pose in the world.
+    pub fn add(body: Arc<Body>, pose: Pose) -> Self {
+        Self::Add(Addition::new(body, pose))
+    }
+
     /// The object's new pose and attachment, if it is moved.
     fn target(&self) -> Option<(&Pose, Option<&Attachment>)> {
         match self {
@@ -157,7 +183,7 @@ impl Change {
             Change::Attach {
                 pose, attachment, ..
             } => Some((pose, Some(attachment))),
-            Change::Add { .. } | Change::Delete { .. } => None,
+            Change::Add(_) | Change::Delete { .. } => None,
         }
     }
 }
@@ -191,7 +217,13 @@ impl Snapshot {
     /// the object.
     fn change(&mut self, change: &Change) -> Result<(u64, usize)> {
         match change {
-            Change::Add { body, pose, data } => {
+            Change::Add(Addition {
+                body,
+                pose,
+                attachment,
+                name,
+                data,
+            }) => {
                 if let Some(other) = self.first()
                     && other.body.dimension() != body.dimension()
                 {
@@ -204,10 +236,14 @@ impl Snapshot {
                     id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
                     body: body.clone(),
                     pose: *pose,
-                    attachment: None,
+                    attachment: attachment.clone().map(Arc::new),
+                    name: name.clone(),
                     data: data.clone(),
                 };
-                Ok((object.id, self.push(object)))
+                let (id, is_attached) = (object.id, object.attachment.is_some());
+                let place = self.push(object);
+                self.note_attached(place, is_attached);
+                Ok((id, place))
             }
             Change::Move { id, pose } => {
                 let place = self.required(*id)?;

@@ -16,7 +16,7 @@ mod visit_near;
 pub use attachment::Attachment;
 pub use bounds::Bounds;
 pub use box_frame::{BoxFrame, FrameLimits};
-pub use environment::{Change, Environment};
+pub use environment::{Addition, Change, Environment};
 pub use near_pairs::NearPairScratch;
 pub use object_tree::ObjectTree;
 pub use places::SObject;

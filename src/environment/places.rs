@@ -20,6 +20,8 @@ pub struct SObject {
     pub pose: Pose,
     /// The link it is fixed to, if it is attached.
     pub attachment: Option<Arc<Attachment>>,
+    /// Its name, if it has one; others may have the same.
+    pub name: Option<Arc<str>>,
     /// The caller's data, if any.
     pub data: Option<UserData>,
 }
@@ -55,7 +57,7 @@ impl Clone for Place {
 
     fn clone_from(&mut self, other: &Self) {
         match (&mut self.object, &other.object) {
-            // The body and the data of an id never change.
+            // The body, the name and the data of an id never change.
             (Some(own), Some(now)) if own.id == now.id => {
                 own.pose = now.pose;
                 if own.attachment.is_some() || now.attachment.is_some() {

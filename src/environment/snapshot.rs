@@ -240,11 +240,8 @@ mod tests {
         let options = HierarchyOptions::default();
         let body = Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap());
         let live = Environment::default();
-        let add = |x: f64| Change::Add {
-            body: body.clone(),
-            pose: Pose::from_translation(Vec3::new(x, 0.0, 0.0)),
-            data: None,
-        };
+        let add =
+            |x: f64| Change::add(body.clone(), Pose::from_translation(Vec3::new(x, 0.0, 0.0)));
         let near: Vec<Change> = (0..8).map(|i| add(f64::from(i))).collect();
         live.apply(&near).unwrap();
         for _ in 0..1000 {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::cells::{Cells, Cube, WHOLE};
 use super::cubes::steps;
 use super::tiles::{TILE_LEVEL, Tile, TileBodies, Tiles, outdated, within};
-use crate::environment::{Change, Environment};
+use crate::environment::{Addition, Change, Environment};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3};
 use crate::user_data::UserData;
@@ -89,11 +89,13 @@ impl Placement {
         let deleted = changes.len();
         let mut bodies = TileBodies::default();
         for &cube in &new {
-            changes.push(Change::Add {
-                body: bodies.body(cells, cube, resolution)?,
-                pose: pose_of(&self.pose, cube, resolution),
+            changes.push(Change::Add(Addition {
                 data: self.data.clone(),
-            });
+                ..Addition::new(
+                    bodies.body(cells, cube, resolution)?,
+                    pose_of(&self.pose, cube, resolution),
+                )
+            }));
         }
         let (ids, _) = self.environment.apply(&changes)?;
         for (place, _) in old {

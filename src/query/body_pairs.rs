@@ -124,7 +124,7 @@ impl<'a> Scene<'a> {
                 BodyPairs::Objects {
                     links,
                     objects,
-                    allowed,
+                    exceptions,
                 } => {
                     let Some(snapshot) = self.world().snapshot(objects.environment()) else {
                         continue;
@@ -132,7 +132,7 @@ impl<'a> Scene<'a> {
                     let term = ObjectsTerm {
                         links,
                         objects,
-                        allowed,
+                        exceptions,
                         options: &term.options,
                         number,
                         snapshot,
@@ -275,7 +275,7 @@ impl<'a> Scene<'a> {
                 BodyPairs::Objects {
                     links,
                     objects,
-                    allowed,
+                    exceptions,
                 },
                 SSide::Object(id),
             ) => {
@@ -287,7 +287,7 @@ impl<'a> Scene<'a> {
                 let term = ObjectsTerm {
                     links,
                     objects,
-                    allowed,
+                    exceptions,
                     options: &term.options,
                     number: 0,
                     snapshot,

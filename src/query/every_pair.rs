@@ -16,7 +16,7 @@ impl Scene<'_> {
     ) -> Result<()> {
         self.check_term(term)?;
         let options = term.options;
-        let (links, objects, allowed) = match &term.pairs {
+        let (links, objects, exceptions) = match &term.pairs {
             BodyPairs::Links { pairs, .. } => {
                 for &[link, s] in pairs {
                     let r = RSide { link, attached: 0 };
@@ -32,8 +32,8 @@ impl Scene<'_> {
             BodyPairs::Objects {
                 links,
                 objects,
-                allowed,
-            } => (links, objects, allowed),
+                exceptions,
+            } => (links, objects, exceptions),
         };
         let environment = objects.environment();
         let Some(snapshot) = self.world().snapshot(environment) else {
@@ -42,7 +42,7 @@ impl Scene<'_> {
         let term = ObjectsTerm {
             links,
             objects,
-            allowed,
+            exceptions,
             options: &options,
             number: 0,
             snapshot,

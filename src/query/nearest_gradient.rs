@@ -10,8 +10,22 @@ use crate::cobject::CObject;
 use crate::error::Result;
 
 impl QueryContext {
-    /// The distance in a given world, and in `row` the gradient of its contact: the derivative of the contact's distance with
-    /// respect to the velocities. Without a contact the row is empty.
+    /// The distance at q, and in `row` the gradient of its contact: the derivative of the contact's distance with respect to the
+    /// velocities. Without a contact the row is empty.
+    pub fn distance_with_gradient(
+        &mut self,
+        cobject: &CObject,
+        q: &[f64],
+        max_distance: f64,
+        row: &mut Vec<f64>,
+    ) -> Result<Distance> {
+        let world = self.look(cobject);
+        self.refining(|context| {
+            context.distance_with_gradient_in(&world, cobject, q, max_distance, row)
+        })
+    }
+
+    /// The same in a given world.
     pub fn distance_with_gradient_in(
         &mut self,
         world: &World,

@@ -5,7 +5,7 @@ use super::candidates::Candidates;
 use super::scene::{AttachedObject, Scene};
 use super::target::{Placement, Target};
 use crate::body::Body;
-use crate::cobject::{AllowedPair, InducedOptions, SObjects};
+use crate::cobject::{Exceptions, InducedOptions, SObjects};
 use crate::environment::{Bounds, Named, NearScratch, SObject, Snapshot};
 use crate::pose::Pose;
 
@@ -21,7 +21,7 @@ pub(super) struct RSide {
 pub(super) struct ObjectsTerm<'t, 's> {
     pub links: &'t [usize],
     pub objects: &'t SObjects,
-    pub allowed: &'t [AllowedPair],
+    pub exceptions: &'t Exceptions,
     pub options: &'t InducedOptions,
     pub number: u32,
     pub snapshot: &'s Snapshot,
@@ -30,26 +30,12 @@ pub(super) struct ObjectsTerm<'t, 's> {
 impl ObjectsTerm<'_, '_> {
     /// Whether the set contains a body pair; the link of `r` must be one of its links.
     pub fn admits(&self, r: RSide, object: &SObject) -> bool {
-        let pair = AllowedPair {
-            link: r.link,
-            attached: r.attached,
-            object: object.id,
-        };
-        if !self.allowed.is_empty() && self.allowed.binary_search(&pair).is_ok() {
+        if self.exceptions.have(r.link, r.attached, object) {
             return false;
         }
         let Some(attachment) = &object.attachment else {
             return true;
         };
-        // A pair of two attached objects may be allowed in either order.
-        let turned = AllowedPair {
-            link: attachment.link,
-            attached: object.id,
-            object: r.attached,
-        };
-        if r.attached != 0 && self.allowed.binary_search(&turned).is_ok() {
-            return false;
-        }
         // An attached object is not tested against the link that holds it, nor against its touch links. Of two attached
         // objects, the one with the lower id is the r-side.
         let touches = attachment.link == r.link

@@ -175,6 +175,22 @@ impl Space {
         })
     }
 
+    /// The link with a name; refused where none has it, or links of several robots do.
+    pub fn find_link(&self, name: &str) -> Result<usize> {
+        let of_robots = self.robots.iter().zip(&self.offsets);
+        let mut found = of_robots.filter_map(|(robot, at)| Some(at.link + robot.find_link(name)?));
+        let first = found.next().ok_or_else(|| {
+            let message = format!("no link of the space has the name \"{name}\"");
+            Error::new(ErrorKind::NotFound, message)
+        })?;
+        match found.next() {
+            None => Ok(first),
+            Some(other) => Err(Error::invalid(format!(
+                "links {first} and {other} of the space both have the name \"{name}\""
+            ))),
+        }
+    }
+
     /// The body of a link, if it has one.
     #[inline]
     pub fn body(&self, link: usize) -> Option<&Body> {

@@ -3,7 +3,7 @@
 use roxmltree::Node;
 
 use crate::error::{ErrorKind, Result};
-use crate::pose::{Pose, Vec3, rotation_about};
+use crate::pose::{Pose, Vec3};
 use crate::xml::{child, children, fault, numbers, require_expanded, required, required_child};
 
 /// Limits the links and the joints of a file. The largest humanoids have some hundred links; generated chains have
@@ -315,10 +315,6 @@ fn origin(node: Node) -> Result<Pose> {
         Some(text) => numbers::<3>(origin, attribute, text),
         None => Ok([0.0; 3]),
     };
-    let [roll, pitch, yaw] = triple("rpy")?;
-    let turn = |axis: Vec3, angle: f64| rotation_about(&axis, angle);
-    Ok(Pose {
-        rotation: turn(Vec3::z(), yaw) * turn(Vec3::y(), pitch) * turn(Vec3::x(), roll),
-        translation: Vec3::from(triple("xyz")?),
-    })
+    let [[x, y, z], [roll, pitch, yaw]] = [triple("xyz")?, triple("rpy")?];
+    Ok(Pose::from_rpy(&[x, y, z, roll, pitch, yaw]))
 }

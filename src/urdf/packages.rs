@@ -64,15 +64,18 @@ impl<'a> PackageFolders<'a> {
         };
         found.ok_or_else(|| {
             let looked = match in_package {
-                Some(_) => self.looked_in(),
+                Some(path) => {
+                    let package = path.split_once('/').map_or(path, |(package, _)| package);
+                    format!("for a folder \"{package}\" with it in {}", self.looked_in())
+                }
                 None => match self.beside(name) {
-                    Some(path) => path.display().to_string(),
-                    None => "no folder: a text has none unless it is given".to_string(),
+                    Some(path) => format!("in {}", path.display()),
+                    None => "in no folder: a text has none unless it is given".to_string(),
                 },
             };
             Error::new(
                 ErrorKind::NotFound,
-                format!("mesh file \"{name}\" not found; looked in {looked}"),
+                format!("mesh file \"{name}\" not found; looked {looked}"),
             )
         })
     }
@@ -113,7 +116,6 @@ impl<'a> PackageFolders<'a> {
 
     fn looked_in(&self) -> String {
         let places = self.search.iter().map(PathBuf::as_path);
-        let places = places.chain(self.folder);
         let lists = [
             ("AMENT_PREFIX_PATH", &self.workspace.prefixes),
             ("ROS_PACKAGE_PATH", &self.workspace.roots),
@@ -126,7 +128,13 @@ impl<'a> PackageFolders<'a> {
             }
         });
         let places = places.map(|path| path.display().to_string());
-        places.chain(variables).collect::<Vec<_>>().join(", ")
+        let above = self.folder;
+        let above = above.map(|path| format!("{} and the folders above it", path.display()));
+        places
+            .chain(above)
+            .chain(variables)
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }
 

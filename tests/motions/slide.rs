@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::cobject::{CObject, InducedOptions, SObjects};
+use cstk::cobject::{CObject, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::motion::{SlideOptions, SlideOutcome};
@@ -59,18 +59,14 @@ fn cube_among(walls: &[([f64; 3], [f64; 3])], ranges: &[Option<Coordinate>]) -> 
     let environment = Arc::new(Environment::default());
     let changes: Vec<Change> = walls
         .iter()
-        .map(|&(low, high)| Change::Add {
-            body: cuboid(low, high),
-            pose: Pose::identity(),
-            data: None,
-        })
+        .map(|&(low, high)| Change::add(cuboid(low, high), Pose::identity()))
         .collect();
     environment.apply(&changes).unwrap();
     CObject::induced(
         space,
         &[],
         SObjects::All(environment),
-        &[],
+        LeftOut::default(),
         InducedOptions::default(),
     )
     .unwrap()

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
+use cstk::cobject::{CObject, Class, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Attachment, Change};
 use cstk::motion::{SlideOptions, SlideOutcome, SlideStep};
 use cstk::pose::{Pose, Vec3};
@@ -197,7 +197,7 @@ fn a_held_object_a_hair_above_the_floor_moves_on() {
             .unwrap();
         let objects = SObjects::All(world);
         let options = InducedOptions::default();
-        let cobject = CObject::induced(space, &[], objects, &[], options).unwrap();
+        let cobject = CObject::induced(space, &[], objects, LeftOut::default(), options).unwrap();
         let q = [-2.0, 0.0, 0.0, 0.0];
         let step = [1.5, 0.5, 0.0, 0.0];
         let taken = slide_once(&cobject, &q, &step, &keeping_distance(0.0));

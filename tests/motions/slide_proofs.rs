@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::cobject::{CObject, Class, InducedOptions, PureOptions, PureShape, SObjects};
+use cstk::cobject::{CObject, Class, InducedOptions, LeftOut, PureOptions, PureShape, SObjects};
 use cstk::environment::{Attachment, Change};
 use cstk::motion::{SlideOptions, SlideOutcome, SlideStep};
 use cstk::pose::{Pose, Vec3};
@@ -256,7 +256,8 @@ fn any_set(random: &mut Random, space: &Arc<Space>, q: &[f64]) -> CObject {
         ..Default::default()
     };
     let objects = SObjects::All(world);
-    let mut parts = vec![CObject::induced(space.clone(), &[], objects, &[], options).unwrap()];
+    let mut parts =
+        vec![CObject::induced(space.clone(), &[], objects, LeftOut::default(), options).unwrap()];
     let count = space.link_count();
     let pairs = (0..count).flat_map(|r| (r + 1..count).map(move |s| [r, s]));
     let mut context = QueryContext::new();

@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::cobject::{CObject, Class, InducedOptions, Predicate, PureOptions, PureShape, SObjects};
+use cstk::cobject::{
+    CObject, Class, InducedOptions, LeftOut, Predicate, PureOptions, PureShape, SObjects,
+};
 use cstk::environment::{Change, Environment};
 use cstk::error::Result;
 use cstk::hierarchy::HierarchyOptions;
@@ -148,20 +150,14 @@ fn leaves(random: &mut Random, space: &Arc<Space>) -> Vec<Known> {
             let pose = random.pose(1.5);
             obstacles.push(corners.iter().map(|c| pose.transform_point(c)).collect());
             let body = body(&corners);
-            environment
-                .apply(&[Change::Add {
-                    body,
-                    pose,
-                    data: None,
-                }])
-                .unwrap();
+            environment.apply(&[Change::add(body, pose)]).unwrap();
         }
         let options = InducedOptions {
             contact_epsilon: epsilon,
             margin,
         };
         let all_objects = SObjects::All(environment);
-        let made = CObject::induced(space.clone(), &[], all_objects, &[], options);
+        let made = CObject::induced(space.clone(), &[], all_objects, LeftOut::default(), options);
         all.push(Known {
             cobject: Arc::new(made.unwrap()),
             truth: Truth::Corners(obstacles, margin),

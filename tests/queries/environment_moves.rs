@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::environment::{Attachment, Bounds, Change, Environment, Named, NearScratch, Snapshot};
+use cstk::environment::{
+    Addition, Attachment, Bounds, Change, Environment, Named, NearScratch, Snapshot,
+};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::lanes::Plain;
 use cstk::pose::{Pose, Vec3};
@@ -86,7 +88,10 @@ fn change(
         let (body, pose) = (cuboid(sides).body, random.pose(2.0));
         added.push((changes.len(), body.clone(), pose));
         let data = None;
-        changes.push(Change::Add { body, pose, data });
+        changes.push(Change::Add(Addition {
+            data,
+            ..Addition::new(body, pose)
+        }));
     }
     let (ids, _) = live.apply(&changes).unwrap();
     for (at, body, pose) in added {
@@ -151,15 +156,16 @@ fn bulk_moves_leave_nothing_out() {
         let live = Environment::default();
         let mut model = Model::new();
         let additions: Vec<Change> = (0..size)
-            .map(|_| Change::Add {
-                body: cuboid([0; 3].map(|_| random.within(0.02, 0.3))).body,
-                pose: random.pose(2.0),
-                data: None,
+            .map(|_| {
+                Change::add(
+                    cuboid([0; 3].map(|_| random.within(0.02, 0.3))).body,
+                    random.pose(2.0),
+                )
             })
             .collect();
         let (ids, _) = live.apply(&additions).unwrap();
         for (id, addition) in ids.iter().zip(additions) {
-            let Change::Add { body, pose, .. } = addition else {
+            let Change::Add(Addition { body, pose, .. }) = addition else {
                 unreachable!()
             };
             model.insert(*id, (body, pose, false));
@@ -203,11 +209,7 @@ fn a_failed_change_leaves_no_trace_in_the_next() {
     let mut model = Model::new();
     for _ in 0..50 {
         let (body, pose) = (cuboid([0.1, 0.2, 0.1]).body, random.pose(1.0));
-        let add = Change::Add {
-            body: body.clone(),
-            pose,
-            data: None,
-        };
+        let add = Change::add(body.clone(), pose);
         let (ids, _) = live.apply(&[add]).unwrap();
         model.insert(ids[0], (body, pose, false));
     }
@@ -236,10 +238,11 @@ fn what_is_deleted_is_let_go_at_once() {
     let live = Environment::default();
     let body = cuboid([0.1; 3]).body;
     let keeper = Arc::new(7u8);
-    let add = || Change::Add {
-        body: body.clone(),
-        pose: Pose::identity(),
-        data: Some(UserData::new(1, Some(keeper.clone()))),
+    let add = || {
+        Change::Add(Addition {
+            data: Some(UserData::new(1, Some(keeper.clone()))),
+            ..Addition::new(body.clone(), Pose::identity())
+        })
     };
     let (ids, _) = live.apply(&[add(), add(), add()]).unwrap();
     for &id in &ids {
@@ -263,11 +266,7 @@ fn objects_that_are_small_for_where_they_stand_are_taken_and_found() {
             let live = Environment::default();
             let at =
                 |i: usize| Pose::from_translation(Vec3::repeat(away) * (1.0 + i as f64 * 1e-15));
-            let add = |i: usize| Change::Add {
-                body: body.clone(),
-                pose: at(i),
-                data: None,
-            };
+            let add = |i: usize| Change::add(body.clone(), at(i));
             let changes: Vec<Change> = (0..count).map(add).collect();
             let (ids, _) = live.apply(&changes).unwrap();
             for step in 0..4 {
@@ -312,11 +311,7 @@ fn points_that_come_together_part_again() {
             live.apply(&changes).unwrap();
             check(&live.snapshot(), model, &probe, random);
         };
-        let add = || Change::Add {
-            body: body.clone(),
-            pose: Pose::from_translation(Vec3::repeat(0.5)),
-            data: None,
-        };
+        let add = || Change::add(body.clone(), Pose::from_translation(Vec3::repeat(0.5)));
         let changes: Vec<Change> = (0..count).map(|_| add()).collect();
         let (ids, _) = live.apply(&changes).unwrap();
         go(&ids, &mut random, 1.0, &mut model);

@@ -65,11 +65,7 @@ fn one_object_far_away_does_not_blur_the_others() {
         with_it.push((body, pose));
         let (other, _) = environment(&with_it);
         assert!(looked_at(&other) <= more);
-        let add = Change::Add {
-            body: body.clone(),
-            pose,
-            data: None,
-        };
+        let add = Change::add(body.clone(), pose);
         let (new, _) = live.apply(&[add]).unwrap();
         assert!(looked_at(&live) <= more);
         // And back again.
@@ -129,11 +125,7 @@ fn changes_do_not_wear_the_tree_out() {
                 },
             };
             if round % 5 == 0 {
-                let add = Change::Add {
-                    body: body.clone(),
-                    pose: poses[i],
-                    data: None,
-                };
+                let add = Change::add(body.clone(), poses[i]);
                 let delete = Change::Delete { id: ids[i] };
                 ids[i] = live.apply(&[delete, add]).unwrap().0[1];
             } else {

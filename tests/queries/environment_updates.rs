@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use cstk::body::Body;
 use cstk::cobject::CObject;
-use cstk::environment::{Change, Environment};
+use cstk::environment::{Addition, Change, Environment};
 use cstk::error::ErrorKind;
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, QueryContext, SSide};
@@ -170,11 +170,7 @@ fn the_order_in_which_objects_come_does_not_matter() {
             places.sort_by_key(|&place| ids[place]);
             let mut now = vec![0; ids.len()];
             for (object, place) in objects.objects().zip(places) {
-                let add = Change::Add {
-                    body: object.body.clone(),
-                    pose: object.pose,
-                    data: None,
-                };
+                let add = Change::add(object.body.clone(), object.pose);
                 let delete = Change::Delete { id: object.id };
                 now[place] = made.apply(&[add, delete]).unwrap().0[0];
             }
@@ -192,11 +188,7 @@ fn changes_are_made_in_order_and_all_or_none() {
     let brick = cuboid([1.0; 3]).body;
     let tile = planar(&[vec![Vec3::zeros(), Vec3::x(), Vec3::y()]]).body;
     let at = |x: f64| Pose::from_translation(Vec3::new(x, 0.0, 0.0));
-    let add = |body: &Arc<Body>, pose| Change::Add {
-        body: body.clone(),
-        pose,
-        data: None,
-    };
+    let add = |body: &Arc<Body>, pose| Change::add(body.clone(), pose);
     let (live, ids) = environment(&[(&brick, at(0.0)), (&brick, at(1.0)), (&brick, at(2.0))]);
     let moved = |id, x| Change::Move { id, pose: at(x) };
     let delete = |id| Change::Delete { id };
@@ -299,11 +291,7 @@ fn planar_environments_change_as_well() {
         let half = if random.below(30) == 0 { 1e4 } else { 2.0 };
         let pose = random.planar_pose(half);
         if ids.len() < 100 || step % 3 == 0 {
-            let add = Change::Add {
-                body: body.clone(),
-                pose,
-                data: None,
-            };
+            let add = Change::add(body.clone(), pose);
             let (new, _) = live.apply(&[add]).unwrap();
             model.insert(new[0], (body, pose));
         } else {
@@ -343,11 +331,10 @@ fn what_an_object_keeps_may_change_the_environment() {
     let environment = Arc::new(Environment::default());
     let seen = Arc::new(std::sync::atomic::AtomicU64::new(0));
     let keeper = Changes(Arc::downgrade(&environment), seen.clone());
-    let add = Change::Add {
-        body: cuboid([1.0; 3]).body,
-        pose: Pose::identity(),
+    let add = Change::Add(Addition {
         data: Some(UserData::new(1, Some(Arc::new(keeper)))),
-    };
+        ..Addition::new(cuboid([1.0; 3]).body, Pose::identity())
+    });
     let (ids, _) = environment.apply(&[add]).unwrap();
     environment.apply(&[Change::Delete { id: ids[0] }]).unwrap();
     assert_eq!(seen.load(std::sync::atomic::Ordering::Relaxed), 3);

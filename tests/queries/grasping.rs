@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::cobject::{AllowedPair, CObject, Class, InducedOptions, SObjects};
-use cstk::environment::{Attachment, Change, Environment};
+use cstk::cobject::{AllowedPair, CObject, Class, InducedOptions, LeftOut, SObjects};
+use cstk::environment::{Addition, Attachment, Change, Environment};
 use cstk::error::ErrorKind;
 use cstk::motion::{SlideOptions, SlideOutcome};
 use cstk::pose::{Pose, Vec3};
@@ -33,7 +33,17 @@ fn arm() -> Arc<Space> {
 fn all(space: &Arc<Space>, environment: &Arc<Environment>, allowed: &[AllowedPair]) -> CObject {
     let objects = SObjects::All(environment.clone());
     let options = InducedOptions::default();
-    CObject::induced(space.clone(), &[], objects, allowed, options).unwrap()
+    CObject::induced(
+        space.clone(),
+        &[],
+        objects,
+        LeftOut {
+            allowed,
+            unmoved: false,
+        },
+        options,
+    )
+    .unwrap()
 }
 
 struct Scene {
@@ -185,7 +195,17 @@ fn pairs_that_may_meet_are_left_out() {
     let one = |id: u64, allowed: &[AllowedPair]| {
         let objects = SObjects::Some(scene.environment.clone(), vec![id]);
         let options = InducedOptions::default();
-        CObject::induced(scene.space.clone(), &[], objects, allowed, options).unwrap()
+        CObject::induced(
+            scene.space.clone(),
+            &[],
+            objects,
+            LeftOut {
+                allowed,
+                unmoved: false,
+            },
+            options,
+        )
+        .unwrap()
     };
     let own = one(a, &[]);
     let list = query.witnesses(&own, at, f64::INFINITY, 100).unwrap();
@@ -298,11 +318,11 @@ fn data_of_objects_come_back() {
     let space = arm();
     let environment = Arc::new(Environment::default());
     let body = cuboid([0.2; 3]).body.clone();
-    let add = Change::Add {
-        body,
-        pose: Pose::from_translation(Vec3::new(0.0, 0.0, 2.0)),
+    let pose = Pose::from_translation(Vec3::new(0.0, 0.0, 2.0));
+    let add = Change::Add(Addition {
         data: Some(UserData::new(7, Some(kept.clone()))),
-    };
+        ..Addition::new(body, pose)
+    });
     let (ids, _) = environment.apply(std::slice::from_ref(&add)).unwrap();
     drop(add);
     let cobject = all(&space, &environment, &[]);

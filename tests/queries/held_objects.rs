@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::cobject::{AllowedPair, CObject, Class, InducedOptions, SObjects};
+use cstk::cobject::{AllowedPair, CObject, Class, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Attachment, Change, Environment};
 use cstk::error::ErrorKind;
 use cstk::motion::{SlideOptions, SlideOutcome};
@@ -81,7 +81,7 @@ fn a_frame_without_a_body_holds() {
             space.clone(),
             links,
             objects,
-            &[],
+            LeftOut::default(),
             InducedOptions::default(),
         )
         .unwrap()
@@ -89,7 +89,14 @@ fn a_frame_without_a_body_holds() {
     assert!((distance(&chosen(&[1]), &[0.25]) - 0.75).abs() < 1e-14);
     let empty_hand = Environment::default();
     let objects = SObjects::All(Arc::new(empty_hand));
-    let none = CObject::induced(space, &[1], objects, &[], InducedOptions::default()).unwrap();
+    let none = CObject::induced(
+        space,
+        &[1],
+        objects,
+        LeftOut::default(),
+        InducedOptions::default(),
+    )
+    .unwrap();
     let at = Configuration::Coordinates(&[0.0]);
     let found = QueryContext::new().distance(&none, at, f64::INFINITY);
     assert_eq!(found.unwrap().kind, DistanceKind::Empty);
@@ -131,7 +138,17 @@ fn two_held_objects_may_be_allowed() {
     let with = |allowed: &[AllowedPair]| {
         let objects = SObjects::All(world.clone());
         let options = InducedOptions::default();
-        let set = CObject::induced(space.clone(), &[], objects, allowed, options).unwrap();
+        let set = CObject::induced(
+            space.clone(),
+            &[],
+            objects,
+            LeftOut {
+                allowed,
+                unmoved: false,
+            },
+            options,
+        )
+        .unwrap();
         class(&set, &[0.0, 0.0])
     };
     let pair = |link: usize| AllowedPair {
@@ -194,7 +211,14 @@ fn objects_held_elsewhere_concern_their_sets_only() {
     let other = sliders(&[Some(cube.clone())]);
     let (world, ids) = environment(&[(&cube, Pose::identity()), (&cube, Pose::identity())]);
     let set = |objects: SObjects| {
-        CObject::induced(space.clone(), &[], objects, &[], InducedOptions::default()).unwrap()
+        CObject::induced(
+            space.clone(),
+            &[],
+            objects,
+            LeftOut::default(),
+            InducedOptions::default(),
+        )
+        .unwrap()
     };
     let first = set(SObjects::Some(world.clone(), vec![ids[0]]));
     let all = set(SObjects::All(world.clone()));
@@ -227,7 +251,9 @@ fn the_widest_margin_is_named() {
             contact_epsilon: 0.0,
         };
         let objects = SObjects::All(world.clone());
-        Arc::new(CObject::induced(space.clone(), &[], objects, &[], options).unwrap())
+        Arc::new(
+            CObject::induced(space.clone(), &[], objects, LeftOut::default(), options).unwrap(),
+        )
     };
     let (thin, wide) = (with(0.0), with(0.5));
     for order in [[&thin, &wide], [&wide, &thin]] {

@@ -14,6 +14,7 @@ mod gradient_cases;
 mod gradients;
 mod grasping;
 mod held_objects;
+mod left_out;
 mod link_pairs;
 mod link_pairs_far;
 mod object_pairs;

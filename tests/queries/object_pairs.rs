@@ -270,11 +270,7 @@ fn changes_and_strays_hide_no_pair() {
         for _ in 0..3 {
             let body = bodies[random.below(bodies.len())].clone();
             let pose = random.pose(1.0);
-            changes.push(Change::Add {
-                body,
-                pose,
-                data: None,
-            });
+            changes.push(Change::add(body, pose));
         }
         live.apply(&changes).unwrap();
         check(&mut query, &live, None, 0.02);

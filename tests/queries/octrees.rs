@@ -335,11 +335,7 @@ fn snapshots_stay_and_refused_changes_change_nothing() {
     let flat = flat.build(&HierarchyOptions::default(), &mut |_| Ok(()));
     let planar = Arc::new(Environment::default());
     other.place(&planar, &Pose::identity(), None).unwrap();
-    let add = Change::Add {
-        body: Arc::new(flat.unwrap()),
-        pose: Pose::identity(),
-        data: None,
-    };
+    let add = Change::add(Arc::new(flat.unwrap()), Pose::identity());
     planar.apply(&[add]).unwrap();
     assert!(other.set(&[Vec3::zeros(), Vec3::x()], true).is_err());
     assert!(other.insert(&octree).is_err());

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
+use cstk::cobject::{CObject, Class, InducedOptions, LeftOut, SObjects};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, DistanceKind, QueryContext};
 use cstk::robot::JointKind;
@@ -144,7 +144,8 @@ fn margins_reach_into_the_broad_phase() {
             margin,
         };
         let all = SObjects::All(world.clone());
-        let cobject = CObject::induced(space.clone(), &[], all, &[], options).unwrap();
+        let cobject =
+            CObject::induced(space.clone(), &[], all, LeftOut::default(), options).unwrap();
         assert_eq!(
             query.classify(&cobject, q).unwrap(),
             class,

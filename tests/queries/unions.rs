@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::body::{Body, BodyBuilder};
-use cstk::cobject::{CObject, Class, InducedOptions, SObjects};
+use cstk::cobject::{CObject, Class, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::hierarchy::HierarchyOptions;
 use cstk::pose::{Pose, Vec3};
@@ -58,16 +58,12 @@ fn induced(
         margin,
     };
     let all = SObjects::All(environment.clone());
-    Arc::new(CObject::induced(space.clone(), &[], all, &[], options).unwrap())
+    Arc::new(CObject::induced(space.clone(), &[], all, LeftOut::default(), options).unwrap())
 }
 
 fn with_cubes(places: &[f64]) -> (Arc<Environment>, Vec<u64>) {
     let environment = Arc::new(Environment::default());
-    let add = |x: &f64| Change::Add {
-        body: cuboid([1.0; 3]),
-        pose: at(*x),
-        data: None,
-    };
+    let add = |x: &f64| Change::add(cuboid([1.0; 3]), at(*x));
     let changes: Vec<Change> = places.iter().map(add).collect();
     let (ids, _) = environment.apply(&changes).unwrap();
     (environment, ids)
@@ -161,16 +157,8 @@ fn bounds_do_not_depend_on_what_was_asked_before() {
     let environment = Arc::new(Environment::default());
     let huge = cuboid([1e9; 3]);
     let changes = [
-        Change::Add {
-            body: cuboid([1.0; 3]),
-            pose: at(1.1),
-            data: None,
-        },
-        Change::Add {
-            body: huge,
-            pose: at(-5e8 - 0.6 - 1e-10),
-            data: None,
-        },
+        Change::add(cuboid([1.0; 3]), at(1.1)),
+        Change::add(huge, at(-5e8 - 0.6 - 1e-10)),
     ];
     environment.apply(&changes).unwrap();
     let cobject = induced(&space, &environment, 0.0, 0.0);
@@ -231,11 +219,7 @@ fn a_union_of_many_objects_is_the_least_of_all_pairs() {
                 pose
             })
             .collect();
-        let add = |(i, pose): (usize, &Pose)| Change::Add {
-            body: bodies[i % 3].clone(),
-            pose: *pose,
-            data: None,
-        };
+        let add = |(i, pose): (usize, &Pose)| Change::add(bodies[i % 3].clone(), *pose);
         let changes: Vec<Change> = poses.iter().enumerate().map(add).collect();
         let (ids, _) = environment.apply(&changes).unwrap();
         let (margin, epsilon) = (0.05, 0.3);
@@ -304,7 +288,7 @@ fn what_met_last_counts_only_while_it_meets() {
     assert_eq!(ask(&mut query, &all), Class::Inside);
     let far_one = SObjects::Some(environment.clone(), vec![ids[1]]);
     let options = InducedOptions::default();
-    let other = CObject::induced(space.clone(), &[], far_one, &[], options).unwrap();
+    let other = CObject::induced(space.clone(), &[], far_one, LeftOut::default(), options).unwrap();
     assert_eq!(ask(&mut query, &other), Class::Outside);
     assert_eq!(ask(&mut query, &all), Class::Inside);
     let moved = |x: f64| Change::Move {

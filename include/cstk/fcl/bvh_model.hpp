@@ -161,14 +161,12 @@ public:
         return BVH_OK;
     }
 
-    /* Deforming models are not covered: build another one. */
-    int beginReplaceModel() = delete;
-    int endReplaceModel(bool refit = true, bool bottomup = true) = delete;
-    int beginUpdateModel() = delete;
-    int endUpdateModel(bool refit = true, bool bottomup = true) = delete;
-    /* The nodes are not FCL's: see body().level_nodes(). */
-    void getBV(int id) const = delete;
-    int getNumBVs() const = delete;
+    int beginReplaceModel() = delete; // deforming models are not covered: build another one, or see cstk::Body::refit
+    int endReplaceModel(bool refit = true, bool bottomup = true) = delete; // build another model, or see cstk::Body::refit
+    int beginUpdateModel() = delete; // deforming models are not covered: build another one, or see cstk::Body::refit
+    int endUpdateModel(bool refit = true, bool bottomup = true) = delete; // build another model, or see cstk::Body::refit
+    void getBV(int id) const = delete; // the nodes are not FCL's: see body().level_nodes()
+    int getNumBVs() const = delete; // the nodes are not FCL's: see body().hierarchy_statistics()
 
     /// What was added, to be read only.
     Vector3<S> *vertices = nullptr;

@@ -69,9 +69,8 @@ public:
     const CollisionGeometry<S> *getCollisionGeometry() const { return cgeom.get(); }
     const std::shared_ptr<const CollisionGeometry<S>> &collisionGeometry() const { return cgeom_const; }
 
-    /* Managers of moving objects are not covered: their pairs are those of the boxes at both ends, and what is between. */
-    const AABB<S> &getAABB() const = delete;
-    void computeAABB() = delete;
+    const AABB<S> &getAABB() const = delete; // managers of moving objects are not covered: ask continuousCollide of each pair
+    void computeAABB() = delete; // managers of moving objects are not covered: ask continuousCollide of each pair
 
 protected:
     std::shared_ptr<CollisionGeometry<S>> cgeom;

@@ -39,11 +39,10 @@ public:
     S threshold_occupied = 1;
     S threshold_free = 0;
 
-    /// libcstk measures distances; masses are the dynamics library's.
-    Vector3<S> computeCOM() const = delete;
-    Matrix3<S> computeMomentofInertia() const = delete;
-    S computeVolume() const = delete;
-    Matrix3<S> computeMomentofInertiaRelatedToCOM() const = delete;
+    Vector3<S> computeCOM() const = delete; // libcstk measures distances; masses are the dynamics library's
+    Matrix3<S> computeMomentofInertia() const = delete; // libcstk measures distances; masses are the dynamics library's
+    S computeVolume() const = delete; // libcstk measures distances; masses are the dynamics library's
+    Matrix3<S> computeMomentofInertiaRelatedToCOM() const = delete; // masses are the dynamics library's
 
     /// Not of FCL: the geometry as the library holds it, to be used with cstk.hpp too. Planes and half-spaces have none.
     virtual const cstk::Body &body() const {

@@ -37,11 +37,11 @@ int generateBVHModel(BVHModel<BV> &model, const Box<typename BV::S> &box, const 
     return ended;
 }
 
-/* Round shapes are not cut into triangles: use the shape itself, which is exact. */
-template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Sphere<typename BV::S> &, More...) = delete;
-template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Ellipsoid<typename BV::S> &, More...) = delete;
-template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Cylinder<typename BV::S> &, More...) = delete;
-template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Cone<typename BV::S> &, More...) = delete;
+/* Round shapes are not cut into triangles. */
+template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Sphere<typename BV::S> &, More...) = delete; // use the shape itself, which is exact
+template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Ellipsoid<typename BV::S> &, More...) = delete; // use the shape itself, which is exact
+template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Cylinder<typename BV::S> &, More...) = delete; // use the shape itself, which is exact
+template <typename BV, typename... More> int generateBVHModel(BVHModel<BV> &, const Cone<typename BV::S> &, More...) = delete; // use the shape itself, which is exact
 
 } // namespace cstk_fcl
 

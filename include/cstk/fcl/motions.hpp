@@ -115,8 +115,7 @@ using TranslationMotiond = TranslationMotion<double>;
 template <typename S> class InterpMotion : public MotionBase<S> {
 public:
     InterpMotion(const Transform3<S> &tf1, const Transform3<S> &tf2) : MotionBase<S>(tf1, tf2, detail::MotionKind::LINEAR) {}
-    /// Another point than the origin going straight is not covered: move the geometry's frame there.
-    InterpMotion(const Transform3<S> &tf1, const Transform3<S> &tf2, const Vector3<S> &reference) = delete;
+    InterpMotion(const Transform3<S> &tf1, const Transform3<S> &tf2, const Vector3<S> &reference) = delete; // move the frame there
 
     Transform3<S> at(S time) const override {
         Transform3<S> out = this->start();

@@ -143,12 +143,11 @@ public:
     template <typename Node> bool isNodeFree(const Node *node) const { return node->getLogOdds() <= source_.free_log_odds; }
     template <typename Node> bool isNodeUncertain(const Node *node) const { return !isNodeOccupied(node) && !isNodeFree(node); }
 
-    /* Ask the tree itself for its nodes; tree->search(x, y, z) finds that of toBoxes()[b1]. */
-    void getRoot() const = delete;
-    template <typename Node> void getNodeChild(Node *node, unsigned int childIdx) const = delete;
-    template <typename Node> bool nodeChildExists(const Node *node, unsigned int childIdx) const = delete;
-    template <typename Node> bool nodeHasChildren(const Node *node) const = delete;
-    template <typename... Out> void getNodeByQueryCellId(std::intptr_t id, const Vector3<S> &point, Out... out) const = delete;
+    void getRoot() const = delete; // ask the tree itself for its nodes
+    template <typename Node> void getNodeChild(Node *node, unsigned int childIdx) const = delete; // ask the tree itself for its nodes
+    template <typename Node> bool nodeChildExists(const Node *node, unsigned int childIdx) const = delete; // ask the tree itself for its nodes
+    template <typename Node> bool nodeHasChildren(const Node *node) const = delete; // ask the tree itself for its nodes
+    template <typename... Out> void getNodeByQueryCellId(std::intptr_t id, const Vector3<S> &point, Out... out) const = delete; // tree->search(x, y, z) finds that of toBoxes()[b1]
 
     const cstk::Body &body() const override {
         const OccupiedLeaves &now = occupied();

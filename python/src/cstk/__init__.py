@@ -38,6 +38,7 @@ from .poses import (
     pose_compose,
     pose_from_euler,
     pose_from_quaternion,
+    pose_from_rpy,
     pose_inverse,
     pose_to_euler,
     pose_to_quaternion,

@@ -2,6 +2,8 @@
 C checks; its messages use the same names.
 """
 
+from __future__ import annotations
+
 import os
 from typing import Any, Optional, Sequence, Tuple
 

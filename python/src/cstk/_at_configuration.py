@@ -1,9 +1,11 @@
 """Queries at a configuration: class, distance, witnesses, gradients."""
 
+from __future__ import annotations
+
 from typing import Any, Optional, Tuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import doubles, index, poses, scalar, vector
 from ._handle import Handle, pointer_of
@@ -54,6 +56,18 @@ class AtConfiguration(Handle):
         out = ffi.new("cstk_distance_result *")
         check(lib.cstk_distance(self._pointer, *set_at_q(cobject, q), scalar("max_distance", max_distance), out))
         return DistanceResult(out)
+
+    def distance_with_gradient(
+        self, cobject: CObject, q: ArrayLike, max_distance: float = np.inf
+    ) -> Tuple[DistanceResult, NDArray[np.float64]]:
+        """distance(), and its derivative with respect to each velocity, (nv,): 0 where the answer has no contact."""
+        out = ffi.new("cstk_distance_result *")
+        set_at_q(cobject, q)
+        gradient = np.zeros(cobject.space.nv)
+        limit = scalar("max_distance", max_distance)
+        to = doubles(gradient), gradient.size
+        check(lib.cstk_distance_with_gradient(self._pointer, *set_at_q(cobject, q), limit, out, *to))
+        return DistanceResult(out), gradient
 
     def witnesses(self, cobject: CObject, q: ArrayLike, epsilon: float, max_count: int = MAX_COUNT) -> WitnessList:
         """All primitive pairs at most `epsilon` apart, none missing, none twice, and their contacts; the nearest `max_count`."""

@@ -1,5 +1,7 @@
 """Functions that C calls."""
 
+from __future__ import annotations
+
 import platform
 from typing import Any, Callable, Optional
 

@@ -1,5 +1,7 @@
 """What functions of the caller's raise cannot pass through C: it is kept until the call that made them has ended."""
 
+from __future__ import annotations
+
 import threading
 from typing import Optional
 

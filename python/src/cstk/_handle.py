@@ -1,5 +1,7 @@
 """One reference to an object of the library."""
 
+from __future__ import annotations
+
 from typing import Any, ClassVar, Optional, Type, TypeVar
 
 from ._native import ffi, lib

@@ -1,5 +1,7 @@
 """Lists of answers: copies of the arrays that a query context wrote, which no later call changes."""
 
+from __future__ import annotations
+
 from typing import Any, Iterator, Optional
 
 import numpy as np
@@ -94,6 +96,9 @@ class PseudoNormal:
         self.distance = DistanceResult(given.distance, given)
         self.list = WitnessList(given.list)
 
+    def __repr__(self) -> str:
+        return f"<cstk.PseudoNormal: {self.point_class}, distance {self.distance.distance:.6g}, {len(self.list)} witnesses>"
+
 
 class Explanation:
     """A class, and the leaves and witnesses that decide it."""
@@ -104,6 +109,9 @@ class Explanation:
         self.point_class = Class(given.point_class)
         self.leaves = Records.copied(Verdict, given.leaves, given.leaf_count)
         self.list = WitnessList(given.list)
+
+    def __repr__(self) -> str:
+        return f"<cstk.Explanation: {self.point_class}, {len(self.leaves)} leaves, {len(self.list)} witnesses>"
 
 
 class LinkPairs:
@@ -120,6 +128,9 @@ class LinkPairs:
         self.tested = np.empty((given.tested_count, 2), np.uint32)
         if given.tested_count:
             ffi.memmove(ffi.from_buffer(self.tested), given.tested, self.tested.nbytes)
+
+    def __repr__(self) -> str:
+        return f"<cstk.LinkPairs: {len(self.tested)} of {len(self.pairs)} to test>"
 
 
 class PenetrationList:
@@ -142,6 +153,9 @@ class PenetrationList:
 
     def __iter__(self) -> Iterator[Penetration]:
         return iter(self.penetrations)
+
+    def __repr__(self) -> str:
+        return f"<cstk.PenetrationList of {len(self.penetrations)}>"
 
 
 class SignedDistanceList:
@@ -170,3 +184,6 @@ class SignedDistanceList:
 
     def __iter__(self) -> Iterator[SignedDistance]:
         return iter(self.pairs)
+
+    def __repr__(self) -> str:
+        return f"<cstk.SignedDistanceList of {len(self.pairs)} pairs>"

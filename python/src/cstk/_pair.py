@@ -1,5 +1,7 @@
 """Pair queries: two bodies at two poses, without a robot."""
 
+from __future__ import annotations
+
 from typing import Any, Tuple
 
 import numpy as np

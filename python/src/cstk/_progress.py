@@ -1,5 +1,7 @@
 """Functions that hear the progress of long calls."""
 
+from __future__ import annotations
+
 from typing import Any, Callable, Optional
 
 from ._callback import callback

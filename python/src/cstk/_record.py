@@ -1,5 +1,7 @@
 """Answers: views of C structures that belong to Python."""
 
+from __future__ import annotations
+
 from copy import copy
 from functools import lru_cache
 from typing import Any, ClassVar, Dict, Generic, Iterator, Sequence, Tuple, Type, TypeVar, Union, overload

@@ -1,7 +1,9 @@
 """Options for reading URDF, SRDF and meshes, with all that C reads through their pointers."""
 
+from __future__ import annotations
+
 import os
-from typing import Any, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -12,6 +14,10 @@ from .enums import JointKind, MeshForm, UrdfGeometry
 from .hierarchy import HierarchyOptions, hierarchy_options
 
 
+FolderOrFolders = Union["os.PathLike[str]", str, Sequence[Union["os.PathLike[str]", str]]]
+"""Folders, or one."""
+
+
 def urdf_options(
     *,
     geometry: UrdfGeometry = UrdfGeometry.COLLISION,
@@ -20,14 +26,17 @@ def urdf_options(
     sides: int = 0,
     at: Optional[ArrayLike] = None,
     prefix: Optional[str] = None,
-    package_paths: Sequence["os.PathLike[str] | str"] = (),
+    package_paths: FolderOrFolders = (),
     hierarchy: Optional[HierarchyOptions] = None,
     cache_folder: "os.PathLike[str] | str | None" = None,
     mesh_form: MeshForm = MeshForm.SURFACE,
     link_forms: Optional[Mapping[str, MeshForm]] = None,
 ) -> Tuple[Any, List[Any]]:
     """The structure of C, and what must outlive it."""
-    folders = [ffi.new("char[]", file_name("package_paths", folder)) for folder in package_paths]
+    if isinstance(package_paths, Mapping):
+        raise TypeError("package_paths holds folders that packages lie in, not packages by name: give the parents of the mapping's folders")
+    given_folders = [package_paths] if isinstance(package_paths, (str, bytes, os.PathLike)) else package_paths
+    folders = [ffi.new("char[]", file_name("package_paths", folder)) for folder in given_folders]
     folder_list = ffi.new("char *[]", folders)
     prefix_text = None if prefix is None else ffi.new("char[]", text("prefix", prefix))
     cache = None if cache_folder is None else ffi.new("char[]", file_name("cache_folder", cache_folder))

@@ -4,6 +4,8 @@ A pointer is a number that is never used again, not an address: an answer that o
 names of a planning scene's objects are the library's, at addresses that it may use again; so each counts for its object only.
 """
 
+from __future__ import annotations
+
 import itertools
 from typing import Any, Dict, Optional, Tuple
 

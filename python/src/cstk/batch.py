@@ -1,5 +1,7 @@
 """Batches: many configurations, motions or pairs of poses in one call, on several threads."""
 
+from __future__ import annotations
+
 from typing import Any, Callable, Optional, Tuple, TypeVar
 
 import numpy as np

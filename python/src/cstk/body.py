@@ -1,5 +1,7 @@
 """Bodies: rigid unions of convex primitives. They never change once built, and serve any number of links, obstacles and threads."""
 
+from __future__ import annotations
+
 import os
 import tempfile
 from typing import Any, Callable, Optional

@@ -1,5 +1,7 @@
 """Certificates: proofs of free motions, to keep and to check anew."""
 
+from __future__ import annotations
+
 import os
 import tempfile
 from typing import Any, Tuple

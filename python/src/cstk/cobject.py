@@ -1,5 +1,7 @@
 """C-objects: sets in C-space, induced by contact, given by coordinates or functions, or combined from others."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, Union
 
@@ -52,14 +54,23 @@ class CObject(Handle):
         contact_epsilon: float = 0.0,
         margin: float = 0.0,
         allowed: Iterable[AllowedPair] = (),
+        leave_out_unmoved: bool = False,
     ) -> "CObject":
-        """Where a link meets an s-object. No links: all that have a body. No ids: all objects, those added later too. Distances up to
+        """Where a link meets an s-object. No links: all of the space, with what is attached to them, be it to a frame without a body. Of
+        given links no other is tested, nor what is attached to others. No ids: all objects, those added later too. Distances up to
         `contact_epsilon` are Class.CONTACT; `margin` is subtracted from every distance; pairs in `allowed` may meet.
+        `leave_out_unmoved` leaves out pairs that no coordinate moves: a base and the table that it stands on.
         """
         numbers, objects = integers("links", links, np.uint32), integers("ids", ids, np.uint64)
         pairs = [_allowed(f"allowed[{i}]", pair) for i, pair in enumerate(allowed)]
         pairs_array = ffi.new("cstk_allowed_pair[]", pairs) if pairs else ffi.NULL
-        given = _induced(contact_epsilon, margin, allowed=pairs_array, allowed_count=len(pairs))
+        given = _induced(
+            contact_epsilon,
+            margin,
+            allowed=pairs_array,
+            allowed_count=len(pairs),
+            leave_out_unmoved=int(bool(leave_out_unmoved)),
+        )
         return cls._made(
             lib.cstk_cobject_induced,
             pointer_of(Space, "space", space),
@@ -82,6 +93,13 @@ class CObject(Handle):
         given = _induced(contact_epsilon, margin)
         place = pointer_of(Space, "space", space)
         return cls._made(lib.cstk_cobject_induced_links, place, pointer(numbers, "uint32_t"), numbers.size // 2, given)
+
+    @property
+    def space(self) -> Space:
+        """The space that the set is in."""
+        out = ffi.new("cstk_space **")
+        check(lib.cstk_cobject_get_space(self._pointer, out))
+        return Space._take(out[0])
 
     @classmethod
     def beyond_limits(cls, space: Space, *, contact_epsilon: float = 0.0, scale: float = 0.0) -> "CObject":

@@ -1,5 +1,7 @@
 """Environments: s-objects, the obstacles, changed while other threads query."""
 
+from __future__ import annotations
+
 import os
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence
@@ -36,11 +38,27 @@ class Change:
     space: Optional[Space] = None
     link: int = 0
     touch_links: ArrayLike = ()
+    name: str = ""
 
     @classmethod
-    def add(cls, body: Body, pose: Optional[ArrayLike] = None, data: Any = None) -> "Change":
-        """Adds a body at a pose in the world; witnesses return `data`."""
-        return cls(ChangeKind.ADD, body=body, pose=pose, data=data)
+    def add(cls, body: Body, pose: Optional[ArrayLike] = None, data: Any = None, *, name: str = "") -> "Change":
+        """Adds a body at a pose in the world; witnesses return `data`. Several objects may have one name."""
+        return cls(ChangeKind.ADD, body=body, pose=pose, data=data, name=name)
+
+    @classmethod
+    def add_attached(
+        cls,
+        body: Body,
+        space: Space,
+        link: int,
+        pose: ArrayLike,
+        touch_links: ArrayLike = (),
+        data: Any = None,
+        *,
+        name: str = "",
+    ) -> "Change":
+        """Adds a body that is attached to a link from the first, `pose` in the link's frame: add() and attach() in one change."""
+        return cls(ChangeKind.ADD, 0, body, pose, data, space, link, touch_links, name)
 
     @classmethod
     def move(cls, id: int, pose: ArrayLike) -> "Change":
@@ -67,9 +85,23 @@ class Environment(Handle):
     def __init__(self) -> None:
         self._created()
 
-    def add(self, body: Body, pose: Optional[ArrayLike] = None, data: Any = None) -> int:
-        """Adds an object; returns its id."""
-        return int(self.apply([Change.add(body, pose, data)])[0])
+    def add(self, body: Body, pose: Optional[ArrayLike] = None, data: Any = None, *, name: str = "") -> int:
+        """Adds an object at a pose in the world; returns its id. Witnesses return `data`. Several objects may have one name."""
+        return int(self.apply([Change.add(body, pose, data, name=name)])[0])
+
+    def add_attached(
+        self,
+        body: Body,
+        space: Space,
+        link: int,
+        pose: ArrayLike,
+        touch_links: ArrayLike = (),
+        data: Any = None,
+        *,
+        name: str = "",
+    ) -> int:
+        """Adds an object that is attached to a link from the first, `pose` in the link's frame; returns its id. See attach()."""
+        return int(self.apply([Change.add_attached(body, space, link, pose, touch_links, data, name=name)])[0])
 
     def move(self, id: int, pose: ArrayLike) -> None:
         """Moves an object; an attached object is detached."""
@@ -80,7 +112,9 @@ class Environment(Handle):
         self.apply([Change.delete(id)])
 
     def attach(self, id: int, space: Space, link: int, pose: ArrayLike, touch_links: ArrayLike = ()) -> None:
-        """Fixes an object to a link of a space: see Change.attach."""
+        """Fixes an object to a link of a space, `pose` in the link's frame; move() lets it go. The links in `touch_links` (the fingers)
+        may meet it.
+        """
         self.apply([Change.attach(id, space, link, pose, touch_links)])
 
     def apply(self, changes: Sequence[Change]) -> NDArray[np.uint64]:
@@ -94,8 +128,8 @@ class Environment(Handle):
                 if not isinstance(change, Change):
                     raise TypeError(f"changes[{i}] must be a cstk.Change, not {type(change).__name__}")
                 kept.append(Kept(change.data))
-                structure, links = _structure(f"changes[{i}]" if len(changes) > 1 else "", change, kept[-1])
-                alive.append(links)
+                structure, *held = _structure(f"changes[{i}]" if len(changes) > 1 else "", change, kept[-1])
+                alive.append(held)
                 array[i] = structure[0]
             ids_out = pointer(ids, "uint64_t")
             check(lib.cstk_environment_apply(self._pointer, array, len(changes), ids_out, ffi.NULL))
@@ -113,8 +147,8 @@ class Environment(Handle):
         mesh_form: MeshForm = MeshForm.SURFACE,
         hierarchy: Optional[HierarchyOptions] = None,
     ) -> NDArray[np.uint64]:
-        """Adds the objects of a MoveIt planning scene, a .scene file, all or none; returns their ids, in the order of the file. The data
-        of each is its name. `at` is where the scene's frame is in the world.
+        """Adds the objects of a MoveIt planning scene, a .scene file, all or none, with their names, which are their data too; returns
+        their ids, in the order of the file. `at` is where the scene's frame is in the world.
         """
         call = lib.cstk_environment_load_scene
         return self._load_scene(call, file_name("file", file), at, mesh_form, hierarchy)
@@ -194,6 +228,21 @@ class Environment(Handle):
         check(lib.cstk_environment_get_object_info(self._pointer, index("id", id, 64), out))
         return ObjectInfo(out)
 
+    def object_name(self, id: int) -> str:
+        """The name of an object; empty if it has none."""
+        length = ffi.new("size_t *")
+        number = index("id", id, 64)
+        check(lib.cstk_environment_get_object_name(self._pointer, number, ffi.NULL, 0, length))
+        out = ffi.new("char[]", length[0] + 1)
+        check(lib.cstk_environment_get_object_name(self._pointer, number, out, len(out), ffi.NULL))
+        return ffi.string(out).decode()
+
+    def find_object(self, name: str) -> int:
+        """The id of the object with this name, of several the one that was added first. NotFoundError if there is none."""
+        out = ffi.new("uint64_t *")
+        check(lib.cstk_environment_find_object(self._pointer, text("name", name), out))
+        return int(out[0])
+
     def object_pose(self, id: int) -> NDArray[np.float64]:
         """The pose of an object: in the world, or in the frame of the link that it is attached to."""
         out = np.eye(4)
@@ -203,7 +252,7 @@ class Environment(Handle):
 
 
 def _structure(where: str, change: Change, kept: Kept) -> Any:
-    """What C takes of a change, and the array that must outlive it."""
+    """What C takes of a change, and what must outlive it."""
     dot = f"{where}." if where else ""
     links = integers(f"{dot}touch_links", change.touch_links, np.uint32)
     given = options(
@@ -217,8 +266,10 @@ def _structure(where: str, change: Change, kept: Kept) -> Any:
         data=kept.pointer,
         destroy=kept.destroy,
     )
+    name = ffi.new("char[]", text(f"{dot}name", change.name))
     if change.kind == ChangeKind.ADD:
         given.body = pointer_of(Body, f"{dot}body", change.body)
-    if change.kind == ChangeKind.ATTACH:
+        given.name = name
+    if change.kind == ChangeKind.ATTACH or change.space is not None:
         given.space = pointer_of(Space, f"{dot}space", change.space)
-    return given, links
+    return given, links, name

@@ -3,6 +3,8 @@
 All are `Error`; each is also the exception of Python's that fits best, so that `except ValueError` does what it should.
 """
 
+from __future__ import annotations
+
 from typing import Any, Dict, Optional, Type
 
 from ._callback_errors import raise_kept, take_callback_error

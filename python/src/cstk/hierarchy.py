@@ -2,6 +2,8 @@
 their answers.
 """
 
+from __future__ import annotations
+
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple, Optional
 

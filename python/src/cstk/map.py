@@ -1,5 +1,7 @@
 """Maps: what is free on a grid over one to six coordinates, as an array."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
 

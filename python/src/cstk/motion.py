@@ -1,5 +1,7 @@
 """Motions: proved free, or followed to their first contact. Nothing is sampled."""
 
+from __future__ import annotations
+
 from typing import Any, Callable, Optional, Tuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Objects against objects: those of an environment among themselves, or against those of another."""
 
+from __future__ import annotations
+
 from typing import Any, Callable, Iterator, Optional, Tuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Octrees: occupied cells that change while they are part of an environment."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, Optional
 

@@ -4,6 +4,8 @@ Every function that takes a pose takes (4, 4), (3, 4) or 12 numbers, row by row;
 answers are (4, 4), so that they compose with `@`. R may be off orthonormal by 1e-6; the nearest rotation is then used.
 """
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np
@@ -52,6 +54,11 @@ def pose_from_euler(xyz_ypr: ArrayLike) -> Array:
 def pose_to_euler(pose_12: ArrayLike) -> Array:
     """x, y, z, yaw, pitch, roll: the inverse of pose_from_euler. Where cos(pitch) = 0 roll is 0."""
     return _array_of(lib.cstk_pose_to_euler, (6,), doubles(pose("pose_12", pose_12)))
+
+
+def pose_from_rpy(xyz_rpy: ArrayLike) -> Array:
+    """The pose of x, y, z, roll, pitch, yaw as URDF and ROS have them: about the fixed X, then the fixed Y, then the fixed Z."""
+    return _pose_of(lib.cstk_pose_from_rpy, doubles(vector("xyz_rpy", xyz_rpy, 6)))
 
 
 def pose_from_quaternion(xyz_quaternion: ArrayLike) -> Array:

@@ -1,5 +1,7 @@
 """Query contexts."""
 
+from __future__ import annotations
+
 from typing import Optional
 
 from ._arrays import index

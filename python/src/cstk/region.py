@@ -1,5 +1,7 @@
 """Regions: whole boxes of C-space, proved free or inside, or grown around a configuration."""
 
+from __future__ import annotations
+
 from typing import Any, Optional
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Robots: trees of links, each with a joint to its parent and perhaps a body."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar
 
@@ -13,7 +15,7 @@ from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from ._options import options
 from ._progress import Progress, reporting
-from ._urdf import srdf_options, urdf_options
+from ._urdf import FolderOrFolders, srdf_options, urdf_options
 from ._user_data import Kept, data_of
 from .body import Body
 from .enums import JointKind, MeshForm, UrdfGeometry
@@ -327,7 +329,7 @@ class RobotBuilder(Handle):
         sides: int = 0,
         at: Optional[ArrayLike] = None,
         prefix: Optional[str] = None,
-        package_paths: Sequence["os.PathLike[str] | str"] = (),
+        package_paths: FolderOrFolders = (),
         hierarchy: Optional[HierarchyOptions] = None,
         cache_folder: "os.PathLike[str] | str | None" = None,
         mesh_form: MeshForm = MeshForm.SURFACE,

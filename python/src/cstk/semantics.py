@@ -1,5 +1,7 @@
 """What SRDF files say of a robot: joint groups, named states, end effectors, virtual joints."""
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple, Optional
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Slides: steps along contacts, proved free on their whole way, one or as many as lead to a goal, and the two halves of a step."""
 
+from __future__ import annotations
+
 from typing import Any, Optional
 
 import numpy as np

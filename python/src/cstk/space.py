@@ -1,12 +1,14 @@
 """Spaces: the C-space of one or more robots, with the ranges of its coordinates and the world box."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import doubles, empty, index, pointer, pointers, rows, same_length, scalar, vector
+from ._arrays import doubles, empty, index, numbers, pointer, pointers, rows, same_length, scalar, text, vector
 from ._handle import Handle, pointer_of
 from ._native import ffi, lib
 from .enums import RangeKind
@@ -104,6 +106,12 @@ class Space(Handle):
         """The name of a link, numbered through the space."""
         return name_of(lib.cstk_space_get_link_name, self._pointer, index("link", link))
 
+    def find_link(self, name: str) -> int:
+        """The number of the link with this name. NotFoundError if there is none, InvalidArgumentError if several robots have one."""
+        out = ffi.new("uint32_t *")
+        check(lib.cstk_space_find_link(self._pointer, text("name", name), out))
+        return int(out[0])
+
     def offset(self, robot: int) -> SpaceOffset:
         """Where the numbers of the `robot`-th robot begin."""
         out = ffi.new("cstk_space_offset *")
@@ -146,10 +154,18 @@ class Space(Handle):
         return self._within(lib.cstk_space_within_world, q)
 
     def link_poses(self, q: ArrayLike) -> Array:
-        """The poses of all links at q, (link_count, 3, 4): rows [R | t], as the _at_link_poses queries take them without a copy."""
-        array = vector("q", q)
-        out, poses = empty(self.link_count, 3, 4)
-        check(lib.cstk_space_link_poses(self._pointer, doubles(array), array.size, poses))
+        """The poses of all links at q, (link_count, 3, 4): rows [R | t], as the _at_link_poses queries take them without a copy. Of
+        several configurations, (n, nq), those of each: (n, link_count, 3, 4).
+        """
+        array = numbers("q", q)
+        if array.ndim == 2:
+            out = np.empty((len(array), self.link_count, 3, 4))
+            for row, poses in zip(array, out):
+                check(lib.cstk_space_link_poses(self._pointer, doubles(row), row.size, doubles(poses)))
+            return out
+        array = vector("q", array)
+        out, to = empty(self.link_count, 3, 4)
+        check(lib.cstk_space_link_poses(self._pointer, doubles(array), array.size, to))
         return out
 
     def jacobian(self, q: ArrayLike, link: int, point: ArrayLike = (0, 0, 0)) -> Array:
@@ -180,12 +196,18 @@ class Space(Handle):
         check(lib.cstk_space_difference(self._pointer, doubles(a), doubles(b), nq, v))
         return out
 
-    def interpolate(self, q0: ArrayLike, q1: ArrayLike, t: float) -> Array:
-        """The configuration at parameter t of the way from q0 (t = 0) to q1 (t = 1)."""
+    def interpolate(self, q0: ArrayLike, q1: ArrayLike, t: ArrayLike) -> Array:
+        """The configuration at parameter t of the way from q0 (t = 0) to q1 (t = 1); of several parameters, (n,), a row for each."""
         a, b = vector("q0", q0), vector("q1", q1)
         nq = same_length("q0", a, "q1", b)
-        out, q = empty(self.nq)
-        check(lib.cstk_space_interpolate(self._pointer, doubles(a), doubles(b), nq, scalar("t", t), q))
+        if np.ndim(t) == 0:
+            out, q = empty(self.nq)
+            check(lib.cstk_space_interpolate(self._pointer, doubles(a), doubles(b), nq, scalar("t", t), q))
+            return out
+        times = vector("t", t)
+        out = np.empty((times.size, self.nq))
+        for time, row in zip(times.tolist(), out):
+            check(lib.cstk_space_interpolate(self._pointer, doubles(a), doubles(b), nq, time, doubles(row)))
         return out
 
     def distance(self, q0: ArrayLike, q1: ArrayLike, weights: Optional[ArrayLike] = None) -> float:
@@ -206,15 +228,16 @@ class Space(Handle):
         check(lib.cstk_space_distances(self._pointer, doubles(a), doubles(table), len(table), a.size, given, to))
         return out
 
-    def sample(self, random: Random) -> Array:
-        """A configuration drawn uniformly; advances the stream."""
+    def sample(self, random: Random, count: Optional[int] = None) -> Array:
+        """A configuration drawn uniformly, or `count` of them, (count, nq); advances the stream."""
         if not isinstance(random, Random):
             raise TypeError(f"random must be a cstk.Random, not {type(random).__name__}")
-        out, q = empty(self.nq)
+        out = np.empty((1 if count is None else index("count", count, 64), self.nq))
         state = ffi.new("uint64_t *", random.state)
-        check(lib.cstk_space_sample(self._pointer, state, q))
+        for row in out:
+            check(lib.cstk_space_sample(self._pointer, state, doubles(row)))
         random.state = int(state[0])
-        return out
+        return out[0] if count is None else out
 
     def clamp(self, q: ArrayLike) -> Array:
         """The nearest configuration with all coordinates in range."""

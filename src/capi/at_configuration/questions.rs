@@ -4,11 +4,12 @@ use crate::capi::at_configuration::answers::{cstk_class, cstk_distance_result, c
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::cobject::cobject::cstk_cobject;
 use crate::capi::handle;
-use crate::capi::input::{Output, slice};
+use crate::capi::input::{Output, OutputSlice, slice};
 use crate::capi::query::{State, cstk_query, with_query};
 use crate::capi::robot::robot::read_poses;
 use crate::capi::status::status::cstk_status;
 use crate::cobject::CObject;
+use crate::error::{Error, ErrorKind};
 use crate::pose::Pose;
 use crate::query::{Configuration, Shell};
 use crate::space::Space;
@@ -225,6 +226,43 @@ pub unsafe extern "C" fn cstk_distance_at_link_poses(
             |state, cobject, at| Ok((&state.context.distance(cobject, at, max_distance)?).into()),
         )
     }
+}
+
+/// cstk_distance and the gradient of the nearest pair in one call: `gradient` receives `nv` doubles, as many as the space has
+/// velocities: the derivative of the distance of `contact` with respect to them, as cstk_gradients has it. It is 0 where has_contact is
+/// false: where nothing is near, or the two overlap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_distance_with_gradient(
+    query: *mut cstk_query,
+    cobject: *const cstk_cobject,
+    q: *const f64,
+    nq: usize,
+    max_distance: f64,
+    out: *mut cstk_distance_result,
+    gradient: *mut f64,
+    nv: usize,
+) -> cstk_status {
+    // SAFETY: checked for NULL; the caller states the length.
+    run(
+        query,
+        cobject,
+        || unsafe { slice(q, nq, "q") },
+        out,
+        |state, cobject, q| {
+            let expected = cobject.space().nv();
+            if nv != expected {
+                let message = format!("nv is {nv}; the space has {expected} velocities");
+                return Err(Error::new(ErrorKind::WrongSize, message).into());
+            }
+            let gradient = OutputSlice::checked(gradient, nv, "gradient")?;
+            let row = &mut state.row;
+            let found = &mut state.context;
+            let found = found.distance_with_gradient(cobject, q, max_distance, row)?;
+            row.resize(nv, 0.0);
+            gradient.write(row);
+            Ok((&found).into())
+        },
+    )
 }
 
 /// Writes all primitive pairs at most `epsilon` apart at q, none missing, none twice (§2.2.4, operation 7), and their

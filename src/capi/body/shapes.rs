@@ -211,7 +211,8 @@ pub unsafe extern "C" fn cstk_body_builder_add_points(
 /// at the origin; `heights[j * nx + i]` is the z of node (i, j). Each cell is two triangles, split along the diagonal from
 /// (i, j) to (i + 1, j + 1), both tagged with j * (nx - 1) + i. If `base` is NaN the field is a surface; otherwise it is
 /// solid ground down to z = base, which must be below all heights, and each triangle becomes a prism. Exact to 1e-12 of the
-/// largest coordinate.
+/// largest coordinate. CSTK_ERROR_NOT_CONVERGED, with the cell, for a prism so steep that rounding leaves it no closed hull: its heights
+/// differ by a million times its sides and more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_height_field(
     builder: *mut cstk_body_builder,

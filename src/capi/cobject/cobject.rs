@@ -11,7 +11,7 @@ use crate::capi::input::{
 };
 use crate::capi::space::space::cstk_space;
 use crate::capi::status::status::cstk_status;
-use crate::cobject::{AllowedPair, CObject, InducedOptions, SObjects};
+use crate::cobject::{AllowedPair, CObject, InducedOptions, LeftOut, SObjects};
 use crate::environment::Environment;
 use crate::error::{Error, ErrorKind};
 use crate::space::Space;
@@ -45,6 +45,11 @@ pub struct cstk_induced_options {
     /// another one.
     pub allowed: *const cstk_allowed_pair,
     pub allowed_count: usize,
+    /// 1 leaves out, of a set of links against s-objects, the pairs of bodies that no coordinate moves: the base and the table
+    /// that it stands on, which else is always the nearest, with a gradient of 0. Whether the robot meets its surroundings where it
+    /// stands is then not asked; what is held is tested against the base, and all else. Default 0.
+    pub leave_out_unmoved: u32,
+    pub reserved: u32,
 }
 
 /// A pair that may meet: a link, or an s-object attached to it, and an s-object.
@@ -60,9 +65,9 @@ pub struct cstk_allowed_pair {
     pub object: u64,
 }
 
-// SAFETY: repr(C), two u32, two doubles, a pointer, a size: no padding; the pointer is only read after checks.
+// SAFETY: repr(C), two u32, two doubles, a pointer, a size, two u32: no padding; the pointer is only read after checks.
 unsafe impl OptionsStruct for cstk_induced_options {
-    const EARLIER_SIZES: &'static [usize] = &[24];
+    const EARLIER_SIZES: &'static [usize] = &[24, 40];
     const COOKIE: u32 = 0x4353_0401;
     const NAME: &'static str = "cstk_induced_options";
     fn defaults() -> Self {
@@ -74,13 +79,21 @@ unsafe impl OptionsStruct for cstk_induced_options {
             margin: defaults.margin,
             allowed: std::ptr::null(),
             allowed_count: 0,
+            leave_out_unmoved: 0,
+            reserved: 0,
         }
     }
 }
 
-unsafe fn induced_options(
-    options: *const cstk_induced_options,
-) -> Result<(InducedOptions, Vec<AllowedPair>), Failure> {
+/// Options of an induced set, read and checked.
+struct DecodedInduced {
+    measures: InducedOptions,
+    allowed: Vec<AllowedPair>,
+    /// Pairs that no coordinate moves are left out.
+    unmoved: bool,
+}
+
+unsafe fn induced_options(options: *const cstk_induced_options) -> Result<DecodedInduced, Failure> {
     // SAFETY: checked for size and cookie.
     let options = unsafe { options_or_default(options, "options")? };
     // SAFETY: checked for NULL; the header states the length.
@@ -94,7 +107,16 @@ unsafe fn induced_options(
         contact_epsilon: options.contact_epsilon,
         margin: options.margin,
     };
-    Ok((measures, collected(allowed, "options->allowed")?))
+    if options.leave_out_unmoved > 1 {
+        let given = options.leave_out_unmoved;
+        let message = format!("options->leave_out_unmoved is {given}; it must be 0 or 1");
+        return Err(Error::invalid(message).into());
+    }
+    Ok(DecodedInduced {
+        measures,
+        allowed: collected(allowed, "options->allowed")?,
+        unmoved: options.leave_out_unmoved == 1,
+    })
 }
 
 /// Writes the default options. `size` is sizeof(cstk_induced_options).
@@ -132,7 +154,7 @@ pub unsafe extern "C" fn cstk_cobject_induced(
         let environment = handle::share::<Environment>(environment, "environment")?;
         let out = Output::checked(out, "out")?;
         // SAFETY: checked for NULL, size and cookie; the caller states the lengths.
-        let (links, ids, (options, allowed)) = unsafe {
+        let (links, ids, options) = unsafe {
             (
                 slice(links, link_count, "links")?,
                 slice(ids, id_count, "ids")?,
@@ -150,7 +172,11 @@ pub unsafe extern "C" fn cstk_cobject_induced(
         } else {
             SObjects::Some(environment, collected(ids.iter().copied(), "ids")?)
         };
-        let cobject = CObject::induced(space, &links, objects, &allowed, options)?;
+        let left_out = LeftOut {
+            allowed: &options.allowed,
+            unmoved: options.unmoved,
+        };
+        let cobject = CObject::induced(space, &links, objects, left_out, options.measures)?;
         out.write(handle::create(Arc::new(cobject)));
         Ok(())
     })
@@ -172,11 +198,15 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
         let out = Output::checked(out, "out")?;
         let numbers = pair_count.saturating_mul(2);
         // SAFETY: checked for NULL, size and cookie; the caller states the length.
-        let (pairs, (options, allowed)) =
+        let (pairs, options) =
             unsafe { (slice(pairs, numbers, "pairs")?, induced_options(options)?) };
-        if !allowed.is_empty() {
+        if !options.allowed.is_empty() {
             let message =
                 "options->allowed names s-objects, but this set is of links: leave the pairs out";
+            return Err(Error::new(ErrorKind::Unsupported, message).into());
+        }
+        if options.unmoved {
+            let message = "options->leave_out_unmoved is for links against s-objects, but this set is of links: leave the pairs out";
             return Err(Error::new(ErrorKind::Unsupported, message).into());
         }
         let pairs = pairs.chunks_exact(2);
@@ -184,8 +214,22 @@ pub unsafe extern "C" fn cstk_cobject_induced_links(
             pairs.map(|pair| [pair[0] as usize, pair[1] as usize]),
             "pairs",
         )?;
-        let cobject = CObject::induced_links(space, &pairs, options)?;
+        let cobject = CObject::induced_links(space, &pairs, options.measures)?;
         out.write(handle::create(Arc::new(cobject)));
+        Ok(())
+    })
+}
+
+/// Writes a reference to the space that the set is in, to be released with cstk_space_release.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_cobject_get_space(
+    cobject: *const cstk_cobject,
+    out: *mut *mut cstk_space,
+) -> cstk_status {
+    guard(|| {
+        let cobject = handle::share::<CObject>(cobject, "cobject")?;
+        let out = Output::checked(out, "out")?;
+        out.write(handle::create(cobject.space().clone()));
         Ok(())
     })
 }

@@ -1,6 +1,6 @@
 //! Environments.
 
-use std::ffi::c_void;
+use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
 use crate::body::Body;
@@ -9,13 +9,13 @@ use crate::capi::boundary::{Failure, guard};
 use crate::capi::handle;
 use crate::capi::handle::Noun;
 use crate::capi::input::{
-    OptionsStruct, Output, OutputSlice, options_in_place, reserved, slice, write_defaults,
+    OptionsStruct, Output, OutputSlice, options_in_place, reserved, slice, text, write_defaults,
 };
 use crate::capi::space::space::cstk_space;
 use crate::capi::status::callbacks::cstk_destroy_fn;
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::CallerData;
-use crate::environment::{Attachment, Change, Environment};
+use crate::environment::{Addition, Attachment, Change, Environment};
 use crate::error::Error;
 use crate::pose::Pose;
 use crate::space::Space;
@@ -64,7 +64,8 @@ pub struct cstk_environment_change {
     pub body: *const cstk_body,
     /// The body's frame, 12 doubles: in the world, for CSTK_CHANGE_ATTACH in the link's frame.
     pub pose: [f64; 12],
-    /// For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link.
+    /// For CSTK_CHANGE_ATTACH: the space, and the number of the link that holds the object. The object moves with the link. Given
+    /// with CSTK_CHANGE_ADD, the new object comes attached, `pose` then in the link's frame.
     /// Queries in other spaces on sets that include the object fail with CSTK_ERROR_UNSUPPORTED, since its pose is unknown
     /// there. In a set of links against s-objects, it is tested against the other s-objects as the link itself is
     /// (`r_object` of a witness names it); and as an s-object against the links, except the link that holds it and the
@@ -78,11 +79,13 @@ pub struct cstk_environment_change {
     /// that drops the last state that holds the object, and not if the change fails.
     pub data: *mut c_void,
     pub destroy: cstk_destroy_fn,
+    /// For CSTK_CHANGE_ADD: the object's name, UTF-8, which is copied; NULL or empty for none. Several objects may have one name.
+    pub name: *const c_char,
 }
 
-// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 + 5 * 8 bytes on 64-bit machines), the pointers are only read after checks.
+// SAFETY: repr(C), no padding (16 + 8 + 8 + 96 + 6 * 8 bytes on 64-bit machines), the pointers are only read after checks.
 unsafe impl OptionsStruct for cstk_environment_change {
-    const EARLIER_SIZES: &'static [usize] = &[128];
+    const EARLIER_SIZES: &'static [usize] = &[128, 168];
     const COOKIE: u32 = 0x4353_0301;
     const NAME: &'static str = "cstk_environment_change";
     fn defaults() -> Self {
@@ -100,6 +103,7 @@ unsafe impl OptionsStruct for cstk_environment_change {
             touch_count: 0,
             data: std::ptr::null_mut(),
             destroy: None,
+            name: std::ptr::null(),
         }
     }
 }
@@ -195,12 +199,22 @@ unsafe fn change_from(
     let is = |kind: cstk_change_kind| change.kind == kind as i32;
     if is(cstk_change_kind::CSTK_CHANGE_ADD) {
         let body = handle::share::<Body>(change.body, &format!("changes[{i}].body"))?;
+        // SAFETY: as the caller states.
+        let (attachment, name) = unsafe {
+            let attachment = match change.space.is_null() {
+                true => None,
+                false => Some(attachment_from(change, i)?),
+            };
+            (attachment, name_from(change, i)?)
+        };
         let data = CallerData::new(change.data, change.destroy);
-        let added = Change::Add {
+        let added = Change::Add(Addition {
             body,
             pose: pose()?,
+            attachment,
+            name,
             data: data.as_user_data(),
-        };
+        });
         kept.push(data);
         Ok(added)
     } else if is(cstk_change_kind::CSTK_CHANGE_MOVE) {
@@ -209,18 +223,11 @@ unsafe fn change_from(
             pose: pose()?,
         })
     } else if is(cstk_change_kind::CSTK_CHANGE_ATTACH) {
-        let space = &*handle::share::<Space>(change.space, &format!("changes[{i}].space"))?;
-        let count = change.touch_count as usize;
-        let name = format!("changes[{i}].touch_links");
-        // SAFETY: checked for NULL; the header states the length.
-        let touch_links = unsafe { slice(change.touch_links, count, &name)? };
-        let touch_links: Vec<usize> = touch_links.iter().map(|&link| link as usize).collect();
-        let attachment = Attachment::new(space, change.link as usize, &touch_links)
-            .map_err(|e| e.within(format_args!("changes[{i}]")))?;
         Ok(Change::Attach {
             id: change.id,
             pose: pose()?,
-            attachment,
+            // SAFETY: as the caller states.
+            attachment: unsafe { attachment_from(change, i)? },
         })
     } else if is(cstk_change_kind::CSTK_CHANGE_DELETE) {
         Ok(Change::Delete { id: change.id })
@@ -228,6 +235,32 @@ unsafe fn change_from(
         let kind = change.kind;
         Err(Error::invalid(format!("changes[{i}].kind {kind} is no cstk_change_kind")).into())
     }
+}
+
+unsafe fn attachment_from(
+    change: &cstk_environment_change,
+    i: usize,
+) -> Result<Attachment, Failure> {
+    let space = &*handle::share::<Space>(change.space, &format!("changes[{i}].space"))?;
+    let count = change.touch_count as usize;
+    let name = format!("changes[{i}].touch_links");
+    // SAFETY: checked for NULL; the header states the length.
+    let touch_links = unsafe { slice(change.touch_links, count, &name)? };
+    let touch_links: Vec<usize> = touch_links.iter().map(|&link| link as usize).collect();
+    Attachment::new(space, change.link as usize, &touch_links)
+        .map_err(|e| e.within(format_args!("changes[{i}]")).into())
+}
+
+unsafe fn name_from(
+    change: &cstk_environment_change,
+    i: usize,
+) -> Result<Option<Arc<str>>, Failure> {
+    if change.name.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: checked for NULL; the caller states that it is terminated.
+    let name = unsafe { text(change.name, &format!("changes[{i}].name"))? };
+    Ok((!name.is_empty()).then(|| name.into()))
 }
 
 /// Creates a snapshot: an environment that stays as this one is now. It can be used wherever an environment can, but not

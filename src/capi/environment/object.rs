@@ -1,12 +1,13 @@
 //! The objects of an environment.
 
-use std::ffi::c_void;
+use std::ffi::{c_char, c_void};
 
 use crate::capi::at_configuration::answers::CSTK_NONE;
 use crate::capi::boundary::{Failure, guard};
 use crate::capi::environment::environment::cstk_environment;
 use crate::capi::handle;
-use crate::capi::input::{Output, OutputSlice};
+use crate::capi::input::{Output, OutputSlice, text};
+use crate::capi::robot::robot::write_text;
 use crate::capi::status::status::cstk_status;
 use crate::capi::user_data::address;
 use crate::environment::{Environment, SObject, Snapshot};
@@ -81,6 +82,48 @@ pub unsafe extern "C" fn cstk_environment_get_object_info(
             data: address(object.data()),
             reserved: [0; 8],
         });
+        Ok(())
+    })
+}
+
+/// Writes the name of an s-object, empty if it has none: see cstk_robot_get_link_name for the buffer. CSTK_ERROR_NOT_FOUND for an
+/// unknown or deleted id.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_get_object_name(
+    environment: *const cstk_environment,
+    id: u64,
+    buffer: *mut c_char,
+    capacity: usize,
+    length: *mut usize,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::share::<Environment>(environment, "environment")?;
+        let now = environment.snapshot();
+        let name = find(&now, id)?.name.as_deref().unwrap_or_default();
+        write_text(name, buffer, capacity, length)
+    })
+}
+
+/// Writes the id of the s-object with this name; of several the one that was added first. It looks at one object after the other.
+/// CSTK_ERROR_NOT_FOUND if there is none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_environment_find_object(
+    environment: *const cstk_environment,
+    name: *const c_char,
+    out: *mut u64,
+) -> cstk_status {
+    guard(|| {
+        let environment = handle::share::<Environment>(environment, "environment")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let name = unsafe { text(name, "name")? };
+        let now = environment.snapshot();
+        let mut named = now.objects().filter(|o| o.name.as_deref() == Some(name));
+        let object = named.next().ok_or_else(|| {
+            let message = format!("there is no s-object with the name \"{name}\"");
+            Error::new(ErrorKind::NotFound, message)
+        })?;
+        out.write(object.id);
         Ok(())
     })
 }

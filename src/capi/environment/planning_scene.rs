@@ -14,7 +14,7 @@ use crate::capi::input::{
 };
 use crate::capi::status::status::cstk_status;
 use crate::capi::urdf::cstk_mesh_form;
-use crate::environment::{Change, Environment};
+use crate::environment::{Addition, Change, Environment};
 use crate::error::{Error, ErrorKind};
 use crate::planning_scene::{SceneObject, SceneOptions, read_scene_file, read_scene_text};
 use crate::pose::Pose;
@@ -119,15 +119,16 @@ pub unsafe extern "C" fn cstk_environment_load_scene_text(
 
 fn add(environment: &Environment, objects: Vec<SceneObject>) -> Result<Vec<u64>, Failure> {
     let changes = objects.into_iter().map(|object| {
+        let short = object.name.clone();
         let name = CString::new(object.name)
             .map_err(|_| Error::new(ErrorKind::Parse, "an object's name holds a NUL"))?;
         let address = name.as_ptr() as usize;
         let keeper: Arc<dyn Any + Send + Sync> = Arc::new(name);
-        Ok(Change::Add {
-            body: object.body,
-            pose: object.pose,
+        Ok(Change::Add(Addition {
+            name: Some(short.into()),
             data: Some(UserData::new(address, Some(keeper))),
-        })
+            ..Addition::new(object.body, object.pose)
+        }))
     });
     let changes = changes.collect::<Result<Vec<Change>, Error>>()?;
     Ok(environment.apply(&changes)?.0)

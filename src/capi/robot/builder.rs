@@ -72,7 +72,7 @@ pub struct cstk_link_def {
     pub multiplier: f64,
     pub offset: f64,
     /// The range of a revolute or prismatic joint's coordinate, which a space may override; radians or lengths. The default
-    /// is infinite: a revolute joint then turns on a circle. Ignored where the joint shares an earlier joint's coordinate.
+    /// is infinite: a revolute joint then turns on a circle. Finite ones are at most 1e50 in size. Ignored where the joint shares an earlier joint's coordinate.
     pub lower: f64,
     pub upper: f64,
     /// For CSTK_JOINT_CUSTOM, else NULL. It is copied.

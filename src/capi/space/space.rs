@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::capi::boundary::guard;
 use crate::capi::handle;
 use crate::capi::handle::Noun;
-use crate::capi::input::{Output, array, slice};
+use crate::capi::input::{Output, array, slice, text};
 use crate::capi::robot::robot::{cstk_robot, write_text};
 use crate::capi::status::status::cstk_status;
 use crate::error::{Error, ErrorKind};
@@ -189,6 +189,24 @@ pub unsafe extern "C" fn cstk_space_get_link_name(
             .link(link as usize)
             .ok_or_else(|| absent("link", link as usize, space.link_count()))?;
         write_text(&found.name, buffer, capacity, length)
+    })
+}
+
+/// Writes the number of the link with this name. CSTK_ERROR_NOT_FOUND if there is none; CSTK_ERROR_INVALID_ARGUMENT if several robots
+/// of the space have one: see cstk_robot_find_link and cstk_space_get_offset then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cstk_space_find_link(
+    space: *const cstk_space,
+    name: *const c_char,
+    out: *mut u32,
+) -> cstk_status {
+    guard(|| {
+        let space = &*handle::share::<Space>(space, "space")?;
+        let out = Output::checked(out, "out")?;
+        // SAFETY: checked for NULL; the caller states that it is terminated.
+        let name = unsafe { text(name, "name")? };
+        out.write(space.find_link(name)? as u32);
+        Ok(())
     })
 }
 

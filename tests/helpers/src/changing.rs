@@ -84,11 +84,7 @@ pub fn change(
             let body = bodies[random.below(bodies.len())].clone();
             let pose = any_pose(random, &body);
             added.push((changes.len(), body.clone(), pose));
-            changes.push(Change::Add {
-                body,
-                pose,
-                data: None,
-            });
+            changes.push(Change::add(body, pose));
         } else if kind < additions + moves {
             let id = ids[random.below(ids.len())];
             let (body, pose) = &model[&id];

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use cstk::body::Body;
-use cstk::cobject::{CObject, InducedOptions, SObjects};
+use cstk::cobject::{CObject, InducedOptions, LeftOut, SObjects};
 use cstk::environment::{Change, Environment};
 use cstk::error::Result;
 use cstk::pose::{Pose, Vec3, rotation_about};
@@ -68,11 +68,7 @@ pub fn environment(objects: &[(&Arc<Body>, Pose)]) -> (Arc<Environment>, Vec<u64
     let environment = Arc::new(Environment::default());
     let changes: Vec<Change> = objects
         .iter()
-        .map(|(body, pose)| Change::Add {
-            body: (*body).clone(),
-            pose: *pose,
-            data: None,
-        })
+        .map(|(body, pose)| Change::add((*body).clone(), *pose))
         .collect();
     let (ids, _) = environment.apply(&changes).unwrap();
     (environment, ids)
@@ -92,7 +88,7 @@ pub fn against_with(
         space.clone(),
         &[],
         SObjects::All(environment.clone()),
-        &[],
+        LeftOut::default(),
         options,
     )
     .unwrap()
@@ -104,7 +100,7 @@ pub fn against_one(space: &Arc<Space>, environment: &Arc<Environment>, id: u64) 
         space.clone(),
         &[],
         SObjects::Some(environment.clone(), vec![id]),
-        &[],
+        LeftOut::default(),
         InducedOptions::default(),
     )
     .unwrap()
