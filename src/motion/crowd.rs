@@ -11,6 +11,7 @@ use super::piece::Piece;
 use crate::body::Body;
 use crate::boxes::{BoxesByEight, PackedBox};
 use crate::convex::Extension;
+use crate::hierarchy::packed::power_of_two;
 use crate::lanes::each3;
 use crate::pair::{ROUNDING, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned};
@@ -23,6 +24,8 @@ pub(super) struct Crowd {
     boxes: BoxesByEight,
     /// Boxes are given relative to this point of the world: single precision is for nearby places.
     origin: Vec3,
+    /// They are given in units of 1 over this, so that their squares neither underflow nor overflow.
+    inverse: f64,
     /// No point of an object is farther from the origin.
     size: f64,
     /// The largest deviation of an object from its primitives.
@@ -54,16 +57,22 @@ impl Crowd {
             first_pair,
             boxes,
             origin,
+            inverse: 1.0,
             size: 0.0,
             deviation: 0.0,
         };
         for pair in pairs {
             let [_, b] = pair.bodies();
-            let at_rest = memory.at_rest.of(b, pair.pose_of_b());
-            let center = at_rest.center - origin;
+            let center = memory.at_rest.of(b, pair.pose_of_b()).center - origin;
             crowd.size = crowd.size.max(center.norm() + b.radius());
             crowd.deviation = crowd.deviation.max(b.deviation());
-            crowd.boxes.push(&at_rest.root.seen_from(&origin));
+        }
+        crowd.inverse = 1.0 / power_of_two(crowd.size);
+        for pair in pairs {
+            let [_, b] = pair.bodies();
+            let at_rest = memory.at_rest.of(b, pair.pose_of_b());
+            let seen = at_rest.root.seen_from(&origin, crowd.inverse);
+            crowd.boxes.push(&seen);
         }
         crowd
     }
@@ -78,7 +87,7 @@ impl Crowd {
         &self.boxes
     }
 
-    /// The body over a piece; `pair` is any pair of the crowd.
+    /// The body over a piece, in the crowd's units; `pair` is any pair of the crowd.
     pub fn over<P: Piece>(&self, pair: &MovingPair, piece: &mut P) -> CrowdOver<P::Lists> {
         let moved = piece.moved(pair);
         let [a, _] = pair.bodies();
@@ -94,19 +103,22 @@ impl Crowd {
         let error = tolerance::DISTANCE_ERROR * 2.0 * size + a.deviation() + self.deviation;
         let slack = tolerance::BOUND_ERROR * 2.0 * size + 2.0 * error + moved.kinematics_error;
         let lowered = slack * (1.0 + shift / size) + ROUNDING * (size + shift);
-        let [with_a, with_b] = moved.bends.map(|x| (x as f32).next_up() * 1.001);
+        let inverse = self.inverse;
+        let [with_a, with_b] = moved
+            .bends
+            .map(|x| ((x * inverse) as f32).next_up() * 1.001);
         CrowdOver {
-            one: RootBox::new(a, pose).seen_from(&self.origin),
+            one: RootBox::new(a, pose).seen_from(&self.origin, inverse),
             twists: P::Lists::map(&moved.displacements, |by| {
                 let at_origin = by.linear - by.angular.cross(&center);
                 Twist32 {
                     angular: each3(|k| by.angular[k] as f32),
-                    linear: each3(|k| at_origin[k] as f32),
+                    linear: each3(|k| (at_origin[k] * inverse) as f32),
                 }
             }),
             extension: moved.extension,
             bends: [with_b, with_a],
-            cutoff: ((pair.threshold + lowered) as f32).next_up(),
+            cutoff: (((pair.threshold + lowered) * inverse) as f32).next_up(),
         }
     }
 }
@@ -115,7 +127,7 @@ impl Crowd {
 #[derive(Clone, Copy)]
 struct RootBox {
     axes: [[f32; 3]; 3],
-    half: [f32; 3],
+    half: Vec3,
     /// In the world.
     center: Vec3,
 }
@@ -131,18 +143,18 @@ impl RootBox {
                 let axis = turned(&pose.rotation, &vector(&at_home.axes[k]));
                 each3(|i| axis[i] as f32)
             }),
-            half: each3(|k| ((f64::from(at_home.half[k]) * tree.scale()) as f32).next_up()),
+            half: vector(&at_home.half) * tree.scale(),
             center: pose.transform_point(&center),
         }
     }
 
-    /// Relative to an origin.
-    fn seen_from(&self, origin: &Vec3) -> PackedBox {
-        let center = self.center - origin;
+    /// Relative to an origin, in units of 1 over `inverse`.
+    fn seen_from(&self, origin: &Vec3, inverse: f64) -> PackedBox {
+        let center = (self.center - origin) * inverse;
         PackedBox {
             axes: self.axes,
             center: each3(|k| center[k] as f32),
-            half: self.half,
+            half: each3(|k| ((self.half[k] * inverse) as f32).next_up()),
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use cstk::body::Body;
+use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, Class, InducedOptions, PureShape};
 use cstk::error::ErrorKind;
+use cstk::hierarchy::HierarchyOptions;
 use cstk::motion::{ClearanceOptions, ClearanceOutcome, MotionClearance};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, Distance, QueryContext};
@@ -335,4 +336,53 @@ fn bad_input_is_refused() {
         ..good
     };
     assert_eq!(kind(&[0.0], &[1.0], options), ErrorKind::InvalidArgument);
+}
+
+/// A bar of two balls that turns among eight others, as large as a house or smaller than anything: the same work and the same answer.
+#[test]
+fn clearances_know_no_scale() {
+    let mut known = None;
+    for scale in [1.0, 1e30, 1e-20, 1e-30, 1e-38, 1e-44] {
+        let balls = |centers: &[f64]| {
+            let mut builder = BodyBuilder::new(3).unwrap();
+            for x in centers {
+                let center = Vec3::x() * (x * scale);
+                builder.add_sphere(&center, 0.1 * scale, 0).unwrap();
+            }
+            let options = HierarchyOptions::default();
+            Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap())
+        };
+        let mut turned = link(None, JointKind::Revolute, Vec3::z());
+        turned.body = Some(balls(&[1.0, 0.5]));
+        let one = balls(&[0.0]);
+        let around = (0..7).map(|k| {
+            let angle = f64::from(k) + 1.0;
+            Vec3::new(1.9 * angle.cos(), 1.9 * angle.sin(), 0.3) * scale
+        });
+        let places = std::iter::once(Vec3::y() * (1.3 * scale)).chain(around);
+        let placed: Vec<(&Arc<Body>, Pose)> = places
+            .map(|at| (&one, Pose::from_translation(at)))
+            .collect();
+        let (world, _) = environment(&placed);
+        let space = space(vec![robot(3, vec![turned])]);
+        let mut context = QueryContext::new();
+        let options = ClearanceOptions::with_tolerance(1e-6 * scale);
+        let found = context
+            .motion_clearance(&against(&space, &world), &[0.0], &[3.0], &options)
+            .unwrap();
+        assert_eq!(found.outcome, ClearanceOutcome::Known, "{scale}");
+        // The nearest is the one ahead, .3 from the outer ball's centre, less two radii.
+        let bounds = [found.lower / scale, found.upper / scale];
+        assert!(
+            bounds[0] <= 0.1 + 1e-12 && bounds[1] >= 0.1 - 1e-12,
+            "{scale} {bounds:?}"
+        );
+        assert!(bounds[1] - bounds[0] <= 1.01e-6, "{scale} {bounds:?}");
+        let work = context.statistics().node_pairs;
+        let usual = *known.get_or_insert(work);
+        assert!(
+            work <= 2 * usual,
+            "{scale}: {work} node pairs, {usual} at 1"
+        );
+    }
 }

@@ -6,7 +6,7 @@ use cstk::body::{Body, BodyBuilder};
 use cstk::cobject::{CObject, InducedOptions};
 use cstk::error::{ErrorKind, Result};
 use cstk::hierarchy::HierarchyOptions;
-use cstk::motion::SlideOptions;
+use cstk::motion::{MotionOptions, MotionOutcome, SlideOptions};
 use cstk::pose::{Pose, Vec3};
 use cstk::query::{Configuration, DepthOptions, LinkPairOptions, QueryContext, Shell};
 use cstk::robot::JointKind;
@@ -287,4 +287,30 @@ fn queries_of_cobjects() {
             ))
         }),
     );
+}
+
+/// A turn of a million rounds past a far ball: balls alone decide each part of it, and that is work too.
+#[test]
+fn a_motion_of_many_turns_is_ended() {
+    let mut builder = BodyBuilder::new(3).unwrap();
+    builder
+        .add_capsule(&Vec3::zeros(), &Vec3::x(), 0.05, 0)
+        .unwrap();
+    let options = HierarchyOptions::default();
+    let bar = Arc::new(builder.build(&options, &mut |_| Ok(())).unwrap());
+    let mut turned = link(None, JointKind::Revolute, Vec3::z());
+    turned.body = Some(bar.clone());
+    turned.limits = [-1e50, 1e50];
+    let space = space(vec![robot(3, vec![turned])]);
+    let (world, _) = environment(&[(&bar, Pose::from_translation(Vec3::new(0.0, 0.0, 10.0)))]);
+    let set = against_with(&space, &world, InducedOptions::default());
+    let mut query = QueryContext::new();
+    query.set_limit(Some(1000));
+    let options = MotionOptions::default();
+    let found = query.motion(&set, &[0.0], &[6e6], &options).unwrap();
+    assert_eq!(found.outcome, MotionOutcome::Undecided);
+    assert!(query.statistics().node_pairs <= 1100);
+    query.set_limit(None);
+    let found = query.motion(&set, &[0.0], &[600.0], &options).unwrap();
+    assert_eq!(found.outcome, MotionOutcome::Free);
 }
