@@ -41,6 +41,8 @@ pub struct Body {
     pub(super) joints: Arc<OnceLock<Joints>>,
     /// Computed on first use, for solids with the body unless that is refitted. Point clouds need none.
     pieces: OnceLock<Pieces>,
+    /// Computed on first use, of solids.
+    pub(super) convex_whole: OnceLock<Option<Box<Body>>>,
     pub(super) statistics: BodyStatistics,
     data: OnceLock<UserData>,
 }
@@ -97,6 +99,7 @@ impl Body {
             parts: Vec::new(),
             joints: Arc::default(),
             pieces: OnceLock::new(),
+            convex_whole: OnceLock::new(),
             statistics,
             data: OnceLock::new(),
         }

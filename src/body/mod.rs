@@ -10,6 +10,7 @@ mod builder;
 mod closed_surface;
 pub mod cloud_file;
 mod control_points;
+mod convex_whole;
 pub(crate) mod curved_cells;
 mod farthest;
 mod file;

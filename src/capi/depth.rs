@@ -34,7 +34,7 @@ pub struct cstk_depth_options {
     /// mostly end closer than any tolerance.
     pub tolerance: f64,
     /// The search ends after this many steps, with the bounds that it has; 0, the default, for 1000. A step takes some
-    /// microseconds between few primitives, up to some milliseconds between solids of many faces.
+    /// microseconds between few primitives, and a millisecond or some between solids, even of few faces.
     pub max_steps: u64,
     pub reserved: [u64; 2],
 }
@@ -156,7 +156,8 @@ pub unsafe extern "C" fn cstk_depth_options_default(
 
 /// Writes bounds of the depth of body a at pose_a in body b at pose_b, and a translation of body a, in the world, that is proved to
 /// part them. Unions and solids (cstk_body_builder_set_solid) count as a whole: the depth is exact to rounding for unions of
-/// polytopes, and bounded to the tolerance for others, if the steps suffice; `tight` tells. CSTK_ERROR_UNSUPPORTED if the bodies
+/// polytopes and for solids whose boundary is convex and has at most 4096 faces, and bounded to the tolerance for others, if the steps
+/// suffice; `tight` tells. CSTK_ERROR_UNSUPPORTED if the bodies
 /// meet and each has a primitive without an inside, such as a polygon that bounds no solid; the message names them. A surface in
 /// a solid has a depth. `options` may be NULL for the defaults. Poses are 12 doubles, row-major [R | t], the body's frame in the
 /// world.

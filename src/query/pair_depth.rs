@@ -3,6 +3,7 @@
 use super::context::{QueryContext, check_threshold};
 use super::pairs::target;
 use super::target::{Placement, Target};
+use crate::body::Body;
 use crate::depth::{Depth, DepthOptions, DepthSearch, require_exact, require_inside};
 use crate::error::Result;
 use crate::pose::Vec3;
@@ -27,27 +28,33 @@ pub struct PairDepth {
 impl QueryContext {
     /// The depth of two bodies: bounds of the least length of a translation after which they do not meet, and a translation that
     /// parts them. Fails for two bodies that both have primitives without an inside, and for those that state a deviation.
-    pub fn pair_depth(
+    pub fn pair_depth<'a>(
         &mut self,
-        a: Placement,
-        b: Placement,
+        a: Placement<'a>,
+        b: Placement<'a>,
         options: &DepthOptions,
     ) -> Result<PairDepth> {
         check_threshold(options.tolerance, "options->tolerance")?;
-        let target = target(a, b)?;
         self.scratch.meter_mut().start_call();
-        if !self.any_within(std::slice::from_ref(&target), |_| 0.0)? {
+        if !self.any_within(&[target(a, b)?], |_| 0.0)? {
             return Ok(PairDepth {
                 is_tight: true,
                 ..Default::default()
             });
         }
         require_exact(a.0, b.0)?;
+        // Solids that are convex have the depth of polyhedra, which is found at once and exact.
+        let wholes = [a.0, b.0].map(Body::convex_whole);
+        let hull = |(body, pose): Placement<'a>, whole: Option<(&'a Body, f64)>| {
+            (whole.map_or(body, |(whole, _)| whole), pose)
+        };
+        let target = target(hull(a, wholes[0]), hull(b, wholes[1]))?;
+        let excess = wholes.into_iter().flatten().map(|(_, excess)| excess);
         let found = self.depth_of(&target, options)?;
         let pairing = target.pairing();
         Ok(PairDepth {
             meet: true,
-            lower: found.lower,
+            lower: (found.lower - excess.sum::<f64>()).max(0.0),
             upper: found.upper,
             translation: pairing.frame.rotation * found.way,
             is_tight: found.is_tight,

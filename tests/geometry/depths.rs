@@ -452,6 +452,44 @@ fn solid(shape: &Shape) -> Body {
     })
 }
 
+/// A solid whose boundary is convex has the depth of the polyhedron, which penetrations have in closed form.
+#[test]
+fn convex_solids_are_as_deep_as_polyhedra() {
+    let mut random = Random::new(77);
+    let corners = |side: f64| -> Vec<Vec3> {
+        let all = cube_surface(side).parts.into_iter().flatten();
+        all.collect()
+    };
+    let whole = |side: f64| built(|builder| builder.add_polyhedron(&corners(side), 0).unwrap());
+    let solids = [solid(&cube_surface(2.0)), solid(&cube_surface(1.0))];
+    let wholes = [whole(2.0), whole(1.0)];
+    let mut deep = 0;
+    for _ in 0..300 {
+        let poses = [0, 1].map(|_| random.pose(0.8));
+        let (a, b) = ((&wholes[0], &poses[0]), (&wholes[1], &poses[1]));
+        let exact = QueryContext::new().pair_penetration(a, b, 1).unwrap();
+        let exact = exact
+            .penetrations
+            .first()
+            .map_or(0.0, |deepest| deepest.penetration.depth);
+        for bodies in [[&solids[0], &solids[1]], [&wholes[0], &solids[1]]] {
+            let (a, b) = ((bodies[0], &poses[0]), (bodies[1], &poses[1]));
+            let found = depth_to(a, b, 1e-9, 1000);
+            assert!(found.is_tight && found.steps < 200, "{found:?}");
+            assert!(
+                found.lower <= exact + 1e-13 && exact <= found.upper + 1e-12,
+                "{exact} {found:?}"
+            );
+            assert!(found.upper - found.lower < 1e-9, "{exact} {found:?}");
+        }
+        deep += usize::from(exact > 0.0);
+    }
+    assert!(deep > 100);
+    // What is dented, or is two pieces, is none.
+    let dented = solid(&dented_ball(|| random.within(0.8, 1.0)));
+    assert!(dented.convex_whole().is_none() && wholes[0].convex_whole().is_none());
+}
+
 #[test]
 fn solids_have_bounds() {
     let (a, b) = (solid(&cube_surface(2.0)), solid(&cube_surface(1.0)));
