@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,17 @@ inline std::size_t parts_of(Span<double> points, std::size_t count) {
         throw std::invalid_argument("cstk: there is at least one point, and all are of one size");
     }
     return points.size() / count;
+}
+
+/// The text that a call writes to a buffer, given the buffer, its size and where to put the text's length.
+template <typename Call> std::string text_of(Call call) {
+    std::size_t length = 0;
+    check(call(static_cast<char *>(nullptr), std::size_t{0}, &length));
+    /* With room for the terminator, which strings have too. */
+    std::string out(length + 1, '\0');
+    check(call(out.data(), out.size(), static_cast<std::size_t *>(nullptr)));
+    out.resize(length);
+    return out;
 }
 
 /// Configurations one after the other.

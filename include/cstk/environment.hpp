@@ -123,13 +123,9 @@ public:
 
     /// The name of an s-object; empty if it has none.
     [[nodiscard]] std::string object_name(std::uint64_t id) const {
-        std::size_t length = 0;
-        check(cstk_environment_get_object_name(get(), id, nullptr, 0, &length));
-        /* With room for the terminator, which strings have too. */
-        std::string out(length + 1, '\0');
-        check(cstk_environment_get_object_name(get(), id, out.data(), out.size(), nullptr));
-        out.resize(length);
-        return out;
+        return detail::text_of([&](char *buffer, std::size_t capacity, std::size_t *length) {
+            return cstk_environment_get_object_name(get(), id, buffer, capacity, length);
+        });
     }
 
     /// The s-object with this name, of several the first; throws if there is none.

@@ -175,13 +175,9 @@ private:
                                    std::size_t *);
 
     std::string name(NameOf name_of, std::uint32_t link) const {
-        std::size_t length = 0;
-        check(name_of(get(), link, nullptr, 0, &length));
-        /* With room for the terminator, which strings have too. */
-        std::string out(length + 1, '\0');
-        check(name_of(get(), link, out.data(), out.size(), nullptr));
-        out.resize(length);
-        return out;
+        return detail::text_of([&](char *buffer, std::size_t capacity, std::size_t *length) {
+            return name_of(get(), link, buffer, capacity, length);
+        });
     }
 
     /* Of the robot that frozen() was called of. */

@@ -60,12 +60,9 @@ public:
 
     /// The name of a link, numbered through the space.
     [[nodiscard]] std::string link_name(std::uint32_t link) const {
-        std::size_t length = 0;
-        check(cstk_space_get_link_name(get(), link, nullptr, 0, &length));
-        std::string out(length + 1, '\0');
-        check(cstk_space_get_link_name(get(), link, out.data(), out.size(), nullptr));
-        out.resize(length);
-        return out;
+        return detail::text_of([&](char *buffer, std::size_t capacity, std::size_t *length) {
+            return cstk_space_get_link_name(get(), link, buffer, capacity, length);
+        });
     }
 
     /// The link with this name; throws if there is none, or several robots have one.

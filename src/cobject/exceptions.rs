@@ -3,7 +3,7 @@
 use super::induced::require_link;
 use crate::environment::SObject;
 use crate::error::Result;
-use crate::robot::JointKind;
+use crate::robot::{JointKind, Link};
 use crate::space::Space;
 
 /// A body pair that may meet, so that the set leaves it out.
@@ -47,8 +47,7 @@ impl Exceptions {
         if left_out.unmoved {
             // Parents come before their children.
             for number in 0..space.link_count() {
-                let moves =
-                    |link: &crate::robot::Link| !matches!(link.joint.kind, JointKind::Fixed);
+                let moves = |link: &Link| !matches!(link.joint.kind, JointKind::Fixed);
                 let parent = space.parent(number);
                 moved.push(
                     space.link(number).is_some_and(moves) || parent.is_some_and(|p| moved[p]),

@@ -32,6 +32,9 @@ pub(super) struct Crowd {
     deviation: f64,
 }
 
+/// In units of the first object the others are no larger than this, or they are put in anew. Squares are far from overflow here.
+const MAX_SIZE: f64 = 1e6;
+
 /// The body over a piece.
 pub(super) struct CrowdOver<L: TwistLists> {
     pub one: PackedBox,
@@ -61,20 +64,27 @@ impl Crowd {
             size: 0.0,
             deviation: 0.0,
         };
-        for pair in pairs {
-            let [_, b] = pair.bodies();
-            let center = memory.at_rest.of(b, pair.pose_of_b()).center - origin;
-            crowd.size = crowd.size.max(center.norm() + b.radius());
-            crowd.deviation = crowd.deviation.max(b.deviation());
-        }
-        crowd.inverse = 1.0 / power_of_two(crowd.size);
-        for pair in pairs {
-            let [_, b] = pair.bodies();
-            let at_rest = memory.at_rest.of(b, pair.pose_of_b());
-            let seen = at_rest.root.seen_from(&origin, crowd.inverse);
-            crowd.boxes.push(&seen);
+        crowd.fill(&pairs[..pairs.len().min(1)], &mut memory.at_rest, 1.0);
+        crowd.fill(pairs, &mut memory.at_rest, crowd.size);
+        if crowd.size * crowd.inverse > MAX_SIZE {
+            crowd.fill(pairs, &mut memory.at_rest, crowd.size);
         }
         crowd
+    }
+
+    /// Puts the boxes in, in units of about `unit`.
+    fn fill(&mut self, pairs: &[MovingPair], at_rest: &mut BodiesAtRest, unit: f64) {
+        self.boxes.clear();
+        self.inverse = 1.0 / power_of_two(unit);
+        for pair in pairs {
+            let [_, b] = pair.bodies();
+            let at_rest = at_rest.of(b, pair.pose_of_b());
+            let center = at_rest.center - self.origin;
+            self.size = self.size.max(center.norm() + b.radius());
+            self.deviation = self.deviation.max(b.deviation());
+            let seen = at_rest.root.seen_from(&self.origin, self.inverse);
+            self.boxes.push(&seen);
+        }
     }
 
     /// The memory of the boxes, for another crowd.

@@ -23,6 +23,7 @@ mod object_pairs;
 mod pair_depth;
 mod pair_penetration;
 mod pairs;
+mod part_search;
 mod pseudo_normal;
 mod pure_answer;
 mod recall;

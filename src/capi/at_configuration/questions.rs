@@ -256,8 +256,8 @@ pub unsafe extern "C" fn cstk_distance_with_gradient(
             }
             let gradient = OutputSlice::checked(gradient, nv, "gradient")?;
             let row = &mut state.row;
-            let found = &mut state.context;
-            let found = found.distance_with_gradient(cobject, q, max_distance, row)?;
+            let context = &mut state.context;
+            let found = context.distance_with_gradient(cobject, q, max_distance, row)?;
             row.resize(nv, 0.0);
             gradient.write(row);
             Ok((&found).into())
