@@ -25,17 +25,18 @@ impl ObjectTree {
             return;
         }
         let NearScratch { open, boxes, near } = scratch;
-        let mut batch = emptied(std::mem::take(near));
+        let mut all = emptied(std::mem::take(near));
+        // Gathered outside of the code for the widest instructions, into which iterators are not compiled.
+        all.extend(bodies);
         with_widest(Visit {
             objects: self,
-            bodies,
+            bodies: &all,
             limit,
             open,
             boxes,
-            batch: &mut batch,
             visit,
         });
-        *near = emptied(batch);
+        *near = emptied(all);
     }
 }
 
@@ -73,44 +74,30 @@ pub struct Named<'b> {
 /// Number of bodies that traverse the tree together, one per bit of a mask.
 const BATCH: usize = u64::BITS as usize;
 
-struct Visit<'a, 'b, B, V> {
+struct Visit<'a, 'b, V> {
     objects: &'a ObjectTree,
-    bodies: B,
+    bodies: &'a [Named<'b>],
     limit: f64,
     open: &'a mut Vec<QueueEntry>,
     boxes: &'a mut Vec<PackedBox>,
-    /// The bodies that traverse the tree together.
-    batch: &'a mut Vec<Named<'b>>,
     visit: V,
 }
 
-impl<'b, B, V> Work for Visit<'_, 'b, B, V>
+impl<'b, V> Work for Visit<'_, 'b, V>
 where
-    B: Iterator<Item = Named<'b>>,
     V: FnMut(&Named<'b>, usize, f64) -> f64,
 {
     type Output = ();
 
     #[inline(always)]
     fn run<I: Instructions>(mut self, lanes: I) {
-        let mut bodies = std::mem::take(self.batch);
-        loop {
-            while bodies.len() < BATCH
-                && let Some(named) = self.bodies.next()
-            {
-                bodies.push(named);
-            }
-            if bodies.is_empty() {
-                break;
-            }
-            self.descend(lanes, &bodies);
-            bodies.clear();
+        for batch in self.bodies.chunks(BATCH) {
+            self.descend(lanes, batch);
         }
-        *self.batch = bodies;
     }
 }
 
-impl<'b, B, V> Visit<'_, 'b, B, V>
+impl<'b, V> Visit<'_, 'b, V>
 where
     V: FnMut(&Named<'b>, usize, f64) -> f64,
 {

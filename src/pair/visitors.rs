@@ -59,6 +59,11 @@ impl NearestPrimitives {
         self.best.as_ref()?.outranks_from(self.body_pair)
     }
 
+    /// Whether no primitive pair of the current body pair is better than the best, however near it is.
+    pub fn is_outranked(&self) -> bool {
+        self.irrelevant_from() == Some([0, 0])
+    }
+
     /// Once something meets, distances up to 0 need not be more accurate.
     fn enough(&self) -> f64 {
         match self.limit == 0.0 && self.margin == 0.0 {

@@ -163,25 +163,17 @@ impl<'a> Scene<'a> {
         let is_clear = |links: [usize; 2]| {
             clear.is_some_and(|(pairs, q)| pairs.of(links).is_some_and(|cells| cells.contain(q)))
         };
-        if !candidates.wants_nearest() && cutoff < f64::INFINITY {
-            candidates.count(term.pairs.len());
-            boxes.visit_near(term.rows, bounds, cutoff, |[r, s], lower| {
-                if let (Some(a), Some(b)) = (self.link(r), self.link(s))
-                    && !is_clear([r, s])
-                {
-                    candidates.offer_bounded(options, lower, || target([r, s], [a, b]));
-                }
-            });
-            return;
-        }
-        for &[r, s] in term.pairs {
-            if let (Some(a), Some(b)) = (self.link(r), self.link(s)) {
-                let bounds = [&bounds[r], &bounds[s]];
-                candidates.offer(options, bounds, f64::NEG_INFINITY, || {
-                    target([r, s], [a, b])
-                });
+        candidates.count(term.pairs.len());
+        let last_link = candidates.last_link();
+        boxes.visit_near(term.rows, bounds, cutoff, |[r, s], bounds| {
+            if r <= last_link
+                && let (Some(a), Some(b)) = (self.link(r), self.link(s))
+                && !is_clear([r, s])
+            {
+                return candidates.offer_bounded(options, bounds, || target([r, s], [a, b]));
             }
-        }
+            candidates.cutoff(options)
+        });
     }
 
     /// Two links with their bodies.

@@ -2,6 +2,10 @@
 
 use super::answer::SSide;
 
+/// What body pairs are ordered by: the r-link, the attached object that is the r-side (or 0), and the s-side. All 0 for two bodies
+/// without a robot.
+pub(crate) type PairIds = (usize, u64, SSide);
+
 /// Identifies a body pair across queries: two parties of a space, or two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum CacheKey {
@@ -15,4 +19,20 @@ pub(crate) enum CacheKey {
         /// The serial of the s-side's body: an id keeps its body for good, but a key must not outlive what it names.
         body: u64,
     },
+}
+
+impl CacheKey {
+    /// The ids of the pair.
+    #[inline(always)]
+    pub fn ids(&self) -> PairIds {
+        match *self {
+            Self::Candidate {
+                r_link,
+                r_object,
+                s_side,
+                ..
+            } => (r_link, r_object, s_side),
+            Self::Bodies(..) => (0, 0, SSide::Object(0)),
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Candidates: the body pairs that the broad phase lets through.
 
+use super::cache_key::PairIds;
 use super::link_boxes::LinkBoxes;
 use super::target::Target;
 use crate::cobject::InducedOptions;
@@ -21,6 +22,8 @@ pub struct CandidateFilter {
     pub is_proved: bool,
     /// The pairs may come in any order, without ranks; only where none is in two terms.
     pub any_order: bool,
+    /// Only pairs that come no later in order of ids, in that order: this one meets, and the first that does is asked for.
+    pub last: Option<PairIds>,
 }
 
 impl CandidateFilter {
@@ -31,6 +34,7 @@ impl CandidateFilter {
             nearest: None,
             is_proved: false,
             any_order: false,
+            last: None,
         }
     }
 }
@@ -85,21 +89,19 @@ impl<'s, 'm> Candidates<'s, 'm> {
     ) -> f64 {
         self.meter.count_nodes(1);
         let [lower, upper] = bounds[0].distance(bounds[1]);
-        let bound = lower.max(at_least) - options.margin;
-        self.nearest = self.nearest.min(upper - options.margin);
-        self.take(options, bound, target)
+        self.offer_bounded(options, [lower.max(at_least), upper], target)
     }
 
-    /// Adds a pair with a lower bound of its distance unless that is beyond the cutoff. Only where no pair is asked for as the
-    /// nearest.
+    /// The same for a pair with a lower and an upper bound of its distance.
     #[inline(always)]
     pub fn offer_bounded(
         &mut self,
         options: &InducedOptions,
-        lower: f64,
+        [lower, upper]: [f64; 2],
         target: impl FnOnce() -> Target<'s>,
-    ) {
-        self.take(options, lower - options.margin, target);
+    ) -> f64 {
+        self.nearest = self.nearest.min(upper - options.margin);
+        self.take(options, lower - options.margin, target)
     }
 
     /// Returns the cutoff for further pairs with the same options.
@@ -113,21 +115,23 @@ impl<'s, 'm> Candidates<'s, 'm> {
         let limit = self.limit(options);
         if bound <= limit {
             let target = target();
-            if !(self.filter.is_proved && target.stated_deviation() > 0.0) {
+            let is_behind = self.filter.last.is_some_and(|last| target.ids() > last);
+            let is_doubtful = self.filter.is_proved && target.stated_deviation() > 0.0;
+            if !is_behind && !is_doubtful {
                 self.targets.push(Target { bound, ..target });
             }
         }
         limit + options.margin
     }
 
-    /// Whether pairs are asked for as the nearest, which takes upper bounds too.
-    pub fn wants_nearest(&self) -> bool {
-        self.filter.nearest.is_some()
+    /// Only pairs whose r-link has at most this number are wanted.
+    pub fn last_link(&self) -> usize {
+        self.filter.last.map_or(usize::MAX, |(link, ..)| link)
     }
 
     /// Whether only pairs count that are in contact, by the options of their set: what is proved farther apart need not be offered.
     pub fn wants_contacts_alone(&self, options: &InducedOptions) -> bool {
-        !self.wants_nearest() && self.limit(options) <= options.contact_epsilon
+        self.filter.nearest.is_none() && self.limit(options) <= options.contact_epsilon
     }
 
     /// Counts tests of bounds.
@@ -158,7 +162,8 @@ impl<'s, 'm> Candidates<'s, 'm> {
         self.limit(options) + options.margin
     }
 
-    /// The pairs still within the cutoff, without duplicates, ranked by ids and sorted by bound.
+    /// The pairs still within the cutoff, without duplicates, ranked by ids and sorted by bound, or by ids (see
+    /// [`CandidateFilter::last`]).
     pub fn finish(mut self) -> Result<Vec<Target<'s>>> {
         self.meter.check()?;
         let mut targets = std::mem::take(&mut self.targets);
@@ -173,7 +178,9 @@ impl<'s, 'm> Candidates<'s, 'm> {
         for (target, rank) in targets.iter_mut().zip(0..) {
             target.rank = rank;
         }
-        targets.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
+        if self.filter.last.is_none() {
+            targets.sort_unstable_by(|a, b| a.bound.total_cmp(&b.bound).then(a.rank.cmp(&b.rank)));
+        }
         Ok(targets)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::answer::Distance;
 use super::body_pairs::CheckedGroup;
+use super::cache_key::PairIds;
 use super::candidates::CandidateFilter;
 use super::combination::{Composition, Memo, composition, emptied};
 use super::context::{QueryContext, check_threshold};
@@ -22,6 +23,14 @@ pub(crate) struct NearestHit<'t, 'a> {
     pub lower: f64,
     /// The measurement of the hit, if the search kept it.
     pub measured: Option<PrimitiveDistance>,
+}
+
+/// What the primitive pair found last says of the distance of a group.
+struct RecentDistance {
+    /// An upper bound.
+    at_most: f64,
+    /// The pair's ids, if it meets: none that comes later in their order is asked for.
+    meets: Option<PairIds>,
 }
 
 impl QueryContext {
@@ -129,13 +138,18 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         let checked = scene.checked(group)?;
-        let nearest = self.recent_distance(scene, checked, max_distance)?;
+        let recent = self.recent_distance(scene, checked, max_distance)?;
         let filter = CandidateFilter {
-            nearest: Some(nearest),
+            nearest: Some(recent.at_most),
+            last: recent.meets,
             ..CandidateFilter::within(0.0)
         };
         let candidates = self.candidates(scene, checked, filter)?;
-        let mut distance = self.distance_among(group, scene, &candidates, max_distance)?;
+        let limit = match recent.meets {
+            Some(_) => 0.0,
+            None => max_distance,
+        };
+        let mut distance = self.distance_among(group, scene, &candidates, limit)?;
         self.keep_memory(candidates);
         if self.gap.is_some() && distance.excess > 0.0 {
             // What is nearest once surfaces are refined need not be so before: all pairs that may be.
@@ -178,21 +192,25 @@ impl QueryContext {
         Ok(Distance::of_place(!meets))
     }
 
-    /// An upper bound of the distance: that of the primitive pair found last, at most `limit`.
-    pub(super) fn recent_distance(
+    /// What the primitive pair found last says of the distance, up to `limit`.
+    fn recent_distance(
         &mut self,
         scene: &Scene,
         group: CheckedGroup,
         limit: f64,
-    ) -> Result<f64> {
-        let mut least = limit;
+    ) -> Result<RecentDistance> {
+        let ids = self.recent.map(|key| key.ids());
+        let (mut at_most, mut meets) = (limit, None);
         self.visit_recent(scene, group, |pairing, places, margin, scratch| {
-            let mut visitor = NearestPrimitives::up_to(least);
+            let mut visitor = NearestPrimitives::up_to(at_most);
             visitor.margin = margin;
             let _ = visit_pair(pairing, places, scratch, &mut visitor);
-            least = visitor.limit();
+            at_most = visitor.limit();
+            if visitor.best.is_some_and(|hit| hit.distance == 0.0) {
+                meets = ids;
+            }
         })?;
-        Ok(least)
+        Ok(RecentDistance { at_most, meets })
     }
 
     /// The nearest primitive pair, or piece of a body inside another, over all targets, if within `limit`. Targets must be
@@ -210,6 +228,9 @@ impl QueryContext {
             if target.bound > visitor.limit() {
                 break;
             }
+            if visitor.is_outranked() {
+                continue;
+            }
             self.count_body_pair()?;
             if let Some(places) = self.remembered(&target.key) {
                 let _ = visit_pair(&target.pairing(), places, &mut self.scratch, &mut visitor);
@@ -218,12 +239,12 @@ impl QueryContext {
         for target in targets {
             visitor.margin = target.margin();
             visitor.body_pair = target.rank;
-            if target.bound > visitor.limit() {
+            if target.bound > visitor.limit() || visitor.is_outranked() {
                 continue;
             }
             self.count_body_pair()?;
             if let Some(pairing) = target.pairing_within(visitor.limit()) {
-                if pairing.has_solid() && visitor.irrelevant_from() != Some([0, 0]) {
+                if pairing.has_solid() {
                     let contained = pairing.contained(target.rank, &mut self.scratch);
                     contained
                         .iter()

@@ -47,7 +47,7 @@ impl Scene<'_> {
             number: 0,
             snapshot,
         };
-        for (number, body, pose) in self.r_sides(links, environment.serial()) {
+        for (number, body, pose) in self.r_sides(links, usize::MAX, environment.serial()) {
             let r = self.r_side(number);
             let chosen = snapshot.objects().filter(|o| objects.contains(o.id));
             for object in chosen.filter(|object| term.admits(r, object)) {

@@ -14,14 +14,14 @@ pub(crate) struct LinkBoxes {
 }
 
 impl LinkBoxes {
-    /// Visits the pairs whose boxes may be within `limit` of each other, with safe lower bounds of the distances. `bounds` are those
-    /// of all links of the space.
+    /// Visits the pairs whose boxes may be within `limit` of each other, with a safe lower and a safe upper bound of the distance.
+    /// `visit` returns the limit from then on. `bounds` are those of all links of the space.
     pub fn visit_near(
         &mut self,
         rows: &LinkRows,
         bounds: &[Bounds],
         limit: f64,
-        visit: impl FnMut([usize; 2], f64),
+        visit: impl FnMut([usize; 2], [f64; 2]) -> f64,
     ) {
         with_widest(VisitNear {
             boxes: self,
@@ -41,7 +41,7 @@ struct VisitNear<'a, V> {
     visit: V,
 }
 
-impl<V: FnMut([usize; 2], f64)> Work for VisitNear<'_, V> {
+impl<V: FnMut([usize; 2], [f64; 2]) -> f64> Work for VisitNear<'_, V> {
     type Output = ();
 
     #[inline(always)]
@@ -51,7 +51,7 @@ impl<V: FnMut([usize; 2], f64)> Work for VisitNear<'_, V> {
             return;
         };
         let frame = self.pack(links, &self.bounds[first]);
-        let cutoff = frame.cutoff(self.limit);
+        let mut cutoff = frame.cutoff(self.limit);
         let LinkBoxes { one, eights } = self.boxes;
         for row in rows {
             let eight = eights.load(lanes, row.eight);
@@ -67,12 +67,13 @@ impl<V: FnMut([usize; 2], f64)> Work for VisitNear<'_, V> {
                 near &= near - 1;
                 let s = links[(8 * row.eight + lane) as usize];
                 // Where a link is far from the others, its box is placed less exactly than its ball.
-                let lower = self.bounds[r].distance(&self.bounds[s])[0];
+                let [lower, upper] = self.bounds[r].distance(&self.bounds[s]);
                 let lower = lower.max(frame.lower(found[lane as usize]));
                 if lower <= self.limit {
-                    (self.visit)([r, s], lower);
+                    self.limit = (self.visit)([r, s], [lower, upper]);
                 }
             }
+            cutoff = frame.cutoff(self.limit);
         }
     }
 }

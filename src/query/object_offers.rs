@@ -154,7 +154,7 @@ impl<'a> Scene<'a> {
     ) {
         let environment = term.objects.environment().serial();
         let bounds = self.bounds();
-        let bodies = self.r_sides(term.links, environment);
+        let bodies = self.r_sides(term.links, candidates.last_link(), environment);
         let bodies = bodies.map(|(number, body, pose)| Named {
             number,
             body,
@@ -199,21 +199,25 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The bodies of links and the s-objects attached to them, which are numbered after all links.
+    /// The bodies of links and the s-objects attached to them, which are numbered after all links; none of links behind the last.
     pub(super) fn r_sides(
         &self,
         links: &[usize],
+        last_link: usize,
         environment: u64,
     ) -> impl Iterator<Item = (usize, &Body, &Pose)> + Clone {
-        let with_body = |&link: &usize| {
-            let (body, pose) = self.link(link)?;
+        let is_asked = move |link: usize| link <= last_link;
+        let with_body = move |&link: &usize| {
+            let (body, pose) = self.link(link).filter(|_| is_asked(link))?;
             Some((link, body, pose))
         };
         let of_links = links.iter().filter_map(with_body);
         let first_held = self.space().link_count();
         let of_held = self
             .held_of(environment)
-            .filter(|(_, held)| links.contains(&held.attachment.link))
+            .filter(move |(_, held)| {
+                is_asked(held.attachment.link) && links.contains(&held.attachment.link)
+            })
             .map(move |(i, held)| (first_held + i, &*held.object.body, &held.pose));
         of_links.chain(of_held)
     }

@@ -1,7 +1,7 @@
 //! A body pair as the target of a search.
 
 use super::answer::SSide;
-use super::cache_key::CacheKey;
+use super::cache_key::{CacheKey, PairIds};
 use crate::body::Body;
 use crate::cobject::InducedOptions;
 use crate::pair::Pairing;
@@ -72,18 +72,9 @@ impl<'a> Parties<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// The r-link, the attached object that is the r-side (or 0), and the s-side. All 0 for two bodies without a robot.
     #[inline(always)]
-    pub fn ids(&self) -> (usize, u64, SSide) {
-        match self.key {
-            CacheKey::Candidate {
-                r_link,
-                r_object,
-                s_side,
-                ..
-            } => (r_link, r_object, s_side),
-            CacheKey::Bodies(..) => (0, 0, SSide::Object(0)),
-        }
+    pub fn ids(&self) -> PairIds {
+        self.key.ids()
     }
 
     /// The link that moves the r-side, and the one that moves the s-side, if one does.

@@ -9,6 +9,7 @@ mod environment_threads;
 mod environment_tree;
 mod environment_updates;
 mod explained_doubt;
+mod first_meeting;
 mod floors;
 mod gradient_cases;
 mod gradients;
