@@ -8,8 +8,8 @@ use crate::body::{Body, BodyBuilder};
 use crate::convex::Precision;
 use crate::hierarchy::HierarchyOptions;
 use crate::pair::{
-    NearestPrimitives, Pairing, PrimitivePair, RayScratch, Scratch, Visitor, Wanted, meets,
-    traverse, winding,
+    NearestPrimitives, Pairing, PrimitivePair, PrimitiveScratch, RayScratch, Scratch, Visitor,
+    Wanted, meets, traverse, winding,
 };
 use crate::pose::{Pose, Vec3};
 use crate::work_meter::WorkMeter;
@@ -36,10 +36,10 @@ fn point_body() -> &'static Body {
     })
 }
 
-/// The primitives that hold a point.
+/// The primitives of a body that hold a point, by their places in its tree.
 #[derive(Default)]
 struct Around {
-    primitives: Vec<u32>,
+    places: Vec<u32>,
 }
 
 /// Of more primitives around a point, the others are left out: their balls are not needed for a valid bound.
@@ -52,9 +52,9 @@ impl Visitor for Around {
 
     fn visit(&mut self, pair: &PrimitivePair, _: &mut WorkMeter) -> ControlFlow<()> {
         if meets(pair) {
-            self.primitives.push(pair.primitives[0]);
+            self.places.push(pair.places[0]);
         }
-        match self.primitives.len() >= MAX_AROUND {
+        match self.places.len() >= MAX_AROUND {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -69,8 +69,10 @@ pub fn signed_radius(
     scratch: &mut Scratch,
     rays: &mut RayScratch,
 ) -> f64 {
-    let here = Pose::from_translation(*body.center());
-    let there = Pose::from_translation(body.center() + point);
+    let (here, there) = (
+        Pose::identity(),
+        Pose::from_translation(body.center() + point),
+    );
     let pairing = Pairing::new(body, &here, point_body(), &there);
     let error = pairing.precision.error;
     let mut nearest = NearestPrimitives::up_to(f64::INFINITY);
@@ -80,11 +82,12 @@ pub fn signed_radius(
     if distance == 0.0 {
         let mut around = Around::default();
         let _ = traverse(&pairing, None, scratch, &mut around);
-        let radii = around
-            .primitives
-            .iter()
-            .map(|&i| radius_in_primitive(body, i, point));
-        return radii.fold(0.0, f64::max) - 2.0 * error;
+        let mut deepest: f64 = 0.0;
+        for place in around.places {
+            let scratch = scratch.for_primitives();
+            deepest = deepest.max(radius_in_primitive(&pairing, place, point, scratch));
+        }
+        return deepest - 2.0 * error;
     }
     let is_inside = body.solid().is_some() && winding(body, point, rays).number != 0;
     match is_inside {
@@ -93,24 +96,35 @@ pub fn signed_radius(
     }
 }
 
-/// The radius of a ball around a point of a primitive that belongs to the primitive.
-fn radius_in_primitive(body: &Body, primitive: u32, point: &Vec3) -> f64 {
-    let primitive = body.primitives().get(primitive as usize);
+/// The radius of a ball around a point of a primitive, at a place in A's tree, that belongs to the primitive; B is the point.
+fn radius_in_primitive(
+    pairing: &Pairing,
+    place: u32,
+    point: &Vec3,
+    scratch: &mut PrimitiveScratch,
+) -> f64 {
+    let number = pairing
+        .a
+        .packed()
+        .primitives()
+        .entry(place as usize)
+        .primitive;
+    let primitive = pairing.a.primitives().get(number as usize);
     let shape = primitive.shape;
-    let heights = shape.faces.iter().map(|face| {
-        let corner = primitive.vertices[face.vertices[0] as usize];
-        face.normal.dot(&(corner - point))
-    });
-    let in_core = if shape.is_solid() {
-        heights.fold(f64::INFINITY, f64::min)
-    } else {
-        // How far the point is from the core is not known here, except for balls.
-        match (primitive.vertices, shape.smooth()) {
-            ([middle], None) => -(point - middle).norm(),
-            _ => f64::NEG_INFINITY,
+    if shape.is_solid() {
+        let heights = shape.faces.iter().map(|face| {
+            let corner = primitive.vertices[face.vertices[0] as usize];
+            face.normal.dot(&(corner - point))
+        });
+        let in_core = heights.fold(f64::INFINITY, f64::min);
+        if in_core >= 0.0 {
+            return in_core + shape.radius();
         }
-    };
-    (in_core + shape.radius()).max(0.0)
+    }
+    // Beyond a face the core may be farther than the face's plane: its edges and corners are.
+    let found = pairing.closest_at([place, 0], scratch);
+    let from_core = found.map_or(f64::INFINITY, |found| found.cores.distance);
+    (shape.radius() - from_core).max(0.0)
 }
 
 /// Grows a ball in A and one in B around a common point, for the position of B that `pairing` gives, so that the sum of the radii

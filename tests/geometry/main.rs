@@ -4,6 +4,7 @@ mod box_pairs;
 mod contacts;
 mod deep_overlaps;
 mod depths;
+mod depths_in_cavities;
 mod given_pairs;
 mod kernel;
 mod laws;
