@@ -10,7 +10,7 @@ use super::piece::Piece;
 use super::set_tree::SetVerdict;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
-use crate::pair::{GapsWanted, Scratch, SweptLeaves, swept_gaps};
+use crate::pair::{BoxSweep, GapsWanted, Scratch, SweptLeaves, swept_gaps};
 
 /// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the piece, others
 /// are opened. Larger values open boxes that a smaller piece would part; smaller ones look at the same boxes again. On the arms of
@@ -333,9 +333,11 @@ impl<P: Piece> Look<'_, '_, P> {
             lanes,
             &eight,
             &over.one,
-            over.twists.as_ref(),
-            over.extension,
-            over.bends,
+            BoxSweep {
+                twists: over.twists.as_ref(),
+                extension: over.extension,
+                bends: over.bends,
+            },
             GapsWanted {
                 cutoff: over.cutoff,
                 among: u32::from(bundle.lanes),
@@ -451,14 +453,15 @@ impl<P: Piece> Look<'_, '_, P> {
         let unit = over.motions[1 - opened].factor;
         let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
         let eight = node.boxes(lanes, unit);
-        let bends = [over.bends[opened], over.bends[1 - opened]];
         let gaps = swept_gaps(
             lanes,
             &eight,
             &one,
-            over.twists[opened].as_ref(),
-            over.extension,
-            bends,
+            BoxSweep {
+                twists: over.twists[opened].as_ref(),
+                extension: over.extension,
+                bends: [over.bends[opened], over.bends[1 - opened]],
+            },
             GapsWanted {
                 cutoff: over.cutoff,
                 among: u32::from(group.lanes),

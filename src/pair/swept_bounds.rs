@@ -9,6 +9,10 @@
 //! m = n x w and c the centre of each. A small box beside a long one that turns keeps a small term so, and a translation is
 //! exact.
 //!
+//! The axes of two small boxes that lie diagonally to each other part them by as little as their distance over the root of 3, which a
+//! threshold below the distance may exceed however small the boxes are. There the line between the centres is an axis too, at rest
+//! with the eight: the extents along it are those of both boxes, as for the directions of [`super::box_bounds`].
+//!
 //! Where boxes are compared at an end of the interval, they move one way ([`Extension::OneWay`]): with n from the eight to the one,
 //! n . u is taken for -|n . u|, and what is then left of the other terms when the boxes part takes nothing off. All of these
 //! terms are linear in time but for the bend, which grows with its square: the least gap is at one of the ends.
@@ -22,7 +26,9 @@
 //! of two such vectors within 60 u M, the sum of four such terms (sides add up to 3 S, which M has) within 240 u M. Together
 //! with the gap's 160 u S less than [`super::ROUNDING`] (S + M) is lost. With N twists M bounds the sum over them, and the errors of
 //! the products add up as before; but each of the 4 N sums is rounded too, by at most u times the largest, 4 M: 16 N u M more, of
-//! which the first twist's are counted above. That is what [`sum_factor`] adds to M.
+//! which the first twist's are counted above. That is what [`sum_factor`] adds to M. The line between the centres is the computed
+//! one, divided by its length: what its products with the axes lose by that is 6 u of 1, so that the two extents lose 36 u S, and the
+//! centres' distance 16 u S as before.
 
 use super::box_bounds::{AXIS_FACTOR, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
@@ -35,6 +41,16 @@ pub struct Twist32 {
     pub angular: [f32; 3],
     /// Of what is at the origin of the frame.
     pub linear: [f32; 3],
+}
+
+/// How one box moves against eight others, from where they are compared.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxSweep<'a> {
+    /// Those of the one, or the opposite of those of the eight.
+    pub twists: &'a [Twist32],
+    pub extension: Extension,
+    /// What the acceleration may take off: along axes that rest with the eight, and with the one.
+    pub bends: [f32; 2],
 }
 
 /// The largest gaps of eight boxes from one.
@@ -59,115 +75,178 @@ pub struct GapsWanted {
     pub among: u32,
 }
 
-/// The largest gap along the axes of the eight and of the one, which has the twists, or of which the eight have the opposite. `bends`
-/// are what the acceleration may take off: along axes that rest with the eight, and with the one. Where the axes of the eight part all
-/// boxes by more than the cutoff, those of the one are not tried.
+/// The largest gap along the axes of the eight and of the one, and along the lines between their centres. Further axes are tried as
+/// long as those before do not part all boxes by more than the cutoff.
 #[inline(always)]
 pub fn swept_gaps<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,
-    twists: &[Twist32],
-    extension: Extension,
-    bends: [f32; 2],
+    sweep: BoxSweep,
     wanted: GapsWanted,
 ) -> SweptGaps<I> {
-    let [x, y, z] = splat(lanes, &one.center);
-    let center = &eight.center;
-    let apart = [
-        lanes.sub(x, center[0]),
-        lanes.sub(y, center[1]),
-        lanes.sub(z, center[2]),
-    ];
-    let half = splat(lanes, &one.half);
-    let axes = &eight.axes;
-    let [first, second, third] = &one.axes;
-    let products: [Triple<I>; 3] = [
-        [
-            lanes.along(&axes[0], first),
-            lanes.along(&axes[0], second),
-            lanes.along(&axes[0], third),
-        ],
-        [
-            lanes.along(&axes[1], first),
-            lanes.along(&axes[1], second),
-            lanes.along(&axes[1], third),
-        ],
-        [
-            lanes.along(&axes[2], first),
-            lanes.along(&axes[2], second),
-            lanes.along(&axes[2], third),
-        ],
-    ];
+    let boxes = SweptBoxes::new(lanes, eight, one, sweep);
     let mut gaps = SweptGaps {
         still: lanes.splat(f32::NEG_INFINITY),
         swept: lanes.splat(f32::NEG_INFINITY),
     };
-    let places_of_eight = [
-        lanes.dot(&axes[0], &apart),
-        lanes.dot(&axes[1], &apart),
-        lanes.dot(&axes[2], &apart),
-    ];
-    let mut of_one = [lanes.splat(bends[0]); 3];
-    for twist in twists {
-        let turn = cross3(&twist.angular, &one.center);
-        let velocity = each3(|k| twist.linear[k] + turn[k]);
-        let sides = each3(|j| {
-            let turned = cross3(&twist.angular, &one.axes[j]);
-            each3(|k| turned[k] * one.half[j])
-        });
-        for k in 0..3 {
-            let shift = lanes.along(&axes[k], &velocity);
-            let nearer = nearer(lanes, shift, places_of_eight[k], extension);
-            of_one[k] = lanes.add(nearer, of_one[k]);
-            for side in &sides {
-                of_one[k] = lanes.add(of_one[k], lanes.abs(lanes.along(&axes[k], side)));
-            }
-        }
-    }
-    for k in 0..3 {
-        let gap = lanes.sub(
-            lanes.abs(places_of_eight[k]),
-            extent_along(lanes, &products[k], &half, eight.half[k]),
-        );
-        gaps.offer(lanes, gap, of_one[k], extension);
-    }
     let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
-    if lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0 {
-        let places_of_one = [
-            lanes.along(&apart, first),
-            lanes.along(&apart, second),
-            lanes.along(&apart, third),
+    let is_open =
+        |gaps: &SweptGaps<I>| lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0;
+    boxes.part_along_eight(&mut gaps);
+    if is_open(&gaps) {
+        boxes.part_along_one(&mut gaps);
+        // Only boxes smaller than the cutoff may lie so.
+        if cutoff > 0.0 && dot(&one.half, &one.half) < cutoff * cutoff && is_open(&gaps) {
+            boxes.part_along_centers(&mut gaps);
+        }
+    }
+    SweptGaps {
+        still: lanes.mul(gaps.still, upright),
+        swept: lanes.mul(gaps.swept, upright),
+    }
+}
+
+/// Eight boxes and one, with what all their axes take.
+struct SweptBoxes<'a, I: Instructions> {
+    lanes: I,
+    eight: &'a EightBoxes<I>,
+    one: &'a PackedBox,
+    sweep: BoxSweep<'a>,
+    /// From the centres of the eight to that of the one; along the axes of the eight, and of the one.
+    apart: Triple<I>,
+    along_eight: Triple<I>,
+    along_one: Triple<I>,
+    /// The products of the axes of the eight with those of the one.
+    products: [Triple<I>; 3],
+}
+
+impl<'a, I: Instructions> SweptBoxes<'a, I> {
+    #[inline(always)]
+    fn new(lanes: I, eight: &'a EightBoxes<I>, one: &'a PackedBox, sweep: BoxSweep<'a>) -> Self {
+        let [x, y, z] = splat(lanes, &one.center);
+        let center = &eight.center;
+        let apart = [
+            lanes.sub(x, center[0]),
+            lanes.sub(y, center[1]),
+            lanes.sub(z, center[2]),
         ];
-        let mut of_eight = [lanes.splat(bends[1]); 3];
-        for twist in twists {
+        let axes = &eight.axes;
+        let [first, second, third] = &one.axes;
+        let with_one = |axis: &Triple<I>| {
+            [
+                lanes.along(axis, first),
+                lanes.along(axis, second),
+                lanes.along(axis, third),
+            ]
+        };
+        Self {
+            lanes,
+            eight,
+            one,
+            sweep,
+            apart,
+            along_eight: [
+                lanes.dot(&axes[0], &apart),
+                lanes.dot(&axes[1], &apart),
+                lanes.dot(&axes[2], &apart),
+            ],
+            along_one: with_one(&apart),
+            products: [with_one(&axes[0]), with_one(&axes[1]), with_one(&axes[2])],
+        }
+    }
+
+    /// The velocity of the one's centre by a twist, and its sides turned by it.
+    #[inline(always)]
+    fn velocities(&self, twist: &Twist32) -> ([f32; 3], [[f32; 3]; 3]) {
+        let turn = cross3(&twist.angular, &self.one.center);
+        let sides = each3(|j| {
+            let turned = cross3(&twist.angular, &self.one.axes[j]);
+            each3(|k| turned[k] * self.one.half[j])
+        });
+        (each3(|k| twist.linear[k] + turn[k]), sides)
+    }
+
+    /// Along the axes of the eight.
+    #[inline(always)]
+    fn part_along_eight(&self, gaps: &mut SweptGaps<I>) {
+        let (lanes, axes) = (self.lanes, &self.eight.axes);
+        let mut moved = [lanes.splat(self.sweep.bends[0]); 3];
+        for twist in self.sweep.twists {
+            let (velocity, sides) = self.velocities(twist);
+            for k in 0..3 {
+                let shift = lanes.along(&axes[k], &velocity);
+                let nearer = nearer(lanes, shift, self.along_eight[k], self.sweep.extension);
+                moved[k] = lanes.add(nearer, moved[k]);
+                for side in &sides {
+                    moved[k] = lanes.add(moved[k], lanes.abs(lanes.along(&axes[k], side)));
+                }
+            }
+        }
+        let half = splat(lanes, &self.one.half);
+        for (k, moved) in moved.into_iter().enumerate() {
+            let extent = extent_along(lanes, &self.products[k], &half, self.eight.half[k]);
+            let gap = lanes.sub(lanes.abs(self.along_eight[k]), extent);
+            gaps.offer(lanes, gap, moved, self.sweep.extension);
+        }
+    }
+
+    /// Along the axes of the one.
+    #[inline(always)]
+    fn part_along_one(&self, gaps: &mut SweptGaps<I>) {
+        let (lanes, eight, one) = (self.lanes, self.eight, self.one);
+        let (center, axes) = (&eight.center, &eight.axes);
+        let mut moved = [lanes.splat(self.sweep.bends[1]); 3];
+        for twist in self.sweep.twists {
             for (j, axis) in one.axes.iter().enumerate() {
                 let arm = cross3(axis, &twist.angular);
                 let [ax, ay, az] = splat(lanes, &arm);
                 let origin = lanes.splat(dot(axis, &twist.linear));
                 let first = lanes.mul_add(center[0], ax, origin);
                 let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-                let nearer = nearer(lanes, at_center, places_of_one[j], extension);
-                let moved = lanes.add(nearer, of_eight[j]);
+                let nearer = nearer(lanes, at_center, self.along_one[j], self.sweep.extension);
                 let turned = [
                     lanes.along(&axes[0], &arm),
                     lanes.along(&axes[1], &arm),
                     lanes.along(&axes[2], &arm),
                 ];
-                of_eight[j] = extent_along(lanes, &turned, &eight.half, moved);
+                moved[j] = extent_along(lanes, &turned, &eight.half, lanes.add(nearer, moved[j]));
             }
         }
-        for j in 0..3 {
-            let along = [products[0][j], products[1][j], products[2][j]];
+        for (j, moved) in moved.into_iter().enumerate() {
+            let along = [
+                self.products[0][j],
+                self.products[1][j],
+                self.products[2][j],
+            ];
             let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-            let gap = lanes.sub(lanes.abs(places_of_one[j]), extent);
-            gaps.offer(lanes, gap, of_eight[j], extension);
+            let gap = lanes.sub(lanes.abs(self.along_one[j]), extent);
+            gaps.offer(lanes, gap, moved, self.sweep.extension);
         }
     }
-    SweptGaps {
-        still: lanes.mul(gaps.still, upright),
-        swept: lanes.mul(gaps.swept, upright),
+
+    /// Along the lines between the centres: all terms are times their lengths, until the end.
+    #[inline(always)]
+    fn part_along_centers(&self, gaps: &mut SweptGaps<I>) {
+        let (lanes, apart) = (self.lanes, &self.apart);
+        let square = lanes.dot(apart, apart);
+        let inverse = lanes.div(lanes.splat(1.0), lanes.sqrt(square));
+        let mut moved = lanes.splat(0.0);
+        for twist in self.sweep.twists {
+            let (velocity, sides) = self.velocities(twist);
+            let shift = lanes.along(apart, &velocity);
+            moved = lanes.add(moved, nearer(lanes, shift, square, self.sweep.extension));
+            for side in &sides {
+                moved = lanes.add(moved, lanes.abs(lanes.along(apart, side)));
+            }
+        }
+        let half = splat(lanes, &self.one.half);
+        let of_one = extent_along(lanes, &self.along_one, &half, lanes.splat(0.0));
+        let extents = extent_along(lanes, &self.along_eight, &self.eight.half, of_one);
+        let gap = lanes.mul(lanes.sub(square, extents), inverse);
+        let moved = lanes.mul_add(moved, inverse, lanes.splat(self.sweep.bends[0]));
+        gaps.offer(lanes, gap, moved, self.sweep.extension);
     }
 }
 

@@ -15,6 +15,7 @@ mod map_boundaries;
 mod map_ends;
 mod maps;
 mod motions;
+mod near_thresholds;
 mod pair_motion;
 mod path;
 mod path_clearance;
