@@ -27,21 +27,21 @@ impl Mesh {
             *vertex = pose.transform_point(&vertex.component_mul(scale));
         }
         if scale.iter().filter(|factor| **factor < 0.0).count() % 2 == 1 {
-            self.reverse_faces();
+            reverse_faces(&self.face_sizes, &mut self.indices);
         }
         Ok(self)
     }
+}
 
-    /// Stops where sizes and indices do not match; the builder that the mesh is added to reports that.
-    fn reverse_faces(&mut self) {
-        let mut rest = &mut self.indices[..];
-        for &size in &self.face_sizes {
-            let Some((face, after)) = rest.split_at_mut_checked(size as usize) else {
-                return;
-            };
-            face.reverse();
-            rest = after;
-        }
+/// Reverses faces, so that those of a mirrored mesh face outwards as before. Stops where sizes and indices do not match; the builder
+/// that the mesh is added to reports that.
+pub fn reverse_faces(face_sizes: &[u32], mut indices: &mut [u32]) {
+    for &size in face_sizes {
+        let Some((face, after)) = indices.split_at_mut_checked(size as usize) else {
+            return;
+        };
+        face.reverse();
+        indices = after;
     }
 }
 

@@ -40,6 +40,7 @@ pub use builder::BodyBuilder;
 pub use cloud_file::MAX_CLOUD_POINTS;
 pub use farthest::Farthest;
 pub use mesh::Mesh;
+pub(crate) use mesh::reverse_faces;
 pub use mesh_budget::{
     MAX_MESH_FILE_BYTES, MeshBudget, MeshSize, require_face_sizes, require_mesh_size,
 };

@@ -173,11 +173,9 @@ impl<'a> ShapeReader<'a> {
             }
             Shape::Mesh { file, scale } => {
                 let index = self.file(file)?;
-                let mut mesh = (*self.mesh(index)?).clone();
-                for vertex in &mut mesh.vertices {
-                    *vertex = at.transform_point(&vertex.component_mul(&Vec3::from(*scale)));
-                }
-                let added = builder.add_mesh_as(&mesh, form, tag);
+                let mesh = (*self.mesh(index)?).clone();
+                let placed = mesh.placed(at, &Vec3::from(*scale));
+                let added = placed.and_then(|mesh| builder.add_mesh_as(&mesh, form, tag));
                 added.map_err(|e| e.within(file))
             }
         }

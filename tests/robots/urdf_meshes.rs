@@ -82,6 +82,64 @@ fn a_collada_scene_is_read_with_its_transforms() {
     );
 }
 
+/// Parts that a node, or the scale of a URDF's mesh, mirrors keep their outside: a closed part would be inside out otherwise, and where
+/// it overlaps another the two would count as outside.
+#[test]
+fn mirrored_faces_face_the_same_way() {
+    let folder = Folder::new("mirrored");
+    let normals = |text: &str| -> Vec<Vec3> {
+        let path = folder.write("scene.dae", text);
+        let mesh = cstk::body::mesh_file::read_mesh_file(&path).unwrap();
+        let mut rest = &mesh.indices[..];
+        let sizes = mesh.face_sizes.iter();
+        let normal = |&size: &u32| {
+            let (face, after) = rest.split_at(size as usize);
+            rest = after;
+            let [a, b, c] = [0, 1, 2].map(|i| mesh.vertices[face[i] as usize]);
+            (b - a).cross(&(c - a)).normalize()
+        };
+        sizes.map(normal).collect()
+    };
+    let plain = normals(SCENE_DAE);
+    for (from, to) in [
+        ("<scale>2 1 1<", "<scale>2 -1 1<"),
+        ("<scale>2 1 1<", "<scale>-2 1 1<"),
+        ("<scale>2 1 1<", "<scale>-2 -1 1<"),
+    ] {
+        let mirrored = SCENE_DAE.replace(from, to);
+        assert_ne!(mirrored, SCENE_DAE);
+        for (plain, mirrored) in plain.iter().zip(normals(&mirrored)) {
+            assert!((plain - mirrored).norm() < 1e-12, "{to}");
+        }
+    }
+    // Only the inner node: its faces alone are reversed.
+    let inner = SCENE_DAE.replace("<matrix>1 0 0 0", "<matrix>-1 0 0 0");
+    for (plain, mirrored) in plain.iter().zip(normals(&inner)) {
+        assert!((plain - mirrored).norm() < 1e-12);
+    }
+
+    folder.write("t.obj", TRIANGLE_OBJ);
+    for (scale, sign) in [("2 1 1", 1.0), ("2 -1 1", 1.0), ("1 1 -1", -1.0)] {
+        let path = folder.write(
+            "robot.urdf",
+            format!(
+                "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh filename=\"t.obj\" scale=\"{scale}\"/></geometry></collision></link></robot>"
+            ),
+        );
+        let robot = load(&path, &UrdfOptions::default()).unwrap();
+        let body = robot.links()[0].body.as_ref().unwrap();
+        let normal = body.primitives().get(0).shape.faces[0].normal;
+        assert_eq!(normal, sign * Vec3::z(), "{scale}");
+    }
+    let path = folder.write(
+        "robot.urdf",
+        "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh filename=\"t.obj\" scale=\"1 1e-60 1\"/></geometry></collision></link></robot>",
+    );
+    let error = load(&path, &UrdfOptions::default()).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::InvalidArgument, "{error}");
+    assert!(error.message.contains("scale entry 1"), "{error}");
+}
+
 #[test]
 fn meshes_are_found_in_packages_and_beside_the_file() {
     let folder = Folder::new("packages");

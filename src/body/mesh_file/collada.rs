@@ -10,7 +10,7 @@ use foldhash::fast::RandomState;
 use nalgebra::{Matrix4, Point3, Rotation3, Unit};
 use roxmltree::{Node, NodeId};
 
-use crate::body::{Mesh, MeshBudget, MeshSize, require_mesh_size};
+use crate::body::{Mesh, MeshBudget, MeshSize, require_mesh_size, reverse_faces};
 use crate::error::{Error, ErrorKind, Result, require_finite};
 use crate::pose::Vec3;
 use crate::whole_file::text_of;
@@ -188,7 +188,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             .take(MeshSize::of(&own), is_repeated)
             .map_err(named)?;
         let all = &mut self.mesh;
-        let base = all.vertices.len() as u32;
+        let (base, first) = (all.vertices.len() as u32, all.indices.len());
         let reserved = (all.vertices.try_reserve(own.vertices.len()))
             .and_then(|()| all.indices.try_reserve(own.indices.len()))
             .and_then(|()| all.face_sizes.try_reserve(own.face_sizes.len()));
@@ -200,6 +200,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         all.vertices.extend(moved);
         all.indices.extend(own.indices.iter().map(|i| base + i));
         all.face_sizes.extend(&own.face_sizes);
+        if to_world.fixed_view::<3, 3>(0, 0).determinant() < 0.0 {
+            reverse_faces(&own.face_sizes, &mut all.indices[first..]);
+        }
         Ok(())
     }
 
