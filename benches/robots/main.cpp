@@ -1,6 +1,7 @@
 // Whether a robot collides and how far it is from doing so, at configurations: the Panda and the
-// UR5 of example-robot-data with their collision meshes, against themselves and obstacles, and the
-// same by Pinocchio with Coal, in turn:
+// UR5 of example-robot-data with their collision meshes, the Panda and the ANYmal of boxes,
+// cylinders and spheres, against themselves and obstacles, and the same by Pinocchio with Coal, in
+// turn:
 //
 //     robots FOLDER [--csv FILE] [--quick] [--seed N]
 //
@@ -35,7 +36,9 @@ struct Robot {
 };
 
 const Robot robots[] = {{"Panda", "panda_description/urdf/panda.urdf"},
-                        {"UR5", "ur_description/urdf/ur5_robot.urdf"}};
+                        {"UR5", "ur_description/urdf/ur5_robot.urdf"},
+                        {"Panda of shapes", "panda_description/urdf/panda_collision.urdf"},
+                        {"ANYmal", "anymal_b_simple_description/robots/anymal.urdf"}};
 
 struct Options {
     std::string folder, csv;

@@ -9,8 +9,9 @@
 #include <coal/shape/geometric_shapes_utility.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace pin = pinocchio;
 
@@ -18,8 +19,8 @@ namespace {
 
 const std::size_t none = static_cast<std::size_t>(-1);
 
-// A shape's bounding volume in its own frame.
-coal::RSS volume_around(const coal::CollisionGeometry &shape) {
+// A shape's bounding volume in its own frame; none of shapes that are measured as fast as their volumes.
+std::optional<coal::RSS> volume_around(const coal::CollisionGeometry &shape) {
     if (const auto *mesh = dynamic_cast<const coal::BVHModel<coal::OBBRSS> *>(&shape)) {
         return mesh->getBV(0).bv.rss;
     }
@@ -31,7 +32,7 @@ coal::RSS volume_around(const coal::CollisionGeometry &shape) {
         coal::computeBV(*box, coal::Transform3s(), volume);
         return volume;
     }
-    throw std::runtime_error("a shape of a kind that is not expected");
+    return std::nullopt;
 }
 
 // Passes the least distance so far to Coal, which then leaves out what is farther.
@@ -47,14 +48,17 @@ class Bounded {
     double best() const { return std::max(result_.min_distance, 0.0); }
     bool meets() const { return result_.min_distance <= 0; }
 
-    // Of a pair whose volumes are farther nothing else is looked at.
+    // Of a pair with a mesh whose volumes are farther nothing else is looked at.
     void look(std::size_t number) {
         const pin::CollisionPair &pair = scene_->geometry.collisionPairs[number];
         const pin::SE3 &a = scene_->placed.oMg[pair.first], &b = scene_->placed.oMg[pair.second];
-        const pin::SE3 between = a.actInv(b);
-        if (coal::distance(between.rotation(), between.translation(), volumes_[pair.first],
-                           volumes_[pair.second]) >= best()) {
-            return;
+        const auto &volume_a = volumes_[pair.first], &volume_b = volumes_[pair.second];
+        if (volume_a && volume_b && (is_mesh(pair.first) || is_mesh(pair.second))) {
+            const pin::SE3 between = a.actInv(b);
+            if (coal::distance(between.rotation(), between.translation(), *volume_a, *volume_b) >=
+                best()) {
+                return;
+            }
         }
         const double before = result_.min_distance;
         scene_->placed.distance_functors[number](pin::toCoalTransform3s(a),
@@ -69,8 +73,12 @@ class Bounded {
     std::size_t last = none;
 
   private:
+    bool is_mesh(std::size_t shape) const {
+        return scene_->geometry.geometryObjects[shape].geometry->getObjectType() == coal::OT_BVH;
+    }
+
     ScenePtr scene_;
-    std::vector<coal::RSS> volumes_;
+    std::vector<std::optional<coal::RSS>> volumes_;
     coal::DistanceResult result_;
 };
 

@@ -92,6 +92,19 @@ std::size_t Table::compare(const Row &row, const std::vector<double> &ours, cons
 std::vector<Way> Table::fastest(const Row &row, std::vector<Way> peers,
                                 const std::vector<double> &expected) const {
     const std::size_t tried = std::min(poses_, tried_poses);
+    // Whether a way's first answers are those expected; names it otherwise.
+    const auto is_right = [&](const Way &peer, const std::vector<double> &found) {
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            off += !agree(row.query, found[i], expected[i]);
+        }
+        if (off > 0) {
+            std::fprintf(stderr, "left out: %s: %s, %zu of %zu answers are not those of %s\n",
+                         title(row).c_str(), peer.name.c_str(), off, found.size(),
+                         peers[0].name.c_str());
+        }
+        return off == 0;
+    };
     std::vector<std::pair<double, Way>> timed;
     for (Way &peer : peers) {
         try {
@@ -101,17 +114,9 @@ std::vector<Way> Table::fastest(const Row &row, std::vector<Way> peers,
                 found[i] = peer.ask(i);
             }
             const std::chrono::duration<double> time = Clock::now() - start;
-            std::size_t off = 0;
-            for (std::size_t i = 0; i < tried; ++i) {
-                off += !agree(row.query, found[i], expected[i]);
+            if (is_right(peer, found)) {
+                timed.emplace_back(time.count(), peer);
             }
-            if (off > 0) {
-                std::fprintf(stderr, "left out: %s: %s, %zu of %zu answers are not those of %s\n",
-                             title(row).c_str(), peer.name.c_str(), off, tried,
-                             peers[0].name.c_str());
-                continue;
-            }
-            timed.emplace_back(time.count(), peer);
         } catch (const std::exception &failure) {
             std::fprintf(stderr, "left out: %s: %s fails: %s\n", title(row).c_str(),
                          peer.name.c_str(), failure.what());
@@ -120,8 +125,10 @@ std::vector<Way> Table::fastest(const Row &row, std::vector<Way> peers,
     std::sort(timed.begin(), timed.end(),
               [](const auto &a, const auto &b) { return a.first < b.first; });
     std::vector<Way> found;
-    for (std::size_t i = 0; i < std::min(kept, timed.size()); ++i) {
-        found.push_back(timed[i].second);
+    for (const auto &[seconds, peer] : timed) {
+        if (found.size() < kept && is_right(peer, answers(peer))) {
+            found.push_back(peer);
+        }
     }
     return found;
 }
