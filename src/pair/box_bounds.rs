@@ -116,6 +116,21 @@ pub fn bounds<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox)
     lanes.mul(largest, lanes.splat(AXIS_FACTOR))
 }
 
+/// The same by the balls around the boxes, which takes less and says less. The centres' distance is within 17 u S, and each half
+/// diagonal, of at most 3 S, within 3 u of itself.
+#[inline(always)]
+pub fn gaps_of_balls<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+) -> Lanes8<I> {
+    let apart = apart(lanes, eight, &one.center);
+    let radius = lanes.splat(dot(&one.half, &one.half).sqrt());
+    let radii = lanes.sqrt(lanes.dot(&eight.half, &eight.half));
+    let between = lanes.sqrt(lanes.dot(&apart, &apart));
+    lanes.sub(between, lanes.add(radii, radius))
+}
+
 /// Options of [`sharper_bounds`]: how bounds are sharpened, and for which boxes.
 pub struct BoundRefinement<'a> {
     /// A unit vector from the eight boxes to the one, tried first as a separating direction.

@@ -19,7 +19,9 @@ mod visitor;
 mod visitors;
 mod winding;
 
-pub use box_bounds::{BoundRefinement, Motion32, ROUNDING, bounds, gaps_to_point, sharper_bounds};
+pub use box_bounds::{
+    BoundRefinement, Motion32, ROUNDING, bounds, gaps_of_balls, gaps_to_point, sharper_bounds,
+};
 pub use hit::{Hit, HitKey, Inner};
 pub use pair_contacts::WorldContact;
 pub use pair_distance::PrimitiveScratch;

@@ -4,7 +4,7 @@ use crate::boxes::{BoxesByEight, PackedBox};
 use crate::cobject::LinkRows;
 use crate::environment::{Bounds, BoxFrame, FrameLimits};
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pair::bounds;
+use crate::pair::{bounds, gaps_of_balls};
 
 /// The links' boxes, in memory that is reused by the next query.
 #[derive(Default)]
@@ -54,9 +54,14 @@ impl<V: FnMut([usize; 2], [f64; 2]) -> f64> Work for VisitNear<'_, V> {
         let mut cutoff = frame.cutoff(self.limit);
         let LinkBoxes { one, eights } = self.boxes;
         for row in rows {
-            let eight = eights.load(lanes, row.eight);
-            let found = bounds(lanes, &eight, &one[row.first as usize]);
-            let mut near = lanes.at_most(found, cutoff) & u32::from(row.seconds);
+            let (eight, one) = (eights.load(lanes, row.eight), &one[row.first as usize]);
+            let seconds = u32::from(row.seconds);
+            // Many are far even by the balls around the boxes, which takes far less.
+            if lanes.at_most(gaps_of_balls(lanes, &eight, one), cutoff) & seconds == 0 {
+                continue;
+            }
+            let found = bounds(lanes, &eight, one);
+            let mut near = lanes.at_most(found, cutoff) & seconds;
             if near == 0 {
                 continue;
             }
