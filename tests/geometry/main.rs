@@ -3,6 +3,7 @@
 mod box_pairs;
 mod contacts;
 mod deep_overlaps;
+mod depth_frames;
 mod depths;
 mod depths_in_cavities;
 mod given_pairs;
