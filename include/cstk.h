@@ -655,8 +655,8 @@ cstk_status cstk_body_builder_add_mesh(cstk_body_builder *builder,
 /**
  * Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
  * .obj, .stl (ASCII or binary), .ply (the faces of a PLY file of any encoding) or .dae (COLLADA; scaled to metres by the
- * file's unit, `up_axis` not applied, as in the ROS tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
- * for another ending.
+ * file's unit, `up_axis` not applied, as in the ROS tools; faces that a node mirrors are reversed). CSTK_ERROR_IO if the file cannot
+ * be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED for another ending.
  */
 cstk_status cstk_body_builder_add_mesh_file(cstk_body_builder *builder,
                                             const char *file,
@@ -2037,8 +2037,8 @@ cstk_status cstk_urdf_options_default(cstk_urdf_options *out, size_t size);
  * it.
  *
  * Joints: fixed, revolute and prismatic (with their limits), continuous, floating, planar, spherical; mimic. Shapes: box,
- * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled; the shapes of one link become one body. Meshes are
- * surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
+ * sphere, cylinder, capsule, and meshes in OBJ, STL and DAE, scaled (as by cstk_body_builder_add_mesh); the shapes of one link become
+ * one body. Meshes are surfaces unless the options' mesh forms make them solids or convex hulls. A mesh file is read once, and links with equal shapes share one
  * body, and its cstk_body_set_data. Everything else in the file is skipped; cstk_robot_builder_get_urdf_report counts it.
  * Error messages name the file, the line and the element; the builder is then unchanged.
  *

@@ -185,8 +185,8 @@ unsafe fn scale_or_one(values: *const f64) -> Result<Vec3, Failure> {
 
 /// Adds the mesh in a file as cstk_body_builder_add_mesh does, scaled by `scale` and moved by `pose`. The name must end in
 /// .obj, .stl (ASCII or binary), .ply (the faces of a PLY file of any encoding) or .dae (COLLADA; scaled to metres by the
-/// file's unit, `up_axis` not applied, as in the ROS tools). CSTK_ERROR_IO if the file cannot be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED
-/// for another ending.
+/// file's unit, `up_axis` not applied, as in the ROS tools; faces that a node mirrors are reversed). CSTK_ERROR_IO if the file cannot
+/// be read, CSTK_ERROR_PARSE if it is damaged or truncated, CSTK_ERROR_UNSUPPORTED for another ending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_mesh_file(
     builder: *mut cstk_body_builder,
