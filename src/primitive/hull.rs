@@ -22,6 +22,17 @@ pub struct CheckedHull {
 /// points, the next one is made of its corners and the lost points. If a third one still lost points, all begins anew in a
 /// rotated frame. `None` when a hull has more than `vertex_limit` corners, or when nothing was proposed.
 pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Option<CheckedHull> {
+    checked_hull_that(points, accepted, vertex_limit, |_| true)
+}
+
+/// The same where `fits` says of a proposal that lost no points whether it will do; if not, all begins anew in a rotated frame. A
+/// proposal may hold triangles that are no faces of the hull although its corners are the hull's.
+pub fn checked_hull_that(
+    points: &[Vec3],
+    accepted: f64,
+    vertex_limit: usize,
+    mut fits: impl FnMut(&CheckedHull) -> bool,
+) -> Option<CheckedHull> {
     let mut best: Option<CheckedHull> = None;
     let (center, stretch) = frame_of(points);
     for attempt in 0..6 {
@@ -37,15 +48,19 @@ pub fn checked_hull(points: &[Vec3], accepted: f64, vertex_limit: usize) -> Opti
             }
             let (excess, lost) = excess_over(points, &vertices, accepted);
             let repaired: Vec<u32> = vertices.iter().chain(&lost).copied().collect();
-            if best.as_ref().is_none_or(|hull| excess < hull.excess) {
-                best = Some(CheckedHull {
-                    vertices,
-                    triangles,
-                    excess,
-                });
-            }
+            let hull = CheckedHull {
+                vertices,
+                triangles,
+                excess,
+            };
             if excess <= accepted {
-                return best;
+                if fits(&hull) {
+                    return Some(hull);
+                }
+                break;
+            }
+            if best.as_ref().is_none_or(|best| excess < best.excess) {
+                best = Some(hull);
             }
             candidates = repaired;
         }

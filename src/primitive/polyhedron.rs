@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use smallvec::{SmallVec, smallvec};
 
-use super::hull::checked_hull;
+use super::hull::{CheckedHull, checked_hull_that};
 use super::planar_hull::planar_ring;
 use super::point_tree::PointTree;
 use super::polygon::{extent_of, upright};
@@ -77,17 +77,23 @@ pub fn convex_polyhedron(points: &[Vec3]) -> Result<Convex> {
 
 fn solid(points: &[Vec3], diameter: f64) -> Result<Convex> {
     let accepted = tolerance::HULL_EXCESS * diameter;
-    let hull = checked_hull(points, accepted, points.len())
-        .filter(|hull| hull.excess <= accepted)
-        .ok_or_else(|| {
-            Error::new(
-                ErrorKind::NotConverged,
-                format!(
-                    "the hull of the {} points could not be certified",
-                    points.len()
-                ),
-            )
-        })?;
+    let mut made = Err(Error::new(
+        ErrorKind::NotConverged,
+        format!(
+            "the hull of the {} points could not be certified",
+            points.len()
+        ),
+    ));
+    checked_hull_that(points, accepted, points.len(), |hull| {
+        made = of_hull(points, hull, diameter);
+        made.is_ok()
+    });
+    made
+}
+
+/// The polyhedron of a hull whose excess is accepted, checked.
+fn of_hull(points: &[Vec3], hull: &CheckedHull, diameter: f64) -> Result<Convex> {
+    let accepted = tolerance::HULL_EXCESS * diameter;
     let vertices: Vec<Vec3> = hull.vertices.iter().map(|&i| points[i as usize]).collect();
     let faces = merge_coplanar(&vertices, &hull.triangles, 4.0 * accepted);
     check_closed_and_convex(&vertices, &faces, diameter)?;
@@ -128,10 +134,15 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
         let by_area = area_vector(t).norm().total_cmp(&area_vector(s).norm());
         by_area.then(s.cmp(&t))
     });
+    // Corners on a line have no plane, only rounding; those that are in no face otherwise are on an edge of one.
+    let is_line = |t: usize| {
+        let longest = (0..3).map(|k| (corner(t, (k + 1) % 3) - corner(t, k)).norm());
+        area_vector(t).norm() <= tolerance * longest.fold(0.0, f64::max)
+    };
     let mut taken = vec![false; triangles.len()];
     let mut faces = Vec::new();
     for seed in order {
-        if taken[seed] {
+        if taken[seed] || is_line(seed) {
             continue;
         }
         taken[seed] = true;

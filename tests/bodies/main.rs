@@ -3,6 +3,7 @@
 mod bezier_patches;
 mod closed_surfaces;
 mod cloud_files;
+mod flat_hulls;
 mod given;
 mod nurbs_surfaces;
 mod obj_files;
