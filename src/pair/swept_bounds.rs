@@ -9,9 +9,9 @@
 //! m = n x w and c the centre of each. A small box beside a long one that turns keeps a small term so, and a translation is
 //! exact.
 //!
-//! The axes of two small boxes that lie diagonally to each other part them by as little as their distance over the root of 3, which a
-//! threshold below the distance may exceed however small the boxes are. There the line between the centres is an axis too, at rest
-//! with the eight: the extents along it are those of both boxes, as for the directions of [`super::box_bounds`].
+//! The axes of two boxes that lie diagonally to each other part them by as little as their distance over the root of 3, which a
+//! threshold below the distance may exceed however small the boxes are. There the diagonals of the positive gaps along the axes of the
+//! eight, and of the one, are axes too (see [`super::box_bounds`]): as they are where the boxes are compared, at rest with the eight.
 //!
 //! Where boxes are compared at an end of the interval, they move one way ([`Extension::OneWay`]): with n from the eight to the one,
 //! n . u is taken for -|n . u|, and what is then left of the other terms when the boxes part takes nothing off. All of these
@@ -26,7 +26,7 @@
 //! of two such vectors within 60 u M, the sum of four such terms (sides add up to 3 S, which M has) within 240 u M. Together
 //! with the gap's 160 u S less than [`super::ROUNDING`] (S + M) is lost. With N twists M bounds the sum over them, and the errors of
 //! the products add up as before; but each of the 4 N sums is rounded too, by at most u times the largest, 4 M: 16 N u M more, of
-//! which the first twist's are counted above. That is what [`sum_factor`] adds to M. The line between the centres is the computed
+//! which the first twist's are counted above. That is what [`sum_factor`] adds to M. A diagonal is the computed
 //! one, divided by its length: what its products with the axes lose by that is 6 u of 1, so that the two extents lose 36 u S, and the
 //! centres' distance 16 u S as before.
 
@@ -75,8 +75,8 @@ pub struct GapsWanted {
     pub among: u32,
 }
 
-/// The largest gap along the axes of the eight and of the one, and along the lines between their centres. Further axes are tried as
-/// long as those before do not part all boxes by more than the cutoff.
+/// The largest gap along the axes of the eight and of the one, and along the diagonals of these gaps. Further axes are tried as long as
+/// those before do not part all boxes by more than the cutoff.
 #[inline(always)]
 pub fn swept_gaps<I: Instructions>(
     lanes: I,
@@ -92,14 +92,16 @@ pub fn swept_gaps<I: Instructions>(
     };
     let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
-    let is_open =
-        |gaps: &SweptGaps<I>| lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among != 0;
-    boxes.part_along_eight(&mut gaps);
-    if is_open(&gaps) {
-        boxes.part_along_one(&mut gaps);
-        // Only boxes smaller than the cutoff may lie so.
-        if cutoff > 0.0 && dot(&one.half, &one.half) < cutoff * cutoff && is_open(&gaps) {
-            boxes.part_along_centers(&mut gaps);
+    let open =
+        |gaps: &SweptGaps<I>| lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among;
+    let along_eight = boxes.part_along_eight(&mut gaps);
+    if open(&gaps) != 0 {
+        let along_one = boxes.part_along_one(&mut gaps);
+        if open(&gaps) & gaps.diagonals_may_part(lanes, cutoff) != 0 {
+            boxes.part_along(&boxes.diagonal_of_eight(&along_eight), &mut gaps);
+            if open(&gaps) != 0 {
+                boxes.part_along(&boxes.diagonal_of_one(&along_one), &mut gaps);
+            }
         }
     }
     SweptGaps {
@@ -168,9 +170,9 @@ impl<'a, I: Instructions> SweptBoxes<'a, I> {
         (each3(|k| twist.linear[k] + turn[k]), sides)
     }
 
-    /// Along the axes of the eight.
+    /// Along the axes of the eight; returns the gaps.
     #[inline(always)]
-    fn part_along_eight(&self, gaps: &mut SweptGaps<I>) {
+    fn part_along_eight(&self, gaps: &mut SweptGaps<I>) -> Triple<I> {
         let (lanes, axes) = (self.lanes, &self.eight.axes);
         let mut moved = [lanes.splat(self.sweep.bends[0]); 3];
         for twist in self.sweep.twists {
@@ -185,16 +187,19 @@ impl<'a, I: Instructions> SweptBoxes<'a, I> {
             }
         }
         let half = splat(lanes, &self.one.half);
-        for (k, moved) in moved.into_iter().enumerate() {
+        let found = each3(|k| {
             let extent = extent_along(lanes, &self.products[k], &half, self.eight.half[k]);
-            let gap = lanes.sub(lanes.abs(self.along_eight[k]), extent);
+            lanes.sub(lanes.abs(self.along_eight[k]), extent)
+        });
+        for (gap, moved) in found.into_iter().zip(moved) {
             gaps.offer(lanes, gap, moved, self.sweep.extension);
         }
+        found
     }
 
-    /// Along the axes of the one.
+    /// Along the axes of the one; returns the gaps.
     #[inline(always)]
-    fn part_along_one(&self, gaps: &mut SweptGaps<I>) {
+    fn part_along_one(&self, gaps: &mut SweptGaps<I>) -> Triple<I> {
         let (lanes, eight, one) = (self.lanes, self.eight, self.one);
         let (center, axes) = (&eight.center, &eight.axes);
         let mut moved = [lanes.splat(self.sweep.bends[1]); 3];
@@ -214,40 +219,76 @@ impl<'a, I: Instructions> SweptBoxes<'a, I> {
                 moved[j] = extent_along(lanes, &turned, &eight.half, lanes.add(nearer, moved[j]));
             }
         }
-        for (j, moved) in moved.into_iter().enumerate() {
+        let found = each3(|j| {
             let along = [
                 self.products[0][j],
                 self.products[1][j],
                 self.products[2][j],
             ];
             let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-            let gap = lanes.sub(lanes.abs(self.along_one[j]), extent);
+            lanes.sub(lanes.abs(self.along_one[j]), extent)
+        });
+        for (gap, moved) in found.into_iter().zip(moved) {
             gaps.offer(lanes, gap, moved, self.sweep.extension);
         }
+        found
     }
 
-    /// Along the lines between the centres: all terms are times their lengths, until the end.
+    /// The diagonal of the positive gaps along the axes of the eight.
     #[inline(always)]
-    fn part_along_centers(&self, gaps: &mut SweptGaps<I>) {
-        let (lanes, apart) = (self.lanes, &self.apart);
-        let square = lanes.dot(apart, apart);
-        let inverse = lanes.div(lanes.splat(1.0), lanes.sqrt(square));
+    fn diagonal_of_eight(&self, gaps: &Triple<I>) -> Triple<I> {
+        let (lanes, axes) = (self.lanes, &self.eight.axes);
+        let [a, b, c] = sides_between(lanes, gaps, &self.along_eight);
+        each3(|k| {
+            let first = lanes.mul(axes[0][k], a);
+            lanes.mul_add(axes[2][k], c, lanes.mul_add(axes[1][k], b, first))
+        })
+    }
+
+    /// The same along the axes of the one.
+    #[inline(always)]
+    fn diagonal_of_one(&self, gaps: &Triple<I>) -> Triple<I> {
+        let (lanes, axes) = (self.lanes, &self.one.axes);
+        let sides = sides_between(lanes, gaps, &self.along_one);
+        each3(|k| lanes.along(&sides, &[axes[0][k], axes[1][k], axes[2][k]]))
+    }
+
+    /// Along vectors of any length, by which the products with them are divided at the end. One of length 0 says that nothing is less
+    /// than 0 apart.
+    #[inline(always)]
+    fn part_along(&self, way: &Triple<I>, gaps: &mut SweptGaps<I>) {
+        let (lanes, eight, one) = (self.lanes, self.eight, self.one);
+        let length = lanes.sqrt(lanes.dot(way, way));
+        let divisor = lanes.max(length, lanes.splat(SHORTEST_WAY));
+        let inverse = lanes.div(lanes.splat(1.0), divisor);
+        let place = lanes.dot(way, &self.apart);
         let mut moved = lanes.splat(0.0);
         for twist in self.sweep.twists {
             let (velocity, sides) = self.velocities(twist);
-            let shift = lanes.along(apart, &velocity);
-            moved = lanes.add(moved, nearer(lanes, shift, square, self.sweep.extension));
+            let shift = lanes.along(way, &velocity);
+            moved = lanes.add(moved, nearer(lanes, shift, place, self.sweep.extension));
             for side in &sides {
-                moved = lanes.add(moved, lanes.abs(lanes.along(apart, side)));
+                moved = lanes.add(moved, lanes.abs(lanes.along(way, side)));
             }
         }
-        let half = splat(lanes, &self.one.half);
-        let of_one = extent_along(lanes, &self.along_one, &half, lanes.splat(0.0));
-        let extents = extent_along(lanes, &self.along_eight, &self.eight.half, of_one);
-        let gap = lanes.mul(lanes.sub(square, extents), inverse);
+        let with_one = each3(|j| lanes.along(way, &one.axes[j]));
+        let with_eight = each3(|k| lanes.dot(way, &eight.axes[k]));
+        let half = splat(lanes, &one.half);
+        let of_one = extent_along(lanes, &with_one, &half, lanes.splat(0.0));
+        let extents = extent_along(lanes, &with_eight, &eight.half, of_one);
+        let gap = lanes.mul(lanes.sub(lanes.abs(place), extents), inverse);
         let moved = lanes.mul_add(moved, inverse, lanes.splat(self.sweep.bends[0]));
         gaps.offer(lanes, gap, moved, self.sweep.extension);
     }
+}
+
+/// Ways shorter than this are taken to be so long.
+const SHORTEST_WAY: f32 = 1e-12;
+
+/// The gaps that are positive, with the signs of the places that they lead to.
+#[inline(always)]
+fn sides_between<I: Instructions>(lanes: I, gaps: &Triple<I>, places: &Triple<I>) -> Triple<I> {
+    each3(|k| lanes.signed_as(lanes.max(gaps[k], lanes.splat(0.0)), places[k]))
 }
 
 /// What a shift of a centre takes off its distance from others along an axis, which is the size of `place`.
@@ -265,6 +306,18 @@ fn nearer<I: Instructions>(
 }
 
 impl<I: Instructions> SweptGaps<I> {
+    /// The boxes that diagonals, at most the root of 3 longer than the largest gap, may part by more than the cutoff. A cutoff far below
+    /// that gap is seldom between it and a diagonal.
+    #[inline(always)]
+    fn diagonals_may_part(&self, lanes: I, cutoff: f32) -> u32 {
+        const ROOT_OF_3: f32 = 1.732_051;
+        const LEAST_CUTOFF: f32 = 0.125;
+        let taken_off = lanes.sub(self.still, self.swept);
+        let longest = lanes.mul(self.still, lanes.splat(ROOT_OF_3));
+        let may_part = lanes.at_most(lanes.sub(taken_off, longest), -cutoff);
+        may_part & lanes.at_most(lanes.mul(self.still, lanes.splat(LEAST_CUTOFF)), cutoff)
+    }
+
     /// Takes in the gap along one axis, and what the motion takes off it.
     #[inline(always)]
     fn offer(&mut self, lanes: I, gap: Lanes8<I>, moved: Lanes8<I>, extension: Extension) {

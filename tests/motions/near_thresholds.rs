@@ -31,12 +31,28 @@ fn sheet(count: u32) -> Arc<Body> {
     mesh(&vertices, &triangles).body
 }
 
-/// The sheet turns about y, against another one.
-fn turning(sheet: &Arc<Body>, other: Pose, margin: f64) -> CObject {
+/// A strip of long thin triangles.
+fn strip(count: u32) -> Arc<Body> {
+    let width = 0.6 / f64::from(count);
+    let mut vertices = Vec::new();
+    for i in 0..count {
+        let (y, z) = (width * f64::from(i) - 0.3, 0.03 * f64::from(i).sin());
+        vertices.extend([
+            Vec3::new(-0.3, y, 0.0),
+            Vec3::new(0.3, y, z),
+            Vec3::new(0.3, y + width, 0.03),
+        ]);
+    }
+    let triangles: Vec<[u32; 3]> = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    mesh(&vertices, &triangles).body
+}
+
+/// A body turns about y, against another one.
+fn turning([body, other]: [&Arc<Body>; 2], at: Pose, margin: f64) -> CObject {
     let mut turn = link(None, JointKind::Revolute, Vec3::y());
-    turn.body = Some(sheet.clone());
+    turn.body = Some(body.clone());
     let space = space(vec![robot(3, vec![turn])]);
-    let (environment, _) = environment(&[(sheet, other)]);
+    let (environment, _) = environment(&[(other, at)]);
     let options = InducedOptions {
         margin,
         ..InducedOptions::default()
@@ -47,24 +63,36 @@ fn turning(sheet: &Arc<Body>, other: Pose, margin: f64) -> CObject {
 #[test]
 fn margins_just_below_the_distance_are_proved_by_few_boxes() {
     /// Of some 10^7 pairs of triangles.
-    const MAX_LOOKS: u64 = 2000;
+    const MAX_LOOKS: u64 = 20_000;
     let mut random = Random::new(31);
-    let sheet = sheet(40);
+    let (sheet, strip) = (sheet(40), strip(3000));
     let (q0, q1) = ([0.0], [0.28]);
     for case in 0..24 {
+        let bodies = [
+            [&sheet, &sheet],
+            [&strip, &sheet],
+            [&sheet, &strip],
+            [&strip, &strip],
+        ];
+        let bodies = bodies[case % 4];
         let diagonal = Vec3::new(1.0, 1.0, 1.0).normalize();
-        let direction = if case == 0 { diagonal } else { random.unit() };
+        let direction = if case < 4 { diagonal } else { random.unit() };
         let other = Pose {
-            translation: direction * random.within(0.5, 2.0),
+            translation: direction * random.within(0.9, 3.0),
             rotation: random.rotation(),
         };
         let mut context = QueryContext::new();
         let options = ClearanceOptions::with_tolerance(1e-3);
-        let plain = turning(&sheet, other, 0.0);
+        let plain = turning(bodies, other, 0.0);
         let clearance = context.motion_clearance(&plain, &q0, &q1, &options);
         let clearance = clearance.unwrap();
-        for part in [0.8, 0.9, 0.97, 0.99] {
-            let set = turning(&sheet, other, part * clearance.lower);
+        // Long triangles lie across most directions: the nearer to the distance, the more times are looked at too.
+        let parts: &[f64] = match case % 4 {
+            0 => &[0.8, 0.9, 0.97, 0.99],
+            _ => &[0.8, 0.9, 0.95],
+        };
+        for &part in parts {
+            let set = turning(bodies, other, part * clearance.lower);
             let mut looks = |ask: &mut dyn FnMut(&mut QueryContext)| {
                 context.reset_statistics();
                 ask(&mut context);
@@ -80,6 +108,17 @@ fn margins_just_below_the_distance_are_proved_by_few_boxes() {
                 let found = context.classify_region(&set, &q0, &q1, &RegionOptions::default());
                 assert_eq!(found.unwrap().outcome, RegionOutcome::Free);
             });
+        }
+        // What is nearer than the margin is never called free.
+        for part in [1.0001, 1.01, 1.1, 1.5] {
+            let set = turning(bodies, other, part * clearance.upper);
+            let found = context.motion(&set, &q0, &q1, &MotionOptions::default());
+            assert_ne!(found.unwrap().outcome, MotionOutcome::Free, "case {case}");
+            if case % 4 > 0 {
+                continue;
+            }
+            let found = context.classify_region(&set, &q0, &q1, &RegionOptions::default());
+            assert_ne!(found.unwrap().outcome, RegionOutcome::Free, "case {case}");
         }
     }
 }
