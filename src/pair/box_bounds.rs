@@ -206,6 +206,24 @@ fn sides<I: Instructions>(lanes: I, eight: &EightBoxes<I>, one: &PackedBox) -> [
     ]
 }
 
+/// The diagonals of the positive gaps along the axes of the eight boxes, and along those of the one, from the eight to the one; 0 where
+/// no gap is positive.
+#[inline(always)]
+pub(super) fn diagonals<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    one: &PackedBox,
+) -> [Triple<I>; 2] {
+    let [of_eight, of_one] = sides(lanes, eight, one).map(|gaps| gaps.beyond(lanes));
+    [
+        each3(|k| {
+            let axes = each3(|i| eight.axes[i][k]);
+            lanes.dot(&of_eight, &axes)
+        }),
+        each3(|k| lanes.along(&of_one, &each3(|j| one.axes[j][k]))),
+    ]
+}
+
 /// The terms of the gaps along the axes of a box.
 struct Gaps<I: Instructions> {
     /// The other box's centre, projected on the axes.
@@ -251,20 +269,26 @@ impl<I: Instructions> Gaps<I> {
         lanes.max(lanes.max(x, y), z)
     }
 
+    /// The diagonal of the positive gaps, along the axes.
+    #[inline(always)]
+    fn beyond(&self, lanes: I) -> Triple<I> {
+        each3(|i| {
+            let (place, extent) = (self.places[i], self.extents[i]);
+            let below = lanes.sub(lanes.splat(0.0), extent);
+            lanes.sub(place, lanes.max(lanes.min(place, extent), below))
+        })
+    }
+
     /// The larger of the diagonal of the positive gaps and the gap along its direction; at most 0 if no gap is positive.
     #[inline(always)]
     fn along_diagonal(&self, lanes: I) -> Lanes8<I> {
-        let mut beyond = self.places;
+        let beyond = self.beyond(lanes);
         let mut square = lanes.splat(0.0);
         let mut own = lanes.splat(0.0);
-        for (i, beyond) in beyond.iter_mut().enumerate() {
-            let (place, extent) = (*beyond, self.extents[i]);
-            let below = lanes.sub(lanes.splat(0.0), extent);
-            let within = lanes.max(lanes.min(place, extent), below);
-            *beyond = lanes.sub(place, within);
-            square = lanes.mul_add(*beyond, *beyond, square);
-            let outside = lanes.sub(lanes.abs(place), self.half[i]);
-            own = lanes.mul_add(outside, lanes.abs(*beyond), own);
+        for (i, &beyond) in beyond.iter().enumerate() {
+            square = lanes.mul_add(beyond, beyond, square);
+            let outside = lanes.sub(lanes.abs(self.places[i]), self.half[i]);
+            own = lanes.mul_add(outside, lanes.abs(beyond), own);
         }
         let diagonal = lanes.sqrt(square);
         let [a, b, c] = &self.along;
@@ -324,7 +348,11 @@ fn gaps_beyond<I: Instructions>(
 
 /// The vectors from the centres of the eight to a point.
 #[inline(always)]
-fn apart<I: Instructions>(lanes: I, eight: &EightBoxes<I>, point: &[f32; 3]) -> Triple<I> {
+pub(super) fn apart<I: Instructions>(
+    lanes: I,
+    eight: &EightBoxes<I>,
+    point: &[f32; 3],
+) -> Triple<I> {
     let [x, y, z] = splat(lanes, point);
     let [a, b, c] = eight.center;
     [lanes.sub(x, a), lanes.sub(y, b), lanes.sub(z, c)]

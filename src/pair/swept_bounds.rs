@@ -30,7 +30,7 @@
 //! one, divided by its length: what its products with the axes lose by that is 6 u of 1, so that the two extents lose 36 u S, and the
 //! centres' distance 16 u S as before.
 
-use super::box_bounds::{AXIS_FACTOR, dot, extent_along, splat};
+use super::box_bounds::{AXIS_FACTOR, apart, diagonals, dot, extent_along, splat};
 use crate::boxes::{EightBoxes, PackedBox};
 use crate::convex::Extension;
 use crate::lanes::{Instructions, Lanes8, Triple, cross3, each3};
@@ -75,8 +75,7 @@ pub struct GapsWanted {
     pub among: u32,
 }
 
-/// Cutoffs above this, in units of the pair, hold a threshold and not rounding alone: then diagonals are tried too. Below, the code for
-/// these alone would cost proofs half of their speed.
+/// Cutoffs above this, in units of the pair, hold a threshold and not rounding alone.
 const CUTOFF_OF_THRESHOLD: f32 = 1e-3;
 
 /// The largest gap along the axes of the eight and of the one, and where there is a threshold along the diagonals of these gaps. Further
@@ -89,11 +88,12 @@ pub fn swept_gaps<I: Instructions>(
     sweep: BoxSweep,
     wanted: GapsWanted,
 ) -> SweptGaps<I> {
+    let gaps = gaps_along_axes(lanes, eight, one, sweep, wanted);
+    // Nothing of the diagonals is computed before: that would make the axes alone, which most looks end with, twice as dear.
     if wanted.cutoff > CUTOFF_OF_THRESHOLD {
-        gaps_beside_threshold(lanes, eight, one, sweep, wanted)
-    } else {
-        gaps_along_axes(lanes, eight, one, sweep, wanted)
+        return with_diagonals(lanes, eight, one, sweep, wanted, gaps);
     }
+    gaps
 }
 
 /// The same along the axes alone.
@@ -110,13 +110,8 @@ fn gaps_along_axes<I: Instructions>(
         extension,
         bends,
     } = sweep;
-    let [x, y, z] = splat(lanes, &one.center);
     let center = &eight.center;
-    let apart = [
-        lanes.sub(x, center[0]),
-        lanes.sub(y, center[1]),
-        lanes.sub(z, center[2]),
-    ];
+    let apart = apart(lanes, eight, &one.center);
     let half = splat(lanes, &one.half);
     let axes = &eight.axes;
     let [first, second, third] = &one.axes;
@@ -148,12 +143,7 @@ fn gaps_along_axes<I: Instructions>(
     ];
     let mut of_one = [lanes.splat(bends[0]); 3];
     for twist in twists {
-        let turn = cross3(&twist.angular, &one.center);
-        let velocity = each3(|k| twist.linear[k] + turn[k]);
-        let sides = each3(|j| {
-            let turned = cross3(&twist.angular, &one.axes[j]);
-            each3(|k| turned[k] * one.half[j])
-        });
+        let (velocity, sides) = twist.of_box(one);
         for k in 0..3 {
             let shift = lanes.along(&axes[k], &velocity);
             let nearer = nearer(lanes, shift, places_of_eight[k], extension);
@@ -209,220 +199,44 @@ fn gaps_along_axes<I: Instructions>(
     }
 }
 
-/// The same along the diagonals too.
+/// The same with the diagonals too, where they may part boxes that the axes do not.
 #[inline(always)]
-fn gaps_beside_threshold<I: Instructions>(
+fn with_diagonals<I: Instructions>(
     lanes: I,
     eight: &EightBoxes<I>,
     one: &PackedBox,
     sweep: BoxSweep,
     wanted: GapsWanted,
+    mut gaps: SweptGaps<I>,
 ) -> SweptGaps<I> {
-    let boxes = SweptBoxes::new(lanes, eight, one, sweep);
-    let mut gaps = SweptGaps {
-        still: lanes.splat(f32::NEG_INFINITY),
-        swept: lanes.splat(f32::NEG_INFINITY),
-    };
-    let upright = lanes.splat(AXIS_FACTOR);
     let GapsWanted { cutoff, among } = wanted;
-    let open =
-        |gaps: &SweptGaps<I>| lanes.not_above(lanes.mul(gaps.swept, upright), cutoff) & among;
-    let along_eight = boxes.part_along_eight(&mut gaps);
-    if open(&gaps) != 0 {
-        let along_one = boxes.part_along_one(&mut gaps);
-        if open(&gaps) & gaps.diagonals_may_part(lanes, cutoff) != 0 {
-            boxes.part_along(&boxes.diagonal_of_eight(&along_eight), &mut gaps);
-            if open(&gaps) != 0 {
-                boxes.part_along(&boxes.diagonal_of_one(&along_one), &mut gaps);
-            }
+    if lanes.not_above(gaps.swept, cutoff) & among & gaps.diagonals_may_part(lanes, cutoff) == 0 {
+        return gaps;
+    }
+    for diagonal in &diagonals(lanes, eight, one) {
+        gaps.part_along(lanes, eight, one, sweep, diagonal);
+        if lanes.not_above(gaps.swept, cutoff) & among == 0 {
+            break;
         }
     }
-    SweptGaps {
-        still: lanes.mul(gaps.still, upright),
-        swept: lanes.mul(gaps.swept, upright),
-    }
+    gaps
 }
 
-/// Eight boxes and one, with what all their axes take.
-struct SweptBoxes<'a, I: Instructions> {
-    lanes: I,
-    eight: &'a EightBoxes<I>,
-    one: &'a PackedBox,
-    sweep: BoxSweep<'a>,
-    /// From the centres of the eight to that of the one; along the axes of the eight, and of the one.
-    apart: Triple<I>,
-    along_eight: Triple<I>,
-    along_one: Triple<I>,
-    /// The products of the axes of the eight with those of the one.
-    products: [Triple<I>; 3],
-}
-
-impl<'a, I: Instructions> SweptBoxes<'a, I> {
+impl Twist32 {
+    /// The velocity of a box's centre, and its sides turned.
     #[inline(always)]
-    fn new(lanes: I, eight: &'a EightBoxes<I>, one: &'a PackedBox, sweep: BoxSweep<'a>) -> Self {
-        let [x, y, z] = splat(lanes, &one.center);
-        let center = &eight.center;
-        let apart = [
-            lanes.sub(x, center[0]),
-            lanes.sub(y, center[1]),
-            lanes.sub(z, center[2]),
-        ];
-        let axes = &eight.axes;
-        let [first, second, third] = &one.axes;
-        let with_one = |axis: &Triple<I>| {
-            [
-                lanes.along(axis, first),
-                lanes.along(axis, second),
-                lanes.along(axis, third),
-            ]
-        };
-        Self {
-            lanes,
-            eight,
-            one,
-            sweep,
-            apart,
-            along_eight: [
-                lanes.dot(&axes[0], &apart),
-                lanes.dot(&axes[1], &apart),
-                lanes.dot(&axes[2], &apart),
-            ],
-            along_one: with_one(&apart),
-            products: [with_one(&axes[0]), with_one(&axes[1]), with_one(&axes[2])],
-        }
-    }
-
-    /// The velocity of the one's centre by a twist, and its sides turned by it.
-    #[inline(always)]
-    fn velocities(&self, twist: &Twist32) -> ([f32; 3], [[f32; 3]; 3]) {
-        let turn = cross3(&twist.angular, &self.one.center);
+    fn of_box(&self, one: &PackedBox) -> ([f32; 3], [[f32; 3]; 3]) {
+        let turn = cross3(&self.angular, &one.center);
         let sides = each3(|j| {
-            let turned = cross3(&twist.angular, &self.one.axes[j]);
-            each3(|k| turned[k] * self.one.half[j])
+            let turned = cross3(&self.angular, &one.axes[j]);
+            each3(|k| turned[k] * one.half[j])
         });
-        (each3(|k| twist.linear[k] + turn[k]), sides)
-    }
-
-    /// Along the axes of the eight; returns the gaps.
-    #[inline(always)]
-    fn part_along_eight(&self, gaps: &mut SweptGaps<I>) -> Triple<I> {
-        let (lanes, axes) = (self.lanes, &self.eight.axes);
-        let mut moved = [lanes.splat(self.sweep.bends[0]); 3];
-        for twist in self.sweep.twists {
-            let (velocity, sides) = self.velocities(twist);
-            for k in 0..3 {
-                let shift = lanes.along(&axes[k], &velocity);
-                let nearer = nearer(lanes, shift, self.along_eight[k], self.sweep.extension);
-                moved[k] = lanes.add(nearer, moved[k]);
-                for side in &sides {
-                    moved[k] = lanes.add(moved[k], lanes.abs(lanes.along(&axes[k], side)));
-                }
-            }
-        }
-        let half = splat(lanes, &self.one.half);
-        let found = each3(|k| {
-            let extent = extent_along(lanes, &self.products[k], &half, self.eight.half[k]);
-            lanes.sub(lanes.abs(self.along_eight[k]), extent)
-        });
-        for (gap, moved) in found.into_iter().zip(moved) {
-            gaps.offer(lanes, gap, moved, self.sweep.extension);
-        }
-        found
-    }
-
-    /// Along the axes of the one; returns the gaps.
-    #[inline(always)]
-    fn part_along_one(&self, gaps: &mut SweptGaps<I>) -> Triple<I> {
-        let (lanes, eight, one) = (self.lanes, self.eight, self.one);
-        let (center, axes) = (&eight.center, &eight.axes);
-        let mut moved = [lanes.splat(self.sweep.bends[1]); 3];
-        for twist in self.sweep.twists {
-            for (j, axis) in one.axes.iter().enumerate() {
-                let arm = cross3(axis, &twist.angular);
-                let [ax, ay, az] = splat(lanes, &arm);
-                let origin = lanes.splat(dot(axis, &twist.linear));
-                let first = lanes.mul_add(center[0], ax, origin);
-                let at_center = lanes.mul_add(center[2], az, lanes.mul_add(center[1], ay, first));
-                let nearer = nearer(lanes, at_center, self.along_one[j], self.sweep.extension);
-                let turned = [
-                    lanes.along(&axes[0], &arm),
-                    lanes.along(&axes[1], &arm),
-                    lanes.along(&axes[2], &arm),
-                ];
-                moved[j] = extent_along(lanes, &turned, &eight.half, lanes.add(nearer, moved[j]));
-            }
-        }
-        let found = each3(|j| {
-            let along = [
-                self.products[0][j],
-                self.products[1][j],
-                self.products[2][j],
-            ];
-            let extent = extent_along(lanes, &along, &eight.half, lanes.splat(one.half[j]));
-            lanes.sub(lanes.abs(self.along_one[j]), extent)
-        });
-        for (gap, moved) in found.into_iter().zip(moved) {
-            gaps.offer(lanes, gap, moved, self.sweep.extension);
-        }
-        found
-    }
-
-    /// The diagonal of the positive gaps along the axes of the eight.
-    #[inline(always)]
-    fn diagonal_of_eight(&self, gaps: &Triple<I>) -> Triple<I> {
-        let (lanes, axes) = (self.lanes, &self.eight.axes);
-        let [a, b, c] = sides_between(lanes, gaps, &self.along_eight);
-        each3(|k| {
-            let first = lanes.mul(axes[0][k], a);
-            lanes.mul_add(axes[2][k], c, lanes.mul_add(axes[1][k], b, first))
-        })
-    }
-
-    /// The same along the axes of the one.
-    #[inline(always)]
-    fn diagonal_of_one(&self, gaps: &Triple<I>) -> Triple<I> {
-        let (lanes, axes) = (self.lanes, &self.one.axes);
-        let sides = sides_between(lanes, gaps, &self.along_one);
-        each3(|k| lanes.along(&sides, &[axes[0][k], axes[1][k], axes[2][k]]))
-    }
-
-    /// Along vectors of any length, by which the products with them are divided at the end. One of length 0 says that nothing is less
-    /// than 0 apart.
-    #[inline(always)]
-    fn part_along(&self, way: &Triple<I>, gaps: &mut SweptGaps<I>) {
-        let (lanes, eight, one) = (self.lanes, self.eight, self.one);
-        let length = lanes.sqrt(lanes.dot(way, way));
-        let divisor = lanes.max(length, lanes.splat(SHORTEST_WAY));
-        let inverse = lanes.div(lanes.splat(1.0), divisor);
-        let place = lanes.dot(way, &self.apart);
-        let mut moved = lanes.splat(0.0);
-        for twist in self.sweep.twists {
-            let (velocity, sides) = self.velocities(twist);
-            let shift = lanes.along(way, &velocity);
-            moved = lanes.add(moved, nearer(lanes, shift, place, self.sweep.extension));
-            for side in &sides {
-                moved = lanes.add(moved, lanes.abs(lanes.along(way, side)));
-            }
-        }
-        let with_one = each3(|j| lanes.along(way, &one.axes[j]));
-        let with_eight = each3(|k| lanes.dot(way, &eight.axes[k]));
-        let half = splat(lanes, &one.half);
-        let of_one = extent_along(lanes, &with_one, &half, lanes.splat(0.0));
-        let extents = extent_along(lanes, &with_eight, &eight.half, of_one);
-        let gap = lanes.mul(lanes.sub(lanes.abs(place), extents), inverse);
-        let moved = lanes.mul_add(moved, inverse, lanes.splat(self.sweep.bends[0]));
-        gaps.offer(lanes, gap, moved, self.sweep.extension);
+        (each3(|k| self.linear[k] + turn[k]), sides)
     }
 }
 
 /// Ways shorter than this are taken to be so long.
 const SHORTEST_WAY: f32 = 1e-12;
-
-/// The gaps that are positive, with the signs of the places that they lead to.
-#[inline(always)]
-fn sides_between<I: Instructions>(lanes: I, gaps: &Triple<I>, places: &Triple<I>) -> Triple<I> {
-    each3(|k| lanes.signed_as(lanes.max(gaps[k], lanes.splat(0.0)), places[k]))
-}
 
 /// What a shift of a centre takes off its distance from others along an axis, which is the size of `place`.
 #[inline(always)]
@@ -449,6 +263,42 @@ impl<I: Instructions> SweptGaps<I> {
         let longest = lanes.mul(self.still, lanes.splat(ROOT_OF_3));
         let may_part = lanes.at_most(lanes.sub(taken_off, longest), -cutoff);
         may_part & lanes.at_most(lanes.mul(self.still, lanes.splat(LEAST_CUTOFF)), cutoff)
+    }
+
+    /// Takes in the gaps along vectors of any length, by which the products with them are divided at the end. One of length 0 says that
+    /// nothing is less than 0 apart.
+    #[inline(always)]
+    fn part_along(
+        &mut self,
+        lanes: I,
+        eight: &EightBoxes<I>,
+        one: &PackedBox,
+        sweep: BoxSweep,
+        way: &Triple<I>,
+    ) {
+        let length = lanes.sqrt(lanes.dot(way, way));
+        let divisor = lanes.max(length, lanes.splat(SHORTEST_WAY));
+        let upright = lanes.splat(AXIS_FACTOR);
+        let inverse = lanes.div(upright, divisor);
+        let place = lanes.dot(way, &apart(lanes, eight, &one.center));
+        let mut moved = lanes.splat(0.0);
+        for twist in sweep.twists {
+            let (velocity, sides) = twist.of_box(one);
+            let shift = lanes.along(way, &velocity);
+            moved = lanes.add(moved, nearer(lanes, shift, place, sweep.extension));
+            for side in &sides {
+                moved = lanes.add(moved, lanes.abs(lanes.along(way, side)));
+            }
+        }
+        let with_one = each3(|j| lanes.along(way, &one.axes[j]));
+        let with_eight = each3(|k| lanes.dot(way, &eight.axes[k]));
+        let half = splat(lanes, &one.half);
+        let of_one = extent_along(lanes, &with_one, &half, lanes.splat(0.0));
+        let extents = extent_along(lanes, &with_eight, &eight.half, of_one);
+        let gap = lanes.mul(lanes.sub(lanes.abs(place), extents), inverse);
+        let bend = lanes.mul(lanes.splat(sweep.bends[0]), upright);
+        let moved = lanes.mul_add(moved, inverse, bend);
+        self.offer(lanes, gap, moved, sweep.extension);
     }
 
     /// Takes in the gap along one axis, and what the motion takes off it.
