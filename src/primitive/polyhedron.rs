@@ -134,15 +134,10 @@ fn merge_coplanar(vertices: &[Vec3], triangles: &[[u32; 3]], tolerance: f64) -> 
         let by_area = area_vector(t).norm().total_cmp(&area_vector(s).norm());
         by_area.then(s.cmp(&t))
     });
-    // Corners on a line have no plane, only rounding; those that are in no face otherwise are on an edge of one.
-    let is_line = |t: usize| {
-        let longest = (0..3).map(|k| (corner(t, (k + 1) % 3) - corner(t, k)).norm());
-        area_vector(t).norm() <= tolerance * longest.fold(0.0, f64::max)
-    };
     let mut taken = vec![false; triangles.len()];
     let mut faces = Vec::new();
     for seed in order {
-        if taken[seed] || is_line(seed) {
+        if taken[seed] {
             continue;
         }
         taken[seed] = true;

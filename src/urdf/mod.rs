@@ -6,11 +6,15 @@
 mod assemble;
 mod bodies;
 mod link_forms;
+mod link_tree;
+mod mimic;
 mod model;
+mod options;
 mod packages;
 mod report;
 mod shapes;
 
-pub use assemble::{BaseJoint, UrdfGeometry, UrdfOptions, add_urdf_file, add_urdf_text};
+pub use assemble::{add_urdf_file, add_urdf_text};
 pub use link_forms::LinkForms;
+pub use options::{BaseJoint, UrdfGeometry, UrdfOptions};
 pub use report::UrdfReport;
