@@ -4,13 +4,14 @@ use super::crowd::Crowd;
 use super::first_contact::MeetingLeaves;
 use super::front::{Bundle, Front, FrontPart, Group, Leaves};
 use super::moving_pair::MovingPair;
+use super::near_boxes::NearBoxes;
 use super::over_pairs::OverPairs;
 use super::over_piece::PairOver;
 use super::piece::Piece;
 use super::set_tree::SetVerdict;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
 use crate::lanes::Instructions;
-use crate::pair::{BoxSweep, GapsWanted, Scratch, SweptLeaves, swept_gaps};
+use crate::pair::{BoxSweep, Scratch, SweptLeaves};
 
 /// Boxes whose gap the motion may take off by more than this part of their sizes are left to the halves of the piece, others
 /// are opened. Larger values open boxes that a smaller piece would part; smaller ones look at the same boxes again. On the arms of
@@ -24,8 +25,9 @@ const MEASURE_LEAVES_BELOW: f32 = 0.04;
 /// What a primitive pair costs, in groups of boxes.
 const MEASURE_COST: u32 = 4;
 
-/// The most primitive pairs of a complement whose depth is computed in one piece.
-const MAX_DEPTHS: u32 = 16;
+/// How many primitive pairs of a complement are asked in one piece whether they stay within each other: of those that larger pieces left,
+/// and of new ones.
+const MAX_DEPTHS: u32 = 8;
 
 /// One piece's look at its part of the front.
 pub(super) struct Look<'l, 'p, P: Piece> {
@@ -52,7 +54,7 @@ pub(super) struct LeafLook {
     /// It meets, or its complement is proved: what is left of it is not looked at.
     is_decided: bool,
     meets: bool,
-    /// Primitive pairs whose depth was computed.
+    /// How many primitive pairs of a complement may still be asked whether they stay within each other.
     depths: u32,
     /// Where its undecided bundles, groups and leaves begin.
     first: [usize; 3],
@@ -144,6 +146,7 @@ impl<P: Piece> Look<'_, '_, P> {
         self.leaf = LeafLook {
             complement,
             is_decided: is_passed,
+            depths: MAX_DEPTHS,
             first: [
                 self.front.bundles.len(),
                 self.front.groups.len(),
@@ -157,10 +160,16 @@ impl<P: Piece> Look<'_, '_, P> {
         if is_settled {
             return;
         }
-        // Primitives first: they decide contacts.
+        // Primitives first: they decide contacts. What was found last was nearest at the middle of a smaller piece.
         for i in share.leaves[0]..share.leaves[1] {
-            self.visit(self.front.leaves[i]);
+            let from_start = if complement {
+                share.leaves[0] + share.leaves[1] - 1 - i
+            } else {
+                i
+            };
+            self.visit(self.front.leaves[from_start]);
         }
+        self.leaf.depths += MAX_DEPTHS;
         let Front { groups, open, .. } = &mut *self.front;
         open.extend_from_slice(&groups[share.groups[0]..share.groups[1]]);
         self.open_all(lanes);
@@ -218,10 +227,14 @@ impl<P: Piece> Look<'_, '_, P> {
                 self.front.solids.push(number);
                 continue;
             }
-            let over = self.over.of(number as usize, self.pairs, self.piece);
-            // Balls that stay apart hold nothing of each other.
-            let PairOver::Near(over) = over else {
-                continue;
+            let over = match self.over.of(number as usize, self.pairs, self.piece) {
+                PairOver::Near(over) => over,
+                // Balls that stay apart hold nothing of each other.
+                PairOver::Apart => continue,
+                PairOver::TooLong => {
+                    self.front.solids.push(number);
+                    continue;
+                }
             };
             if over.pairing.is_one_inside(self.scratch) {
                 self.leaf.meets = true;
@@ -247,7 +260,9 @@ impl<P: Piece> Look<'_, '_, P> {
 
     /// Whether nothing more is to be looked at of the leaf.
     fn is_over(&self) -> bool {
-        self.leaf.is_decided || self.scratch.meter().is_exceeded()
+        self.leaf.is_decided
+            || self.leaf.complement && self.leaf.depths == 0
+            || self.scratch.meter().is_exceeded()
     }
 
     /// Decides a pair of primitives, or leaves it to the halves.
@@ -279,8 +294,8 @@ impl<P: Piece> Look<'_, '_, P> {
             &over.limits,
             self.scratch.for_primitives(),
         );
-        if self.leaf.complement && found != SweptLeaves::Free && self.leaf.depths < MAX_DEPTHS {
-            self.leaf.depths += 1;
+        if self.leaf.complement && found != SweptLeaves::Free {
+            self.leaf.depths -= 1;
             if over
                 .pairing
                 .stays_within(pair.places, &over.limits, self.scratch)
@@ -321,49 +336,35 @@ impl<P: Piece> Look<'_, '_, P> {
         let crowd = &self.crowds[bundle.crowd as usize];
         let known = self.over.crowd.as_ref().map(|(number, _)| *number);
         if known != Some(bundle.crowd) {
-            let pair = &self.pairs[crowd.first_pair as usize];
-            let made = crowd.over(pair, self.piece);
+            let made = crowd.over(self.pairs, self.piece);
             self.over.crowd = Some((bundle.crowd, made));
         }
         let Some((_, over)) = &self.over.crowd else {
             return;
         };
         let eight = crowd.boxes().load(lanes, bundle.eight);
-        let gaps = swept_gaps(
-            lanes,
-            &eight,
-            &over.one,
-            BoxSweep {
-                twists: over.twists.as_ref(),
-                extension: over.extension,
-                bends: over.bends,
-            },
-            GapsWanted {
-                cutoff: over.cutoff,
-                among: u32::from(bundle.lanes),
-            },
-        );
+        let sweep = BoxSweep {
+            twists: over.twists.as_ref(),
+            extension: over.extension,
+            bends: over.bends,
+        };
         self.scratch
             .meter_mut()
             .count_nodes(u64::from(bundle.lanes.count_ones()));
-        let mut near = lanes.not_above(gaps.swept, over.cutoff) & u32::from(bundle.lanes);
-        if near == 0 {
+        let near = NearBoxes::of(lanes, &eight, &over.one, sweep, over.cutoff, bundle.lanes);
+        let Some(mut near) = near else {
             return;
-        }
-        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
-        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        };
         let size = length(&over.one.half);
         let mut left = 0u8;
-        while near != 0 {
-            let lane = near.trailing_zeros() as usize & 7;
-            near &= near - 1;
+        while let Some(lane) = near.take_first() {
             let pair = crowd.first_pair + 8 * bundle.eight + lane as u32;
             let [a, b] = self.pairs[pair as usize].bodies();
             let meeting = Meeting {
                 pair,
                 units: [a.packed().root(), b.packed().root()],
-                sizes: [size, halves[lane]],
-                taken_off: taken_off[lane],
+                sizes: [size, near.sizes[lane]],
+                taken_off: near.taken_off[lane],
             };
             if !self.go_on(&meeting) {
                 left |= 1 << lane;
@@ -375,7 +376,8 @@ impl<P: Piece> Look<'_, '_, P> {
         }
     }
 
-    /// Opens a pair of boxes, or visits the primitives in them. Of boxes that the motion moves far nothing is done.
+    /// Opens a pair of boxes, or visits the primitives in them. Of boxes that the motion moves far nothing is done, but for a complement:
+    /// primitives that are near enough stay within the threshold, however large they are beside the motion.
     fn go_on(&mut self, meeting: &Meeting) -> bool {
         let Meeting {
             pair,
@@ -389,7 +391,8 @@ impl<P: Piece> Look<'_, '_, P> {
         } else {
             OPEN_NODES_BELOW
         };
-        if taken_off > limit * (sizes[0] + sizes[1]) || self.pair.is_left_to_halves(pair) {
+        let is_moved_far = !self.leaf.complement && taken_off > limit * (sizes[0] + sizes[1]);
+        if is_moved_far || self.pair.is_left_to_halves(pair) {
             return false;
         }
         let [a, b] = self.pairs[pair as usize].bodies();
@@ -453,40 +456,36 @@ impl<P: Piece> Look<'_, '_, P> {
         let unit = over.motions[1 - opened].factor;
         let one = over.motions[opened].apply(lanes, other_tree.core_in_lanes(lanes, group.other));
         let eight = node.boxes(lanes, unit);
-        let gaps = swept_gaps(
-            lanes,
-            &eight,
-            &one,
-            BoxSweep {
-                twists: over.twists[opened].as_ref(),
-                extension: over.extension,
-                bends: [over.bends[opened], over.bends[1 - opened]],
-            },
-            GapsWanted {
-                cutoff: over.cutoff,
-                among: u32::from(group.lanes),
-            },
-        );
+        let sweep = BoxSweep {
+            twists: over.twists[opened].as_ref(),
+            extension: over.extension,
+            bends: [over.bends[opened], over.bends[1 - opened]],
+        };
         self.scratch
             .meter_mut()
             .count_nodes(u64::from(group.lanes.count_ones()));
         self.pair.count(group.pair, 1);
-        let mut near = lanes.not_above(gaps.swept, over.cutoff) & u32::from(group.lanes);
-        if near == 0 {
+        let near = NearBoxes::of(lanes, &eight, &one, sweep, over.cutoff, group.lanes);
+        let Some(mut near) = near else {
             return;
-        }
-        let taken_off = lanes.array(lanes.sub(gaps.still, gaps.swept));
-        let halves = lanes.array(lanes.sqrt(lanes.dot(&eight.half, &eight.half)));
+        };
+        let is_complement = self.leaf.complement;
+        // What is to stay within the threshold is nearest at the middle: what is too far apart there is left to the halves.
+        let mut left = match is_complement {
+            true => near.take_farther(over.within),
+            false => 0,
+        };
         let radii = [over.core_radii[opened], over.core_radii[1 - opened]];
         let other_size = length(&one.half) + radii[1];
         let children = tree.children(lanes, index);
-        let mut left = 0u8;
-        while near != 0 {
-            let lane = near.trailing_zeros() as usize & 7;
-            near &= near - 1;
+        let first_open = self.front.open.len();
+        while let Some(lane) = match is_complement {
+            true => near.take_nearest(),
+            false => near.take_first(),
+        } {
             let (mut units, mut sizes) = (
                 [children.units[lane], group.other],
-                [halves[lane] + radii[0], other_size],
+                [near.sizes[lane] + radii[0], other_size],
             );
             if opened == 1 {
                 units.swap(0, 1);
@@ -496,11 +495,15 @@ impl<P: Piece> Look<'_, '_, P> {
                 pair: group.pair,
                 units,
                 sizes,
-                taken_off: taken_off[lane],
+                taken_off: near.taken_off[lane],
             };
             if !self.go_on(&meeting) {
                 left |= 1 << lane;
             }
+        }
+        if is_complement {
+            // The one pushed last is opened first.
+            self.front.open[first_open..].reverse();
         }
         if left != 0 {
             self.pair.leave(group.pair);

@@ -20,6 +20,7 @@ mod look;
 mod motion;
 mod moving_pair;
 mod moving_pure;
+mod near_boxes;
 mod over_pairs;
 mod over_piece;
 mod pair_motion;

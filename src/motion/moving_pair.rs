@@ -269,6 +269,7 @@ impl<'a> MovingPair<'a> {
         let slack = (pairing.slack() + moved.kinematics_error) * larger;
         let cores = tree_a.core_radius() + tree_b.core_radius();
         let lowered = slack + ROUNDING * (size + moved_at_size) + cores;
+        let in_units = |gap: f64| (((gap + lowered) * inverse) as f32).next_up();
         OverPiece {
             motions: [
                 Motion32::new(to_b, tree_b.scale(), scale),
@@ -276,7 +277,8 @@ impl<'a> MovingPair<'a> {
             ],
             twists: [in_a, in_b],
             bends: box_bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
-            cutoff: (((self.threshold + lowered) * inverse) as f32).next_up(),
+            cutoff: in_units(self.threshold),
+            within: in_units((self.threshold - displacement).max(0.0)),
             limits: SweptLimits {
                 threshold: self.threshold,
                 slack,

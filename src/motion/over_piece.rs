@@ -85,6 +85,8 @@ pub(super) struct OverPiece<'a, L: TwistLists> {
     pub limits: SweptLimits,
     /// Boxes with a larger gap do not meet, in units of the pair.
     pub cutoff: f32,
+    /// The primitives in boxes with a larger gap, where they are compared, are not certain to stay within the threshold.
+    pub within: f32,
 }
 
 impl<L: TwistLists> OverPiece<'_, L> {

@@ -41,6 +41,9 @@ impl BoxWork {
     }
 }
 
+/// The work on a pair that goes on in the halves of a box, times the part of the volume: see `PairLook`.
+const WORK_PER_VOLUME: f64 = 64.0;
+
 /// The most undecided pairs that are asked which coordinate moves them most.
 const MAX_ASKED_PAIRS: usize = 64;
 
@@ -240,7 +243,7 @@ impl Work for Prover<'_, '_, '_> {
                 scratch: &mut context.scratch,
                 verdicts: &mut verdicts,
                 leaf: Default::default(),
-                pair: PairLook::new(u32::MAX),
+                pair: PairLook::new((WORK_PER_VOLUME / volume) as u32),
                 met: None,
             };
             let at = Middle {
