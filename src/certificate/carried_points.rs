@@ -142,7 +142,8 @@ impl Course<'_> {
         self.space.link(number).expect("a link of the space")
     }
 
-    /// What the rounding of a gap of two bodies is at most, of points no farther than `radii` from the origins of their frames.
+    /// What the rounding of a gap of two bodies is at most, of points no farther than `radii` from the origins of the frames of the
+    /// links that carry them.
     ///
     /// In a chain of n links the pose of each is a product with two rotations. A product of matrices is off by at most 6
     /// epsilon, as a matrix; a turn by an angle of at most a by 4 epsilon, and by 2 a epsilon as the angle is the sum of a product; a sum of
@@ -157,6 +158,9 @@ impl Course<'_> {
                 continue;
             };
             deviations += side.body.map_or(0.0, |body| body.deviation());
+            // Where a body is modelled far from its frame's origin, and put back by its pose, lengths cancel, but not their rounding.
+            size += side.body.map_or(0.0, |body| body.center().norm());
+            size += side.pose.translation.norm();
             for link in self.carriers(side.link) {
                 let joint = self.joint(link);
                 links += 1.0;

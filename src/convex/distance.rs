@@ -131,8 +131,8 @@ pub fn parts(
 }
 
 /// The cutoff that a separating direction must exceed to prove what the full distance would also say, so that the order of the
-/// tests does not change the answer: larger than `cutoff` where one primitive is smooth. `None` for the caller's support
-/// functions, which have an error of their own.
+/// tests does not change the answer: where one primitive is smooth, more than `cutoff` by the error of the full distance. `None`
+/// for the caller's support functions, which have an error of their own.
 fn proved_cutoff(
     a: &PlacedPrimitive,
     b: &PlacedPrimitive,
@@ -145,7 +145,7 @@ fn proved_cutoff(
     }
     let is_function = |smooth: &&Smooth| matches!(smooth.kind, SmoothKind::Function(_));
     let has_function = smooth.iter().flatten().any(is_function);
-    (!has_function).then(|| cutoff.max(tolerance::SMOOTH_ERROR * pair.size))
+    (!has_function).then(|| cutoff + tolerance::SMOOTH_ERROR * pair.size)
 }
 
 /// Whether two primitives meet or are farther apart than the cutoff; `None` where only the full distance decides.

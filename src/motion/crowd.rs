@@ -21,6 +21,8 @@ use crate::tolerance;
 pub(super) struct Crowd {
     /// The numbers of the pairs are consecutive.
     pub first_pair: u32,
+    /// The pair whose object's frame is farthest from the origin of the world: it loses most by rounding.
+    farthest_pair: u32,
     boxes: BoxesByEight,
     /// Boxes are given relative to this point of the world: single precision is for nearby places.
     origin: Vec3,
@@ -58,6 +60,7 @@ impl Crowd {
         boxes.clear();
         let mut crowd = Self {
             first_pair,
+            farthest_pair: first_pair,
             boxes,
             origin,
             inverse: 1.0,
@@ -76,8 +79,13 @@ impl Crowd {
     fn fill(&mut self, pairs: &[MovingPair], at_rest: &mut BodiesAtRest, unit: f64) {
         self.boxes.clear();
         self.inverse = 1.0 / power_of_two(unit);
-        for pair in pairs {
+        let mut farthest = 0.0;
+        for (number, pair) in (self.first_pair..).zip(pairs) {
             let [_, b] = pair.bodies();
+            let away = pair.pose_of_b().translation.norm();
+            if away > farthest {
+                (farthest, self.farthest_pair) = (away, number);
+            }
             let at_rest = at_rest.of(b, pair.pose_of_b());
             let center = at_rest.center - self.origin;
             self.size = self.size.max(center.norm() + b.radius());
@@ -97,8 +105,9 @@ impl Crowd {
         &self.boxes
     }
 
-    /// The body over a piece, in the crowd's units; `pair` is any pair of the crowd.
-    pub fn over<P: Piece>(&self, pair: &MovingPair, piece: &mut P) -> CrowdOver<P::Lists> {
+    /// The body over a piece, in the crowd's units, given all pairs.
+    pub fn over<P: Piece>(&self, pairs: &[MovingPair], piece: &mut P) -> CrowdOver<P::Lists> {
+        let pair = &pairs[self.farthest_pair as usize];
         let moved = piece.moved(pair);
         let [a, _] = pair.bodies();
         let [pose, _] = &moved.poses;

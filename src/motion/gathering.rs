@@ -8,7 +8,7 @@ use super::carried::Carried;
 use super::crowd::{Crowd, CrowdMemory};
 use super::interval_proof::MovingLeaf;
 use super::kinematics::Kinematics;
-use super::linear_motion::{LinearMotion, STEP_FRACTION};
+use super::linear_motion::{LinearMotion, STEP_FRACTION, extent};
 use super::moving_pair::MovingPair;
 use super::moving_pure::MovingPure;
 use super::pair_rates::PairRates;
@@ -44,6 +44,7 @@ fn unstated_speeds(term: &Induced) -> Error {
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
 pub(super) struct Gathering<'a, 'k> {
     way: &'a Way<'a>,
+    motions: &'a LinkMotions,
     rates: PairRates<'a>,
     middle: Option<&'k mut Kinematics<'a>>,
     threshold: f64,
@@ -73,6 +74,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
     ) -> Self {
         Self {
             way,
+            motions,
             rates: PairRates::new(motions),
             middle,
             threshold,
@@ -377,7 +379,38 @@ impl<'a> Gathering<'a, '_> {
                 return shifts.fold(0.0, f64::max);
             }
         }
-        self.share() * self.way.line.fastest_pair(term).unwrap_or(0.0)
+        let Some(fastest) = self.way.line.fastest_pair(term) else {
+            return 0.0;
+        };
+        let held = scene.held().iter();
+        let held = held.map(|held| {
+            held.object.body.radius_from_origin() + held.object.pose.translation.norm()
+        });
+        let own = (0..scene.poses().len())
+            .filter_map(|link| Some(scene.link(link)?.0.radius_from_origin()));
+        let largest = own.chain(held).fold(0.0, f64::max);
+        let links = 0..scene.poses().len();
+        let roundings = links.map(|link| self.rounding_of_link(scene, link, largest));
+        let rounding = roundings.fold(0.0, f64::max);
+        // Both bodies of a pair may be carried.
+        self.share() * fastest + 2.0 * rounding
+    }
+
+    /// What rounding may move a body that a link carries, at the middle and at any other time together; no point of the body is farther
+    /// than `radius` from the link's origin.
+    fn rounding_of_link(&mut self, scene: &Scene, link: usize, radius: f64) -> f64 {
+        let mut rounding = self.rates.rounding_of_link(link);
+        if !self.motions.is_known(link) {
+            rounding.size += self
+                .motions
+                .lengths_of_unknown_joints(link, |link| &scene.poses()[link]);
+        }
+        let LinearMotion { q, cobject, .. } = self.way.line;
+        let of_coordinates =
+            cobject
+                .space()
+                .motion_bound_of_radius(link, radius, q, &self.way.rounding());
+        rounding.of_places(radius, self.share()) + of_coordinates
     }
 
     /// Bounds how far a link's own body goes in the world from where it is at the middle; 0 where it has none.
@@ -390,7 +423,8 @@ impl<'a> Gathering<'a, '_> {
             let body = carried(scene, link, placement);
             self.shift_of_body(&body).unwrap_or_else(|| {
                 let LinearMotion { q, v, cobject, .. } = self.way.line;
-                self.share() * cobject.space().motion_bound(link, q, v)
+                let moved = self.share() * cobject.space().motion_bound(link, q, v);
+                moved + self.rounding_of_link(scene, link, body.body.radius_from_origin())
             })
         });
         self.shifts[link] = Some(shift);
@@ -415,7 +449,15 @@ impl<'a> Gathering<'a, '_> {
         let (r_link, s_link) = target.links();
         let (_, r_object, _) = target.ids();
         if s_link.is_some() || r_object != 0 {
-            return self.share() * self.way.line.rate(scene, target);
+            let links = [Some(r_link), s_link];
+            let roundings = links
+                .into_iter()
+                .zip(target.sides)
+                .filter_map(|(link, placed)| {
+                    let link = link?;
+                    Some(self.rounding_of_link(scene, link, extent(scene, link, placed)))
+                });
+            return roundings.sum::<f64>() + self.share() * self.way.line.rate(scene, target);
         }
         self.shift_of_link(scene, r_link)
     }

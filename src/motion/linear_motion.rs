@@ -9,7 +9,8 @@ use crate::query::{Configuration, Placement, Scene, SceneMemory, Target, World};
 use crate::robot::Velocity;
 use crate::space::Space;
 
-/// The fraction of a distance that a bound may use; the rest covers rounding of kinematics and motion bounds.
+/// The fraction of a distance that a bound may use: the rest is more than the rounding of the bound itself, a sum of products. That of
+/// the bodies' places has nothing to do with their distance, and is added to what they move.
 pub(super) const STEP_FRACTION: f64 = 0.99;
 
 /// The motion from q with velocity v for a unit of time, in one state of the world. Both ends are within the coordinates'
@@ -117,7 +118,7 @@ impl<'a> LinearMotion<'a> {
 }
 
 /// Bounds the distance of a link's body, or of an object attached to the link, from the link's origin.
-fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
+pub(super) fn extent(scene: &Scene, link: usize, (body, pose): Placement) -> f64 {
     (pose.translation - scene.poses()[link].translation).norm() + body.radius_from_origin()
 }
 

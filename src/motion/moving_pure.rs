@@ -10,7 +10,7 @@ use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::nonzero::{length, product};
 use crate::query::{PureAt, Scene};
-use crate::robot::{Block, BlockKind, Coordinate, Velocity};
+use crate::robot::{Block, BlockKind, ChainRounding, Coordinate, RatesFrom, Velocity};
 use crate::space::Space;
 
 /// More than the rounding of products of rates and times.
@@ -31,6 +31,8 @@ struct MovingPart {
     rate: f64,
     /// What the rounding of configurations on the way may change.
     rounding: f64,
+    /// Of each link that moves over a floor or in the world box, what the rounding of its places comes from.
+    places: Vec<(usize, ChainRounding)>,
     /// Intervals before this time need no proof.
     followed_from: f64,
 }
@@ -134,6 +136,7 @@ impl MovingPart {
         }
         Ok(Self {
             rounding: rounding(way, &set),
+            places: rounding_of_places(way, &set, rate)?,
             set,
             rate,
             followed_from,
@@ -160,7 +163,7 @@ impl MovingPart {
             return Ok(SetVerdict::Free);
         }
         let along = self.along_normal(moment).unwrap_or(f64::INFINITY);
-        let stays_out = lower - threshold > along + self.rounding
+        let stays_out = lower - threshold > along + self.rounding + self.rounding_of_places(moment)
             || self
                 .beyond_box(moment)
                 .is_some_and(|beyond| beyond > threshold);
@@ -249,7 +252,23 @@ impl MovingPart {
             Extent::Time { span, .. } => (product(self.rate, span.reach()), self.rounding),
             Extent::Box(_) => (rate(moment.way, &self.set), rounding(moment.way, &self.set)),
         };
-        change * RATE_SLACK + rounding
+        change * RATE_SLACK + rounding + self.rounding_of_places(moment)
+    }
+
+    /// What the rounding of the links' places, at the middle of a piece and anywhere in it, takes off the distances measured there.
+    fn rounding_of_places(&self, moment: &Moment) -> f64 {
+        let reach = match moment.extent {
+            Extent::Time { span, .. } => span.reach(),
+            Extent::Box(_) => 1.0,
+        };
+        let of_link = |(link, rounding): &(usize, ChainRounding)| {
+            let body = moment.scene.link(*link);
+            rounding.of_places(
+                body.map_or(0.0, |(body, _)| body.radius_from_origin()),
+                reach,
+            )
+        };
+        self.places.iter().map(of_link).fold(0.0, f64::max)
     }
 
     fn at<'a>(&'a self, moment: &Moment<'a>, complement: bool) -> PureAt<'a> {
@@ -373,6 +392,27 @@ fn rounding(way: &Way, set: &PureSet) -> f64 {
         }
         _ => set.motion_bound(space, way.line.q, &v),
     }
+}
+
+/// What the rounding of the places of links comes from, if they move at all over a floor or in the world box. `rate` bounds how far.
+fn rounding_of_places(way: &Way, set: &PureSet, rate: f64) -> Result<Vec<(usize, ChainRounding)>> {
+    let (PureShape::Floor { links, .. } | PureShape::BeyondWorld { links }) = &set.shape else {
+        return Ok(Vec::new());
+    };
+    if rate == 0.0 {
+        return Ok(Vec::new());
+    }
+    let (motions, poses) = (way.link_motions(), way.link_poses(0.0)?);
+    let mut rates = RatesFrom::new(&motions, None);
+    let of_link = |&link: &usize| {
+        let mut rounding = rates.of_known_joints(link).rates.rounding;
+        // Joints of which no more than a speed is known end no farther than that from where they begin.
+        if !motions.is_known(link) {
+            rounding.size += motions.lengths_of_unknown_joints(link, |link| &poses[link]) + rate;
+        }
+        (link, rounding)
+    };
+    Ok(links.iter().map(of_link).collect())
 }
 
 fn has_range(coordinate: &Coordinate) -> bool {

@@ -63,6 +63,11 @@ impl<'a> PairRates<'a> {
         rounding
     }
 
+    /// What the rounding of a link's place comes from, but for the custom joints that move.
+    pub fn rounding_of_link(&mut self, link: usize) -> ChainRounding {
+        self.in_world.of_known_joints(link).rates.rounding
+    }
+
     /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.
     pub fn of_body(&mut self, body: &Carried<usize>) -> Option<MotionRates> {
         if self.of_bodies.len() <= body.number {

@@ -1,6 +1,7 @@
 //! Motions: slides, their paths and their proofs.
 
 mod beside_sets;
+mod cancelled_places;
 mod certificate_forgeries;
 mod certificate_sets;
 mod certificates;
