@@ -145,7 +145,7 @@ fn proved_cutoff(
     }
     let is_function = |smooth: &&Smooth| matches!(smooth.kind, SmoothKind::Function(_));
     let has_function = smooth.iter().flatten().any(is_function);
-    (!has_function).then(|| cutoff + tolerance::SMOOTH_ERROR * pair.size)
+    (!has_function).then_some(cutoff + tolerance::SMOOTH_ERROR * pair.size)
 }
 
 /// Whether two primitives meet or are farther apart than the cutoff; `None` where only the full distance decides.
