@@ -6,12 +6,14 @@ pub const EPSILON: f64 = f64::EPSILON;
 /// The rounding error of a primitive pair's distance, times L (the pair's largest coordinate); pairs at smaller distances
 /// touch.
 ///
-/// A closed-form distance is a difference of points whose coordinates carry the rounding of one rigid transform (three products
-/// and three sums, each within EPSILON/2 of at most 3 L) and of one interpolation along a feature; that bounds the error by
-/// about 12 EPSILON L. A distance that a certificate proves is at most [`CERTIFIED_GAP`] L, 16 EPSILON L, above a bound that is itself
-/// off by up to 14 EPSILON L (see [`SUPPORT_ERROR`]): 30 EPSILON L. Primitives whose vertices are off their faces' planes add that deviation
-/// (see `Convex::deviation`). A smaller gap cannot be distinguished from contact.
-pub const DISTANCE_ERROR: f64 = 32.0 * EPSILON;
+/// In EPSILON L: the given rotations may be off the nearest ones by 4 each, and the inverse of one is its transpose; that is 12, with
+/// the lengths that A's frame distorts. The relative pose is off by 4, a product of two matrices and a turned difference. A distance that
+/// a certificate proves is at most [`CERTIFIED_GAP`], 16, above its bound, and the bound is off by 9: B's support point is transformed
+/// (3), so is the direction (2), and the product of the difference with the direction is rounded (4). Each support point is chosen by
+/// products that are rounded: another may be farther by 3. That is 47 together. A closed-form distance is a difference of points that
+/// carry one transform and one interpolation along a feature, 12 in place of the last 31. Primitives whose vertices are off their
+/// faces' planes add that deviation (see `Convex::deviation`). A smaller gap cannot be distinguished from contact.
+pub const DISTANCE_ERROR: f64 = 48.0 * EPSILON;
 
 /// A distance of two solids is accepted when the lower bound of its certificate (a supporting direction) is this close, times
 /// L, to the distance of its two points; otherwise all features are searched.

@@ -15,7 +15,7 @@ use super::statement::Carried;
 use crate::pose::Vec3;
 use crate::robot::{JointKind, Link};
 use crate::space::Space;
-use crate::tolerance::EPSILON;
+use crate::tolerance::{DISTANCE_ERROR, EPSILON};
 
 /// The motion that a certificate is about.
 pub(super) struct Course<'a> {
@@ -149,7 +149,7 @@ impl Course<'_> {
     /// epsilon, as a matrix; a turn by an angle of at most a by 4 epsilon, and by 2 a epsilon as the angle is the sum of a product; a sum of
     /// translations by 4 epsilon of its size. Each turns or moves all that comes after, so a point is off by at most n (20 + 2 a)
     /// epsilon times the sum s of the lengths of all arms; the relative pose and the support points add 32 epsilon s. Twice the error of
-    /// measured distances, 64 epsilon s and both deviations, keeps what is shown here out of what queries call inside.
+    /// measured distances, 2 [`DISTANCE_ERROR`] s and both deviations, keeps what is shown here out of what queries call inside.
     pub fn rounding(&self, sides: [Option<&Carried>; 2], radii: [f64; 2]) -> f64 {
         let (mut links, mut angle, mut size, mut deviations) = (0.0, 0.0f64, 0.0, 0.0);
         for (side, radius) in sides.into_iter().zip(radii) {
@@ -168,7 +168,8 @@ impl Course<'_> {
                 size += self.arm(link).norm() + joint.away;
             }
         }
-        2.0 * deviations + (96.0 + links * (20.0 + 2.0 * angle)) * EPSILON * size
+        let relative = (32.0 + links * (20.0 + 2.0 * angle)) * EPSILON;
+        2.0 * deviations + (2.0 * DISTANCE_ERROR + relative) * size
     }
 
     /// A link and all that carry it, the innermost first.

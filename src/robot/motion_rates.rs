@@ -2,7 +2,7 @@
 
 use super::course::CourseBounds;
 use crate::pose::{Pose, Vec3, turned_back};
-use crate::tolerance::EPSILON;
+use crate::tolerance::{DISTANCE_ERROR, EPSILON};
 
 /// Bounds for a whole motion: the k-th derivative of a point's position is at most `origin[k - 1] + turn[k - 1] r`, for points no
 /// farther than r from the moving frame's origin.
@@ -47,13 +47,14 @@ impl ChainRounding {
     /// A pose is a product of the poses of n elements. A product of two matrices is off by at most 6 epsilon, as a matrix; a turn by an angle
     /// of at most a by 4 epsilon, and by 2 a epsilon as its angle is rounded; a sum of translations by 4 epsilon of its size. Each turns or
     /// moves all that comes after, so a point is off by at most n (10 + 2 a) epsilon times the sum s of all lengths. The relative pose of
-    /// two bodies, their support points, and the rounding of what classes measure take 96 epsilon s more. A velocity is a sum over the
+    /// two bodies and their support points take 32 epsilon s more, what classes measure twice [`DISTANCE_ERROR`]. A velocity is a sum over the
     /// turns of their speeds times arms that are off by as much: over a time in which these turn by T together it adds T times that,
     /// and an acceleration T^2 times.
     pub fn of_places(&self, radius: f64, reach: f64) -> f64 {
         let turned = reach * self.turning;
-        let relative = 96.0 + self.elements * (10.0 + 2.0 * self.angle);
-        let moved = relative * EPSILON * (self.size + radius) * (1.0 + turned * (1.0 + turned));
+        let relative = 32.0 + self.elements * (10.0 + 2.0 * self.angle);
+        let relative = 2.0 * DISTANCE_ERROR + relative * EPSILON;
+        let moved = relative * (self.size + radius) * (1.0 + turned * (1.0 + turned));
         // Of speeds that overflow nothing is known, and no comparison with what is no number may prune.
         if moved.is_nan() { f64::INFINITY } else { moved }
     }
