@@ -3,10 +3,13 @@
 //!
 //! Data flow in one direction, in the order of the modules below; each imports only from those above it.
 //!
+//! "(§ 2.3)" names a section of the report: Xavier and LaFarge, A Configuration Space Toolkit for Automated Spatial Reasoning,
+//! Sandia National Laboratories SAND97-0366, 1997.
+//!
 //! The modules that these docs show are the Rust API: what the C API offers, without its handles. All others are internal, visible
 //! to tests and benchmarks alone, and may change with any version. docs/architecture.md explains how they work together.
 
-// Every length and angle below which the library does not distinguish, each with its reason.
+// The lengths and angles below which the library does not distinguish, and what is rounded by how much, each with its reason.
 pub mod tolerance;
 
 // Lengths and products that are 0 only where all they are made of is.

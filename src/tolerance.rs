@@ -1,4 +1,5 @@
-//! The numeric tolerances, each with its derivation. All are relative to a length that the caller states.
+//! The numeric tolerances that several modules share: bounds of rounding errors, each with its derivation, and choices, each with its
+//! reason. All are relative to a length that the caller states. What one algorithm alone needs stands beside it.
 
 /// Unit round-off of f64 arithmetic, doubled: the spacing of numbers at 1.
 pub const EPSILON: f64 = f64::EPSILON;
@@ -30,6 +31,10 @@ pub const SUPPORT_ERROR: f64 = 16.0 * EPSILON;
 /// corners of the last simplex are as close together as rounding allows. A pair whose bounds stay farther apart than this
 /// reports it in its answer.
 pub const SMOOTH_ERROR: f64 = 1e-11;
+
+/// More than the rounding of sums and products of rates, times and lengths, none of them negative: each of n terms adds EPSILON, and
+/// nothing sums 10^6.
+pub const SUM_SLACK: f64 = 1.0 + 1e-9;
 
 /// The rounding error of a wrapper's bound, times L: the gap of two boxes along a unit vector. The support of a box is the product of its
 /// centre with the vector, within 6 EPSILON L with the centre's transform, and three half axes times products within 3 EPSILON: 15

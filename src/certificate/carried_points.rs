@@ -15,7 +15,7 @@ use super::statement::Carried;
 use crate::pose::Vec3;
 use crate::robot::{JointKind, Link};
 use crate::space::Space;
-use crate::tolerance::{DISTANCE_ERROR, EPSILON};
+use crate::tolerance::{DISTANCE_ERROR, EPSILON, SUM_SLACK};
 
 /// The motion that a certificate is about.
 pub(super) struct Course<'a> {
@@ -90,7 +90,7 @@ impl PointBounds {
         if self.speed == 0.0 {
             return 0.0;
         }
-        (0.125 * time * time * self.acceleration).min(0.5 * time * self.speed) * (1.0 + 1e-9)
+        (0.125 * time * time * self.acceleration).min(0.5 * time * self.speed) * SUM_SLACK
     }
 }
 

@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::nonzero::{length, product};
 use crate::pose::{Pose, Vec3};
 use crate::robot::{BlockKind, Coordinate};
-use crate::tolerance::{EPSILON, LARGEST_COORDINATE};
+use crate::tolerance::{EPSILON, LARGEST_COORDINATE, SUM_SLACK};
 
 /// Link poses are kept for so many times.
 const MAX_KEPT: usize = 4096;
@@ -205,7 +205,7 @@ impl<'a> Measure<'a> {
             gap: gap - rounding,
             displacement: match is_least_at_ends {
                 true => 0.0,
-                false => product(0.5 * pure.scale(), product(speed, time)) * (1.0 + 1e-9),
+                false => product(0.5 * pure.scale(), product(speed, time)) * SUM_SLACK,
             },
             rounding,
         })

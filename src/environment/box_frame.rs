@@ -2,7 +2,7 @@
 
 use super::bounds::{Bounds, slack};
 use crate::boxes::PackedBox;
-use crate::hierarchy::packed::power_of_two;
+use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::{cross3, each3};
 use crate::pair::ROUNDING;
 use crate::pose::Vec3;
@@ -45,7 +45,7 @@ impl BoxFrame {
     /// Two bodies of the frame deviate by at most `deviation` together.
     #[inline(always)]
     pub fn new(center: Vec3, limits: &FrameLimits, deviation: f64) -> Self {
-        let scale = power_of_two(limits.size);
+        let scale = power_of_two_above(limits.size);
         Self {
             center,
             scale,

@@ -32,7 +32,7 @@ pub fn meeting<A: Support, B: Support>(
     cutoff: f64,
 ) -> Option<Proved> {
     // Directions are products of three lengths, and support functions square them: in units of the size they stay in range.
-    let unit = power_of_two(size);
+    let unit = power_of_two_below(size);
     with_widest(MeetingSearch {
         a,
         b,
@@ -45,7 +45,7 @@ pub fn meeting<A: Support, B: Support>(
 }
 
 /// The largest power of two that is no larger than a length.
-fn power_of_two(length: f64) -> f64 {
+fn power_of_two_below(length: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     f64::from_bits(length.to_bits() & EXPONENT)
 }
@@ -98,7 +98,7 @@ pub(super) struct Beginning {
 pub(super) fn beginning<A: Support, B: Support>(a: &A, b: &B, start: Vec3) -> Beginning {
     let largest = start.amax();
     let unit = if largest > 0.0 && largest < f64::INFINITY {
-        power_of_two(largest)
+        power_of_two_below(largest)
     } else {
         1.0
     };

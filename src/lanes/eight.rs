@@ -1,5 +1,6 @@
-//! Eight lanes in single precision, for bounds. Bounds only prune, so products and sums are fused where that is cheap, and
-//! different instruction sets may give different bits.
+//! Eight lanes in single precision, for bounds. Products and sums are fused where that is cheap, and different instruction sets may
+//! give different bits: a bound decides what is looked at, and is lowered by more than its rounding, as `pair::ROUNDING` derives.
+//! Proofs of whole motions rest on that, so another operation needs another derivation.
 
 use super::doubles::DoubleInstructions;
 

@@ -59,32 +59,49 @@ mod widest {
     }
 }
 
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt")]
+fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
+    work.run(avx2)
+}
+
+/// AVX-512 is used for its twice as many registers; wider lanes gain nothing.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq,avx512bw")]
+fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
+    work.run(avx2)
+}
+
 /// Runs work with the widest instruction set of this processor.
 #[inline]
 pub fn with_widest<W: Work>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt")]
-        fn with_avx2<W: Work>(work: W, avx2: Avx2) -> W::Output {
-            work.run(avx2)
-        }
-        // AVX-512 is used for its twice as many registers; wider lanes gain nothing.
-        #[target_feature(
-            enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq,avx512bw"
-        )]
-        fn with_avx512<W: Work>(work: W, avx2: Avx2) -> W::Output {
-            work.run(avx2)
-        }
-        // SAFETY: the processor was detected to have the instructions of the branch taken.
-        unsafe {
-            match widest::get() {
-                widest::AVX512 => return with_avx512(work, Avx2::assumed()),
-                widest::AVX2 => return with_avx2(work, Avx2::assumed()),
-                _ => (),
-            }
+    // SAFETY: the processor was detected to have the instructions of the branch taken.
+    unsafe {
+        match widest::get() {
+            widest::AVX512 => return with_avx512(work, Avx2::assumed()),
+            widest::AVX2 => return with_avx2(work, Avx2::assumed()),
+            _ => (),
         }
     }
     work.run(Plain)
+}
+
+/// What work gives with each instruction set that this processor has, [`Plain`] first: for tests that compare them.
+pub fn with_each<W: Work>(work: impl Fn() -> W) -> Vec<W::Output> {
+    #[allow(unused_mut)]
+    let mut found = vec![work().run(Plain)];
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: each set is used only where the processor was detected to have it; those with AVX-512 have AVX2.
+    unsafe {
+        if widest::get() >= widest::AVX2 {
+            found.push(with_avx2(work(), Avx2::assumed()));
+        }
+        if widest::get() >= widest::AVX512 {
+            found.push(with_avx512(work(), Avx2::assumed()));
+        }
+    }
+    found
 }
 
 /// The values of a function for the three axes. Like `array::map`, which is not always inlined.

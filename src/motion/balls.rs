@@ -5,6 +5,7 @@ use super::kinematics::CenterMotion;
 use super::span::Span;
 use crate::body::Body;
 use crate::pose::Vec3;
+use crate::tolerance::SUM_SLACK;
 
 /// The balls around two bodies, which count as meeting up to some distance.
 pub(super) struct Balls<'a> {
@@ -27,7 +28,7 @@ impl Balls<'_> {
         let moved = center_moves(apart, distance);
         let reach = a.radius() + b.radius();
         let errors = kinematics_error + 1e-9 * (distance + reach) + a.deviation() + b.deviation();
-        distance > reach + self.threshold + moved * (1.0 + 1e-9) + errors
+        distance > reach + self.threshold + moved * SUM_SLACK + errors
     }
 
     /// The same over an interval, through which the second and third derivative of A's centre are at most `bounds`.

@@ -13,9 +13,7 @@ use crate::convex::Extension;
 use crate::pose::{Pose, Vec3};
 use crate::robot::{LinkMotions, LinkTwists, MotionRates, RatesFrom, RelativeTwists};
 use crate::space::Space;
-
-/// More than the rounding of sums of second-order terms.
-const SUM_SLACK: f64 = 1.0 + 1e-9;
+use crate::tolerance::SUM_SLACK;
 
 /// A box of configurations, which a [`Way`] goes through from its middle.
 pub(super) struct BoxPiece<'a> {

@@ -11,7 +11,7 @@ use super::piece::Piece;
 use crate::body::Body;
 use crate::boxes::{BoxesByEight, PackedBox};
 use crate::convex::Extension;
-use crate::hierarchy::packed::power_of_two;
+use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
 use crate::pair::{ROUNDING, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned};
@@ -78,7 +78,7 @@ impl Crowd {
     /// Puts the boxes in, in units of about `unit`.
     fn fill(&mut self, pairs: &[MovingPair], at_rest: &mut BodiesAtRest, unit: f64) {
         self.boxes.clear();
-        self.inverse = 1.0 / power_of_two(unit);
+        self.inverse = 1.0 / power_of_two_above(unit);
         let mut farthest = 0.0;
         for (number, pair) in (self.first_pair..).zip(pairs) {
             let [_, b] = pair.bodies();

@@ -6,6 +6,7 @@ use super::way::{Way, WayKind};
 use crate::error::Result;
 use crate::pose::{Pose, Vec3, turned};
 use crate::robot::{LinkMotions, LinkStates, MotionRates, MotionState};
+use crate::tolerance::SUM_SLACK;
 
 /// Memory of [`Kinematics`].
 #[derive(Default)]
@@ -162,7 +163,7 @@ impl<'a> Kinematics<'a> {
         let acceleration = (state.acceleration.norm() + turning * radius + reach * jerk / 3.0)
             .min(rates.turn[1] * radius + rates.origin[1]);
         let velocity = state.velocity.norm() + state.frame.angular.norm() * radius;
-        reach * (velocity + 0.5 * reach * acceleration) * (1.0 + 1e-9)
+        reach * (velocity + 0.5 * reach * acceleration) * SUM_SLACK
     }
 
     /// How A moves as B sees it where only poses are known: nothing seems to.

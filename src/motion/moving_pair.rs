@@ -8,11 +8,12 @@ use super::pair_rates::PairRates;
 use super::span::Span;
 use crate::body::Body;
 use crate::convex::{Extension, SweepTwist};
-use crate::hierarchy::packed::power_of_two;
+use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
 use crate::pair::{Motion32, Pairing, ROUNDING, SweptLimits, Twist32, sum_factor};
 use crate::pose::{Pose, Vec3, turned_back};
 use crate::robot::{ChainRounding, LinkMotions, MotionRates};
+use crate::tolerance::SUM_SLACK;
 
 /// A body pair on a motion, from t = 0 to 1.
 pub(super) struct MovingPair<'a> {
@@ -230,7 +231,7 @@ impl<'a> MovingPair<'a> {
         let bends = moved.bends;
         let pairing = Pairing::new(a, pose_a, b, pose_b);
         let size = pairing.precision.size;
-        let scale = power_of_two(size);
+        let scale = power_of_two_above(size);
         let inverse = 1.0 / scale;
         let [tree_a, tree_b] = [a.packed(), b.packed()];
         let to_b = &pairing.relative;
@@ -262,7 +263,7 @@ impl<'a> MovingPair<'a> {
         // Boxes hold the cores of B, the ball around a point of which grows to first order as A sees it: along a unit direction n it
         // reaches |n + n x w| times its radius, at most the square root of 1 + |w|^2 times. The core itself is too far away for the
         // bend, which holds of the points near A.
-        let growth = turn * turn / (1.0 + turn.hypot(1.0)) * (1.0 + 1e-9);
+        let growth = turn * turn / (1.0 + turn.hypot(1.0)) * SUM_SLACK;
         let box_bends = [bends[0] + growth * tree_b.core_radius(), bends[1]];
         moved_at_size *= sum_factor(sweep_twists.as_ref().len());
         let larger = 1.0 + moved_at_size / size;
@@ -276,6 +277,7 @@ impl<'a> MovingPair<'a> {
                 Motion32::new(&to_b.inverse(), tree_a.scale(), scale),
             ],
             twists: [in_a, in_b],
+            // A thousandth covers the axes' lengths in single precision: see `pair::box_bounds`.
             bends: box_bends.map(|x| ((x * inverse) as f32).next_up() * 1.001),
             cutoff: in_units(self.threshold),
             within: in_units((self.threshold - displacement).max(0.0)),
@@ -329,8 +331,8 @@ impl<'a> MovingPair<'a> {
         match self.bounds {
             RelativeRates::Derivatives(_) => self
                 .accelerations(relative, rates, reach)
-                .map(|x| 0.5 * reach * reach * x * (1.0 + 1e-9)),
-            RelativeRates::Speed { speed, .. } => [reach * speed * (1.0 + 1e-9); 2],
+                .map(|x| 0.5 * reach * reach * x * SUM_SLACK),
+            RelativeRates::Speed { speed, .. } => [reach * speed * SUM_SLACK; 2],
         }
     }
 

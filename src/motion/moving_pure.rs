@@ -12,9 +12,7 @@ use crate::nonzero::{length, product};
 use crate::query::{PureAt, Scene};
 use crate::robot::{Block, BlockKind, ChainRounding, Coordinate, RatesFrom, Velocity};
 use crate::space::Space;
-
-/// More than the rounding of products of rates and times.
-const RATE_SLACK: f64 = 1.0 + 1e-9;
+use crate::tolerance::SUM_SLACK;
 
 /// A pure set, or its complement, on a motion.
 pub(super) struct MovingPure {
@@ -196,7 +194,7 @@ impl MovingPart {
             .iter()
             .map(|block| {
                 let k = block.velocity;
-                let change = product(v[k].abs(), reach) * RATE_SLACK + rounding[k];
+                let change = product(v[k].abs(), reach) * SUM_SLACK + rounding[k];
                 (beyond[block.coordinate] - change).max(0.0)
             })
             .collect();
@@ -252,7 +250,7 @@ impl MovingPart {
             Extent::Time { span, .. } => (product(self.rate, span.reach()), self.rounding),
             Extent::Box(_) => (rate(moment.way, &self.set), rounding(moment.way, &self.set)),
         };
-        change * RATE_SLACK + rounding + self.rounding_of_places(moment)
+        change * SUM_SLACK + rounding + self.rounding_of_places(moment)
     }
 
     /// What the rounding of the links' places, at the middle of a piece and anywhere in it, takes off the distances measured there.
@@ -292,7 +290,7 @@ impl MovingPart {
             Extent::Time { span, .. } => span.reach(),
             Extent::Box(piece) => {
                 let (body, _) = moment.scene.link(link)?;
-                return Some(piece.change_along(link, body, normal)? * RATE_SLACK);
+                return Some(piece.change_along(link, body, normal)? * SUM_SLACK);
             }
         };
         let extent = moment.scene.link(link)?.0.radius_from_origin();
@@ -312,7 +310,7 @@ impl MovingPart {
             true => toward(1.0).max(toward(-1.0)),
             false => toward(1.0),
         };
-        Some(along * RATE_SLACK)
+        Some(along * SUM_SLACK)
     }
 }
 

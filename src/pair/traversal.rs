@@ -14,7 +14,7 @@ use super::visitor::Visitor;
 use super::winding::RayScratch;
 use crate::boxes::{PackedBox, SIZE_STEPS};
 use crate::error::Result;
-use crate::hierarchy::packed::{NodeRef, PackedTree, power_of_two};
+use crate::hierarchy::packed::{NodeRef, PackedTree, power_of_two_above};
 use crate::lanes::{Instructions, Work, each3, with_widest};
 use crate::pose::Vec3;
 use crate::work_meter::WorkMeter;
@@ -172,7 +172,7 @@ impl<'a> Walk<'a> {
         let pairing = visits.pairing;
         let [a, b] = [pairing.a.packed(), pairing.b.packed()];
         let size = pairing.precision.size;
-        let scale = power_of_two(size);
+        let scale = power_of_two_above(size);
         let inverse_scale = 1.0 / scale;
         let exponent = |tree: &PackedTree| (tree.scale().to_bits() >> 52) as i32;
         Self {

@@ -14,7 +14,7 @@ use super::box_bounds::ROUNDING;
 use super::near_primitives::NearPrimitives;
 use crate::body::{Body, Solid};
 use crate::boxes::PackedBox;
-use crate::hierarchy::packed::power_of_two;
+use crate::hierarchy::packed::power_of_two_above;
 use crate::lanes::each3;
 use crate::pose::Vec3;
 
@@ -131,7 +131,7 @@ impl Ray {
         let (below, above) = (point - extent.low, extent.high - point);
         let (down, up) = (below.imin(), above.imin());
         let is_up = above[up] < below[down];
-        let steps = STEPS / power_of_two(extent.low.amax().max(extent.high.amax()));
+        let steps = STEPS / power_of_two_above(extent.low.amax().max(extent.high.amax()));
         Some(Self {
             from: *point,
             axis: if is_up { up } else { down },

@@ -7,7 +7,7 @@ use cstk::convex::{DistanceScratch, PlacedBuffer, measure};
 use cstk::gjk::DistanceLimits;
 use cstk::hierarchy::Grouping;
 use cstk::hierarchy::packed::{NodeRef, PackedTree};
-use cstk::lanes::{Instructions, Plain, Work, with_widest};
+use cstk::lanes::{Instructions, Work, with_each};
 use cstk::pair::{
     BoundRefinement, Pairing, PrimitiveScratch, ROUNDING, bounds, gaps_to_point, sharper_bounds,
 };
@@ -68,7 +68,7 @@ fn check_boxes(
         let node = tree.node(index);
         let count = node.count as usize;
         assert!((2..=8).contains(&count), "{count} children");
-        let decoded = [with_widest(Decoded(node)), Decoded(node).run(Plain)];
+        let decoded = with_each(|| Decoded(node));
         let met = (0..count)
             .map(|lane| {
                 let child = tree.child(index, lane);
@@ -318,11 +318,11 @@ fn no_bound_is_above_the_distance_of_the_boxes() {
             direction: &direction,
             nearest: &nearest,
         };
-        let found = [with_widest(bounded()), bounded().run(Plain)];
+        let found = with_each(bounded);
         for lane in 0..all.len() {
             let exact = hull_distance(&corners(&node.get(lane)), &corners(&one)).lower();
             let within = hull_distance(&corners(&node.get(lane)), &held.points).lower();
-            for [coarse, refined, aimed] in found {
+            for [coarse, refined, aimed] in &found {
                 let [coarse, refined, aimed] = [coarse, refined, aimed].map(|b| f64::from(b[lane]));
                 assert!(aimed <= within.max(0.0) + ROUNDING, "{aimed} {within}");
                 aimed_sum += aimed.max(0.0);

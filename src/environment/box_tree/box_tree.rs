@@ -6,7 +6,7 @@ use super::oriented_box::OrientedBox;
 use crate::boxes::{Extent, WideNode};
 use crate::cow_vec::CowVec;
 use crate::hierarchy::grouping::{Forest, levels_for, split_within};
-use crate::hierarchy::packed::power_of_two;
+use crate::hierarchy::packed::power_of_two_above;
 use crate::hierarchy::{Node, SubsetTree};
 use crate::lanes::F64x4;
 use crate::pose::Vec3;
@@ -182,7 +182,7 @@ impl BoxFrame {
     pub(crate) fn new(center: Vec3, size: f64) -> Self {
         // The squares of smaller lengths round to 0, which would make far boxes seem near.
         const SMALLEST: f64 = 1e-150;
-        let scale = power_of_two(size.max(SMALLEST));
+        let scale = power_of_two_above(size.max(SMALLEST));
         Self { center, scale }
     }
 

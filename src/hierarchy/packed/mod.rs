@@ -15,5 +15,5 @@ pub use packed_groups::pack_groups;
 pub use packed_parts::{PackedPart, TopLeaf, pack_parts};
 pub use packed_primitives::PackedPrimitives;
 pub use packed_refit::refit;
-pub use packed_tree::{Children, NodeRef, PackedTree, power_of_two};
+pub use packed_tree::{Children, NodeRef, PackedTree, power_of_two_above};
 pub use packed_wrappers::pack_wrappers;

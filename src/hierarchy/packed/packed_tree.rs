@@ -153,7 +153,7 @@ impl PackedTree {
         Self {
             nodes: Vec::new(),
             primitives: PackedPrimitives::default(),
-            scale: power_of_two(ball.radius + ball.center.norm()),
+            scale: power_of_two_above(ball.radius + ball.center.norm()),
             whole: Whole {
                 frame: [F64x4::splat(0.0); 3],
                 half: Vec3::zeros(),
@@ -370,9 +370,10 @@ impl PackedTree {
     }
 }
 
-/// A power of two, at least the given length and at most twice it; clamped to 1e-300 and 1e300.
-pub fn power_of_two(length: f64) -> f64 {
+/// A power of two, at least the given length and at most twice it, but from 2^-996 to 2^996.
+pub fn power_of_two_above(length: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
+    const LARGEST: f64 = f64::from_bits((1023 + 996) << 52);
     let below = f64::from_bits(length.to_bits() & EXPONENT);
-    (2.0 * below).clamp(1e-300, 1e300)
+    (2.0 * below).clamp(1.0 / LARGEST, LARGEST)
 }
