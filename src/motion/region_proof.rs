@@ -7,6 +7,7 @@ use super::interval_proof::{Middle, MovingSet};
 use super::linear_motion::LinearMotion;
 use super::look::{Look, PairLook};
 use super::over_pairs::OverPairs;
+use super::over_piece::ManyTwists;
 use super::set_tree::SetVerdict;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
@@ -176,120 +177,189 @@ struct Prover<'a, 'c, 'd> {
     confirm: &'c mut ConfirmAt<'d>,
 }
 
+/// What the looks at all parts of a box share.
+struct Lists<'a> {
+    front: Front,
+    over: OverPairs<'a, ManyTwists>,
+    verdicts: Vec<SetVerdict>,
+    memory: Vec<SetVerdict>,
+    whole_half: Vec<f64>,
+}
+
+/// What a look at a part of a box has shown.
+enum Looked {
+    Free,
+    /// The set is met at this configuration of the whole box, certainly.
+    Meets(Vec<f64>),
+    /// What is left, and the coordinate at whose middle it is halved, if any can be.
+    Left(FrontPart, Option<usize>),
+    /// The work ended.
+    Exceeded,
+}
+
 impl Work for Prover<'_, '_, '_> {
     type Output = Result<BoxProof>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, lanes: I) -> Result<BoxProof> {
-        let Self {
-            proof,
-            context,
-            confirm,
-        } = self;
+    fn run<I: Instructions>(mut self, lanes: I) -> Result<BoxProof> {
         let RegionProof {
-            world,
             cobject,
             set,
             region,
-            work: BoxWork { max_boxes, samples },
-        } = proof;
+            work: BoxWork { max_boxes, .. },
+            ..
+        } = self.proof;
         let space = cobject.space();
-        let whole_half = region.center(space).half;
-        let front = &mut Front::default();
-        let over = &mut OverPairs::new(set.pairs.len(), Default::default());
-        let memory = &mut Vec::new();
-        let mut verdicts = vec![SetVerdict::Undecided; set.leaves.len()];
+        let mut lists = Lists {
+            front: Front::default(),
+            over: OverPairs::new(set.pairs.len(), Default::default()),
+            verdicts: vec![SetVerdict::Undecided; set.leaves.len()],
+            memory: Vec::new(),
+            whole_half: region.center(space).half,
+        };
+        let follows_solids = !set.tree.is_plain_union();
         let mut todo = vec![Rest {
             region: region.clone(),
-            part: front.start(&set.pairs, &set.crowds, !set.tree.is_plain_union()),
+            part: lists.front.start(&set.pairs, &set.crowds, follows_solids),
             volume: 1.0,
         }];
         let (mut proved, mut boxes) = (0.0, 0);
         let mut undecided = None;
-        while let Some(Rest {
-            region,
-            part,
-            volume,
-        }) = todo.pop()
-        {
-            let Center { q, half } = region.center(space);
-            if boxes == max_boxes || context.scratch.meter().is_exceeded() {
-                return Ok(BoxProof::Undecided { at: q, proved });
+        while let Some(rest) = todo.pop() {
+            let center = rest.region.center(space);
+            if boxes == max_boxes || self.context.scratch.meter().is_exceeded() {
+                return Ok(BoxProof::Undecided {
+                    at: center.q,
+                    proved,
+                });
             }
             boxes += 1;
-            let way = &Way {
-                line: LinearMotion {
-                    world,
-                    cobject,
-                    q: &q,
-                    v: &half,
-                },
-                end: None,
-                kind: WayKind::Box {
-                    low: &region.low,
-                    high: &region.high,
-                },
-            };
-            let motions = &way.link_motions();
-            let poses = &way.link_poses(0.0)?;
-            let piece = &mut BoxPiece::new(way, motions, poses);
-            verdicts.fill(SetVerdict::Undecided);
-            let mut look = Look {
-                pairs: &set.pairs,
-                crowds: &set.crowds,
-                over,
-                piece,
-                front,
-                scratch: &mut context.scratch,
-                verdicts: &mut verdicts,
-                leaf: Default::default(),
-                pair: PairLook::new((WORK_PER_VOLUME / volume) as u32),
-                met: None,
-            };
-            let at = Middle {
-                way: Some(way),
-                time: 0.0,
-            };
-            let whole = set.look_at_all(lanes, &mut look, &part, at, memory)?;
-            let left = look.left(&part);
-            if context.scratch.meter().is_exceeded() {
-                return Ok(BoxProof::Undecided { at: q, proved });
-            }
-            if whole == SetVerdict::Free {
-                proved += volume;
-                continue;
-            }
-            if whole == SetVerdict::Meets && confirm(context, &q)? {
-                return Ok(BoxProof::Meets(q));
-            }
-            if boxes == 1 {
-                for sample in region.samples(samples) {
-                    if confirm(context, &sample)? {
-                        return Ok(BoxProof::Meets(sample));
-                    }
+            let (left, halved) = match self.look_at(lanes, &rest, &center, &mut lists)? {
+                Looked::Free => {
+                    proved += rest.volume;
+                    continue;
                 }
-            }
-            let mut shares = vec![0.0; space.nv()];
-            front.raise_shares(&left, set, piece, &mut shares);
-            let Some((c, _)) = widest(way, shares, &whole_half) else {
-                // It cannot be halved any more. Another part may still have a contact.
-                undecided = Some(q);
-                continue;
+                Looked::Exceeded => {
+                    return Ok(BoxProof::Undecided {
+                        at: center.q,
+                        proved,
+                    });
+                }
+                Looked::Meets(at) => return Ok(BoxProof::Meets(at)),
+                Looked::Left(left, halved) => (left, halved),
             };
-            let [mut lower, mut upper] = [region.clone(), region];
-            lower.high[c] = q[c];
-            upper.low[c] = q[c];
-            for region in [upper, lower] {
-                todo.push(Rest {
-                    region,
-                    part: left,
-                    volume: 0.5 * volume,
-                });
+            match halved {
+                Some(c) => todo.extend(rest.halves(c, center.q[c], left)),
+                // It cannot be halved any more. Another part may still have a contact.
+                None => undecided = Some(center.q),
             }
         }
         Ok(match undecided {
             Some(at) => BoxProof::Undecided { at, proved },
             None => BoxProof::Free,
+        })
+    }
+}
+
+impl<'a> Prover<'a, '_, '_> {
+    /// Looks at a part of the box.
+    #[inline(always)]
+    fn look_at<I: Instructions>(
+        &mut self,
+        lanes: I,
+        rest: &Rest,
+        Center { q, half }: &Center,
+        lists: &mut Lists<'a>,
+    ) -> Result<Looked> {
+        let RegionProof {
+            world,
+            cobject,
+            set,
+            ..
+        } = self.proof;
+        let way = &Way {
+            line: LinearMotion {
+                world,
+                cobject,
+                q,
+                v: half,
+            },
+            end: None,
+            kind: WayKind::Box {
+                low: &rest.region.low,
+                high: &rest.region.high,
+            },
+        };
+        let motions = &way.link_motions();
+        let poses = &way.link_poses(0.0)?;
+        let piece = &mut BoxPiece::new(way, motions, poses);
+        lists.verdicts.fill(SetVerdict::Undecided);
+        let mut look = Look {
+            pairs: &set.pairs,
+            crowds: &set.crowds,
+            over: &mut lists.over,
+            piece,
+            front: &mut lists.front,
+            scratch: &mut self.context.scratch,
+            verdicts: &mut lists.verdicts,
+            leaf: Default::default(),
+            pair: PairLook::new((WORK_PER_VOLUME / rest.volume) as u32),
+            met: None,
+        };
+        let at = Middle {
+            way: Some(way),
+            time: 0.0,
+        };
+        let whole = set.look_at_all(lanes, &mut look, &rest.part, at, &mut lists.memory)?;
+        let left = look.left(&rest.part);
+        if self.context.scratch.meter().is_exceeded() {
+            return Ok(Looked::Exceeded);
+        }
+        if whole == SetVerdict::Free {
+            return Ok(Looked::Free);
+        }
+        if let Some(at) = self.meeting(whole, q, rest.volume == 1.0)? {
+            return Ok(Looked::Meets(at));
+        }
+        let mut shares = vec![0.0; cobject.space().nv()];
+        lists.front.raise_shares(&left, set, piece, &mut shares);
+        let halved = widest(way, shares, &lists.whole_half).map(|(c, _)| c);
+        Ok(Looked::Left(left, halved))
+    }
+
+    /// Where the set is certainly met: at the middle of a part, if a look there says so, or for the whole box at one of the samples.
+    fn meeting(
+        &mut self,
+        verdict: SetVerdict,
+        middle: &[f64],
+        is_whole: bool,
+    ) -> Result<Option<Vec<f64>>> {
+        if verdict == SetVerdict::Meets && (self.confirm)(self.context, middle)? {
+            return Ok(Some(middle.to_vec()));
+        }
+        if !is_whole {
+            return Ok(None);
+        }
+        let RegionProof { region, work, .. } = self.proof;
+        for sample in region.samples(work.samples) {
+            if (self.confirm)(self.context, &sample)? {
+                return Ok(Some(sample));
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl Rest {
+    /// The halves that a coordinate's middle makes, the lower one last.
+    fn halves(self, c: usize, middle: f64, part: FrontPart) -> [Self; 2] {
+        let [mut lower, mut upper] = [self.region.clone(), self.region];
+        lower.high[c] = middle;
+        upper.low[c] = middle;
+        [upper, lower].map(|region| Self {
+            region,
+            part,
+            volume: 0.5 * self.volume,
         })
     }
 }
