@@ -842,10 +842,10 @@ cstk_status cstk_body_builder_add_box(cstk_body_builder *builder,
 
 /**
  * Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is
- * smooth: distances are iterated until the lower and the upper bound agree to 1e-11 of its diameter at worst, and usually
- * about 1e-15 of the largest coordinate. Where they do not, `lower` and `upper` of the result show it. The feature of its
- * contacts is CSTK_FEATURE_SURFACE, which counts as a point in contact modes, and there is only one contact, even where it
- * stands or lies on a face. cstk_pair_penetration refuses it.
+ * smooth: distances are iterated, usually until they are known to about 1e-15 of the largest coordinate, and to 1e-11 of its
+ * diameter at worst. `lower` and `upper` of the result allow for that worst case on either side, for each smooth primitive of the
+ * pair, and for more where the iteration ends before. The feature of its contacts is CSTK_FEATURE_SURFACE, which counts as a
+ * point in contact modes, and there is only one contact, even where it stands or lies on a face. cstk_pair_penetration refuses it.
  */
 cstk_status cstk_body_builder_add_cylinder(cstk_body_builder *builder,
                                            const double *pose,
@@ -5799,7 +5799,7 @@ cstk_status cstk_region_classify(cstk_query *query,
  * linear velocities.
  *
  * CSTK_ERROR_INVALID_ARGUMENT where q is inside, CSTK_ERROR_UNSUPPORTED where a custom joint would move that does not state its
- * speeds. The cost is that of some hundred calls of cstk_region_classify.
+ * speeds. The cost is that of some hundred calls of cstk_region_classify; sides of many turns of a joint take as many times more.
  */
 cstk_status cstk_region_grow(cstk_query *query,
                              const cstk_cobject *cobject,

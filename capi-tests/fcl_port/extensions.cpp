@@ -40,6 +40,89 @@ void margins() {
     expect_near(measurer(at(0, 0, 0), at(0, 5, 0), fcl::DistanceRequestd(), result), 3, 1e-12, "ComputeDistance");
 }
 
+// Half a turn goes either way round: the proof goes the way that the motion says.
+void half_turns() {
+    const fcl::Boxd box(2, 0.4, 0.3);
+    const fcl::Sphered ball(0.15);
+    int free = 0, met = 0;
+    for (int i = 0; i < 128; ++i) {
+        const double yaw = 0.05 * i, tilt = i % 2 == 0 ? 0.0 : 0.01 * i;
+        const auto turned = [&](double angle, double height) {
+            Transform tf = at(0, 0, height);
+            tf.linear() = (Eigen::AngleAxisd(angle, Eigen::Vector3d(std::sin(tilt), 0, std::cos(tilt))) *
+                           Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()))
+                              .toRotationMatrix();
+            return tf;
+        };
+        const Transform start = turned(yaw, -0.5), end = turned(yaw + 3.14159265358979323846, 0.5), there = at(0.8, 0.3, 0);
+        const fcl::InterpMotiond straight(start, end);
+        const fcl::ScrewMotiond screw(start, end);
+        const fcl::TranslationMotiond rests(there, there);
+        for (const fcl::MotionBased *motion : {static_cast<const fcl::MotionBased *>(&straight),
+                                               static_cast<const fcl::MotionBased *>(&screw)}) {
+            fcl::ContinuousCollisionResultd result;
+            const fcl::MotionBased *const still = &rests;
+            fcl::continuousCollide<double>(&box, motion, &ball, still, fcl::ContinuousCollisionRequestd(10, 1e-9), result);
+            bool meets = false;
+            for (int k = 0; k <= 400; ++k) {
+                Transform now;
+                motion->integrate(k / 400.0);
+                motion->getCurrentTransform(now);
+                fcl::CollisionResultd sample;
+                meets = meets || fcl::collide<double>(&box, now, &ball, there, fcl::CollisionRequestd(), sample) > 0;
+            }
+            expect(!meets || result.is_collide, "half a turn that meets is not free");
+            if (result.is_collide) {
+                fcl::DistanceResultd nearest;
+                fcl::distance<double>(&box, result.contact_tf1, &ball, result.contact_tf2, fcl::DistanceRequestd(), nearest);
+                expect(nearest.min_distance < 1e-8, "a half turn's contact");
+            }
+            (result.is_collide ? met : free) += 1;
+        }
+    }
+    expect(free > 20 && met > 20, "half turns that meet and that do not");
+}
+
+// Parts of a model on both sides of a plane do not meet it.
+void both_sides_of_a_plane() {
+    Model model;
+    model.beginModel();
+    for (const double z : {-1.0, 1.0}) {
+        model.addTriangle(Eigen::Vector3d(0, 0, z), Eigen::Vector3d(1, 0, z), Eigen::Vector3d(0, 1, z));
+    }
+    model.endModel();
+    const fcl::Planed plane(0, 0, 1, 0);
+    const auto collides = [&](const Transform &end, fcl::CCDMotionType kind) {
+        fcl::ContinuousCollisionResultd result;
+        const fcl::ContinuousCollisionRequestd request(10, 1e-9, kind);
+        fcl::continuousCollide<double>(&model, at(0, 0, 0), end, &plane, at(0, 0, 0), at(0, 0, 0), request, result);
+        return result.is_collide;
+    };
+    Transform tilted = at(3, 0, 0);
+    tilted.linear() = Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    for (const fcl::CCDMotionType kind : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
+        expect(!collides(at(30, 5, 0.99), kind), "along a plane, on both sides of it");
+        expect(collides(at(30, 5, 1.01), kind), "into a plane");
+        expect(kind == fcl::CCDM_TRANS || collides(tilted, kind), "turned into a plane");
+    }
+}
+
+// A ball about the middle of an ellipsoid that is nearly round comes out along the shortest axis.
+void depths_of_nearly_round_ellipsoids() {
+    for (int i = 0; i < 120; ++i) {
+        const double out = std::pow(10, -4 + i / 30.0), b = 1 + out * (0.1 + i % 7 / 8.0), c = 1 + out * (0.1 + i % 11 / 12.0);
+        const double radius = 0.2 + 0.01 * i;
+        const fcl::Ellipsoidd ellipsoid(1, b, c);
+        const fcl::Sphered ball(radius);
+        Transform tf = at(0, 0, 0);
+        tf.linear() = Eigen::AngleAxisd(0.3 * i, Eigen::Vector3d(1, 0.1 * i, -0.5).normalized()).toRotationMatrix();
+        fcl::DistanceResultd result;
+        const double depth = -fcl::distance<double>(&ball, at(0, 0, 0), &ellipsoid, tf, fcl::DistanceRequestd(true, true), result);
+        const double size = 2 * (radius + std::max(b, c));
+        expect(depth >= radius + 1 - 1e-12 && depth <= radius + 1 + 1e-6 * size, "the depth of a ball in an ellipsoid");
+    }
+}
+
 // A ball inside a closed mesh: a surface does not meet it, a solid does.
 void solids() {
     const fcl::Sphered ball(0.2);
@@ -259,9 +342,12 @@ void rows() {
 
 int main() {
     margins();
+    half_turns();
+    both_sides_of_a_plane();
     solids();
     thin_triangles();
     depths();
+    depths_of_nearly_round_ellipsoids();
     refusals();
     all_contacts();
     lying();

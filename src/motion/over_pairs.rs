@@ -58,6 +58,11 @@ impl<'a, L: TwistLists> OverPairs<'a, L> {
         self.crowd = None;
     }
 
+    /// Of how many pairs something was asked in this piece.
+    pub fn count(&self) -> usize {
+        self.made.len()
+    }
+
     pub fn of<P: Piece<Lists = L>>(
         &mut self,
         number: usize,

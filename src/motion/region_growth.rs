@@ -222,15 +222,23 @@ impl QueryContext {
 }
 
 impl Growth<'_> {
+    /// Where the work of the call ends on the way, nothing is known.
     fn prove(&self, region: &Region, context: &mut QueryContext) -> Result<BoxProof> {
         let max_boxes = self.options.max_boxes;
-        context.prove_region(
+        let found = context.prove_region(
             self.world,
             self.cobject,
             region,
             Keeps::Out,
             BoxWork::sampled(max_boxes),
-        )
+        );
+        match found {
+            Err(error) if error.kind == ErrorKind::Limit => Ok(BoxProof::Undecided {
+                at: region.low.clone(),
+                proved: 0.0,
+            }),
+            found => found,
+        }
     }
 
     /// The box with all sides moved on from where they are.

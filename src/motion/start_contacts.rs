@@ -230,7 +230,8 @@ impl Near<'_> {
         }
         let plane = obstacle.separation(context, motion, start);
         if plane.as_ref().is_some_and(Separation::lasts) {
-            return Ok(Some(1.0));
+            let stays = lower <= 0.0 || self.is_apart_at(context, obstacle, 1.0)?;
+            return Ok(stays.then_some(1.0));
         }
         if lower > obstacle.touching() {
             return Ok(Some(0.0));
@@ -248,14 +249,22 @@ impl Near<'_> {
         if !self.keeps_off(context, obstacle, share)? {
             return Ok(None);
         }
-        if share < 1.0 {
-            let at = motion.at(share);
-            let scene = &motion.scene(&at)?;
-            if obstacle.lower(context, scene, allowance.distance)? <= 0.0 {
-                return Ok(None);
-            }
-        }
-        Ok(Some(share))
+        // What touches may go on touching, from where it is followed on alone it must be apart.
+        let may_touch = lower <= 0.0 && share == 1.0;
+        let stays = may_touch || self.is_apart_at(context, obstacle, share)?;
+        Ok(stays.then_some(share))
+    }
+
+    /// Whether the obstacle is apart from the robot at a time, by more than rounding: what begins apart ends so.
+    fn is_apart_at(
+        &self,
+        context: &mut QueryContext,
+        obstacle: &impl Obstacle,
+        time: f64,
+    ) -> Result<bool> {
+        let at = self.motion.at(time);
+        let scene = &self.motion.scene(&at)?;
+        Ok(obstacle.lower(context, scene, self.allowance.distance)? > 0.0)
     }
 
     /// Whether, to first order, no contact of a touching start comes nearer up to a time.

@@ -221,7 +221,9 @@ impl<'t, 'a> PartSearch<'t, 'a> {
                 false => 0.0,
             });
             if gains[0] + gains[1] <= 0.125 * self.gap {
-                self.is_settled = pair.lower <= self.unlisted;
+                // A cell that cannot be halved any more leaves bounds wider apart than was asked for; nothing else does but rounding.
+                let is_stuck = pair.parts.map(|part| self.parts[part].is_smallest_cell());
+                self.is_settled = pair.lower <= self.unlisted && is_stuck == [false; 2];
                 return Ok(());
             }
             let side = usize::from(gains[1] > gains[0]);
@@ -402,6 +404,10 @@ impl<'t, 'a> PartSearch<'t, 'a> {
 }
 
 impl Part {
+    fn is_smallest_cell(&self) -> bool {
+        matches!(&self.shape, Shape::Cell { cell, .. } if !cell.has_halves())
+    }
+
     fn has_halves(&self) -> bool {
         match &self.shape {
             Shape::Primitive(_) => false,

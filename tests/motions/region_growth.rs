@@ -12,6 +12,33 @@ use helpers::shapes::cuboid;
 use crate::random_scenes::scene;
 use crate::regions::{amount, class, sample, slider};
 
+/// Whatever the limit of work, what was proved until then is answered.
+#[test]
+fn limited_work_leaves_the_box_so_far() {
+    let (space, cube) = (slider(), cuboid([1.0; 3]).body);
+    let walls = [-3.0, 4.0].map(|x| (&cube, Pose::from_translation(Vec3::new(x, 0.0, 0.0))));
+    let cobject = against(&space, &environment(&walls).0);
+    let whole = QueryContext::new()
+        .grow_region(&cobject, &[0.0], None, &GrowthOptions::default())
+        .unwrap();
+    let mut outcomes = [0; 2];
+    for limit in (4..400).chain([1_000_000]) {
+        let mut context = QueryContext::new();
+        context.set_limit(Some(limit));
+        let grown = context.grow_region(&cobject, &[0.0], None, &GrowthOptions::default());
+        let grown = grown.unwrap();
+        let is_limited = grown
+            .sides
+            .iter()
+            .any(|side| side.stop == SideStop::Limited);
+        assert!(whole.low[0] <= grown.low[0] && grown.low[0] <= 0.0);
+        assert!(0.0 <= grown.high[0] && grown.high[0] <= whole.high[0]);
+        assert!(is_limited || grown.low == whole.low && grown.high == whole.high);
+        outcomes[usize::from(is_limited)] += 1;
+    }
+    assert!(outcomes.iter().all(|&n| n > 0), "{outcomes:?}");
+}
+
 /// Grown boxes hold their configuration, are free at every sample, and what stops a side is a contact just beyond it.
 #[test]
 fn grown_boxes_are_free_and_stopped_by_contacts() {

@@ -6,7 +6,7 @@ use cstk::cobject::{CObject, Class};
 use cstk::error::{Error, ErrorKind, Result};
 use cstk::motion::{SlidPath, SlideToOptions, SlideToOutcome};
 use cstk::pose::{Pose, Vec3};
-use cstk::query::QueryContext;
+use cstk::query::{Configuration, QueryContext};
 use cstk::robot::{Coordinate, JointKind, LinkDefinition};
 use cstk::space::{Space, WorldBox};
 
@@ -223,6 +223,39 @@ fn every_motion_of_random_slides_is_free_at_samples() {
         "{outcomes:?}"
     );
     assert!(slid > 300, "{slid}");
+}
+
+/// Where no distance is to be kept, slides come as near as rounding, and no nearer.
+#[test]
+fn slides_that_touch_stay_outside() {
+    let mut random = Random::new(4711);
+    let context = &mut QueryContext::new();
+    let (mut points, mut touching) = (0, 0);
+    for round in 0..700 {
+        let cobject = scene(&mut random);
+        let space = cobject.space().clone();
+        let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
+            (0..space.nv())
+                .map(|_| random.within(-size, size))
+                .collect()
+        };
+        let start = space.step(&space.neutral(), &drawn(&mut random, 2.0));
+        let goal = space.step(&start, &drawn(&mut random, 1.5));
+        let mut options = SlideToOptions {
+            max_steps: 40,
+            ..SlideToOptions::with_step(0.1, 0.2)
+        };
+        options.slide.desired_distance = 0.0;
+        let led = slide_to(&cobject, &start, &goal, &options);
+        for q in led.points.chunks(space.nq()).skip(1) {
+            let q = Configuration::Coordinates(q);
+            let distance = context.distance(&cobject, q, f64::INFINITY).unwrap();
+            assert!(distance.lower > 0.0, "round {round}: {}", distance.distance);
+            points += 1;
+            touching += usize::from(distance.lower < 1e-9);
+        }
+    }
+    assert!(points > 1000 && touching > 10, "{points} {touching}");
 }
 
 #[test]

@@ -19,7 +19,9 @@ struct Depth {
 
 /// The expanding polytope algorithm (van den Bergen, 2001) on the difference a - b: facets of a polytope of support points, the
 /// nearest to the origin expanded first. Every direction looked at gives an upper bound of the depth, which is what is
-/// returned; the nearest facet gives a lower one, and the search ends where the two agree. The origin need not be inside.
+/// returned; the nearest facet gives a lower one, and the search ends where the two agree. About a point from which all directions are
+/// nearly alike, as the middle of a ball, it would take facets without number: there the best direction found is led downhill instead.
+/// The origin need not be inside.
 template <typename SupportA, typename SupportB> class ExpandingPolytope {
 public:
     ExpandingPolytope(const SupportA &a, const SupportB &b) : support_a_(a), support_b_(b) {}
@@ -33,9 +35,11 @@ public:
             const Facet facet = facets_[nearest];
             const Vertex vertex = support(facet.normal);
             if (best_.depth - facet.offset <= TOLERANCE * size_ || !expand(vertex)) {
-                break;
+                set_points();
+                return best_;
             }
         }
+        lead_downhill();
         set_points();
         return best_;
     }
@@ -47,6 +51,9 @@ private:
     static constexpr double TOLERANCE = 1e-8;
     /// Of cylinders, cones and ellipsoids in random poses 60 suffice.
     static constexpr int MAX_EXPANSIONS = 200;
+    /// Of steps downhill, of which each is one support point, and the least that is tried.
+    static constexpr int MAX_STEPS = 1000;
+    static constexpr double LEAST_STEP = 1e-6;
     /// A point outside a facet by less than this part of the size does not expand it.
     static constexpr double ROUNDING = 1e-14;
 
@@ -74,6 +81,21 @@ private:
         }
         size_ = std::max(size_, vertex.point.norm());
         return vertex;
+    }
+
+    /// Turns the best direction towards less depth, by the support point's offset across it, in steps that grow where they help.
+    void lead_downhill() {
+        double step = 1;
+        for (int i = 0; i < MAX_STEPS && step > LEAST_STEP; ++i) {
+            const Vector normal = best_.normal, point = best_.point_a - best_.point_b;
+            const Vector across = point - normal * normal.dot(point);
+            const double depth = best_.depth;
+            if (across.norm() <= ROUNDING * size_) {
+                return;
+            }
+            support((normal * std::max(depth, ROUNDING * size_) - step * across).normalized());
+            step *= best_.depth < depth ? 2 : 0.25;
+        }
     }
 
     /// The farther of the support points along a direction and against it, seen from `from`.

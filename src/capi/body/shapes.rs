@@ -97,10 +97,10 @@ pub unsafe extern "C" fn cstk_body_builder_add_box(
 }
 
 /// Adds the solid cylinder around the z axis of the frame at `pose`, from -half_length to half_length. Its surface is
-/// smooth: distances are iterated until the lower and the upper bound agree to 1e-11 of its diameter at worst, and usually
-/// about 1e-15 of the largest coordinate. Where they do not, `lower` and `upper` of the result show it. The feature of its
-/// contacts is CSTK_FEATURE_SURFACE, which counts as a point in contact modes, and there is only one contact, even where it
-/// stands or lies on a face. cstk_pair_penetration refuses it.
+/// smooth: distances are iterated, usually until they are known to about 1e-15 of the largest coordinate, and to 1e-11 of its
+/// diameter at worst. `lower` and `upper` of the result allow for that worst case on either side, for each smooth primitive of the
+/// pair, and for more where the iteration ends before. The feature of its contacts is CSTK_FEATURE_SURFACE, which counts as a
+/// point in contact modes, and there is only one contact, even where it stands or lies on a face. cstk_pair_penetration refuses it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cstk_body_builder_add_cylinder(
     builder: *mut cstk_body_builder,
