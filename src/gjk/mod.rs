@@ -104,6 +104,10 @@ impl DistanceLimits {
 /// more often.
 const MAX_STEPS: usize = 128;
 
+/// What rounding leaves of a vector that is a combination of differences of support points, times the largest of these: shorter ones, and
+/// smaller differences of bounds, say nothing. A difference and a sum of products are off by 4 EPSILON.
+const VECTOR_ROUNDING: f64 = 4.0 * tolerance::EPSILON;
+
 /// Bounds the distance of A and B. Stops as soon as the limits allow. `start` is a guess of the direction from B to A, or zero.
 pub fn gjk<A: Support, B: Support>(a: &A, b: &B, start: Vec3, limits: DistanceLimits) -> Gjk {
     with_widest(BoundsSearch {
@@ -133,7 +137,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             limits,
         } = self;
         let mut found = Gjk::unknown();
-        let (mut simplex, mut scale, mut v) = (Simplex::empty(), 0.0, Vec3::x());
+        let (mut simplex, mut largest_square, mut v) = (Simplex::empty(), 0.0, Vec3::x());
         // Without a guess the sets may be points and thin hulls, whose simplices are needles: these begin with one corner.
         if start != Vec3::zeros() {
             let begun = beginning(a, b, start);
@@ -142,10 +146,10 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                 return found;
             }
             simplex = begun.simplex;
-            scale = simplex.scale();
+            largest_square = simplex.largest_square();
             v = match simplex.reduce() {
                 OriginPosition::Inside { margin, at } => {
-                    found.take_inside(margin, &at, scale);
+                    found.take_inside(margin, &at, largest_square);
                     return found;
                 }
                 OriginPosition::Outside(point) => point,
@@ -154,7 +158,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             if found.upper <= limits.enough && found.take_near(&simplex, &v, limits.enough) {
                 return found;
             }
-            if found.upper <= 4.0 * tolerance::EPSILON * scale.sqrt() {
+            if found.upper <= VECTOR_ROUNDING * largest_square.sqrt() {
                 found.take_nearest(&simplex, &v);
                 return found;
             }
@@ -165,7 +169,7 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
             let on_b = b.extreme(&v);
             let corner = Corner::between(on_a, on_b);
             let w = corner.difference;
-            scale = scale.max(w.norm_squared());
+            largest_square = largest_square.max(w.norm_squared());
             let lower = v.dot(&w) * inverse_length;
             if lower > found.lower {
                 found.lower = lower;
@@ -174,14 +178,14 @@ impl<A: Support, B: Support> Work for BoundsSearch<'_, A, B> {
                     return found;
                 }
             }
-            let rounding = 4.0 * tolerance::EPSILON * scale.sqrt();
+            let rounding = VECTOR_ROUNDING * largest_square.sqrt();
             if found.upper - found.lower <= rounding || simplex.contains(&w) || simplex.is_full() {
                 break;
             }
             simplex.push(corner);
             match simplex.reduce() {
                 OriginPosition::Inside { margin, at } => {
-                    found.take_inside(margin, &at, scale);
+                    found.take_inside(margin, &at, largest_square);
                     return found;
                 }
                 OriginPosition::Outside(point) => {
@@ -224,9 +228,9 @@ impl Gjk {
     /// Takes the result of a tetrahedron that contains the origin. If its corners do not combine to the origin, it is flat and
     /// rounding decided its sides.
     #[inline(always)]
-    fn take_inside(&mut self, margin: f64, at: &Corner, scale: f64) {
+    fn take_inside(&mut self, margin: f64, at: &Corner, largest_square: f64) {
         let off = at.difference.norm();
-        if off <= tolerance::CERTIFIED_GAP * scale.sqrt() {
+        if off <= tolerance::CERTIFIED_GAP * largest_square.sqrt() {
             (self.overlap, self.upper) = (margin, 0.0);
             self.common = at.on_a;
             self.near = Some([at.on_a; 2]);

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use super::meeting::{Beginning, beginning};
 use super::simplex::{Corner, CornerNames, OriginPosition, Simplex};
-use super::{DistanceLimits, Support};
+use super::{DistanceLimits, Support, VECTOR_ROUNDING};
 use crate::lanes::{Instructions, Work, with_widest};
 use crate::pose::Vec3;
 use crate::tolerance;
@@ -199,7 +199,7 @@ struct Iteration {
     /// The direction from B to A along which the next support points are taken, of any length.
     v: Vec3,
     /// The largest norm of a difference of support points so far.
-    scale: f64,
+    largest: f64,
     /// The smallest difference of the bounds so far, and the number of steps since it last shrank.
     least_gap: f64,
     idle: u32,
@@ -240,7 +240,7 @@ impl Iteration {
             } else {
                 start
             },
-            scale: 0.0,
+            largest: 0.0,
             least_gap: f64::INFINITY,
             idle: 0,
             restarts: 0,
@@ -267,8 +267,8 @@ impl Iteration {
         if lower > sets.limits.cutoff {
             return ControlFlow::Break(());
         }
-        self.scale = self.simplex.scale().sqrt();
-        let rounding = 4.0 * tolerance::EPSILON * self.scale;
+        self.largest = self.simplex.largest_square().sqrt();
+        let rounding = VECTOR_ROUNDING * self.largest;
         match self.nearest(rounding) {
             Extended::Nearest(nearest, foot) => self.take_nearest(&nearest, foot, rounding),
             _ => ControlFlow::Break(()),
@@ -296,7 +296,7 @@ impl Iteration {
         if is_known || gap <= accepted {
             return ControlFlow::Break(());
         }
-        let rounding = 4.0 * tolerance::EPSILON * self.scale;
+        let rounding = VECTOR_ROUNDING * self.largest;
         if self.found.lower > rounding
             && gap <= self.finish_at * self.found.upper
             && self.finishes < MAX_FINISHES
@@ -335,7 +335,7 @@ impl Iteration {
         let (on_a, on_b) = (a.extreme(&-self.v), b.extreme(&self.v));
         let corner = Corner::between(on_a, on_b);
         let difference = corner.difference;
-        self.scale = self.scale.max(difference.norm());
+        self.largest = self.largest.max(difference.norm());
         let lower = self.v.dot(&difference) / length;
         if lower > self.found.lower {
             self.found.lower = lower;

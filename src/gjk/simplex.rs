@@ -102,7 +102,7 @@ impl Simplex {
 
     /// The largest squared norm of its corners.
     #[inline(always)]
-    pub fn scale(&self) -> f64 {
+    pub fn largest_square(&self) -> f64 {
         let squares = self.corners[..self.len].iter();
         squares.fold(0.0, |most, corner| {
             corner.difference.norm_squared().max(most)

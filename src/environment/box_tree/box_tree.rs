@@ -34,7 +34,7 @@ pub struct BoxTree {
     pub(crate) parents: CowVec<u32, 128>,
     /// The node of each box, indexed by place.
     pub(crate) box_parents: CowVec<u32, 128>,
-    pub(crate) frame: BoxFrame,
+    pub(crate) frame: TreeFrame,
     /// The sum of half the surfaces of all nodes' boxes.
     pub(crate) surface: f64,
 }
@@ -51,12 +51,12 @@ pub struct BoxNode {
 
 /// Lengths in nodes are in units of `scale`, a power of two, from `center`.
 #[derive(Clone, Copy, Debug)]
-pub struct BoxFrame {
+pub struct TreeFrame {
     pub center: Vec3,
     pub scale: f64,
 }
 
-impl Default for BoxFrame {
+impl Default for TreeFrame {
     fn default() -> Self {
         Self {
             center: Vec3::zeros(),
@@ -81,7 +81,7 @@ impl BoxTree {
             // Boxes that are tiny relative to their coordinates may have an extent of 0, but their sides have a length.
             let sides = taken.iter().map(|&place| boxes.oriented(place as usize));
             let largest = sides.map(|side| side.half.amax()).fold(0.0, f64::max);
-            built.frame = BoxFrame::new(whole.center(), largest.max(whole.size().amax()));
+            built.frame = TreeFrame::new(whole.center(), largest.max(whole.size().amax()));
             let mut builder = Builder {
                 extents: at.iter().map(|&body| all[body as usize]).collect(),
                 tree,
@@ -136,7 +136,7 @@ impl BoxTree {
     }
 
     /// The unit and the origin of lengths in the nodes.
-    pub fn frame(&self) -> &BoxFrame {
+    pub fn frame(&self) -> &TreeFrame {
         &self.frame
     }
 
@@ -177,7 +177,7 @@ impl BoxTree {
     }
 }
 
-impl BoxFrame {
+impl TreeFrame {
     /// A frame for boxes within `size` of a centre.
     pub(crate) fn new(center: Vec3, size: f64) -> Self {
         // The squares of smaller lengths round to 0, which would make far boxes seem near.

@@ -1,7 +1,7 @@
 //! Rebuilds the tree in haste: each set of boxes is split at the median of the centres.
 
 use super::box_split::FULL;
-use super::box_tree::{BOX, BoxFrame, BoxTree, Boxes, NOWHERE};
+use super::box_tree::{BOX, BoxTree, Boxes, NOWHERE, TreeFrame};
 use super::oriented_box::OrientedBox;
 use crate::boxes::Extent;
 use crate::lanes::{Instructions, Work, with_widest};
@@ -53,7 +53,7 @@ fn frame_around(
     taken: &[u32],
     boxes: &impl Boxes,
     (center, radius): (Vec3, f64),
-) -> (BoxFrame, Vec<Center>) {
+) -> (TreeFrame, Vec<Center>) {
     const LEAST: f64 = 1.0 / (1u64 << 60) as f64;
     let all = || taken.iter().map(|&place| boxes.oriented(place as usize));
     let point = |given: OrientedBox| Extent {
@@ -61,11 +61,11 @@ fn frame_around(
         high: given.center,
     };
     let Some(around) = all().map(point).reduce(|all, own| all.union(&own)) else {
-        return (BoxFrame::new(center, radius), Vec::new());
+        return (TreeFrame::new(center, radius), Vec::new());
     };
     let largest = all().map(|given| given.half.amax()).fold(0.0, f64::max);
     let size = around.size().amax().max(largest);
-    let frame = BoxFrame::new(around.center(), size.max(LEAST * radius));
+    let frame = TreeFrame::new(around.center(), size.max(LEAST * radius));
     let local = |(&place, given): (&u32, OrientedBox)| Center {
         at: ((given.center - frame.center) / frame.scale)
             .map(|x| x as f32)

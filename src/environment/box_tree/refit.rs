@@ -1,7 +1,7 @@
 //! Refits the boxes of nodes after boxes below them changed.
 
 use super::box_split::FULL;
-use super::box_tree::{BOX, BoxFrame, BoxNode, Boxes, NOWHERE};
+use super::box_tree::{BOX, BoxNode, Boxes, NOWHERE, TreeFrame};
 use super::changes::{BoxTreeChanges, Child};
 use super::oriented_box::OrientedBox;
 use crate::index_set::IndexSet;
@@ -192,7 +192,7 @@ impl BoxNode {
         &mut self,
         children: &[Child; FULL],
         lanes: u8,
-        frame: &BoxFrame,
+        frame: &TreeFrame,
         boxes: &impl Boxes,
     ) {
         let children = &children[..self.wide.count as usize];
