@@ -44,7 +44,6 @@ fn unstated_speeds(term: &Induced) -> Error {
 /// Gathers the leaves of a set on a motion, and the pairs that the motion may bring near.
 pub(super) struct Gathering<'a, 'k> {
     way: &'a Way<'a>,
-    motions: &'a LinkMotions,
     rates: PairRates<'a>,
     middle: Option<&'k mut Kinematics<'a>>,
     threshold: f64,
@@ -74,7 +73,6 @@ impl<'a, 'k> Gathering<'a, 'k> {
     ) -> Self {
         Self {
             way,
-            motions,
             rates: PairRates::new(motions),
             middle,
             threshold,
@@ -99,7 +97,7 @@ impl<'a, 'k> Gathering<'a, 'k> {
         let complement = leaf.complement;
         self.complement = complement;
         let moving = match leaf.content {
-            LeafContent::Pure(set) => self.pure(set, complement)?,
+            LeafContent::Pure(set) => self.pure(set, complement, scene)?,
             LeafContent::Known(sets) => MovingLeaf::Known {
                 sets: sets.clone(),
                 complement,
@@ -117,26 +115,32 @@ impl<'a, 'k> Gathering<'a, 'k> {
         Ok(())
     }
 
-    fn pure(&self, set: &PureSet, complement: bool) -> Result<MovingLeaf> {
+    fn pure(&mut self, set: &PureSet, complement: bool, scene: &Scene) -> Result<MovingLeaf> {
+        let way = self.way;
+        let places = &mut |link| self.rates.rounding_of_link(link, scene.poses());
         let is_predicate = matches!(set.shape, PureShape::Predicate(_));
         if let Some(start) = self.start {
             return Ok(MovingLeaf::Pure(MovingPure::after_start(
-                self.way, set, start,
+                way, places, set, start,
             )?));
         }
         Ok(match (self.keeps, complement) {
-            (Keeps::Out, _) => {
-                MovingLeaf::Pure(MovingPure::new(self.way, set, complement, self.threshold)?)
-            }
+            (Keeps::Out, _) => MovingLeaf::Pure(MovingPure::new(
+                way,
+                places,
+                set,
+                complement,
+                self.threshold,
+            )?),
             // Where a predicate is in contact it is not outside, however far away that is.
             (Keeps::In, false) if is_predicate => MovingLeaf::Everything,
             (Keeps::In, false) => {
-                MovingLeaf::Pure(MovingPure::new(self.way, set, false, set.epsilon())?)
+                MovingLeaf::Pure(MovingPure::new(way, places, set, false, set.epsilon())?)
             }
             (Keeps::In, true) => {
                 let mut without_contact = set.clone();
                 without_contact.options.contact_epsilon = 0.0;
-                MovingLeaf::Pure(MovingPure::new(self.way, &without_contact, true, 0.0)?)
+                MovingLeaf::Pure(MovingPure::new(way, places, &without_contact, true, 0.0)?)
             }
         })
     }
@@ -399,12 +403,7 @@ impl<'a> Gathering<'a, '_> {
     /// What rounding may move a body that a link carries, at the middle and at any other time together; no point of the body is farther
     /// than `radius` from the link's origin.
     fn rounding_of_link(&mut self, scene: &Scene, link: usize, radius: f64) -> f64 {
-        let mut rounding = self.rates.rounding_of_link(link);
-        if !self.motions.is_known(link) {
-            rounding.size += self
-                .motions
-                .lengths_of_unknown_joints(link, |link| &scene.poses()[link]);
-        }
+        let rounding = self.rates.rounding_of_link(link, scene.poses());
         let LinearMotion { q, cobject, .. } = self.way.line;
         let of_coordinates =
             cobject

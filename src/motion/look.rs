@@ -7,6 +7,7 @@ use super::moving_pair::MovingPair;
 use super::near_boxes::NearBoxes;
 use super::over_pairs::OverPairs;
 use super::over_piece::PairOver;
+use super::pair_look::PairLook;
 use super::piece::Piece;
 use super::set_tree::SetVerdict;
 use crate::hierarchy::packed::{NodeRef, PackedTree};
@@ -58,53 +59,6 @@ pub(super) struct LeafLook {
     depths: u32,
     /// Where its undecided bundles, groups and leaves begin.
     first: [usize; 3],
-}
-
-/// A body pair that is looked at. Once a pair of its nodes is left to the halves, the whole body pair is looked at again there; so the work
-/// on the rest of it is limited here.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PairLook {
-    number: u32,
-    /// Something is left.
-    is_left: bool,
-    /// The work done on it, and the most that is done on the rest.
-    work: u32,
-    max_work: u32,
-}
-
-impl PairLook {
-    pub fn new(max_work: u32) -> Self {
-        Self {
-            number: u32::MAX,
-            is_left: false,
-            work: 0,
-            max_work,
-        }
-    }
-
-    fn start(&mut self, number: u32) {
-        if number != self.number {
-            *self = Self {
-                number,
-                ..Self::new(self.max_work)
-            };
-        }
-    }
-
-    fn count(&mut self, number: u32, work: u32) {
-        self.start(number);
-        self.work = self.work.saturating_add(work);
-    }
-
-    /// Notes that something of a pair is left.
-    fn leave(&mut self, number: u32) {
-        self.start(number);
-        self.is_left = true;
-    }
-
-    fn is_left_to_halves(&self, number: u32) -> bool {
-        self.is_left && self.work > self.max_work && number == self.number
-    }
 }
 
 impl<P: Piece> Look<'_, '_, P> {

@@ -23,6 +23,7 @@ mod moving_pure;
 mod near_boxes;
 mod over_pairs;
 mod over_piece;
+mod pair_look;
 mod pair_motion;
 mod pair_rates;
 mod path;

@@ -10,9 +10,12 @@ use crate::cobject::{Class, PureSet, PureShape};
 use crate::error::{Error, ErrorKind, Result};
 use crate::nonzero::{length, product};
 use crate::query::{PureAt, Scene};
-use crate::robot::{Block, BlockKind, ChainRounding, Coordinate, RatesFrom, Velocity};
+use crate::robot::{Block, BlockKind, ChainRounding, Coordinate, Velocity};
 use crate::space::Space;
 use crate::tolerance::SUM_SLACK;
+
+/// Asked for a link: what the rounding of its place comes from on the motion.
+pub(super) type Places<'p> = dyn FnMut(usize) -> ChainRounding + 'p;
 
 /// A pure set, or its complement, on a motion.
 pub(super) struct MovingPure {
@@ -57,11 +60,17 @@ pub(super) enum Extent<'a> {
 
 impl MovingPure {
     /// Fails for sets of which no speed is known.
-    pub fn new(way: &Way, set: &PureSet, complement: bool, threshold: f64) -> Result<Self> {
+    pub fn new(
+        way: &Way,
+        places: &mut Places,
+        set: &PureSet,
+        complement: bool,
+        threshold: f64,
+    ) -> Result<Self> {
         let parts = parts_of(way, set, complement || threshold > 0.0);
         let parts = parts
             .into_iter()
-            .map(|part| MovingPart::new(way, part, 0.0));
+            .map(|part| MovingPart::new(way, places, part, 0.0));
         Ok(Self {
             parts: parts.collect::<Result<_>>()?,
             complement,
@@ -70,7 +79,12 @@ impl MovingPure {
     }
 
     /// Of a motion that is known not to begin inside, with both ends in the coordinates' ranges: what rests needs no proof.
-    pub fn after_start(way: &Way, set: &PureSet, start: &StartContacts) -> Result<Self> {
+    pub fn after_start(
+        way: &Way,
+        places: &mut Places,
+        set: &PureSet,
+        start: &StartContacts,
+    ) -> Result<Self> {
         let mut parts = Vec::new();
         for (number, part) in set
             .parts_on_way(way.line.cobject.space())
@@ -78,7 +92,7 @@ impl MovingPure {
             .enumerate()
         {
             let from = start.part_followed_from(set, number);
-            let part = MovingPart::new(way, part, from)?;
+            let part = MovingPart::new(way, places, part, from)?;
             if part.rate > 0.0 && from < 1.0 {
                 parts.push(part);
             }
@@ -121,7 +135,7 @@ impl MovingPure {
 }
 
 impl MovingPart {
-    fn new(way: &Way, set: PureSet, followed_from: f64) -> Result<Self> {
+    fn new(way: &Way, places: &mut Places, set: PureSet, followed_from: f64) -> Result<Self> {
         let rate = rate(way, &set);
         if !rate.is_finite() {
             return Err(Error::new(
@@ -134,7 +148,7 @@ impl MovingPart {
         }
         Ok(Self {
             rounding: rounding(way, &set),
-            places: rounding_of_places(way, &set, rate)?,
+            places: rounding_of_places(&set, rate, places),
             set,
             rate,
             followed_from,
@@ -393,24 +407,24 @@ fn rounding(way: &Way, set: &PureSet) -> f64 {
 }
 
 /// What the rounding of the places of links comes from, if they move at all over a floor or in the world box. `rate` bounds how far.
-fn rounding_of_places(way: &Way, set: &PureSet, rate: f64) -> Result<Vec<(usize, ChainRounding)>> {
+fn rounding_of_places(
+    set: &PureSet,
+    rate: f64,
+    places: &mut Places,
+) -> Vec<(usize, ChainRounding)> {
     let (PureShape::Floor { links, .. } | PureShape::BeyondWorld { links }) = &set.shape else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
     if rate == 0.0 {
-        return Ok(Vec::new());
+        return Vec::new();
     }
-    let (motions, poses) = (way.link_motions(), way.link_poses(0.0)?);
-    let mut rates = RatesFrom::new(&motions, None);
     let of_link = |&link: &usize| {
-        let mut rounding = rates.of_known_joints(link).rates.rounding;
-        // Joints of which no more than a speed is known end no farther than that from where they begin.
-        if !motions.is_known(link) {
-            rounding.size += motions.lengths_of_unknown_joints(link, |link| &poses[link]) + rate;
-        }
+        let mut rounding = places(link);
+        // Joints of which no more than a speed is known go no farther than that.
+        rounding.size += rate;
         (link, rounding)
     };
-    Ok(links.iter().map(of_link).collect())
+    links.iter().map(of_link).collect()
 }
 
 fn has_range(coordinate: &Coordinate) -> bool {

@@ -1,11 +1,13 @@
 //! How fast the bodies of pairs move as the other one sees them.
 
 use super::carried::Carried;
+use crate::pose::Pose;
 use crate::robot::{ChainRates, ChainRounding, LinkMotions, MotionRates, RatesFrom};
 
 /// How fast bodies move as others see them, found for one pair after the other. It is quickest where pairs follow each other that have
 /// the same A and Bs that rest, or Bs of the same link.
 pub(super) struct PairRates<'a> {
+    motions: &'a LinkMotions,
     in_world: RatesFrom<'a>,
     /// As the link sees it that carried B last.
     on_link: RatesFrom<'a>,
@@ -16,6 +18,7 @@ pub(super) struct PairRates<'a> {
 impl<'a> PairRates<'a> {
     pub fn new(motions: &'a LinkMotions) -> Self {
         Self {
+            motions,
             in_world: RatesFrom::new(motions, None),
             on_link: RatesFrom::new(motions, None),
             of_bodies: vec![None; motions.len()],
@@ -63,9 +66,13 @@ impl<'a> PairRates<'a> {
         rounding
     }
 
-    /// What the rounding of a link's place comes from, but for the custom joints that move.
-    pub fn rounding_of_link(&mut self, link: usize) -> ChainRounding {
-        self.in_world.of_known_joints(link).rates.rounding
+    /// What the rounding of a link's place comes from, given the poses of all links.
+    pub fn rounding_of_link(&mut self, link: usize, poses: &[Pose]) -> ChainRounding {
+        let mut rounding = self.in_world.of_known_joints(link).rates.rounding;
+        rounding.size += self
+            .motions
+            .lengths_of_unknown_joints(link, |link| &poses[link]);
+        rounding
     }
 
     /// The derivatives of a body's centre in the world; `None` where a custom joint moves it.

@@ -4,10 +4,8 @@
 use super::crowd::CrowdMemory;
 use super::gathering::{Gathering, Keeps};
 use super::interval_proof::MovingSet;
-use super::linear_motion::LinearMotion;
 use super::region_proof::{BoxProof, BoxWork, Center, Region, RegionProof, prove_region};
 use super::set_tree::SetTree;
-use super::way::{Way, WayKind};
 use crate::cobject::{CObject, Class};
 use crate::error::{Error, ErrorKind, Result};
 use crate::query::{QueryContext, World};
@@ -127,20 +125,8 @@ impl QueryContext {
         keeps: Keeps,
         work: BoxWork,
     ) -> Result<BoxProof> {
-        let Center { q, half } = &region.center(cobject.space());
-        let way = &Way {
-            line: LinearMotion {
-                world,
-                cobject,
-                q,
-                v: half,
-            },
-            end: None,
-            kind: WayKind::Box {
-                low: &region.low,
-                high: &region.high,
-            },
-        };
+        let center = &region.center(cobject.space());
+        let way = &region.way(world, cobject, center);
         let tree = &match keeps {
             Keeps::Out => SetTree::new(cobject, true),
             Keeps::In => SetTree::of_complement(cobject),
@@ -149,7 +135,7 @@ impl QueryContext {
             return Ok(BoxProof::Free);
         }
         let motions = &way.link_motions();
-        let scene = &way.scene(q)?;
+        let scene = &way.scene(&center.q)?;
         let mut gathering = Gathering::new(way, motions, 0.0, tree, keeps, None);
         for leaf in &tree.leaves {
             gathering.add(leaf, scene, self)?;

@@ -5,9 +5,10 @@ use super::box_piece::BoxPiece;
 use super::front::{Front, FrontPart};
 use super::interval_proof::{Middle, MovingSet};
 use super::linear_motion::LinearMotion;
-use super::look::{Look, PairLook};
+use super::look::Look;
 use super::over_pairs::OverPairs;
 use super::over_piece::ManyTwists;
+use super::pair_look::PairLook;
 use super::set_tree::SetVerdict;
 use super::way::{Way, WayKind};
 use crate::cobject::CObject;
@@ -75,6 +76,28 @@ impl Region {
             }
         }
         Center { q, half }
+    }
+
+    /// The way through it from its centre.
+    pub fn way<'a>(
+        &'a self,
+        world: &'a World,
+        cobject: &'a CObject,
+        center: &'a Center,
+    ) -> Way<'a> {
+        Way {
+            line: LinearMotion {
+                world,
+                cobject,
+                q: &center.q,
+                v: &center.half,
+            },
+            end: None,
+            kind: WayKind::Box {
+                low: &self.low,
+                high: &self.high,
+            },
+        }
     }
 
     /// The configuration at the given parts of the sides, from 0 to 1.
@@ -268,7 +291,7 @@ impl<'a> Prover<'a, '_, '_> {
         &mut self,
         lanes: I,
         rest: &Rest,
-        Center { q, half }: &Center,
+        center: &Center,
         lists: &mut Lists<'a>,
     ) -> Result<Looked> {
         let RegionProof {
@@ -277,19 +300,7 @@ impl<'a> Prover<'a, '_, '_> {
             set,
             ..
         } = self.proof;
-        let way = &Way {
-            line: LinearMotion {
-                world,
-                cobject,
-                q,
-                v: half,
-            },
-            end: None,
-            kind: WayKind::Box {
-                low: &rest.region.low,
-                high: &rest.region.high,
-            },
-        };
+        let way = &rest.region.way(world, cobject, center);
         let motions = &way.link_motions();
         let poses = &way.link_poses(0.0)?;
         let piece = &mut BoxPiece::new(way, motions, poses);
@@ -321,7 +332,7 @@ impl<'a> Prover<'a, '_, '_> {
         if whole == SetVerdict::Free {
             return Ok(Looked::Free);
         }
-        if let Some(at) = self.meeting(whole, q, rest.volume == 1.0)? {
+        if let Some(at) = self.meeting(whole, &center.q, rest.volume == 1.0)? {
             return Ok(Looked::Meets(at));
         }
         let mut shares = vec![0.0; cobject.space().nv()];

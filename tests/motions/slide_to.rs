@@ -175,6 +175,20 @@ fn circles_go_the_shorter_way() {
     }
 }
 
+/// A scene, a configuration of it and a goal.
+fn scene_with_ends(random: &mut Random) -> (CObject, [Vec<f64>; 2]) {
+    let cobject = scene(random);
+    let space = cobject.space();
+    let mut drawn = |size: f64| -> Vec<f64> {
+        (0..space.nv())
+            .map(|_| random.within(-size, size))
+            .collect()
+    };
+    let start = space.step(&space.neutral(), &drawn(2.0));
+    let goal = space.step(&start, &drawn(1.5));
+    (cobject, [start, goal])
+}
+
 /// Wherever it leads, nothing is met at any sample, and nothing leaves its range.
 #[test]
 fn every_motion_of_random_slides_is_free_at_samples() {
@@ -183,15 +197,8 @@ fn every_motion_of_random_slides_is_free_at_samples() {
     let mut outcomes = [0usize; 6];
     let mut slid = 0;
     for round in 0..150 {
-        let cobject = scene(&mut random);
+        let (cobject, [start, goal]) = scene_with_ends(&mut random);
         let space = cobject.space().clone();
-        let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
-            (0..space.nv())
-                .map(|_| random.within(-size, size))
-                .collect()
-        };
-        let start = space.step(&space.neutral(), &drawn(&mut random, 2.0));
-        let goal = space.step(&start, &drawn(&mut random, 1.5));
         let options = SlideToOptions {
             max_steps: 60,
             ..SlideToOptions::with_step(0.1, 0.2)
@@ -232,15 +239,8 @@ fn slides_that_touch_stay_outside() {
     let context = &mut QueryContext::new();
     let (mut points, mut touching) = (0, 0);
     for round in 0..700 {
-        let cobject = scene(&mut random);
+        let (cobject, [start, goal]) = scene_with_ends(&mut random);
         let space = cobject.space().clone();
-        let drawn = |random: &mut Random, size: f64| -> Vec<f64> {
-            (0..space.nv())
-                .map(|_| random.within(-size, size))
-                .collect()
-        };
-        let start = space.step(&space.neutral(), &drawn(&mut random, 2.0));
-        let goal = space.step(&start, &drawn(&mut random, 1.5));
         let mut options = SlideToOptions {
             max_steps: 40,
             ..SlideToOptions::with_step(0.1, 0.2)

@@ -111,8 +111,11 @@ template <typename S> cstk::Body square_of(const WorldFlat &plane, const Moving<
             }
         }
     }
-    const double half = 1.1 * (farthest.norm() + (end.translation() - start.translation()).norm());
     const Eigen::Vector3d middle = start.translation() - plane.n * (plane.n.dot(start.translation()) - plane.d);
+    const double reach = 1.1 * (farthest.norm() + (end.translation() - start.translation()).norm());
+    /* A small square far away would be rounded to none. */
+    const double size = std::max(reach, 1e-3 * middle.norm());
+    const double half = size > 0 ? size : 1;
     const Eigen::Vector3d along = half * plane.n.unitOrthogonal(), across = plane.n.cross(along);
     std::vector<double> corners;
     for (const Eigen::Vector3d &corner : {Eigen::Vector3d(middle + along + across), Eigen::Vector3d(middle - along + across),
