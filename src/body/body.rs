@@ -13,7 +13,7 @@ use crate::hierarchy::packed::PackedTree;
 use crate::hierarchy::wrapper::{WrapperTree, Wrappers};
 use crate::hierarchy::{BuildTimes, TreeStatistics, WrapperKind, require_level};
 use crate::pose::Vec3;
-use crate::primitive::{Primitives, Round};
+use crate::primitive::{Primitives, Round, is_plain_solid};
 use crate::user_data::UserData;
 
 /// A rigid union of convex primitives with its hierarchy. Its own frame has its origin at `center` in the caller's frame, the
@@ -32,6 +32,7 @@ pub struct Body {
     curved: Option<CurvedCells>,
     has_functions: bool,
     only_round: Option<Round>,
+    is_plain_solid: bool,
     pub(super) primitives: Primitives,
     pub(super) wrappers: Wrappers,
     pub(super) packed: PackedTree,
@@ -92,6 +93,7 @@ impl Body {
             curved: None,
             has_functions: primitives.have_functions(),
             only_round: primitives.only().and_then(Round::of),
+            is_plain_solid: is_one_plain_solid(&primitives, &packed),
             packed,
             primitives,
             wrappers,
@@ -120,6 +122,7 @@ impl Body {
         self.flat_deviation = stated_deviation;
         if stated_deviation != 0.0 {
             self.only_round = None;
+            self.is_plain_solid = false;
         }
         self
     }
@@ -272,6 +275,12 @@ impl Body {
         self.only_round.as_ref()
     }
 
+    /// Whether it is one box, cylinder or cone, with or without a radius around it, and stands for nothing but that.
+    #[inline(always)]
+    pub fn is_plain_solid(&self) -> bool {
+        self.is_plain_solid
+    }
+
     /// Whether it is a single leaf that stands for nothing but itself, and no boundary of a solid.
     #[inline(always)]
     pub fn is_single(&self) -> bool {
@@ -319,4 +328,14 @@ impl Body {
     pub fn statistics(&self) -> &BodyStatistics {
         &self.statistics
     }
+}
+
+fn is_one_plain_solid(primitives: &Primitives, packed: &PackedTree) -> bool {
+    let is_leaf = packed.root().is_leaf();
+    let form = || {
+        let packed = packed.primitives();
+        packed.form(packed.entry(0))
+    };
+    let only = primitives.only().filter(|_| is_leaf);
+    only.is_some_and(|only| is_plain_solid(only, form()))
 }

@@ -185,7 +185,7 @@ impl ContactPair<'_> {
 
 /// A vector without its component along a feature, if that is an edge.
 #[inline(always)]
-fn across(placed: &PlacedPrimitive, feature: Feature, vector: Vec3) -> Vec3 {
+pub(super) fn across(placed: &PlacedPrimitive, feature: Feature, vector: Vec3) -> Vec3 {
     if feature.kind != FeatureKind::Edge {
         return vector;
     }

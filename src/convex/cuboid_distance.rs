@@ -13,36 +13,51 @@ pub fn segment_to_cuboid(
 ) -> Option<Closest> {
     let start = segment.vertex(0);
     let from = cuboid.seen(&other.seen(&start));
-    let (point, seen, feature) = if segment.vertex_count() == 1 {
-        (start, from, Feature::vertex(0))
-    } else {
-        let end = segment.vertex(1);
-        let along = other.turned_back(&(end - start));
-        let along = turned_back(&cuboid.axes, &along);
-        let t = nearest_parameter(&from, &along, &cuboid.half);
-        let feature = match t {
-            0.0 => Feature::vertex(0),
-            1.0 => Feature::vertex(1),
-            _ => Feature::edge(0),
-        };
-        let point = if t == 1.0 {
-            end
-        } else {
-            start + (end - start) * t
-        };
-        (point, from + along * t, feature)
-    };
-    let nearest = seen.zip_map(&cuboid.half, |x, half| x.clamp(-half, half));
-    let across = seen - nearest;
-    if across == Vec3::zeros() {
-        return None;
+    if segment.vertex_count() == 1 {
+        return beside_cuboid(&start, Feature::vertex(0), &from, other, cuboid);
     }
+    let end = segment.vertex(1);
+    let along = other.turned_back(&(end - start));
+    let along = turned_back(&cuboid.axes, &along);
+    let t = nearest_parameter(&from, &along, &cuboid.half);
+    let feature = match t {
+        0.0 => Feature::vertex(0),
+        1.0 => Feature::vertex(1),
+        _ => Feature::edge(0),
+    };
+    let point = if t == 1.0 {
+        end
+    } else {
+        start + (end - start) * t
+    };
+    beside_cuboid(&point, feature, &(from + along * t), other, cuboid)
+}
+
+/// The closest points of a box and the point of a set that is nearest to it, which is on this feature of the set; `seen` is where the
+/// box's frame has it. `None` where they meet.
+#[inline(always)]
+fn beside_cuboid(
+    point: &Vec3,
+    feature: Feature,
+    seen: &Vec3,
+    other: &PlacedPrimitive,
+    cuboid: &Cuboid,
+) -> Option<Closest> {
+    let across = way_from_cuboid(seen, cuboid)?;
     let on_other = point - other.turned(&turned(&cuboid.axes, &across));
-    let features = [feature, cuboid.feature_towards(&seen)];
+    let features = [feature, cuboid.feature_towards(seen)];
     Some(Closest {
         distance: across.norm(),
-        ..Closest::between([point, on_other], features)
+        ..Closest::between([*point, on_other], features)
     })
+}
+
+/// The way from the nearest point of a box to another point, both in the box's frame; `None` for a point of the box.
+#[inline(always)]
+pub fn way_from_cuboid(seen: &Vec3, cuboid: &Cuboid) -> Option<Vec3> {
+    let nearest = seen.zip_map(&cuboid.half, |x, half| x.clamp(-half, half));
+    let way = seen - nearest;
+    (way != Vec3::zeros()).then_some(way)
 }
 
 /// The t in [0, 1] at which the segment start + t along is nearest to the box of these half extents around the origin.

@@ -75,9 +75,9 @@ fn core_closest(
     }
 }
 
-/// The distance of two sets, from that of their cores.
+/// The distance of two sets, from that of their cores; 0 where they meet.
 #[inline(always)]
-fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
+pub fn beyond_radii(cores: f64, [a, b]: [f64; 2]) -> f64 {
     if cores >= a + b { cores - a - b } else { 0.0 }
 }
 

@@ -1,6 +1,7 @@
 //! Pairs of convex sets: bounds by GJK, exact distances by closed forms on features, contacts and their modes. `distance.rs`,
 //! `contacts.rs` and `penetration.rs` choose the file that treats a pair, by the form of its primitives.
 
+mod beside_plain_solid;
 mod beyond;
 mod closest;
 mod contact;
@@ -32,11 +33,14 @@ mod surface_part;
 mod swept_gap;
 
 pub use self::core::Core;
+pub use beside_plain_solid::BesidePlainSolid;
 pub use beyond::Beyond;
 pub use closest::{Closest, Segment, closest_parameters};
 pub use contact::{Contact, ContactMode, mode_of};
 pub use contacts::{contacts, first_contact};
-pub use distance::{PrimitiveDistance, closed_distance, measure, meeting_or_beyond, parts};
+pub use distance::{
+    PrimitiveDistance, beyond_radii, closed_distance, measure, meeting_or_beyond, parts,
+};
 pub use outline::{MAX_CORNERS, Outline, moved};
 pub use penetration::penetration;
 pub use placed::{PlacedBuffer, PlacedPrimitive, Precision};

@@ -8,10 +8,24 @@ use crate::primitive::{Feature, SmoothKind};
 /// The closest points of a point and a cylinder or cone; `None` if they are at most `least` apart, or for other cores.
 pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest> {
     let (smooth, axes) = core.smooth()?;
-    let center = core.vertex(0);
-    let local = turned_back(axes, &(point - center));
+    let local = turned_back(axes, &(point - core.vertex(0)));
+    let way = way_from_smooth(&local, &smooth.kind)?;
+    let distance = way.norm();
+    (distance > least).then(|| Closest {
+        distance,
+        ..Closest::between(
+            [*point, point - turned(axes, &way)],
+            [Feature::vertex(0), Feature::surface()],
+        )
+    })
+}
+
+/// The way from the nearest point of a cylinder or cone to another point, both in the set's own frame; `None` for a point in a cone, and for
+/// other sets.
+#[inline(always)]
+pub fn way_from_smooth(local: &Vec3, kind: &SmoothKind) -> Option<Vec3> {
     let away = (local.x * local.x + local.y * local.y).sqrt();
-    let (away_there, along_there) = match smooth.kind {
+    let (away_there, along_there) = match *kind {
         SmoothKind::Cylinder {
             radius,
             half_length,
@@ -25,15 +39,7 @@ pub fn point_to_smooth(point: &Vec3, core: &Core, least: f64) -> Option<Closest>
         1.0
     };
     let there = Vec3::new(local.x * part, local.y * part, along_there);
-    let way = local - there;
-    let distance = way.norm();
-    (distance > least).then(|| Closest {
-        distance,
-        ..Closest::between(
-            [*point, point - turned(axes, &way)],
-            [Feature::vertex(0), Feature::surface()],
-        )
-    })
+    Some(local - there)
 }
 
 /// The point of a cone's profile nearest to a point outside, as distance from the axis and height; `None` for a point inside.

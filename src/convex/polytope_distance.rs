@@ -120,7 +120,12 @@ fn plane_gap(flat: &PlacedPrimitive, other: &PlacedPrimitive) -> f64 {
 
 /// The feature of a point; instead of an edge, its end vertex where the point is within `slack` of it.
 #[inline(always)]
-fn snapped(placed: &PlacedPrimitive, feature: Feature, point: &Vec3, slack: f64) -> Feature {
+pub(super) fn snapped(
+    placed: &PlacedPrimitive,
+    feature: Feature,
+    point: &Vec3,
+    slack: f64,
+) -> Feature {
     if feature.kind != FeatureKind::Edge {
         return feature;
     }

@@ -1,6 +1,8 @@
 //! Pairs: two bodies at two poses, no robot (§2.3.3).
 
+mod ball_and_solid;
 mod box_bounds;
+mod closed_cores;
 mod containment;
 mod hit;
 mod near_primitives;
@@ -19,6 +21,7 @@ mod visitor;
 mod visitors;
 mod winding;
 
+pub use ball_and_solid::{BallAndSolid, OnlyBall};
 pub use box_bounds::{
     BoundRefinement, Motion32, ROUNDING, bounds, gaps_of_balls, gaps_to_point, sharper_bounds,
 };

@@ -9,7 +9,7 @@ use crate::gjk::Support;
 use crate::hierarchy::packed::PackedPrimitives;
 use crate::lanes::{F64x4, Instructions, Points64};
 use crate::pose::{Pose, Rows, Vec3, turned_back};
-use crate::primitive::{Form, SmoothKind};
+use crate::primitive::{Form, Primitive, SmoothKind};
 use crate::relative_pose::{centered, relative_centered, relative_of};
 use crate::tolerance;
 
@@ -108,10 +108,9 @@ impl<'a> Pairing<'a> {
     #[inline(never)]
     pub fn nearest_of_only(&self, body: usize, direction: &Vec3) -> Option<Vec3> {
         let of = [self.a, self.b][body];
-        let (place, packed) = (of.only_place()?, of.packed());
-        let entry = packed.primitives().entry(place as usize);
-        let primitive = of.primitives().get(entry.primitive as usize);
-        let only = PlacedPrimitive::at_home(primitive, packed.primitives().form(entry));
+        let packed = of.packed();
+        let (primitive, form) = at_place(of, of.only_place()?);
+        let only = PlacedPrimitive::at_home(primitive, form);
         let is_fitted = match only.shape.smooth() {
             Some(smooth) => matches!(smooth.kind, SmoothKind::Function(_)),
             None => only.vertex_count() <= 2 || cuboid(&only).is_some(),
@@ -176,10 +175,12 @@ impl<'a> Pairing<'a> {
         places: [u32; 2],
         buffer: &'b mut PlacedBuffer,
     ) -> [PlacedPrimitive<'b>; 2] {
-        let (a, b) = (self.a.packed().primitives(), self.b.packed().primitives());
-        let (on_a, on_b) = (a.entry(places[0] as usize), b.entry(places[1] as usize));
-        let forms = [a.form(on_a), b.form(on_b)];
-        self.place([on_a.primitive, on_b.primitive], forms, buffer)
+        let (a, form_a) = at_place(self.a, places[0]);
+        let (b, form_b) = at_place(self.b, places[1]);
+        [
+            PlacedPrimitive::at_home(a, form_a),
+            buffer.place(b, form_b, &self.relative),
+        ]
     }
 
     /// Both primitives in A's centred frame, with their forms if given.
@@ -196,6 +197,20 @@ impl<'a> Pairing<'a> {
             PlacedPrimitive::at_home(a, forms[0]),
             buffer.place(b, forms[1], &self.relative),
         ]
+    }
+
+    /// The only primitive of A, which is a single leaf.
+    #[inline(always)]
+    pub(super) fn only_a(&self) -> PlacedPrimitive<'_> {
+        let (only, form) = at_place(self.a, 0);
+        PlacedPrimitive::at_home(only, form)
+    }
+
+    /// The only primitive of B, which is a single leaf, in A's centred frame.
+    #[inline(always)]
+    pub(super) fn only_b<'b>(&'b self, buffer: &'b mut PlacedBuffer) -> PlacedPrimitive<'b> {
+        let (only, form) = at_place(self.b, 0);
+        buffer.place(only, form, &self.relative)
     }
 
     #[inline(always)]
@@ -223,6 +238,15 @@ impl<'a> Pairing<'a> {
             distance
         }
     }
+}
+
+/// The primitive at a place of a body's packed tree, with its form if it has one.
+#[inline(always)]
+fn at_place(body: &Body, place: u32) -> (Primitive<'_>, Option<&Form>) {
+    let packed = body.packed().primitives();
+    let entry = packed.entry(place as usize);
+    let primitive = body.primitives().get(entry.primitive as usize);
+    (primitive, packed.form(entry))
 }
 
 #[inline(always)]

@@ -3,12 +3,12 @@
 
 use super::answer::Distance;
 use super::context::{QueryContext, check_threshold};
-use super::pairs::are_singles;
+use super::pairs::OnePrimitive;
 use super::target::{Parties, Placement};
 use crate::body::Body;
 use crate::error::Result;
 use crate::lanes::{Instructions, Work, with_widest};
-use crate::pair::{Pairing, only_rounds};
+use crate::pair::Pairing;
 use crate::pose::{Pose, is_pose};
 
 /// Two bodies at poses as a caller gave them, not checked yet.
@@ -50,13 +50,12 @@ impl<'a> GivenPair<'a> {
         is_pose(lanes, p) & is_pose(lanes, q)
     }
 
-    /// Whether the bodies are spatial ones of one primitive each, which need no search.
+    /// How the bodies are measured without a search; `None` where they are not, or not in space.
     #[inline(always)]
-    fn are_singles(&self) -> bool {
+    fn of_one_primitive(&self) -> Option<OnePrimitive<'a>> {
         let [a, b] = self.bodies;
-        a.dimension() == 3
-            && b.dimension() == 3
-            && (only_rounds(self.bodies).is_some() || are_singles(a, b))
+        let are_spatial = a.dimension() == 3 && b.dimension() == 3;
+        are_spatial.then(|| OnePrimitive::of(self.bodies)).flatten()
     }
 
     /// Both in one frame, at poses that need no correction.
@@ -77,12 +76,13 @@ impl QueryContext {
     ) -> Result<T> {
         check_threshold(max_distance, "max_distance")?;
         self.scratch.meter_mut().start_call();
-        if !pair.are_singles() {
+        let Some(only) = pair.of_one_primitive() else {
             return Ok(take(self.read_distance(pair, max_distance)?));
-        }
+        };
         with_widest(DistanceOf {
             context: self,
             pair,
+            only,
             max_distance,
             take,
         })
@@ -93,12 +93,13 @@ impl QueryContext {
     pub fn given_within(&mut self, pair: &GivenPair, threshold: f64) -> Result<bool> {
         check_threshold(threshold, "threshold")?;
         self.scratch.meter_mut().start_call();
-        if !pair.are_singles() {
+        let Some(only) = pair.of_one_primitive() else {
             return self.read_within(pair, threshold);
-        }
+        };
         with_widest(WithinOf {
             context: self,
             pair,
+            only,
             threshold,
         })
     }
@@ -131,6 +132,7 @@ impl Work for ArePlain<'_> {
 struct DistanceOf<'a, F> {
     context: &'a mut QueryContext,
     pair: &'a GivenPair<'a>,
+    only: OnePrimitive<'a>,
     max_distance: f64,
     take: F,
 }
@@ -145,13 +147,17 @@ impl<T, F: FnOnce(Distance) -> T> Work for DistanceOf<'_, F> {
             return Ok(take(context.read_distance(pair, most)?));
         }
         let parties = Parties::of_bodies(pair.bodies);
-        // A pairing for each way: only that of the spheres and capsules stays in registers.
-        match only_rounds(pair.bodies) {
-            Some(rounds) => {
+        // A pairing for each way: that of the spheres and capsules stays in registers.
+        match self.only {
+            OnePrimitive::Rounds(rounds) => {
                 let pairing = pair.pairing(lanes);
                 context.rounds_distance(&pairing, rounds, &parties, most, take)
             }
-            None => {
+            OnePrimitive::BallAndSolid(ball) => {
+                let pairing = pair.pairing(lanes);
+                context.ball_distance(&pairing, ball, &parties, most, take)
+            }
+            OnePrimitive::Any => {
                 let pairing = pair.pairing(lanes);
                 context.measured_distance(&pairing, &parties, most, take)
             }
@@ -163,6 +169,7 @@ impl<T, F: FnOnce(Distance) -> T> Work for DistanceOf<'_, F> {
 struct WithinOf<'a> {
     context: &'a mut QueryContext,
     pair: &'a GivenPair<'a>,
+    only: OnePrimitive<'a>,
     threshold: f64,
 }
 
@@ -175,12 +182,16 @@ impl Work for WithinOf<'_> {
         if !pair.are_plain(lanes) {
             return context.read_within(pair, threshold);
         }
-        match only_rounds(pair.bodies) {
-            Some(rounds) => {
+        match self.only {
+            OnePrimitive::Rounds(rounds) => {
                 let pairing = pair.pairing(lanes);
                 context.rounds_within(&pairing, rounds, threshold)
             }
-            None => {
+            OnePrimitive::BallAndSolid(ball) => {
+                let pairing = pair.pairing(lanes);
+                context.ball_within(&pairing, ball, threshold)
+            }
+            OnePrimitive::Any => {
                 let pairing = pair.pairing(lanes);
                 context.measured_within(&pairing, threshold)
             }

@@ -6,7 +6,7 @@ use super::answer::{ContactsListed, Distance, SSide, Witness, WitnessList};
 use super::cache_key::CacheKey;
 use super::context::{QueryContext, check_threshold};
 use super::object_sets::{NearPair, ObjectSets, target, targets};
-use super::pairs::are_singles;
+use super::pairs::OnePrimitive;
 use super::target::Target;
 use crate::cobject::{Class, Leaf};
 use crate::environment::Snapshot;
@@ -364,8 +364,8 @@ impl QueryContext {
     /// Whether the distance of two objects may be at most `threshold`.
     fn target_within(&mut self, target: &Target, threshold: f64) -> Result<bool> {
         let [(a, _), (b, _)] = target.sides;
-        if are_singles(a, b) {
-            return self.singles_within(&target.pairing(), threshold);
+        if let Some(only) = OnePrimitive::of([a, b]) {
+            return self.only_within(only, &target.pairing(), threshold);
         }
         self.any_within(std::slice::from_ref(target), |_| threshold)
     }
@@ -373,8 +373,8 @@ impl QueryContext {
     /// The distance of two objects, up to a maximum.
     fn target_distance(&mut self, target: &Target, max_distance: f64) -> Result<Distance> {
         let [(a, _), (b, _)] = target.sides;
-        if are_singles(a, b) {
-            return self.singles_distance(target, max_distance);
+        if let Some(only) = OnePrimitive::of([a, b]) {
+            return self.only_distance(only, target, max_distance);
         }
         let targets = std::slice::from_ref(target);
         let found = self.nearest(targets, max_distance)?;

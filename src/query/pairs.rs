@@ -9,7 +9,8 @@ use crate::body::Body;
 use crate::cobject::{InducedOptions, Leaf};
 use crate::error::{Error, Result};
 use crate::pair::{
-    Collect, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest, are_spheres, only_rounds,
+    BallAndSolid, Collect, OnlyBall, Pairing, PrimitiveScratch, Rounds, Singles, SinglesNearest,
+    are_spheres, only_rounds,
 };
 use crate::primitive::Round;
 
@@ -58,13 +59,34 @@ pub(super) fn target<'a>(a: Placement<'a>, b: Placement<'a>) -> Result<Target<'a
     })
 }
 
-/// Whether both bodies are a single primitive, so that no traversal is needed. Two polygons in space are excluded: only the
-/// traversal compares their outlines.
-#[inline(always)]
-pub(super) fn are_singles(a: &Body, b: &Body) -> bool {
-    let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
-    let are_planar = a.dimension() == 2;
-    a.is_single() && b.is_single() && (are_planar || !has_outline(a) || !has_outline(b))
+/// Two bodies of one primitive each, which need no traversal: how these are measured.
+#[derive(Clone, Copy)]
+pub(super) enum OnePrimitive<'a> {
+    /// A sphere or capsule each.
+    Rounds([&'a Round; 2]),
+    /// A sphere and a box, a cylinder or a cone.
+    BallAndSolid(OnlyBall<'a>),
+    /// One primitive each, of any kind.
+    Any,
+}
+
+impl<'a> OnePrimitive<'a> {
+    /// `None` for bodies that are more. Two polygons in space are excluded: only the traversal compares their outlines.
+    #[inline(always)]
+    pub(super) fn of(bodies: [&'a Body; 2]) -> Option<Self> {
+        if let Some(rounds) = only_rounds(bodies) {
+            return Some(Self::Rounds(rounds));
+        }
+        if let Some(ball) = OnlyBall::beside_plain_solid(bodies) {
+            return Some(Self::BallAndSolid(ball));
+        }
+        let [a, b] = bodies;
+        let has_outline = |body: &Body| body.packed().primitives().entry(0).corners > 0;
+        let are_planar = a.dimension() == 2;
+        let are_single = a.is_single() && b.is_single();
+        let are_outlines = || has_outline(a) && has_outline(b);
+        (are_single && (are_planar || !are_outlines())).then_some(Self::Any)
+    }
 }
 
 /// The answer for bodies of one primitive each.
@@ -115,8 +137,8 @@ impl QueryContext {
         max_distance: f64,
     ) -> Result<Distance> {
         let target = target(a, b)?;
-        if are_singles(a.0, b.0) {
-            return self.singles_distance(&target, max_distance);
+        if let Some(only) = OnePrimitive::of([a.0, b.0]) {
+            return self.only_distance(only, &target, max_distance);
         }
         self.searched_distance(&[target], max_distance)
     }
@@ -133,15 +155,22 @@ impl QueryContext {
     }
 
     /// The same of bodies of one primitive each, which need no search.
-    pub(super) fn singles_distance(
+    pub(super) fn only_distance(
         &mut self,
+        only: OnePrimitive,
         target: &Target,
         max_distance: f64,
     ) -> Result<Distance> {
         let (pairing, parties) = (&target.pairing(), &target.parties());
-        match only_rounds([pairing.a, pairing.b]) {
-            Some(rounds) => self.rounds_distance(pairing, rounds, parties, max_distance, |d| d),
-            None => self.measured_distance(pairing, parties, max_distance, |d| d),
+        let whole = |found: Distance| found;
+        match only {
+            OnePrimitive::Rounds(rounds) => {
+                self.rounds_distance(pairing, rounds, parties, max_distance, whole)
+            }
+            OnePrimitive::BallAndSolid(ball) => {
+                self.ball_distance(pairing, ball, parties, max_distance, whole)
+            }
+            OnePrimitive::Any => self.measured_distance(pairing, parties, max_distance, whole),
         }
     }
 
@@ -168,7 +197,32 @@ impl QueryContext {
         Ok(take(self.close_distance(*pairing, *parties, max_distance)))
     }
 
-    /// The same where their axes are too close together for closed forms. Given copies, so that callers may keep theirs in registers.
+    /// The same of a sphere and a box, a cylinder or a cone.
+    #[inline(always)]
+    pub(super) fn ball_distance<T>(
+        &mut self,
+        pairing: &Pairing,
+        ball: OnlyBall,
+        parties: &Parties,
+        max_distance: f64,
+        take: impl FnOnce(Distance) -> T,
+    ) -> Result<T> {
+        self.count_body_pair()?;
+        if pairing.sphere_bound() > max_distance {
+            return Ok(take(Distance::beyond(max_distance, f64::INFINITY)));
+        }
+        let scratch = self.scratch.for_one_pair()?;
+        let error = pairing.precision.error;
+        let Some(beside) = BallAndSolid::new(pairing, ball, scratch) else {
+            return Ok(take(self.close_distance(*pairing, *parties, max_distance)));
+        };
+        if let Some(nearest) = beside.nearest() {
+            return Ok(take(singles_answer(nearest, parties, error, max_distance)));
+        }
+        Ok(take(self.close_distance(*pairing, *parties, max_distance)))
+    }
+
+    /// The same where their cores are too close together for closed forms. Given copies, so that callers may keep theirs in registers.
     #[cold]
     #[inline(never)]
     fn close_distance(
@@ -223,19 +277,25 @@ impl QueryContext {
         b: Placement,
         threshold: f64,
     ) -> Result<bool> {
-        if are_singles(a.0, b.0) {
+        if let Some(only) = OnePrimitive::of([a.0, b.0]) {
             check_dimensions(a, b)?;
-            return self.singles_within(&Pairing::new(a.0, a.1, b.0, b.1), threshold);
+            return self.only_within(only, &Pairing::new(a.0, a.1, b.0, b.1), threshold);
         }
         self.any_within(&[target(a, b)?], |_| threshold)
     }
 
     /// The same of bodies of one primitive each, which need no search.
     #[inline(always)]
-    pub(super) fn singles_within(&mut self, pairing: &Pairing, threshold: f64) -> Result<bool> {
-        match only_rounds([pairing.a, pairing.b]) {
-            Some(rounds) => self.rounds_within(pairing, rounds, threshold),
-            None => self.measured_within(pairing, threshold),
+    pub(super) fn only_within(
+        &mut self,
+        only: OnePrimitive,
+        pairing: &Pairing,
+        threshold: f64,
+    ) -> Result<bool> {
+        match only {
+            OnePrimitive::Rounds(rounds) => self.rounds_within(pairing, rounds, threshold),
+            OnePrimitive::BallAndSolid(ball) => self.ball_within(pairing, ball, threshold),
+            OnePrimitive::Any => self.measured_within(pairing, threshold),
         }
     }
 
@@ -253,6 +313,32 @@ impl QueryContext {
         }
         self.scratch.for_one_pair()?;
         Ok(Rounds::new(pairing, rounds).are_within(threshold))
+    }
+
+    /// The same of a sphere and a box, a cylinder or a cone.
+    #[inline(always)]
+    pub(super) fn ball_within(
+        &mut self,
+        pairing: &Pairing,
+        ball: OnlyBall,
+        threshold: f64,
+    ) -> Result<bool> {
+        self.count_body_pair()?;
+        if pairing.sphere_bound() > threshold {
+            return Ok(false);
+        }
+        let scratch = self.scratch.for_one_pair()?;
+        if let Some(beside) = BallAndSolid::new(pairing, ball, scratch) {
+            return Ok(beside.are_within(threshold));
+        }
+        Ok(self.close_within(*pairing, threshold))
+    }
+
+    /// The same where the sphere's centre is in the solid, or about there. Given a copy, so that callers may keep theirs in registers.
+    #[cold]
+    #[inline(never)]
+    fn close_within(&mut self, pairing: Pairing, threshold: f64) -> bool {
+        Singles::new(&pairing, self.scratch.for_primitives()).are_within(threshold)
     }
 
     /// The same of one primitive each, of any kind.

@@ -1,5 +1,6 @@
 //! Primitives and pairs of bodies: distances, contacts, penetration, overlap.
 
+mod balls_and_solids;
 mod box_pairs;
 mod contacts;
 mod deep_overlaps;
@@ -20,5 +21,4 @@ mod shape_bodies;
 mod shapes;
 mod slivers;
 mod smooth_shapes;
-
 mod winding;
